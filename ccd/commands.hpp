@@ -1,0 +1,40 @@
+// The commands of the program, once their arguments are read. They print to standard output and
+// throw io::file_error on bad input.
+#pragma once
+
+#include <ccd/method.hpp>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "ccd/io/query_file.hpp"
+
+namespace ccd::program {
+
+struct query_arguments {
+    std::vector<std::filesystem::path> files;
+    std::vector<ccd::method> methods;
+    std::optional<io::query_kind> kind;  ///< none: from each path
+    bool round = false;
+    std::optional<std::filesystem::path> verdicts;  ///< with one file and one method only
+    std::optional<std::filesystem::path> json;
+};
+
+/// Decides stored queries. Nothing is printed or written unless all files are good.
+void run_query(const query_arguments& arguments);
+
+struct step_arguments {
+    std::filesystem::path before, after;
+    ccd::method method = ccd::method::exact;
+    int threads = 0;  ///< 0: as many as the machine has cores
+    std::optional<std::filesystem::path> pairs;
+    std::optional<std::filesystem::path> json;
+};
+
+/// One step of a mesh, from two frames to the colliding pairs.
+void run_step(const step_arguments& arguments);
+
+/// Prints what methods there are.
+void run_methods();
+
+}  // namespace ccd::program

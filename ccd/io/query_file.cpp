@@ -1,0 +1,247 @@
+// Stored queries from CSV, truth from JSON.
+#include "ccd/io/query_file.hpp"
+
+#include <array>
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "ccd/io/error.hpp"
+#include "ccd/io/output_file.hpp"
+#include "ccd/io/text.hpp"
+
+namespace ccd::io {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t rows_per_query = 8;
+constexpr std::size_t most_columns = 7;
+
+constexpr const char* row_forms =
+    "6 integers (numerator, denominator of x, y, z) or 3 decimal or hexadecimal floats, then "
+    "optionally truth (0 or 1)";
+
+/// One line's columns. `count` goes on past the last column that is stored.
+struct columns {
+    std::array<std::string_view, most_columns> values;
+    std::size_t count = 0;
+};
+
+columns split(std::string_view line) {
+    columns result;
+    for (bool more = true; more;) {
+        const std::size_t comma = line.find(',');
+        if (result.count < most_columns) {
+            result.values[result.count] = trimmed(line.substr(0, comma));
+        }
+        ++result.count;
+        more = comma != std::string_view::npos;
+        if (more) line.remove_prefix(comma + 1);
+    }
+    return result;
+}
+
+class query_parser {
+  public:
+    query_parser(const std::string& name, query_kind kind, bool round)
+        : name_(name), round_(round) {
+        result_.kind = kind;
+    }
+
+    query_file parse(std::string_view text) {
+        text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+        if (text.empty()) {
+            throw file_error(name_ + ": found an empty file, expected rows of " + row_forms);
+        }
+        while (const std::optional<std::string_view> line = take_line(text)) {
+            ++line_;
+            read_row(*line);
+        }
+        if (row_ != 0) {
+            throw file_error(name_ + ":" + std::to_string(line_) + ": found a truncated query, " +
+                             std::to_string(row_) + " rows from line " +
+                             std::to_string(line_ - row_ + 1) + " on, expected 8 rows per query");
+        }
+        if (has_truth()) result_.truth = std::move(truth_);
+        return std::move(result_);
+    }
+
+  private:
+    bool is_rational() const { return columns_ >= 6; }
+    bool has_truth() const { return columns_ == 4 || columns_ == 7; }
+
+    [[noreturn]] void fail(const std::string& what) const {
+        throw file_error(name_ + ":" + std::to_string(line_) + ": " + what);
+    }
+
+    void read_row(std::string_view line) {
+        if (trimmed(line).empty()) fail("found a blank line, expected a row");
+        const columns row = split(line);
+        if (columns_ == 0) {
+            if (row.count != 3 && row.count != 4 && row.count != 6 && row.count != 7) {
+                fail("found " + excerpt(line) + " (columns: " + std::to_string(row.count) +
+                     "), expected " + row_forms);
+            }
+            columns_ = row.count;
+        } else if (row.count != columns_) {
+            fail("found " + std::to_string(row.count) + " columns, expected " +
+                 std::to_string(columns_) + " as in the first row");
+        }
+        points_[row_] = {coordinate(row, 0), coordinate(row, 1), coordinate(row, 2)};
+        if (has_truth()) read_truth(row.values[columns_ - 1]);
+        if (++row_ == rows_per_query) add_query();
+    }
+
+    double coordinate(const columns& row, std::size_t axis) const {
+        constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+        const std::string where = std::string(" as ") + axes[axis];
+        number result;
+        std::string token;
+        if (is_rational()) {
+            const std::string_view n = row.values[2 * axis], d = row.values[2 * axis + 1];
+            result = parse_quotient(n, d, round_);
+            if (result.status == number_status::ok) return result.value;
+            if (result.status == number_status::malformed) {
+                const bool n_is_wrong =
+                    parse_quotient(n, "1", true).status == number_status::malformed;
+                fail("found " + excerpt(n_is_wrong ? n : d) + " as the " +
+                     (n_is_wrong ? "numerator" : "denominator") + " of " + axes[axis] +
+                     ", expected an integer");
+            }
+            if (result.status == number_status::too_long) {
+                fail("found more than " + std::to_string(longest_number) + " digits" + where +
+                     ", expected a number that a double can equal");
+            }
+            // Each side in quotes of its own, so that a long one does not hide the other.
+            token = excerpt(n) + "/" + excerpt(d);
+        } else {
+            result = parse_double(row.values[axis], round_);
+            if (result.status == number_status::ok) return result.value;
+            token = excerpt(row.values[axis]);
+        }
+        switch (result.status) {
+            case number_status::zero_denominator:
+                fail("found " + token + where + ", expected a nonzero denominator");
+            case number_status::inexact:
+                fail("found " + token + where +
+                     ", which no double equals, expected an exact double (or --round)");
+            case number_status::overflow:
+                fail("found " + token + where + ", which overflows, expected a finite double");
+            case number_status::not_finite:
+                fail("found " + token + where + ", expected a finite number");
+            default:
+                fail("found " + token + where + ", expected a decimal or hexadecimal float");
+        }
+    }
+
+    void read_truth(std::string_view token) {
+        if (token != "0" && token != "1")
+            fail("found " + excerpt(token) + " as truth, expected 0 or 1");
+        const bool value = token == "1";
+        if (row_ == 0) {
+            truth_.push_back(value);
+        } else if (truth_.back() != value) {
+            fail("found truth " + std::string(token) + ", expected " + (value ? "0" : "1") +
+                 " as in the first row of this query");
+        }
+    }
+
+    void add_query() {
+        const auto& p = points_;
+        const moving_point<double> first{p[0], p[4]}, second{p[1], p[5]}, third{p[2], p[6]},
+            fourth{p[3], p[7]};
+        if (result_.kind == query_kind::vertex_face) {
+            result_.vertex_face_queries.push_back({first, second, third, fourth});
+        } else {
+            result_.edge_edge_queries.push_back({first, second, third, fourth});
+        }
+        row_ = 0;
+    }
+
+    const std::string& name_;
+    bool round_;
+    query_file result_;
+    std::vector<bool> truth_;
+    std::array<point<double>, rows_per_query> points_;
+    std::size_t columns_ = 0;  ///< of every row; 0 before the first
+    std::size_t row_ = 0;      ///< within the query
+    std::size_t line_ = 0;
+};
+
+}  // namespace
+
+std::optional<query_kind> kind_from_path(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    for (const auto& [suffix, kind] :
+         {std::pair{"vf", query_kind::vertex_face}, std::pair{"ee", query_kind::edge_edge}}) {
+        // "227vf" and "vf" name a kind, "coffee" does not.
+        if (stem.ends_with(suffix) && (stem.size() == 2 || !std::isalpha(static_cast<unsigned char>(
+                                                               stem[stem.size() - 3])))) {
+            return kind;
+        }
+    }
+    // The innermost directory that names a kind counts.
+    std::optional<query_kind> result;
+    for (const fs::path& part : path) {
+        const std::string name = part.stem().string();
+        if (name == "vertex-face" || name == "vf") result = query_kind::vertex_face;
+        if (name == "edge-edge" || name == "ee") result = query_kind::edge_edge;
+    }
+    return result;
+}
+
+query_file parse_queries(std::string_view text, const std::string& name, query_kind kind,
+                         bool round) {
+    return query_parser(name, kind, round).parse(text);
+}
+
+query_file read_queries(const fs::path& path, std::optional<query_kind> kind, bool round) {
+    const std::string text = read_whole(path);
+    if (!kind) kind = kind_from_path(path);
+    if (!kind) {
+        throw file_error(path.string() +
+                         ": found no kind of query in the path, expected 'vertex-face', "
+                         "'edge-edge', 'vf' or 'ee' there, or --kind");
+    }
+    query_file result = parse_queries(text, path.string(), *kind, round);
+    if (result.truth) return result;
+
+    const fs::path truth_path =
+        path.parent_path() / ".." / "mma_bool" / (path.stem().string() + "_mma_bool.json");
+    std::error_code error;
+    if (!fs::exists(truth_path, error)) return result;
+    result.truth = parse_truth(read_whole(truth_path), truth_path.string());
+    if (result.truth->size() != result.size()) {
+        throw file_error(truth_path.string() + ": found " + std::to_string(result.truth->size()) +
+                         " truth values, expected " + std::to_string(result.size()) +
+                         ", one per query of " + path.string());
+    }
+    return result;
+}
+
+std::vector<bool> parse_truth(std::string_view text, const std::string& name) {
+    nlohmann::json document;
+    try {
+        document = nlohmann::json::parse(text);
+    } catch (const nlohmann::json::parse_error& error) {
+        throw file_error(name + ": found no JSON at byte " + std::to_string(error.byte) +
+                         ", expected a JSON array of booleans");
+    } catch (const nlohmann::json::exception&) {
+        throw file_error(name + ": found a number out of range, expected a JSON array of booleans");
+    }
+    if (!document.is_array()) {
+        throw file_error(name + ": found " + document.type_name() +
+                         ", expected a JSON array of booleans");
+    }
+    std::vector<bool> result;
+    result.reserve(document.size());
+    for (const nlohmann::json& value : document) {
+        if (!value.is_boolean()) {
+            throw file_error(name + ": element " + std::to_string(result.size()) + ": found " +
+                             value.type_name() + ", expected true or false");
+        }
+        result.push_back(value.get<bool>());
+    }
+    return result;
+}
+
+}  // namespace ccd::io

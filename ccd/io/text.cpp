@@ -1,0 +1,279 @@
+// Exact numbers from tokens, line by line reading, safe quoting.
+#include "ccd/io/text.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <locale>
+#include <numeric>
+#include <sstream>
+#include <system_error>
+
+namespace ccd::io {
+namespace {
+
+using boost::multiprecision::cpp_int;
+
+constexpr number fail(number_status status) {
+    return {0, status};
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// Takes an optional sign off the front; true for a minus.
+bool take_sign(std::string_view& token) {
+    const bool negative = token.starts_with('-');
+    if (negative || token.starts_with('+')) token.remove_prefix(1);
+    return negative;
+}
+
+/// The double nearest to n/d (n, d > 0), and whether it equals it. Overflow gives that status.
+number nearest_quotient(const cpp_int& n, const cpp_int& d, bool round) {
+    // e = floor(log2(n/d)), first up to one too large.
+    long e = static_cast<long>(msb(n)) - static_cast<long>(msb(d));
+    if (e >= 0 ? n < (d << static_cast<unsigned>(e)) : (n << static_cast<unsigned>(-e)) < d) --e;
+    if (e > 1023) return fail(number_status::overflow);
+
+    // The result is q·2^lsb: 53 bits of n/d, or fewer where the format ends at 2^-1074.
+    const long lsb = std::max(e - 52, -1074L);
+    const cpp_int scaled_n = lsb < 0 ? cpp_int(n << static_cast<unsigned>(-lsb)) : n;
+    const cpp_int scaled_d = lsb > 0 ? cpp_int(d << static_cast<unsigned>(lsb)) : d;
+    cpp_int q, r;
+    divide_qr(scaled_n, scaled_d, q, r);
+    if (r != 0) {
+        if (!round) return fail(number_status::inexact);
+        const cpp_int twice = r << 1;
+        if (twice > scaled_d || (twice == scaled_d && bit_test(q, 0))) ++q;
+    }
+    // q ≤ 2^53, so both the conversion and ldexp are exact, or the latter overflows.
+    const double value =
+        std::ldexp(static_cast<double>(q.convert_to<std::uint64_t>()), static_cast<int>(lsb));
+    if (std::isinf(value)) return fail(number_status::overflow);
+    return {value, number_status::ok};
+}
+
+/// A decimal integer's digits, without sign and leading zeros, and its value if it is small.
+struct integer {
+    bool negative = false;
+    std::string_view digits;
+    std::optional<std::uint64_t> small;
+
+    cpp_int magnitude() const { return small ? cpp_int(*small) : cpp_int(std::string(digits)); }
+};
+
+std::optional<integer> parse_integer(std::string_view token) {
+    integer result;
+    result.negative = take_sign(token);
+    if (token.empty() || !std::all_of(token.begin(), token.end(), is_digit)) return std::nullopt;
+    token.remove_prefix(std::min(token.find_first_not_of('0'), token.size() - 1));
+    result.digits = token;
+    std::uint64_t value = 0;
+    if (std::from_chars(token.data(), token.data() + token.size(), value).ec == std::errc{}) {
+        result.small = value;
+    }
+    return result;
+}
+
+int hex_digit(char c) {
+    if (is_digit(c)) return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+/// A hexadecimal float after its sign and "0x".
+number parse_hexadecimal(std::string_view token, bool round) {
+    std::string digits;
+    bool any = false, point = false;
+    long fraction_digits = 0;
+    while (!token.empty()) {
+        const char c = token.front();
+        if (c == '.' && !point) {
+            point = true;
+        } else if (hex_digit(c) >= 0) {
+            any = true;
+            if (point) ++fraction_digits;
+            if (c != '0' || !digits.empty()) digits += c;
+        } else {
+            break;
+        }
+        token.remove_prefix(1);
+    }
+    if (!any) return fail(number_status::malformed);
+
+    long exponent = 0;
+    if (!token.empty()) {
+        if (token.front() != 'p' && token.front() != 'P') return fail(number_status::malformed);
+        token.remove_prefix(1);
+        const bool negative = take_sign(token);
+        if (token.empty() || !std::all_of(token.begin(), token.end(), is_digit)) {
+            return fail(number_status::malformed);
+        }
+        for (const char c : token) exponent = std::min(exponent * 10 + (c - '0'), 1'000'000'000L);
+        if (negative) exponent = -exponent;
+    }
+    if (digits.empty()) return {0, number_status::ok};
+    if (digits.size() > longest_number) return fail(number_status::too_long);
+    exponent -= 4 * fraction_digits;
+
+    const cpp_int mantissa("0x" + digits);
+    // Settled here so that no shift below is longer than the digits call for.
+    const long top = static_cast<long>(msb(mantissa)) + exponent;
+    if (top > 1023) return fail(number_status::overflow);
+    if (top < -1080) return round ? number{} : fail(number_status::inexact);
+    if (exponent >= 0) {
+        return nearest_quotient(mantissa << static_cast<unsigned>(exponent), 1, round);
+    }
+    return nearest_quotient(mantissa, cpp_int(1) << static_cast<unsigned>(-exponent), round);
+}
+
+/// A decimal number after its sign.
+template <class T>
+number parse_decimal(std::string_view token) {
+    T value = 0;
+    const char* const end = token.data() + token.size();
+    // Without this from_chars would take a second minus.
+    if (token.starts_with('-')) return fail(number_status::malformed);
+    const auto [rest, ec] = std::from_chars(token.data(), end, value);
+    if (ec == std::errc::invalid_argument || rest != end) return fail(number_status::malformed);
+    if (ec == std::errc::result_out_of_range) {
+        // from_chars does not tell too large from too small; the stream does, and yields the
+        // nearest (zero or subnormal) value for the latter.
+        std::istringstream stream{std::string(token)};
+        stream.imbue(std::locale::classic());
+        if (!(stream >> value)) return fail(number_status::overflow);
+    }
+    if (!std::isfinite(value)) return fail(number_status::not_finite);
+    return {static_cast<double>(value), number_status::ok};
+}
+
+template <class T>
+number parse_real(std::string_view token, bool round) {
+    const bool negative = take_sign(token);
+    number result;
+    if (token.starts_with("0x") || token.starts_with("0X")) {
+        result = parse_hexadecimal(token.substr(2), round);
+        if (result.status == number_status::ok) {
+            if (result.value > static_cast<double>(std::numeric_limits<T>::max())) {
+                return fail(number_status::overflow);
+            }
+            if (static_cast<double>(static_cast<T>(result.value)) != result.value) {
+                return fail(number_status::inexact);
+            }
+        }
+    } else {
+        result = parse_decimal<T>(token);
+    }
+    if (negative) result.value = -result.value;
+    return result;
+}
+
+}  // namespace
+
+std::string excerpt(std::string_view found) {
+    constexpr std::size_t longest = 40;
+    std::string result = "'";
+    for (const char c : found) {
+        std::string piece(1, c);
+        if (c < ' ' || c > '~') {
+            constexpr char hex[] = "0123456789abcdef";
+            const auto byte = static_cast<unsigned char>(c);
+            piece = {'\\', 'x', hex[byte >> 4], hex[byte & 15]};
+        }
+        if (result.size() + piece.size() > longest - 3 + 1) {
+            result += "...";
+            break;
+        }
+        result += piece;
+    }
+    return result + "'";
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::optional<std::string_view> take_line(std::string_view& text) {
+    if (text.empty()) return std::nullopt;
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+std::string_view take_word(std::string_view& line) {
+    constexpr std::string_view blanks = " \t\r";
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(blanks));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+std::string describe(number_status status, std::string_view token) {
+    const std::string found = "found " + excerpt(token);
+    switch (status) {
+        case number_status::ok:
+        case number_status::malformed:
+            return found + ", expected a number";
+        case number_status::not_finite:
+            return found + ", expected a finite number";
+        case number_status::overflow:
+            return found + ", which overflows, expected a finite number";
+        case number_status::inexact:
+            return found + ", which no double equals, expected an exact value";
+        case number_status::zero_denominator:
+            return found + " with a zero denominator, expected a nonzero one";
+        case number_status::too_long:
+            return found + ", which has too many digits, expected at most " +
+                   std::to_string(longest_number);
+    }
+    return found;
+}
+
+number parse_double(std::string_view token, bool round) {
+    return parse_real<double>(token, round);
+}
+
+number parse_float(std::string_view token) {
+    return parse_real<float>(token, false);
+}
+
+number parse_quotient(std::string_view numerator, std::string_view denominator, bool round) {
+    const std::optional<integer> n = parse_integer(numerator);
+    const std::optional<integer> d = parse_integer(denominator);
+    if (!n || !d) return fail(number_status::malformed);
+    if (d->small == 0U) return fail(number_status::zero_denominator);
+    if (n->small == 0U) return {0, number_status::ok};
+    const double sign = n->negative != d->negative ? -1 : 1;
+
+    if (n->small && d->small) {
+        const std::uint64_t divisor = std::gcd(*n->small, *d->small);
+        const std::uint64_t reduced_n = *n->small / divisor, reduced_d = *d->small / divisor;
+        const bool n_is_exact =
+            static_cast<int>(std::bit_width(reduced_n)) - std::countr_zero(reduced_n) <= 53;
+        if (n_is_exact && std::has_single_bit(reduced_d)) {
+            // Both convert exactly, and dividing by a power of two up to 2^63 is exact too.
+            return {sign * (static_cast<double>(reduced_n) / static_cast<double>(reduced_d)),
+                    number_status::ok};
+        }
+        if (!round) return fail(number_status::inexact);
+    }
+    if (std::max(n->digits.size(), d->digits.size()) > longest_number) {
+        return fail(number_status::too_long);
+    }
+    number result = nearest_quotient(n->magnitude(), d->magnitude(), round);
+    result.value *= sign;
+    return result;
+}
+
+}  // namespace ccd::io

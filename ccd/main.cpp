@@ -1,0 +1,155 @@
+// The program `ccd`: reads the command line. Exit status 0 done, 1 bad input, 2 bad usage.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "ccd/commands.hpp"
+#include "ccd/io/error.hpp"
+#include "ccd/table.hpp"
+
+namespace ccd::program {
+namespace {
+
+enum exit_status { done = 0, bad_input = 1, bad_usage = 2 };
+
+/// A command line that CLI11 lets through but that makes no sense.
+struct usage_error : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+ccd::method method_named(const std::string& name) {
+    if (const std::optional<ccd::method> method = find_method(name)) return *method;
+    std::string known;
+    for (const method_info& entry : methods()) {
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw usage_error("--method: found '" + name + "', expected one of " + known);
+}
+
+/// The methods of a list M[,M...]; all if it is empty.
+std::vector<ccd::method> methods_named(const std::string& list) {
+    std::vector<ccd::method> result;
+    if (list.empty()) {
+        for (const method_info& entry : methods()) result.push_back(entry.method);
+        return result;
+    }
+    std::size_t begin = 0;
+    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
+        comma = list.find(',', begin);
+        result.push_back(method_named(list.substr(begin, comma - begin)));
+    }
+    return result;
+}
+
+struct command_line {
+    CLI::App app{
+        "Exact continuous collision detection.\n"
+        "Exit status: 0 done, 1 bad input, 2 bad usage.",
+        "ccd"};
+    query_arguments query;
+    step_arguments step;
+    std::string query_methods, query_kind, step_method = "exact";
+    CLI::App* query_command = nullptr;
+    CLI::App* step_command = nullptr;
+    CLI::App* methods_command = nullptr;
+
+    command_line() {
+        app.require_subcommand(1);
+
+        query_command = app.add_subcommand("query", "Decide stored queries");
+        query_command->add_option("FILE", query.files, "CSV, 8 rows per query")->required();
+        query_command->add_option("--method", query_methods, "Methods M[,M...], else all")
+            ->type_name("M[,M...]");
+        query_command
+            ->add_option("--kind", query_kind,
+                         "Kind of query; else the path tells (vertex-face...)")
+            ->check(CLI::IsMember({"vf", "ee"}));
+        query_command->add_flag("--round", query.round,
+                                "Round a rational that no double equals, instead of refusing it");
+        query_command
+            ->add_option("--verdicts", query.verdicts,
+                         "Write 0 or 1 per query (one method, one file)")
+            ->type_name("OUT");
+        query_command->add_option("--json", query.json, "Write the table as JSON")
+            ->type_name("OUT");
+
+        step_command = app.add_subcommand("step", "One step of a mesh: the colliding pairs");
+        step_command->add_option("FRAME0", step.before, "PLY or OBJ")->required();
+        step_command->add_option("FRAME1", step.after, "PLY or OBJ, same topology")->required();
+        step_command->add_option("--method", step_method, "The method, else exact")->type_name("M");
+        step_command
+            ->add_option("--pairs", step.pairs,
+                         "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1, vertex indices")
+            ->type_name("OUT");
+        step_command->add_option("--threads", step.threads, "Threads; 0: one per core")
+            ->check(CLI::Range(0, 4096));
+        step_command->add_option("--json", step.json, "Write counts and seconds as JSON")
+            ->type_name("OUT");
+
+        methods_command =
+            app.add_subcommand("methods", "What methods there are and what each promises");
+    }
+
+    void run() {
+        if (query_command->parsed()) {
+            query.methods = methods_named(query_methods);
+            if (!query_kind.empty()) {
+                query.kind =
+                    query_kind == "vf" ? io::query_kind::vertex_face : io::query_kind::edge_edge;
+            }
+            if (query.verdicts && (query.files.size() != 1 || query.methods.size() != 1)) {
+                throw usage_error("--verdicts: found " + std::to_string(query.files.size()) +
+                                  " files and " + std::to_string(query.methods.size()) +
+                                  " methods, expected one FILE and one --method");
+            }
+            run_query(query);
+        } else if (step_command->parsed()) {
+            step.method = method_named(step_method);
+            run_step(step);
+        } else if (methods_command->parsed()) {
+            run_methods();
+        }
+    }
+};
+
+int main_with_status(int argc, char** argv) {
+    command_line line;
+    try {
+        line.app.parse(argc, argv);
+        line.run();
+    } catch (const CLI::ParseError& error) {
+        return line.app.exit(error) == 0 ? done : bad_usage;
+    } catch (const usage_error& error) {
+        std::cerr << "ccd: " << error.what() << '\n';
+        return bad_usage;
+    } catch (const io::file_error& error) {
+        std::cerr << "ccd: " << error.what() << '\n';
+        return bad_input;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "ccd: out of memory\n";
+        return bad_input;
+    }
+    if (!std::cout.flush()) {
+        std::cerr << "ccd: standard output cannot be written\n";
+        return bad_input;
+    }
+    return done;
+}
+
+}  // namespace
+
+void run_methods() {
+    table rows = {{"method", "promise", "source"}};
+    for (const method_info& entry : methods()) {
+        rows.push_back(
+            {std::string(entry.name), std::string(entry.promise), std::string(entry.source)});
+    }
+    std::cout << text_of(rows, 3);
+}
+
+}  // namespace ccd::program
+
+int main(int argc, char** argv) {
+    return ccd::program::main_with_status(argc, argv);
+}

@@ -1,0 +1,59 @@
+// The table of methods and the dispatch by method.
+#include <ccd/bsc.hpp>
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
+#include <errbound/rules/none.hpp>
+#include <errbound/rules/safe.hpp>
+#include <errbound/rules/tight.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace ccd {
+namespace {
+
+constexpr std::array<method_info, 4> table{{
+    {method::float_, "float", true, true,
+     "no promise: plain double arithmetic, may be wrong either way",
+     "BSC-float; Tang, Tong, Wang, Manocha 2014"},
+    {method::safe, "safe", false, true,
+     "never loses a collision; false positives where SafeBound cannot tell",
+     "BSC with SafeBound; Wang 2014; Wang, Tang, Manocha, Tong 2015, Section 4.2"},
+    {method::tight, "tight", false, true,
+     "never loses a collision; false positives where TightBound cannot tell",
+     "TightCCD; Wang, Tang, Manocha, Tong 2015"},
+    {method::exact, "exact", false, false,
+     "no false negative, no false positive, on any finite input",
+     "tight as filter, then integers on a common exponent and Sturm sequences"},
+}};
+
+template <class Query>
+verdict decide_any(method m, const Query& query) {
+    switch (m) {
+        case method::float_: return decide_bsc<errbound::none>(query);
+        case method::safe: return decide_bsc<errbound::safe>(query);
+        case method::tight: return decide_bsc<errbound::tight>(query);
+        case method::exact: {
+            const verdict filtered = decide_bsc<errbound::tight>(query);
+            return filtered.outcome == outcome::uncertain ? decide_exact(query) : filtered;
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::span<const method_info> methods() { return table; }
+
+std::optional<method> find_method(std::string_view name) {
+    const auto found = std::ranges::find(table, name, &method_info::name);
+    if (found == table.end()) return std::nullopt;
+    return found->method;
+}
+
+const method_info& info(method m) { return *std::ranges::find(table, m, &method_info::method); }
+
+verdict decide(method m, const vertex_face<double>& query) { return decide_any(m, query); }
+verdict decide(method m, const edge_edge<double>& query) { return decide_any(m, query); }
+
+}  // namespace ccd

@@ -1,0 +1,99 @@
+// `ccd step`: one step of a mesh, from files to colliding pairs.
+#include <sys/resource.h>
+
+#include <ccd/step.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "ccd/commands.hpp"
+#include "ccd/io/mesh_file.hpp"
+#include "ccd/io/output_file.hpp"
+#include "ccd/table.hpp"
+
+namespace ccd::program {
+namespace {
+
+std::size_t peak_memory_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+    return static_cast<std::size_t>(usage.ru_maxrss);
+#else
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux and the BSDs count KiB
+#endif
+}
+
+std::string lines_of_pairs(const step_result& result) {
+    std::string lines;
+    const auto add = [&lines](const char* kind, const std::initializer_list<index>& indices) {
+        lines += kind;
+        for (const index i : indices) lines += ',' + std::to_string(i);
+        lines += '\n';
+    };
+    for (const vertex_face_pair& p : result.vertex_face) add("vf", {p.v, p.f[0], p.f[1], p.f[2]});
+    for (const edge_edge_pair& p : result.edge_edge) add("ee", {p.a[0], p.a[1], p.b[0], p.b[1]});
+    return lines;
+}
+
+std::string json_of(const step_arguments& arguments, const step_result& result, double read,
+                    std::size_t memory) {
+    const nlohmann::ordered_json document = {
+        {"method", info(arguments.method).name},
+        {"candidates",
+         {{"vertex_face", result.vertex_face_candidates},
+          {"edge_edge", result.edge_edge_candidates}}},
+        {"collisions",
+         {{"vertex_face", result.vertex_face.size()}, {"edge_edge", result.edge_edge.size()}}},
+        {"seconds",
+         {{"read", read},
+          {"broad", result.broad_phase_seconds},
+          {"narrow", result.narrow_phase_seconds}}},
+        {"threads", result.threads},
+        {"peak_memory_bytes", memory}};
+    return document.dump(2) + '\n';
+}
+
+std::string text_of_step(const step_arguments& arguments, const step_result& result, double read,
+                         std::size_t memory) {
+    const auto fixed = [](double value, const char* format) {
+        char text[64];
+        std::snprintf(text, sizeof text, format, value);
+        return std::string(text);
+    };
+    const table pairs = {{std::string(info(arguments.method).name), "candidates", "collisions"},
+                         {"vertex-face", std::to_string(result.vertex_face_candidates),
+                          std::to_string(result.vertex_face.size())},
+                         {"edge-edge", std::to_string(result.edge_edge_candidates),
+                          std::to_string(result.edge_edge.size())}};
+    const table costs = {
+        {"read", "broad phase", "narrow phase", "threads", "peak memory"},
+        {fixed(read, "%.3f s"), fixed(result.broad_phase_seconds, "%.3f s"),
+         fixed(result.narrow_phase_seconds, "%.3f s"), std::to_string(result.threads),
+         fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
+    return text_of(pairs, 1) + '\n' + text_of(costs, 0);
+}
+
+}  // namespace
+
+void run_step(const step_arguments& arguments) {
+    const auto start = std::chrono::steady_clock::now();
+    const mesh before = io::read_mesh(arguments.before);
+    const mesh after = io::read_mesh(arguments.after);
+    io::require_same_topology(before, arguments.before.string(), after, arguments.after.string());
+    const double read =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+    const step_result result =
+        step(before, after, {.method = arguments.method, .threads = arguments.threads});
+    const std::size_t memory = peak_memory_bytes();
+    if (arguments.pairs) io::write_whole(*arguments.pairs, lines_of_pairs(result));
+    if (arguments.json) {
+        io::write_whole(*arguments.json, json_of(arguments, result, read, memory));
+    }
+    std::cout << text_of_step(arguments, result, read, memory);
+}
+
+}  // namespace ccd::program

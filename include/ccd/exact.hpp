@@ -1,0 +1,28 @@
+// `exact`: no false negative, no false positive, on any finite input.
+//
+// Closed semantics: a query collides when the two closed features share a point at some t in the
+// closed interval [0, 1]; a degenerate triangle or edge is the segment or point that it is.
+//
+// Decided in integers on a common exponent, so nothing is rounded. Time and memory grow with the
+// spread of the coordinates' exponents (about 100 bits in ordinary scenes, 2,100 at most) and are
+// bounded. Allocates; throws only std::bad_alloc. Coordinates must be finite: otherwise the answer
+// is `uncertain` with cause `range`, the only case in which it is not certain.
+#pragma once
+
+#include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
+
+namespace ccd {
+
+verdict decide_exact(const vertex_face<double>& query);
+verdict decide_exact(const edge_edge<double>& query);
+verdict decide_exact(const vertex_edge<double>& query);
+verdict decide_exact(const vertex_vertex<double>& query);
+
+/// Whether the features touch already at t = 0: tells a collision's kind apart from a later impact.
+verdict touches_at_start(const vertex_face<double>& query);
+verdict touches_at_start(const edge_edge<double>& query);
+verdict touches_at_start(const vertex_edge<double>& query);
+verdict touches_at_start(const vertex_vertex<double>& query);
+
+}  // namespace ccd

@@ -1,0 +1,25 @@
+// Triangle meshes: what a frame holds, and what one step of a mesh asks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <ccd/query.hpp>
+
+namespace ccd {
+
+using index = std::uint32_t;
+using face = std::array<index, 3>;  ///< vertex indices in the file's order
+using edge = std::array<index, 2>;  ///< vertex indices, ascending
+
+/// One frame. `faces` index `vertices`; the reader checks that they are in range.
+struct mesh {
+    std::vector<point<double>> vertices;
+    std::vector<face> faces;
+};
+
+/// The mesh's unique edges, each ascending, sorted.
+std::vector<edge> unique_edges(const std::vector<face>& faces);
+
+}  // namespace ccd

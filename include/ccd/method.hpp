@@ -1,0 +1,39 @@
+// The methods by name: what each promises, its source, and one call to decide a query with it.
+//
+// decide() never throws, allocates only inside `exact` (big integers), and may be called from any
+// thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with cause `range`.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
+
+namespace ccd {
+
+enum class method { float_, safe, tight, exact };
+
+struct method_info {
+    ccd::method method;
+    std::string_view name;  ///< as on the command line: "float", "safe", "tight", "exact"
+    bool may_lose_collisions;
+    bool may_report_false_collisions;
+    std::string_view promise;  ///< one sentence
+    std::string_view source;   ///< paper or section
+};
+
+/// All methods, in the order in which tables show them.
+std::span<const method_info> methods();
+
+/// The method of that command-line name, if there is one.
+std::optional<method> find_method(std::string_view name);
+
+/// The entry of `methods()` for m.
+const method_info& info(method m);
+
+verdict decide(method m, const vertex_face<double>& query);
+verdict decide(method m, const edge_edge<double>& query);
+
+}  // namespace ccd

@@ -1,0 +1,50 @@
+// One step of a mesh: from two frames in memory to the colliding pairs.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <vector>
+
+#include <ccd/mesh.hpp>
+#include <ccd/method.hpp>
+
+namespace ccd {
+
+/// A vertex and a face that may touch. `f` ascending.
+struct vertex_face_pair {
+    index v;
+    face f;
+    friend auto operator<=>(const vertex_face_pair&, const vertex_face_pair&) = default;
+};
+
+/// Two edges that may touch, each ascending, the smaller edge first.
+struct edge_edge_pair {
+    edge a, b;
+    friend auto operator<=>(const edge_edge_pair&, const edge_edge_pair&) = default;
+};
+
+struct step_options {
+    ccd::method method = ccd::method::exact;
+    int threads = 0;  ///< 0: as many as the machine has cores
+};
+
+struct step_result {
+    std::size_t vertex_face_candidates = 0;  ///< pairs whose swept boxes touch, no shared vertex
+    std::size_t edge_edge_candidates = 0;
+    std::vector<vertex_face_pair> vertex_face;  ///< reported pairs, sorted
+    std::vector<edge_edge_pair> edge_edge;      ///< reported pairs, sorted
+    double broad_phase_seconds = 0;
+    double narrow_phase_seconds = 0;
+    int threads = 0;
+};
+
+/// The pairs of one step that `options.method` cannot certify as separate.
+///
+/// Candidates are the vertex/face and edge/edge pairs that share no vertex and whose swept boxes
+/// (closed, exact doubles) touch. The result is the same for every number of threads.
+///
+/// `before` and `after` must have the same faces and numbers of vertices, all indices in range and
+/// all coordinates finite; throws std::invalid_argument otherwise.
+step_result step(const mesh& before, const mesh& after, const step_options& options);
+
+}  // namespace ccd

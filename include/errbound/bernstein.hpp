@@ -1,0 +1,211 @@
+// Polynomials on [0, 1] in Bernstein form, of compile-time degree, over any scalar with + − ×.
+//
+// A polynomial p of degree N is kept by its SCALED Bernstein coefficients h_i, that is as the form
+//     p(s, t) = Σ h_i s^(N−i) t^i,   p(t) = p(1 − t, t),   h_i = C(N, i)·b_i
+// with b_i the usual Bernstein coefficients (control values). Signs, and so the hull property, are
+// those of b_i; but product, derivative, degree elevation and subdivision need no division, so
+// integers, tracked numbers under every bound rule and SIMD packs are all served. The same numbers
+// are the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞].
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include <errbound/sign.hpp>
+#include <errbound/tracked.hpp>
+
+namespace errbound {
+
+constexpr int binomial(int n, int k) {
+    int c = 1;
+    for (int i = 1; i <= k; ++i) c = c * (n - k + i) / i;
+    return c;
+}
+
+template <class S, int N>
+struct bernstein {
+    static_assert(N >= 0);
+    static constexpr int degree = N;
+    std::array<S, N + 1> h{};  ///< scaled coefficients C(N, i)·b_i
+
+    constexpr const S& operator[](int i) const { return h[static_cast<std::size_t>(i)]; }
+    constexpr S& operator[](int i) { return h[static_cast<std::size_t>(i)]; }
+
+    /// From control values b_i: h_i = C(N, i)·b_i.
+    static constexpr bernstein from_control_values(const std::array<S, N + 1>& b) {
+        bernstein p;
+        for (int i = 0; i <= N; ++i) {
+            const std::size_t k = static_cast<std::size_t>(i);
+            p.h[k] = i == 0 || i == N ? b[k] : S(b[k] * S(binomial(N, i)));
+        }
+        return p;
+    }
+
+    friend constexpr bernstein operator+(const bernstein& p, const bernstein& q) {
+        bernstein r;
+        for (int i = 0; i <= N; ++i) r[i] = p[i] + q[i];
+        return r;
+    }
+    friend constexpr bernstein operator-(const bernstein& p, const bernstein& q) {
+        bernstein r;
+        for (int i = 0; i <= N; ++i) r[i] = p[i] - q[i];
+        return r;
+    }
+    constexpr bernstein operator-() const {
+        bernstein r;
+        for (int i = 0; i <= N; ++i) r[i] = -h[static_cast<std::size_t>(i)];
+        return r;
+    }
+};
+
+/// The product: a plain convolution of scaled coefficients.
+template <class S, int A, int B>
+constexpr bernstein<S, A + B> operator*(const bernstein<S, A>& p, const bernstein<S, B>& q) {
+    bernstein<S, A + B> r;
+    // The first term of each sum is stored, not added to zero: an addition to zero has a bound.
+    for (int k = 0; k <= A + B; ++k) {
+        const int first = k > B ? k - B : 0;
+        S sum = p[first] * q[k - first];
+        for (int i = first + 1; i <= A && i <= k; ++i) sum = sum + p[i] * q[k - i];
+        r[k] = sum;
+    }
+    return r;
+}
+
+/// The same polynomial, one degree higher: the form times s + t.
+template <class S, int N>
+constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
+    bernstein<S, N + 1> r;
+    r[0] = p[0];
+    for (int i = 1; i <= N; ++i) r[i] = p[i] + p[i - 1];
+    r[N + 1] = p[N];
+    return r;
+}
+
+/// dp/dt = ∂p/∂t − ∂p/∂s: coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i.
+template <class S, int N>
+    requires(N >= 1)
+constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
+    const auto times = [](const S& x, int n) { return n == 1 ? x : S(x * S(n)); };
+    bernstein<S, N - 1> r;
+    for (int i = 0; i < N; ++i) r[i] = times(p[i + 1], i + 1) - times(p[i], N - i);
+    return r;
+}
+
+/// The form p(s, t), that is (s + t)^N · p(t/(s + t)). At s = 1 − t it is the polynomial's value.
+/// Cost: 3N − 1 products.
+template <class S, int N>
+constexpr S value_at(const bernstein<S, N>& p, const S& s, const S& t) {
+    S sum = p[0];
+    S power = t;
+    for (int i = 1; i <= N; ++i) {
+        sum = sum * s + p[i] * power;
+        if (i < N) power = power * t;
+    }
+    return sum;
+}
+
+/// The polynomial's value at t.
+template <class S, int N>
+constexpr S value_at(const bernstein<S, N>& p, const S& t) {
+    return value_at(p, S(S(1) - t), t);
+}
+
+/// The polynomial with the two ends of [0, 1] exchanged.
+template <class S, int N>
+constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
+    bernstein<S, N> r;
+    for (int i = 0; i <= N; ++i) r[i] = p[N - i];
+    return r;
+}
+
+/// The part of p on [0, w/(v + w)], times (v + w)^N, for v, w > 0: the substitution
+/// s → (v + w)s + vt, t → wt, by Horner's rule. The part on [w/(v + w), 1] is
+/// reversed(left_part(reversed(p), w, v)).
+template <class S, int N>
+constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const S& w) {
+    const S whole = v + w;
+    bernstein<S, N> r;
+    r[0] = p[0];
+    S power = w;
+    for (int i = 1; i <= N; ++i) {
+        r[i] = r[i - 1] * v + p[i] * power;
+        for (int j = i - 1; j > 0; --j) r[j] = r[j] * whole + r[j - 1] * v;
+        r[0] = r[0] * whole;
+        if (i < N) power = power * w;
+    }
+    return r;
+}
+
+/// The parts of p on [0, w/(v + w)] and on the rest, both times (v + w)^N > 0.
+template <class S, int N>
+constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N>& p, const S& v,
+                                                           const S& w) {
+    return {left_part(p, v, w), reversed(left_part(reversed(p), w, v))};
+}
+
+/// The parts of p on [0, 1/2] and [1/2, 1], times 2^N: additions and exact doublings only.
+template <class S, int N>
+std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, N>& p) {
+    const auto left = [](const bernstein<S, N>& q) {
+        bernstein<S, N> r;
+        r[0] = q[0];
+        for (int i = 1; i <= N; ++i) {
+            r[i] = r[i - 1] + q[i];
+            for (int j = i - 1; j > 0; --j) r[j] = scale(r[j], 1) + r[j - 1];
+            r[0] = scale(r[0], 1);
+        }
+        return r;
+    };
+    return {left(p), reversed(left(reversed(p)))};
+}
+
+/// The form times a power of two that brings its largest coefficient near 1, so that products of
+/// many forms neither underflow nor overflow. Signs are kept; exact numbers are left alone.
+template <class S, int N>
+bernstein<S, N> normalized(const bernstein<S, N>& p) {
+    if constexpr (is_tracked<S>) {
+        using T = typename S::value_type;
+        using traits = number_traits<T>;
+        T largest = traits::abs(p[0].value());
+        for (int i = 1; i <= N; ++i) largest = traits::max(largest, traits::abs(p[i].value()));
+        // Leave sizes that products of up to eight forms can carry.
+        constexpr int room = traits::max_exponent / 16;
+        if (!(largest > 0) || !traits::is_finite(largest)) return p;
+        const int e = traits::exponent(largest);
+        if (e >= -room && e <= room) return p;
+        bernstein<S, N> r;
+        for (int i = 0; i <= N; ++i) r[i] = scale(p[i], -e);
+        return r;
+    } else {
+        return p;
+    }
+}
+
+/// The sign that p has on the open interval (0, 1), as far as its coefficients tell: certain if
+/// none of them has the other sign and one is not zero; zero if all are zero.
+template <class S, int N>
+constexpr sign_type sign_inside(const bernstein<S, N>& p) {
+    sign_type all = sign_type::zero;
+    for (int i = 0; i <= N; ++i) {
+        const sign_type s = sign_of(p[i]);
+        if (!certain(s)) return s;
+        if (s == sign_type::zero || s == all) continue;
+        if (all != sign_type::zero) return sign_type::uncertain;
+        all = s;
+    }
+    return all;
+}
+
+/// The sign that p has on all of [0, 1], as far as its coefficients tell: certain if all have that
+/// strict sign; zero if all are zero.
+template <class S, int N>
+constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
+    const sign_type first = sign_of(p[0]);
+    for (int i = 1; i <= N && certain(first); ++i)
+        if (sign_of(p[i]) != first) return sign_type::uncertain;
+    return first;
+}
+
+}  // namespace errbound

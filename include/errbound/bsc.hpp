@@ -1,0 +1,383 @@
+// Bernstein sign classification (BSC): is there t in [0, 1] with Y(t) = 0 and all G_i(t) >= 0,
+// for a cubic Y and quartics G_i, over any scalar that has + − × and a sign?
+//
+// After Tang, Tong, Wang, Manocha (2014) and the conservative operations of the TightCCD paper
+// (Wang, Tang, Manocha, Tong 2015, Section 5), derived anew. Differences to the printed
+// algorithm, each of which closes a hole or lowers a degree:
+//  * Uncertain signs are handled by POSSIBLE WORLDS: each combination of strict signs that the ends
+//    of Y can have is followed, and contact exactly at an end is tested by the ends of the G_i.
+//    A "no" is given only when every world says no. (The paper sets the uncertain sign to one
+//    chosen value.)
+//  * An inflection inside the part is split off at its exact place, in homogeneous form, so that
+//    the curvature of each part is KNOWN. Splitting at a rounded place, as the published code does,
+//    leaves an inflection in one of the parts, and the one-extremum argument then loses roots. If
+//    the curvature's sign is uncertain, Y is monotone by its derivative's coefficients, or the
+//    part is halved; after `max_halvings` of them the answer is "maybe".
+//  * All reductions cancel one term at each end (factors k0·k3, st) instead of two at one end. They
+//    are then identities without division or degenerate leading coefficient.
+//
+// Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; Y = (y0, y1, y2, y3) scaled, so
+// y0 = Y(0) and y3 = Y(1); D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <errbound/bernstein.hpp>
+
+namespace errbound {
+
+/// Answer to an existence question. `maybe_*` says which sign stayed uncertain.
+enum class existence : std::uint8_t { no, yes, maybe_root, maybe_inside };
+
+namespace bsc {
+
+/// How often a part whose curvature has an uncertain sign is halved before the answer is "maybe".
+inline constexpr int max_halvings = 6;
+
+template <class S>
+using cubic = bernstein<S, 3>;
+template <class S, std::size_t M>
+using quartics = std::array<bernstein<S, 4>, M>;
+
+/// The two signs of a function at the two inner roots of Y around its extremum, in order of t.
+using sign_pair = std::array<sign_type, 2>;
+
+constexpr existence either(existence a, existence b) {
+    if (a == existence::yes || b == existence::yes) return existence::yes;
+    return a == existence::no ? b : a;
+}
+
+/// Verdict of the signs of all G_i at one root.
+class conjunction {
+  public:
+    explicit constexpr conjunction(bool root_is_certain) : root_is_certain_(root_is_certain) {}
+
+    constexpr void require_nonnegative(sign_type s) {
+        if (s == sign_type::negative) excluded_ = true;
+        // An exact zero satisfies G >= 0, but all G vanish where the normal does: not a certain yes.
+        if (s != sign_type::positive) all_positive_ = false;
+    }
+    constexpr bool excluded() const { return excluded_; }
+    constexpr existence result() const {
+        if (excluded_) return existence::no;
+        if (!root_is_certain_) return existence::maybe_root;
+        return all_positive_ ? existence::yes : existence::maybe_inside;
+    }
+
+  private:
+    bool root_is_certain_;
+    bool excluded_ = false;
+    bool all_positive_ = true;
+};
+
+/// A linear form's root (s, t) = (|L1|, |L0|)/(|L0| + |L1|), for L0 and L1 of opposite strict sign,
+/// without the division: positive multiples of s and t.
+template <class S>
+struct linear_root {
+    S s, t;
+    explicit linear_root(const bernstein<S, 1>& l)
+        : s(sign_of(l[0]) == sign_type::positive ? S(-l[1]) : l[1]),
+          t(sign_of(l[0]) == sign_type::positive ? l[0] : S(-l[0])) {}
+};
+
+/// Signs of a linear form's ends: whether they alone tell its sign on (0, 1).
+struct linear_signs {
+    sign_type at0, at1;
+
+    template <class S>
+    explicit constexpr linear_signs(const bernstein<S, 1>& l) : at0(sign_of(l[0])), at1(sign_of(l[1])) {}
+
+    constexpr bool opposite() const {
+        return certain(at0) && certain(at1) && at0 * at1 == sign_type::negative;
+    }
+    /// The sign on (0, 1) unless opposite().
+    constexpr sign_type inside() const {
+        if (!certain(at0) || !certain(at1)) return sign_type::uncertain;
+        return at0 == sign_type::zero ? at1 : at0;
+    }
+};
+
+/// Sign determination I (TTWM14): the sign of the linear form l at the only inner root of Y, where
+/// Y has the strict sign `before` left of it and the opposite one right of it.
+/// Proof: if Y(t_l) has the sign `before`, the root lies right of t_l, where l has the sign l(1).
+template <class S>
+sign_type sign_at_crossing(const cubic<S>& y, sign_type before, const bernstein<S, 1>& l) {
+    const linear_signs ends(l);
+    if (!ends.opposite()) return ends.inside();
+    const linear_root<S> r(l);
+    const sign_type at_r = sign_of(value_at(y, r.s, r.t));
+    if (!certain(at_r)) return sign_type::uncertain;
+    if (at_r == sign_type::zero) return sign_type::zero;
+    return at_r == before ? ends.at1 : ends.at0;
+}
+
+/// Sign determination II (TTWM14): the signs of the linear form l at the two inner roots t0 <= t1
+/// of a CONVEX Y that is positive at both ends; d = Y'.
+/// Proof: Y(t_l) < 0 means t0 < t_l < t1. Else t_l lies outside, on the side of the extremum that
+/// the increasing d tells: d(t_l) < 0 left, so both roots are right of it. If Y(t_l)'s sign is
+/// uncertain, d(t_l) still tells it from the root on the other side of the extremum.
+template <class S>
+sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const bernstein<S, 1>& l) {
+    const linear_signs ends(l);
+    if (!ends.opposite()) return {ends.inside(), ends.inside()};
+    const linear_root<S> r(l);
+    const sign_type at_r = sign_of(value_at(y, r.s, r.t));
+    if (at_r == sign_type::negative) return {ends.at0, ends.at1};
+    const sign_type slope = sign_of(value_at(d, r.s, r.t));
+    const sign_type nearer = at_r == sign_type::zero ? sign_type::zero : sign_type::uncertain;
+    switch (slope) {
+        case sign_type::negative:
+            return {at_r == sign_type::positive ? ends.at1 : nearer, ends.at1};
+        case sign_type::positive:
+            return {ends.at0, at_r == sign_type::positive ? ends.at0 : nearer};
+        default:
+            // slope = 0 and Y = 0 at t_l: a double root, where l vanishes.
+            if (slope == sign_type::zero && at_r == sign_type::zero)
+                return {sign_type::zero, sign_type::zero};
+            return {sign_type::uncertain, sign_type::uncertain};
+    }
+}
+
+/// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of
+/// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign_of(y0·y3)·sign J.
+template <class S>
+bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
+    const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
+                             y[0] * g[3] - g[0] * y[3], y[0] * g[4]};
+    return normalized(bernstein<S, 2>{
+        {y[3] * e[0] - e[3] * y[0], y[3] * e[1] - e[3] * y[1], y[3] * e[2] - e[3] * y[2]}});
+}
+
+/// Polynomial decomposition: j0·j2·Y = M·J + s·t·R with M, R linear. At an inner root of Y,
+/// M·J = −s·t·R, so sign J = −sign M · sign R where M is not zero.
+template <class S>
+struct decomposition {
+    bernstein<S, 1> m, r;
+    decomposition(const cubic<S>& y, const bernstein<S, 2>& j)
+        : m(normalized(bernstein<S, 1>{{y[0] * j[2], y[3] * j[0]}})) {
+        const S jj = j[0] * j[2];
+        // m before normalisation is what the identity needs.
+        const S m0 = y[0] * j[2], m1 = y[3] * j[0];
+        r = normalized(bernstein<S, 1>{
+            {jj * y[1] - m0 * j[1] - m1 * j[0], jj * y[2] - m0 * j[2] - m1 * j[1]}});
+    }
+};
+
+/// sign J from those of M and R; where M vanishes at the root, the root is M's and J is asked there.
+template <class S>
+sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
+                   const bernstein<S, 2>& j) {
+    if (m != sign_type::zero) return -(m * r);
+    if (!linear_signs(m_form).opposite()) return sign_type::uncertain;
+    const linear_root<S> root(m_form);
+    return sign_of(value_at(j, root.s, root.t));
+}
+
+/// The sign of the quartic g at the only inner root of Y (as in sign_at_crossing).
+template <class S>
+sign_type sign_at_crossing(const cubic<S>& y, sign_type before, const bernstein<S, 4>& g) {
+    const sign_type hull = sign_inside(g);
+    if (certain(hull)) return hull;
+    const bernstein<S, 2> j = reduced(y, g);
+    const sign_type hull_j = sign_inside(j);
+    if (certain(hull_j)) return -hull_j;  // y0·y3 < 0
+    const decomposition<S> parts(y, j);
+    return -combined(sign_at_crossing(y, before, parts.m), sign_at_crossing(y, before, parts.r),
+                     parts.m, j);
+}
+
+/// The signs of the quartic g at the two inner roots of Y (as in signs_at_pair).
+template <class S>
+sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const bernstein<S, 4>& g) {
+    const sign_type hull = sign_inside(g);
+    if (certain(hull)) return {hull, hull};
+    const bernstein<S, 2> j = reduced(y, g);
+    const sign_type hull_j = sign_inside(j);
+    if (certain(hull_j)) return {hull_j, hull_j};  // y0·y3 > 0
+    const decomposition<S> parts(y, j);
+    const sign_pair m = signs_at_pair(y, d, parts.m), r = signs_at_pair(y, d, parts.r);
+    return {combined(m[0], r[0], parts.m, j), combined(m[1], r[1], parts.m, j)};
+}
+
+/// The sign of Y at its only inner extremum t_ex, for Y convex there (d0 < 0 < d2 assumed).
+/// Root-finding lemma, reduced at one end: by Euler, Y = A + t·D/3 = B − s·D/3 with the
+/// quadratics A (y0, 2y1/3, y2/3) and B, so at t_ex Y = A = B. Cancelling s² of A by D leaves
+/// d0·Y(t_ex) = t·M(t_ex), cancelling t² of B leaves d2·Y(t_ex) = s·M'(t_ex), with linear M, M'.
+template <class S>
+sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
+    // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
+    const auto sign_at = [&d](const bernstein<S, 1>& form) {
+        const bernstein<S, 1> l = normalized(form);
+        const linear_signs ends(l);
+        if (!ends.opposite()) return ends.inside();
+        const linear_root<S> r(l);
+        switch (sign_of(value_at(d, r.s, r.t))) {
+            case sign_type::negative: return ends.at1;
+            case sign_type::positive: return ends.at0;
+            case sign_type::zero: return sign_type::zero;
+            default: return sign_type::uncertain;
+        }
+    };
+    const S three(3), two(2);
+    // 3·(d0·A − y0·D)/t with 3A = (3y0, 2y1, y2).
+    const sign_type from_left = -sign_at(bernstein<S, 1>{
+        {two * (d[0] * y[1]) - three * (y[0] * d[1]), d[0] * y[2] - three * (y[0] * d[2])}});
+    if (certain(from_left)) return from_left;
+    // 3·(d2·B − y3·D)/s with 3B = (y1, 2y2, 3y3).
+    return sign_at(bernstein<S, 1>{
+        {d[2] * y[1] - three * (y[3] * d[0]), two * (d[2] * y[2]) - three * (y[3] * d[1])}});
+}
+
+/// A root of Y exactly at an end of the part, if it can be there: the G_i are asked at that end.
+template <class S, std::size_t M>
+existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
+    if (!possibly_zero(y_end)) return existence::no;
+    conjunction all(y_end == sign_type::zero);
+    for (std::size_t i = 0; i < M && !all.excluded(); ++i)
+        all.require_nonnegative(sign_of(g[i][coefficient]));
+    return all.result();
+}
+
+/// One inner root at which Y leaves the strict sign `before`.
+template <class S, std::size_t M>
+existence at_crossing(const cubic<S>& y, sign_type before, bool root_is_certain,
+                      const quartics<S, M>& g) {
+    conjunction all(root_is_certain);
+    for (std::size_t i = 0; i < M && !all.excluded(); ++i)
+        all.require_nonnegative(sign_at_crossing(y, before, g[i]));
+    return all.result();
+}
+
+/// Two inner roots, or a double one, of a convex Y that is positive at both ends.
+template <class S, std::size_t M>
+existence at_pair(const cubic<S>& y, const bernstein<S, 2>& d, bool ends_are_certain,
+                  const quartics<S, M>& g) {
+    const sign_type d0 = sign_of(d[0]), d2 = sign_of(d[2]);
+    if (certainly_nonnegative(d0) || certainly_nonpositive(d2)) return existence::no;  // monotone
+    // Uncertain d0 or d2: either Y is monotone and there is no root, or d0 < 0 < d2 holds, so
+    // it may be assumed.
+    const sign_type lowest = sign_at_extremum(y, d);
+    if (lowest == sign_type::positive) return existence::no;
+    const bool roots_are_certain =
+        ends_are_certain && certain(d0) && certain(d2) && certain(lowest);
+    std::array<conjunction, 2> all{conjunction(roots_are_certain), conjunction(roots_are_certain)};
+    for (std::size_t i = 0; i < M && !(all[0].excluded() && all[1].excluded()); ++i) {
+        const sign_pair signs = signs_at_pair(y, d, g[i]);
+        all[0].require_nonnegative(signs[0]);
+        all[1].require_nonnegative(signs[1]);
+    }
+    return either(all[0].result(), all[1].result());
+}
+
+/// Y strictly increasing on (0, 1): at most one root, at an end or inner.
+template <class S, std::size_t M>
+existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
+    const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
+    existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
+    if (possibly_negative(y0) && possibly_positive(y3))
+        found = either(found, at_crossing(y, sign_type::negative, certain(y0) && certain(y3), g));
+    return found;
+}
+
+/// Y convex and not constant on [0, 1]: every world of end signs.
+template <class S, std::size_t M>
+existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<S, M>& g) {
+    const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
+    const bool ends_are_certain = certain(y0) && certain(y3);
+    existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
+    // An end value of exactly zero leaves the inner roots that a negative one would: a convex Y
+    // with Y(0) = 0 and an inner root is negative before it.
+    if (!certainly_nonnegative(y0) || y0 == sign_type::zero) {
+        if (possibly_positive(y3))
+            found = either(found,
+                           at_crossing(y, sign_type::negative,
+                                       ends_are_certain && y0 == sign_type::negative, g));
+    }
+    if (possibly_positive(y0)) {
+        if (possibly_negative(y3) || y3 == sign_type::zero)
+            found = either(found,
+                           at_crossing(y, sign_type::positive,
+                                       ends_are_certain && y3 == sign_type::negative, g));
+        if (possibly_positive(y3)) found = either(found, at_pair(y, d, ends_are_certain, g));
+    }
+    return found;
+}
+
+/// Whether the coefficients alone exclude a root with all G_i >= 0.
+template <class S, std::size_t M>
+bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
+    const sign_type hull = sign_throughout(y);
+    if (hull == sign_type::positive || hull == sign_type::negative) return true;
+    for (const bernstein<S, 4>& form : g)
+        if (sign_throughout(form) == sign_type::negative) return true;
+    return false;
+}
+
+/// Y with the known curvature: `curvature` is the strict sign of Y'' on (0, 1), or uncertain.
+template <class S, std::size_t M>
+existence on_part(const cubic<S>& y, const quartics<S, M>& g, sign_type curvature,
+                  int halvings_left) {
+    if (excluded_by_hull(y, g)) return existence::no;
+    const bernstein<S, 2> d = derivative(y);
+    const sign_type slope = sign_inside(d);
+    if (slope == sign_type::positive) return on_increasing(y, g);
+    if (slope == sign_type::negative) return on_increasing(-y, g);
+    if (slope == sign_type::zero)  // Y is constant
+        return possibly_zero(sign_of(y[0])) ? existence::maybe_root : existence::no;
+
+    const bernstein<S, 1> second = derivative(d);
+    const linear_signs ends(second);
+    if (!certain(curvature) && !ends.opposite()) curvature = ends.inside();
+    if (curvature == sign_type::positive) return on_convex(y, d, g);
+    if (curvature == sign_type::negative) return on_convex(-y, -d, g);
+    const auto parts_of = [&g](const auto& form_parts_of, const cubic<S>& cubic_form) {
+        struct {
+            cubic<S> y_left, y_right;
+            quartics<S, M> g_left, g_right;
+        } parts;
+        auto halves_of_y = form_parts_of(cubic_form);
+        parts.y_left = normalized(halves_of_y.first);
+        parts.y_right = normalized(halves_of_y.second);
+        for (std::size_t i = 0; i < M; ++i) {
+            auto halves_of_g = form_parts_of(g[i]);
+            parts.g_left[i] = normalized(halves_of_g.first);
+            parts.g_right[i] = normalized(halves_of_g.second);
+        }
+        return parts;
+    };
+    if (ends.opposite()) {
+        const linear_root<S> inflection(second);
+        const auto parts = parts_of(
+            [&](const auto& form) { return split(form, inflection.s, inflection.t); }, y);
+        const existence left = on_part(parts.y_left, parts.g_left, ends.at0, 0);
+        if (left == existence::yes) return left;
+        return either(left, on_part(parts.y_right, parts.g_right, ends.at1, 0));
+    }
+    if (halvings_left == 0) return existence::maybe_root;
+    const auto parts = parts_of([](const auto& form) { return halves(form); }, y);
+    const existence left =
+        on_part(parts.y_left, parts.g_left, sign_type::uncertain, halvings_left - 1);
+    if (left != existence::no) return left;  // so that at most `max_halvings` leaves are visited
+    return on_part(parts.y_right, parts.g_right, sign_type::uncertain, halvings_left - 1);
+}
+
+}  // namespace bsc
+
+/// Is there t in [0, 1] with y(t) = 0 and every g_i(t) >= 0? `make_g()` gives the g_i as a
+/// std::array and is called only if y may have a root.
+///
+/// `yes` and `no` are certain for every scalar whose signs are; all g_i are then strictly positive
+/// at a root of y, or no such t exists. For Y ≡ 0 the answer is `no` or `maybe_root`.
+/// Cost: bounded; some hundred operations of S in the common cases, at most a few thousand.
+template <class S, class MakeConstraints>
+existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
+    const bsc::cubic<S> cubic = normalized(y);
+    const sign_type hull = sign_throughout(cubic);
+    if (hull == sign_type::positive || hull == sign_type::negative) return existence::no;
+    auto g = make_g();
+    for (auto& form : g) form = normalized(form);
+    return bsc::on_part(cubic, g, sign_type::uncertain, bsc::max_halvings);
+}
+
+}  // namespace errbound

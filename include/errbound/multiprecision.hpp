@@ -1,0 +1,25 @@
+// Boost.Multiprecision's exact numbers as errbound scalars (optional header; needs Boost).
+#pragma once
+
+#include <boost/multiprecision/number.hpp>
+
+#include <errbound/sign.hpp>
+
+namespace errbound {
+
+/// Integers and rationals of unbounded size are exact; floating-point backends are not.
+template <class Backend, boost::multiprecision::expression_template_option Et>
+inline constexpr bool is_exact_number<boost::multiprecision::number<Backend, Et>> =
+    boost::multiprecision::number_category<Backend>::value ==
+        boost::multiprecision::number_kind_integer ||
+    boost::multiprecision::number_category<Backend>::value ==
+        boost::multiprecision::number_kind_rational;
+
+/// x·2^e for small e >= 0.
+template <exact_number Number>
+Number scale(Number x, int e) {
+    for (; e > 0; --e) x += x;
+    return x;
+}
+
+}  // namespace errbound

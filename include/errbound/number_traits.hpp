@@ -1,0 +1,43 @@
+// Facts about a floating-point number type: unit roundoff, underflow unit, exponents.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include <errbound/environment.hpp>
+
+namespace errbound {
+
+/// Specialise for a type of one's own (a SIMD pack, a multi-precision float); the defaults serve
+/// every type with a std::numeric_limits.
+template <class T>
+struct number_traits {
+    static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,
+                  "errbound: specialise errbound::number_traits for this number type");
+
+    /// Largest relative error of one rounding in any direction, the paper's ε = 2u: 2^-52 for
+    /// double, 2^-23 for float.
+    static constexpr T epsilon() { return std::numeric_limits<T>::epsilon(); }
+    /// Largest relative error of one rounding to nearest: u = ε/2.
+    static constexpr T unit_roundoff() { return epsilon() / 2; }
+    /// Smallest positive number: an operation that underflows is off by less than this.
+    static constexpr T underflow_unit() { return std::numeric_limits<T>::denorm_min(); }
+    static constexpr T smallest_normal() { return std::numeric_limits<T>::min(); }
+    static constexpr T largest() { return std::numeric_limits<T>::max(); }
+    static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
+    static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
+
+    static constexpr T abs(const T& x) { return x < 0 ? -x : x; }
+    static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }
+    static constexpr bool is_finite(const T& x) { return abs(x) <= largest(); }
+    /// x·2^e, rounded once.
+    static T scale(const T& x, int e) { return std::ldexp(x, e); }
+    /// e with 2^(e−1) <= |x| < 2^e, for x finite and not zero.
+    static int exponent(const T& x) {
+        int e = 0;
+        (void)std::frexp(x, &e);
+        return e;
+    }
+};
+
+}  // namespace errbound

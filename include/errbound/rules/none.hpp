@@ -1,0 +1,51 @@
+// Bound rule `none`: plain arithmetic, no bound, no promise.
+#pragma once
+
+#include <errbound/rules/operand.hpp>
+
+namespace errbound {
+
+/// Treats every finite result as exact, as unprotected code does: signs are guesses. Results that
+/// are not finite are still uncertain.
+struct none {
+    static constexpr const char* name = "none";
+
+    template <class T>
+    struct bound {};
+
+    template <class T>
+    static constexpr bound<T> exact(const T&) {
+        return {};
+    }
+    template <class T>
+    static constexpr bound<T> within(const T&, const T&) {
+        return {};
+    }
+    template <class T>
+    static constexpr T error(const T& value, const bound<T>&) {
+        using traits = number_traits<T>;
+        return traits::is_finite(value) ? T(0) : traits::infinity();
+    }
+    template <class T>
+    static constexpr bound<T> add(const T&, operand<T, none>, operand<T, none>) {
+        return {};
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T&, operand<T, none>, operand<T, none>) {
+        return {};
+    }
+    template <class T>
+    static constexpr bound<T> multiply(const T&, operand<T, none>, operand<T, none>) {
+        return {};
+    }
+    template <class T>
+    static constexpr bound<T> divide(const T&, operand<T, none>, operand<T, none>) {
+        return {};
+    }
+    template <class T>
+    static bound<T> scale(const T&, operand<T, none>, int) {
+        return {};
+    }
+};
+
+}  // namespace errbound

@@ -1,0 +1,25 @@
+// What a bound rule sees of an operand: its value and the bound that the rule itself gave it.
+//
+// A bound rule is a type with
+//   template <class T> struct bound              what it stores beside a value
+//   exact(value)                                 the bound of a number that is exact
+//   within(value, error)                         of a number known to be within error of value
+//   error(value, bound)                          an upper bound of |value − true value|;
+//                                                infinity or NaN: nothing is known
+//   add, subtract, multiply(result, a, b)        the bound of the rounded result of a ∘ b
+//   divide(result, a, b)                         likewise; leave it out if the rule has none
+//   scale(result, a, e)                          the bound of result = a·2^e, rounded once
+// All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
+#pragma once
+
+#include <errbound/number_traits.hpp>
+
+namespace errbound {
+
+template <class T, class Rule>
+struct operand {
+    const T& value;
+    const typename Rule::template bound<T>& bound;
+};
+
+}  // namespace errbound

@@ -1,0 +1,101 @@
+// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), with its gaps closed.
+//
+// A number is known by (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Closed here:
+//  * B is itself rounded: every B is multiplied by 1 + 4ε, so that it is at least the exact
+//    Ba + Bb or Ba·Bb in any rounding direction;
+//  * underflow: B of a product is at least the smallest normal number m. A product that underflows
+//    is off by at most η = mε <= Bε, which is what one more in k pays; one that does not
+//    underflow is off by ε of itself, which the same k pays;
+//  * exact zero: a product with an exact zero is an exact zero;
+//  * overflow: B is then infinite, the value infinite or NaN, and no sign passes.
+// There is no rule for division: (B, k) has no lower bound of |f| to divide by.
+#pragma once
+
+#include <errbound/rules/operand.hpp>
+
+namespace errbound {
+
+struct safe {
+    static constexpr const char* name = "safe";
+
+    template <class T>
+    struct bound {
+        T magnitude;     ///< B
+        int operations;  ///< k; 0 for an exact number
+    };
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        return {number_traits<T>::abs(value), 0};
+    }
+    /// B = max(|value| + error, error/ε), k = 1: then Bε >= error.
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        using traits = number_traits<T>;
+        if (error == 0) return exact(value);
+        return {enlarged<T>(traits::max(traits::abs(value) + error, error / traits::epsilon())), 1};
+    }
+    /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; unknown beyond.
+    template <class T>
+    static constexpr T error(const T& value, const bound<T>& b) {
+        using traits = number_traits<T>;
+        const T x = T(b.operations) * traits::epsilon();
+        if (!(x <= 1) || !traits::is_finite(value)) return traits::infinity();
+        if (b.operations == 0) return T(0);
+        return enlarged<T>(b.magnitude * enlarged<T>(x * (1 + x)) + traits::underflow_unit());
+    }
+
+    /// B = Ba + Bb, k = max(ka, kb) + 1.
+    template <class T>
+    static constexpr bound<T> add(const T&, operand<T, safe> a, operand<T, safe> b) {
+        const int k = a.bound.operations < b.bound.operations ? b.bound.operations
+                                                              : a.bound.operations;
+        return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, operand<T, safe> a, operand<T, safe> b) {
+        return add(v, a, b);
+    }
+    /// B = Ba·Bb, k = ka + kb + 1.
+    template <class T>
+    static constexpr bound<T> multiply(const T&, operand<T, safe> a, operand<T, safe> b) {
+        using traits = number_traits<T>;
+        if (is_zero(a) || is_zero(b)) return {T(0), 0};
+        return {traits::max(enlarged<T>(a.bound.magnitude * b.bound.magnitude),
+                            traits::smallest_normal()),
+                counted(a.bound.operations + b.bound.operations)};
+    }
+    template <class T>
+    static constexpr bound<T> divide(const T&, operand<T, safe>, operand<T, safe>) {
+        static_assert(sizeof(T) == 0,
+                      "errbound: SafeBound has no rule for division (it bounds numbers from above "
+                      "only); use the rule `tight`, or rewrite the expression without division");
+        return {};
+    }
+    /// (B·2^e, k) is exact unless it underflows; B is then kept at the smallest normal number and
+    /// one more in k pays.
+    template <class T>
+    static bound<T> scale(const T& v, operand<T, safe> a, int e) {
+        using traits = number_traits<T>;
+        const T scaled = traits::scale(a.bound.magnitude, e);
+        if (e >= 0 || (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.magnitude))
+            return {scaled, a.bound.operations};
+        return {traits::max(enlarged<T>(scaled), traits::smallest_normal()),
+                counted(a.bound.operations)};
+    }
+
+  private:
+    /// k + 1, saturated far above the k whose error() is infinite.
+    static constexpr int counted(int k) { return k < (1 << 29) ? k + 1 : k; }
+
+    template <class T>
+    static constexpr T enlarged(const T& x) {
+        return x * (1 + 4 * number_traits<T>::epsilon());
+    }
+    template <class T>
+    static constexpr bool is_zero(operand<T, safe> a) {
+        return a.value == 0 && a.bound.operations == 0;
+    }
+};
+
+}  // namespace errbound

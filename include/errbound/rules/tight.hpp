@@ -1,0 +1,104 @@
+// Bound rule `tight`: TightBound (Theorem 1 of the TightCCD paper), with its gaps closed.
+//
+// Notation: u the unit roundoff, ε = 2u, η the smallest positive number, v the computed result,
+// σ a bound. Closed here, beyond the printed rule:
+//  * the bound is itself rounded: every bound is multiplied by 1 + 8ε at the end, which exceeds
+//    the at most six roundings (each within a factor 1 ± ε, in any rounding direction) on the way
+//    to it: (1 + 8ε)(1 − ε)^6 > 1;
+//  * underflow: a product's value and the three products inside its bound are each off by less
+//    than η where they underflow, so 4η is added. Sums need none: a sum that is not exact is at
+//    least 2^p·η in size, and |v|ε is then at least its last place;
+//  * exact zero: a product with an exact zero is an exact zero, without the 4η;
+//  * overflow: an infinite or NaN value has an infinite or NaN bound, which no sign passes.
+#pragma once
+
+#include <errbound/rules/operand.hpp>
+
+namespace errbound {
+
+struct tight {
+    static constexpr const char* name = "tight";
+
+    /// |value − true value| <= error.
+    template <class T>
+    struct bound {
+        T error;
+    };
+
+    template <class T>
+    static constexpr bound<T> exact(const T&) {
+        return {T(0)};
+    }
+    template <class T>
+    static constexpr bound<T> within(const T&, const T& error) {
+        return {error};
+    }
+    template <class T>
+    static constexpr T error(const T&, const bound<T>& b) {
+        return b.error;
+    }
+
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add.
+    template <class T>
+    static constexpr bound<T> add(const T& v, operand<T, tight> a, operand<T, tight> b) {
+        return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error))};
+    }
+    /// Source: Theorem 1, Subtract.
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, operand<T, tight> a, operand<T, tight> b) {
+        return add(v, a, b);
+    }
+    /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply.
+    template <class T>
+    static constexpr bound<T> multiply(const T& v, operand<T, tight> a, operand<T, tight> b) {
+        using traits = number_traits<T>;
+        if (is_zero(a) || is_zero(b)) return {rounding(v)};  // 0, or NaN if the other is not finite
+        const T inherited = traits::abs(a.value) * b.bound.error +
+                            a.bound.error * (traits::abs(b.value) + b.bound.error);
+        return {inflated<T>(rounding(v) + inherited + 4 * traits::underflow_unit())};
+    }
+    /// Where |b̂| > σb: |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb), which is the printed
+    /// rule with its numerator multiplied out: σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb.
+    /// Elsewhere the result is unknown. Source: Theorem 1, Divide.
+    template <class T>
+    static constexpr bound<T> divide(const T& v, operand<T, tight> a, operand<T, tight> b) {
+        using traits = number_traits<T>;
+        const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
+        if (!(distance > 0)) return {traits::infinity()};
+        if (is_zero(a)) return {rounding(v)};
+        // |â/b̂| itself may have been rounded down; inflated() is applied to it alone too. Where b is
+        // not exact, 4η pays for underflow in the numerator before the division enlarges it.
+        const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
+        const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
+        const T inherited = (a.bound.error + quotient * b.bound.error + lost) / distance;
+        return {inflated<T>(rounding(v) + inflated<T>(inherited) + 4 * traits::underflow_unit())};
+    }
+    /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
+    /// by less than η.
+    template <class T>
+    static bound<T> scale(const T& v, operand<T, tight> a, int e) {
+        using traits = number_traits<T>;
+        const T scaled = traits::scale(a.bound.error, e);
+        const bool lossless =
+            e >= 0 || (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.error);
+        return {lossless ? scaled + (v - v) : scaled + 2 * traits::underflow_unit()};
+    }
+
+  private:
+    /// ε/(1 − ε) to within ε³; the factor 1 + 8ε covers the rest.
+    template <class T>
+    static constexpr T rounding(const T& v) {
+        using traits = number_traits<T>;
+        return traits::abs(v) * (traits::epsilon() * (1 + traits::epsilon()));
+    }
+    template <class T>
+    static constexpr T inflated(const T& bound) {
+        return bound * (1 + 8 * number_traits<T>::epsilon());
+    }
+    template <class T>
+    static constexpr bool is_zero(operand<T, tight> a) {
+        return a.value == 0 && a.bound.error == 0;
+    }
+};
+
+}  // namespace errbound

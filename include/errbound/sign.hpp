@@ -1,0 +1,57 @@
+// Signs that are certain, and the one answer that is not.
+#pragma once
+
+#include <cstdint>
+
+namespace errbound {
+
+/// The sign of a number known up to a bound. `uncertain` is no sign and converts to none.
+enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
+
+constexpr bool certain(sign_type s) { return s != sign_type::uncertain; }
+constexpr bool certainly_nonnegative(sign_type s) {
+    return s == sign_type::zero || s == sign_type::positive;
+}
+constexpr bool certainly_nonpositive(sign_type s) {
+    return s == sign_type::zero || s == sign_type::negative;
+}
+constexpr bool possibly_positive(sign_type s) {
+    return s == sign_type::positive || s == sign_type::uncertain;
+}
+constexpr bool possibly_negative(sign_type s) {
+    return s == sign_type::negative || s == sign_type::uncertain;
+}
+constexpr bool possibly_zero(sign_type s) {
+    return s == sign_type::zero || s == sign_type::uncertain;
+}
+
+/// The sign of −x.
+constexpr sign_type operator-(sign_type s) {
+    if (s == sign_type::negative) return sign_type::positive;
+    if (s == sign_type::positive) return sign_type::negative;
+    return s;
+}
+
+/// The sign of x·y. A certain zero makes the product zero whatever the other factor is.
+constexpr sign_type operator*(sign_type a, sign_type b) {
+    if (a == sign_type::zero || b == sign_type::zero) return sign_type::zero;
+    if (!certain(a) || !certain(b)) return sign_type::uncertain;
+    return a == b ? sign_type::positive : sign_type::negative;
+}
+
+/// True for types whose operations + − × are exact (integers and rationals of any size).
+/// errbound/multiprecision.hpp says so for Boost.Multiprecision's.
+template <class T>
+inline constexpr bool is_exact_number = false;
+
+template <class T>
+concept exact_number = is_exact_number<T>;
+
+/// The sign of an exact number: never uncertain.
+template <exact_number T>
+constexpr sign_type sign_of(const T& x) {
+    if (x > 0) return sign_type::positive;
+    return x < 0 ? sign_type::negative : sign_type::zero;
+}
+
+}  // namespace errbound

@@ -1,0 +1,103 @@
+// The tracked scalar: a value and a certified bound on its rounding error.
+//
+//   using number = errbound::tracked<double>;            // rule `tight`
+//   number x = 0.1, y = number::within(0.2, 1e-12);      // exact; known to within 1e-12
+//   sign_of(x * y - x);                                     // never a guess
+//
+// No exceptions, no allocation, no global state, no virtual calls. For x of any rule but `none`:
+// the number that exact arithmetic would have given lies within x.error() of x.value().
+#pragma once
+
+#include <concepts>
+
+#include <errbound/number_traits.hpp>
+#include <errbound/rules/none.hpp>
+#include <errbound/rules/safe.hpp>
+#include <errbound/rules/tight.hpp>
+#include <errbound/sign.hpp>
+
+namespace errbound {
+
+/// T: float, double, long double or any type with the same operations and a number_traits.
+/// Rule: how bounds propagate (rules/operand.hpp says what a rule is).
+template <class T = double, class Rule = tight>
+class tracked {
+  public:
+    using value_type = T;
+    using rule_type = Rule;
+    using bound_type = typename Rule::template bound<T>;
+
+    /// Exactly zero.
+    constexpr tracked() : tracked(T(0)) {}
+    /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
+    constexpr tracked(const T& value) : value_(value), bound_(Rule::exact(value)) {}
+    /// Exactly `value`, for literals such as 2. Every int is exact in double; in float up to 2^24.
+    constexpr tracked(int value)
+        requires(!std::same_as<T, int>)
+        : tracked(T(value)) {}
+    /// A number that is known to lie within `error` >= 0 of `value`.
+    static constexpr tracked within(const T& value, const T& error) {
+        return {value, Rule::within(value, error)};
+    }
+
+    /// The value that plain arithmetic would have computed.
+    constexpr const T& value() const { return value_; }
+    /// An upper bound of |value() − exact value|; infinity or NaN where nothing is known.
+    constexpr T error() const { return Rule::error(value_, bound_); }
+    /// What the rule stores, for those who study bounds.
+    constexpr const bound_type& bound() const { return bound_; }
+
+    friend constexpr tracked operator+(const tracked& a, const tracked& b) {
+        const T v = a.value_ + b.value_;
+        return {v, Rule::template add<T>(v, a.as_operand(), b.as_operand())};
+    }
+    friend constexpr tracked operator-(const tracked& a, const tracked& b) {
+        const T v = a.value_ - b.value_;
+        return {v, Rule::template subtract<T>(v, a.as_operand(), b.as_operand())};
+    }
+    friend constexpr tracked operator*(const tracked& a, const tracked& b) {
+        const T v = a.value_ * b.value_;
+        return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
+    }
+    /// Does not compile for a rule without division. Unknown where b may be zero.
+    friend constexpr tracked operator/(const tracked& a, const tracked& b) {
+        const T v = a.value_ / b.value_;
+        return {v, Rule::template divide<T>(v, a.as_operand(), b.as_operand())};
+    }
+    constexpr tracked operator-() const { return {-value_, bound_}; }
+    constexpr tracked operator+() const { return *this; }
+    constexpr tracked& operator+=(const tracked& b) { return *this = *this + b; }
+    constexpr tracked& operator-=(const tracked& b) { return *this = *this - b; }
+    constexpr tracked& operator*=(const tracked& b) { return *this = *this * b; }
+    constexpr tracked& operator/=(const tracked& b) { return *this = *this / b; }
+
+    /// x·2^e: exact unless it underflows, and then the bound says so.
+    friend tracked scale(const tracked& x, int e) {
+        const T v = number_traits<T>::scale(x.value_, e);
+        return {v, Rule::template scale<T>(v, x.as_operand(), e)};
+    }
+
+    /// The certain sign. Strict: a value that equals its bound may belong to zero.
+    friend constexpr sign_type sign_of(const tracked& x) {
+        const T e = x.error();
+        if (x.value_ > e) return sign_type::positive;
+        if (x.value_ < -e) return sign_type::negative;
+        return x.value_ == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
+    }
+    /// The certain sign of a − b. There is no operator<: it would have to guess.
+    friend constexpr sign_type compare(const tracked& a, const tracked& b) { return sign_of(a - b); }
+
+  private:
+    constexpr tracked(const T& value, const bound_type& bound) : value_(value), bound_(bound) {}
+    constexpr operand<T, Rule> as_operand() const { return {value_, bound_}; }
+
+    T value_;
+    [[no_unique_address]] bound_type bound_;
+};
+
+template <class>
+inline constexpr bool is_tracked = false;
+template <class T, class Rule>
+inline constexpr bool is_tracked<tracked<T, Rule>> = true;
+
+}  // namespace errbound

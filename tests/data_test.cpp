@@ -1,0 +1,99 @@
+// The stored queries with truth, from the public benchmark: exact errs never, the filters never
+// miss a collision.
+//
+// Their place is the environment's ERRBOUND_SHARED_DATA, else what the build was given.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/io/query_file.hpp>
+#include <ccd/method.hpp>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path data_folder() {
+    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
+#ifdef ERRBOUND_SHARED_DATA
+    return ERRBOUND_SHARED_DATA;
+#else
+    return {};
+#endif
+}
+
+// Every folder that holds query files names their kind in its own or in their names.
+std::vector<fs::path> query_paths(const fs::path& folder) {
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() == ".csv") paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+ccd::verdict decide(ccd::method method, const ccd::io::query_file& file, std::size_t i) {
+    return file.kind == ccd::io::query_kind::vertex_face
+               ? ccd::decide(method, file.vertex_face_queries[i])
+               : ccd::decide(method, file.edge_edge_queries[i]);
+}
+
+struct errors {
+    std::size_t queries = 0, uncertain = 0, false_positives = 0, false_negatives = 0;
+};
+
+class stored_queries : public testing::TestWithParam<ccd::method> {};
+
+TEST_P(stored_queries, promise_is_kept) {
+    const fs::path folder = data_folder();
+    if (!fs::is_directory(folder)) {
+        GTEST_SKIP() << "No stored queries at \"" << folder.string()
+                     << "\": set ERRBOUND_SHARED_DATA to the folder that holds them.";
+    }
+    const ccd::method_info& method = ccd::info(GetParam());
+    errors all;
+    for (const fs::path& path : query_paths(folder)) {
+        const ccd::io::query_file file = ccd::io::read_queries(path, std::nullopt, false);
+        if (!file.truth) continue;
+        ASSERT_EQ(file.truth->size(), file.size()) << path;
+        for (std::size_t i = 0; i < file.size(); ++i) {
+            const bool truth = (*file.truth)[i];
+            const ccd::verdict said = decide(method.method, file, i);
+            const bool lost = truth && !ccd::may_collide(said);
+            const bool invented = !truth && ccd::may_collide(said);
+            ++all.queries;
+            all.uncertain += said.outcome == ccd::outcome::uncertain;
+            all.false_negatives += lost;
+            all.false_positives += invented;
+            if (!method.may_lose_collisions) {
+                EXPECT_FALSE(lost) << method.name << " lost query " << i << " of " << path;
+                EXPECT_FALSE(!truth && said.outcome == ccd::outcome::collides)
+                    << method.name << " is certain of a false collision: query " << i << " of "
+                    << path;
+            }
+            if (!method.may_report_false_collisions) {
+                EXPECT_FALSE(invented) << method.name << " invented query " << i << " of " << path;
+                EXPECT_NE(said.outcome, ccd::outcome::uncertain) << "query " << i << " of " << path;
+            }
+        }
+    }
+    EXPECT_GT(all.queries, 0u) << "no query with truth under " << folder;
+    std::cout << method.name << ": " << all.queries << " queries, " << all.false_positives
+              << " false positives, " << all.false_negatives << " false negatives, "
+              << all.uncertain << " uncertain\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(methods, stored_queries,
+                         testing::Values(ccd::method::float_, ccd::method::safe, ccd::method::tight,
+                                         ccd::method::exact),
+                         [](const testing::TestParamInfo<ccd::method>& method) {
+                             return std::string(ccd::info(method.param).name);
+                         });
+
+}  // namespace

@@ -1,0 +1,305 @@
+# Tests of the program `ccd` as a user runs it: exit statuses, messages, files it writes.
+# The path to the program is in the environment variable CCD_PROGRAM.
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CCD_PROGRAM"]
+
+# A vertex that falls through a triangle, and one that stays above it.
+HIT = "1,4,1,4,1,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,1,1,0,1\n" \
+      "1,4,1,4,-1,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,1,1,0,1\n"
+MISS = HIT.replace("1,4,1,4,-1,1", "1,4,1,4,1,2")
+
+
+def with_truth(rows, truth):
+    return "".join(f"{row},{truth}\n" for row in rows.splitlines())
+
+
+def ply(vertices, faces, vertex_count=None, face_count=None):
+    lines = ["ply", "format ascii 1.0",
+             f"element vertex {len(vertices) if vertex_count is None else vertex_count}",
+             "property double x", "property double y", "property double z",
+             f"element face {len(faces) if face_count is None else face_count}",
+             "property list uchar int vertex_indices", "end_header"]
+    lines += [" ".join(map(str, v)) for v in vertices]
+    lines += [" ".join(map(str, (len(f), *f))) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+# Two triangles, the second falling through the first.
+BASE = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+TOP = [(0.2, 0.2, 1), (0.4, 0.2, 1.125), (0.2, 0.4, 1.25)]
+FACES = [(5, 4, 3), (0, 1, 2)]
+BEFORE = BASE + TOP
+AFTER = BASE + [(x, y, z - 2) for x, y, z in TOP]
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name)
+
+    def write(self, name, content):
+        path = self.directory / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return str(path)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                              timeout=120)
+
+    def good(self, *arguments):
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def bad_input(self, message, *arguments):
+        """Exit status 1, the message, nothing printed, no output file left."""
+        before = sorted(self.directory.rglob("*"))
+        out = self.directory / "bad.out"
+        outputs = ["--json", out]
+        if arguments[0] == "query" and "--method" in arguments:
+            outputs += ["--verdicts", self.directory / "bad.verdicts"]
+        if arguments[0] == "step":
+            outputs += ["--pairs", self.directory / "bad.pairs"]
+        done = self.run_program(*arguments, *outputs)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn(message, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertLess(len(done.stderr), 600)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(sorted(self.directory.rglob("*")), before)
+
+    def bad_usage(self, *arguments):
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertNotEqual(done.stderr, "")
+        return done.stderr
+
+
+class Query(ProgramTest):
+    def test_table_and_json_agree(self):
+        file = self.write("vertex-face/data.csv",
+                          with_truth(HIT, 1) + with_truth(MISS, 0) + with_truth(MISS, 1))
+        out = self.directory / "out.json"
+        text = self.good("query", file, "--json", out)
+        rows = [line.split() for line in text.splitlines()]
+        self.assertEqual(rows[0], ["file", "kind", "method", "queries", "collisions", "FP", "FN",
+                                   "ns/query"])
+        results = json.loads(out.read_text())
+        self.assertEqual([row[2] for row in rows[1:]], [r["method"] for r in results])
+        self.assertIn("exact", [r["method"] for r in results])
+        for row, result in zip(rows[1:], results):
+            self.assertEqual(list(result), ["file", "kind", "method", "queries", "collisions",
+                                            "false_positives", "false_negatives", "ns_per_query"])
+            self.assertEqual(row[:7], [file, "vf", result["method"], "3", str(result["collisions"]),
+                                       str(result["false_positives"]),
+                                       str(result["false_negatives"])])
+            self.assertGreater(result["ns_per_query"], 0)
+        exact = next(r for r in results if r["method"] == "exact")
+        self.assertEqual((exact["collisions"], exact["false_positives"],
+                          exact["false_negatives"]), (1, 0, 1))
+
+    def test_without_truth(self):
+        file = self.write("plain.csv", HIT)
+        out = self.directory / "out.json"
+        text = self.good("query", file, "--kind", "vf", "--method", "exact", "--json", out)
+        self.assertEqual(text.splitlines()[1].split()[5:7], ["-", "-"])
+        result = json.loads(out.read_text())[0]
+        self.assertIsNone(result["false_positives"])
+        self.assertIsNone(result["false_negatives"])
+
+    def test_verdicts(self):
+        file = self.write("vf.csv", HIT + MISS + HIT)
+        out = self.directory / "verdicts"
+        self.good("query", file, "--method", "exact", "--verdicts", out)
+        self.assertEqual(out.read_text(), "1\n0\n1\n")
+
+    def test_truth_beside_the_file(self):
+        file = self.write("scene/queries/1vf.csv", HIT + MISS)
+        self.write("scene/mma_bool/1vf_mma_bool.json", "[true,true]")
+        text = self.good("query", "--method", "exact", file)
+        self.assertEqual(text.splitlines()[1].split()[4:7], ["1", "0", "1"])
+
+    def test_method_list_kind_and_several_files(self):
+        first, second = self.write("a.csv", HIT), self.write("b.csv", MISS)
+        text = self.good("query", "--kind", "ee", "--method", "exact,float", first, second)
+        self.assertEqual([line.split()[:3] for line in text.splitlines()[1:]],
+                         [[first, "ee", "exact"], [first, "ee", "float"],
+                          [second, "ee", "exact"], [second, "ee", "float"]])
+
+    def test_round(self):
+        file = self.write("vf.csv", HIT.replace("1,4,1,4,1,1", "1,3,1,3,1,1"))
+        self.bad_input("vf.csv:1: found '1'/'3' as x, which no double equals", "query", file)
+        self.good("query", file, "--round")
+
+    def test_hexadecimal_rows(self):
+        rows = ["0x1p-2,0.25,1"] + ["0,0,0", "1,0,0", "0,1,0"] + \
+               ["0x1p-2,0.25,-0x1p0"] + ["0,0,0", "1,0,0", "0,1,0"]
+        file = self.write("vf.csv", "\r\n".join(rows))
+        text = self.good("query", file, "--method", "exact")
+        self.assertEqual(text.splitlines()[1].split()[4], "1")
+
+    def test_bad_input(self):
+        garbage = bytes(range(256)) * 64
+        for name, content, message in [
+                ("empty", "", "empty/vf.csv: found an empty file, expected"),
+                ("truncated", HIT + "1,1,1,1,1,1\n" * 3, "found a truncated query"),
+                ("token", HIT.replace("1,4,1", "1,4,one", 1),
+                 "token/vf.csv:1: found 'one' as the numerator of y, expected an integer"),
+                ("zero", HIT.replace("1,4", "1,0", 1), "nonzero denominator"),
+                ("nan", "nan,0,0\n" * 8, "found 'nan' as x, expected a finite number"),
+                ("infinity", "0,inf,0\n" * 8, "found 'inf' as y, expected a finite number"),
+                ("overflow", "0,0,1e999\n" * 8, "overflows"),
+                ("garbage", garbage, "garbage/vf.csv:1: found"),
+                ("mixed", "1,1,1,1,1,1\n1,1,1\n", "columns, expected 6")]:
+            with self.subTest(name):
+                file = self.write(f"{name}/vf.csv", content)
+                self.bad_input(message, "query", file, "--method", "exact")
+        self.bad_input("no such file", "query", self.directory / "none" / "vf.csv")
+        self.bad_input("found a directory", "query", self.directory, "--kind", "vf")
+        self.bad_input("found no kind of query", "query", self.write("data.csv", HIT))
+        good = self.write("good/vf.csv", HIT)
+        self.bad_input("no such file", "query", good, self.directory / "vf.csv")
+        self.write("s/mma_bool/1vf_mma_bool.json", "[true,true]")
+        self.bad_input("found 2 truth values, expected 1", "query",
+                       self.write("s/queries/1vf.csv", HIT))
+
+    def test_output_that_cannot_be_written(self):
+        file = self.write("vf.csv", HIT)
+        for out in [self.directory / "none" / "out", self.directory]:
+            done = self.run_program("query", file, "--json", out)
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertIn(str(out), done.stderr)
+        self.assertEqual(os.listdir(self.directory), ["vf.csv"])
+
+    def test_failed_run_keeps_the_old_output(self):
+        out = self.write("out", "old\n")
+        done = self.run_program("query", self.write("vf.csv", HIT + "x"), "--json", out)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(pathlib.Path(out).read_text(), "old\n")
+
+    def test_bad_usage(self):
+        file = self.write("vf.csv", HIT)
+        self.bad_usage()
+        self.bad_usage("decide")
+        self.bad_usage("query")
+        self.bad_usage("query", file, "--kind", "vertex")
+        self.bad_usage("query", file, "--no-such-option")
+        self.assertIn("found 'magic', expected one of",
+                      self.bad_usage("query", file, "--method", "exact,magic"))
+        self.bad_usage("query", file, "--method", "exact,")
+        out = self.directory / "out"
+        self.bad_usage("query", file, "--verdicts", out)
+        self.bad_usage("query", file, "--method", "exact,float", "--verdicts", out)
+        self.bad_usage("query", file, file, "--method", "exact", "--verdicts", out)
+        self.assertFalse(out.exists())
+
+
+class Step(ProgramTest):
+    def test_pairs_and_json(self):
+        before = self.write("0.ply", ply(BEFORE, FACES))
+        after = self.write("1.ply", ply(AFTER, FACES))
+        pairs, out = self.directory / "pairs", self.directory / "json"
+        text = self.good("step", before, after, "--pairs", pairs, "--json", out)
+        lines = [line.split(",") for line in pairs.read_text().splitlines()]
+        for kind in ("vf", "ee"):
+            of_kind = [tuple(map(int, line[1:])) for line in lines if line[0] == kind]
+            self.assertEqual(of_kind, sorted(set(of_kind)))
+        # Each vertex of the falling triangle goes through the other; faces in ascending form.
+        self.assertEqual([line for line in lines if line[0] == "vf"],
+                         [["vf", str(v), "0", "1", "2"] for v in (3, 4, 5)])
+        for kind, *indices in lines:
+            i = list(map(int, indices))
+            ordered = i[1:] == sorted(i[1:]) if kind == "vf" else \
+                i[0] < i[1] and i[2] < i[3] and i[:2] < i[2:]
+            self.assertTrue(ordered, (kind, i))
+        result = json.loads(out.read_text())
+        self.assertEqual(list(result), ["method", "candidates", "collisions", "seconds", "threads",
+                                        "peak_memory_bytes"])
+        self.assertEqual(result["method"], "exact")
+        count = {name: sum(line[0] == kind for line in lines)
+                 for name, kind in (("vertex_face", "vf"), ("edge_edge", "ee"))}
+        self.assertEqual(result["collisions"], count)
+        self.assertEqual(set(result["seconds"]), {"read", "broad", "narrow"})
+        self.assertGreater(result["peak_memory_bytes"], 1 << 20)
+        table = {row.split()[0]: row.split()[1:] for row in text.splitlines() if row}
+        self.assertEqual(table["vertex-face"],
+                         [str(result["candidates"]["vertex_face"]), str(count["vertex_face"])])
+        self.assertEqual(table["edge-edge"],
+                         [str(result["candidates"]["edge_edge"]), str(count["edge_edge"])])
+
+    def test_threads_methods_and_obj_agree(self):
+        def obj(vertices):
+            return "".join("v %r %r %r\n" % v for v in vertices) + \
+                "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES)
+        frames = [self.write("0.obj", obj(BEFORE)), self.write("1.ply", ply(AFTER, FACES))]
+        expected = None
+        for options in ([], ["--threads", 1], ["--threads", 3], ["--method", "exact"]):
+            pairs = self.directory / "pairs"
+            self.good("step", *frames, "--pairs", pairs, *options)
+            expected = expected or pairs.read_text()
+            self.assertEqual(pairs.read_text(), expected)
+
+    def test_bad_input(self):
+        good = self.write("good.ply", ply(BEFORE, FACES))
+        binary = b"ply\nformat binary_little_endian 1.0\nelement vertex 4000000\n" \
+                 b"property double x\nproperty double y\nproperty double z\nelement face 1\n" \
+                 b"property list uchar int vertex_indices\nend_header\n" + bytes(100)
+        infinite = [(0, 0, "inf")] + BEFORE[1:]
+        for name, content, message in [
+                ("empty.ply", "", "found an empty file"),
+                ("garbage.ply", bytes(range(256)), "found"),
+                ("garbage.obj", bytes(range(256)), "found no vertices"),
+                ("counts.ply", ply(BEFORE, FACES, vertex_count=7), "expected the end of the line"),
+                ("faces.ply", ply(BEFORE, FACES, face_count=3), "truncated, or a wrong count"),
+                ("trailing.ply", ply(BEFORE, FACES, face_count=1), "after the last element"),
+                ("truncated.ply", binary, "truncated, or a wrong count"),
+                ("range.ply", ply(BEFORE, [(0, 1, 2), (3, 4, 6)]),
+                 "face 1: found vertex index 6, expected less than 6"),
+                ("negative.ply", ply(BEFORE, [(0, 1, -2)]), "found vertex index -2"),
+                ("two.ply", ply(BEFORE, [(0, 1)]), "found a face with 2 vertices"),
+                ("four.ply", ply(BEFORE, [(0, 1, 2, 3)]), "found a face with 4 vertices"),
+                ("nan.ply", ply([("nan", 0, 0)] + BEFORE[1:], FACES), "found 'nan'"),
+                ("infinity.ply", ply(infinite, FACES), "found 'inf'"),
+                ("topology.ply", ply(BEFORE, [(5, 4, 3), (0, 2, 1)]),
+                 "face 1: found vertices 0 2 1, expected 0 1 2 as in"),
+                ("fewer.ply", ply(BEFORE, FACES[:1]), "found 1 faces, expected 2 as in"),
+                ("more.ply", ply(BEFORE + BASE, FACES), "found 9 vertices, expected 6 as in"),
+                ("mesh.stl", "solid\n", "expected .ply or .obj")]:
+            with self.subTest(name):
+                self.bad_input(message, "step", good, self.write("bad/" + name, content))
+        self.bad_input("no such file", "step", good, self.directory / "none.ply")
+        self.bad_input("found a directory", "step", good, self.directory)
+
+    def test_bad_usage(self):
+        frame = self.write("0.ply", ply(BEFORE, FACES))
+        self.bad_usage("step", frame)
+        self.bad_usage("step", frame, frame, frame)
+        self.bad_usage("step", frame, frame, "--method", "exact,float")
+        self.bad_usage("step", frame, frame, "--threads", "-1")
+        self.bad_usage("step", frame, frame, "--threads", "many")
+
+
+class Methods(ProgramTest):
+    def test_methods(self):
+        text = self.good("methods")
+        for name in ("float", "safe", "tight", "exact"):
+            self.assertRegex(text, rf"(?m)^{name} ")
+        self.bad_usage("methods", "more")
+
+    def test_help(self):
+        self.assertIn("query", self.good("--help"))
+        for command in ("query", "step", "methods"):
+            self.good(command, "--help")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,342 @@
+// Random queries of every family: the exact verdict against the oracle, the filters against the
+// exact verdict, and what must not change an exact verdict.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <ccd/method.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "oracle.hpp"
+#include "query_families.hpp"
+
+namespace {
+
+using query_families::families;
+using query_families::kind;
+using query_families::points;
+
+constexpr std::size_t family_count = std::size(families);
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+std::uint64_t seed() {
+    return from_environment("ERRBOUND_PROPERTY_SEED", 1);
+}
+
+std::uint64_t queries_per_family() {
+    return from_environment("ERRBOUND_PROPERTY_QUERIES", 200000) / family_count + 1;
+}
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+    std::array<char, 256> text;
+    std::snprintf(text.data(), text.size(), pattern, values...);
+    return text.data();
+}
+
+// Eight rows in the order of the benchmark's files: all points at t = 0, then all at t = 1.
+std::string csv(const points& p) {
+    std::string rows;
+    const auto row = [&](const ccd::point<double>& at) {
+        rows += format("%a,%a,%a\n", at.x, at.y, at.z);
+    };
+    for (const auto& m : p) row(m.t0);
+    for (const auto& m : p) row(m.t1);
+    return rows;
+}
+
+std::string_view name(kind which) {
+    return which == kind::vertex_face   ? "vertex-face"
+           : which == kind::edge_edge   ? "edge-edge"
+           : which == kind::vertex_edge ? "vertex-edge"
+                                        : "vertex-vertex";
+}
+
+ccd::verdict decide(ccd::method method, kind which, const points& p) {
+    return which == kind::vertex_face ? ccd::decide(method, query_families::as_vertex_face(p))
+                                      : ccd::decide(method, query_families::as_edge_edge(p));
+}
+
+bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle::shortcuts::on) {
+    switch (which) {
+        case kind::vertex_face:
+            return oracle::collides(query_families::as_vertex_face(p), use);
+        case kind::edge_edge:
+            return oracle::collides(query_families::as_edge_edge(p), use);
+        case kind::vertex_edge:
+            return oracle::collides(query_families::as_vertex_edge(p), use);
+        case kind::vertex_vertex:
+            return oracle::collides(query_families::as_vertex_vertex(p), use);
+    }
+    return false;
+}
+
+std::string_view name(ccd::outcome outcome) {
+    return outcome == ccd::outcome::separate   ? "separate"
+           : outcome == ccd::outcome::collides ? "collides"
+                                               : "uncertain";
+}
+
+// What one family's queries came to.
+struct tally {
+    std::uint64_t queries = 0;
+    std::uint64_t collisions = 0;
+    std::uint64_t false_positives[3] = {};  // float, safe, tight
+    std::uint64_t float_false_negatives = 0;
+
+    void add(const tally& other) {
+        queries += other.queries;
+        collisions += other.collisions;
+        for (std::size_t i = 0; i < 3; ++i) false_positives[i] += other.false_positives[i];
+        float_false_negatives += other.float_false_negatives;
+    }
+};
+
+// One thread's part: its tallies and what it found wrong, so that threads share nothing.
+struct report {
+    std::array<tally, family_count> tallies{};
+    std::vector<std::string> failures;
+};
+
+// Runs check(family, index, report) for every query, spread over the machine's threads.
+template <class Check>
+report for_all_queries(std::uint64_t per_family, const Check& check) {
+    const unsigned workers = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<report> reports(workers);
+    std::vector<std::thread> threads;
+    for (unsigned worker = 0; worker < workers; ++worker) {
+        threads.emplace_back([&, worker] {
+            for (std::size_t family = 0; family < family_count; ++family) {
+                for (std::uint64_t i = worker; i < per_family; i += workers) {
+                    check(family, i, reports[worker]);
+                }
+            }
+        });
+    }
+    for (std::thread& t : threads) t.join();
+    report total;
+    for (report& r : reports) {
+        for (std::size_t i = 0; i < family_count; ++i) total.tallies[i].add(r.tallies[i]);
+        std::move(r.failures.begin(), r.failures.end(), std::back_inserter(total.failures));
+    }
+    return total;
+}
+
+void expect_no_failures(const report& r) {
+    constexpr std::size_t shown = 5;
+    for (std::size_t i = 0; i < std::min(shown, r.failures.size()); ++i) {
+        ADD_FAILURE() << r.failures[i];
+    }
+    EXPECT_EQ(r.failures.size(), 0u) << "of them the first " << shown << " are shown";
+}
+
+std::string describe(std::size_t family, kind which, std::uint64_t index, const points& p,
+                     const std::string& what) {
+    return what + "\nfamily " + std::string(families[family].name) + ", " +
+           std::string(name(which)) + ", ERRBOUND_PROPERTY_SEED=" + std::to_string(seed()) +
+           ", index " + std::to_string(index) + "\n" + csv(p);
+}
+
+void check_methods(kind which, std::size_t family, std::uint64_t index, report& out) {
+    const points p = query_families::make(families[family], which, seed(), index);
+    const bool truth = oracle_collides(which, p);
+    const ccd::outcome right = truth ? ccd::outcome::collides : ccd::outcome::separate;
+    tally& count = out.tallies[family];
+    ++count.queries;
+    count.collisions += truth;
+    const auto fail = [&](ccd::method method, ccd::outcome said) {
+        const std::string what = std::string(ccd::info(method).name) + " says " +
+                                 std::string(name(said)) + ", the oracle says " +
+                                 std::string(name(right));
+        out.failures.push_back(describe(family, which, index, p, what));
+    };
+    const ccd::outcome exact = decide(ccd::method::exact, which, p).outcome;
+    if (exact != right) fail(ccd::method::exact, exact);
+
+    std::size_t column = 0;
+    for (const ccd::method method : {ccd::method::float_, ccd::method::safe, ccd::method::tight}) {
+        const ccd::verdict said = decide(method, which, p);
+        count.false_positives[column++] += !truth && ccd::may_collide(said);
+        if (method == ccd::method::float_) {
+            count.float_false_negatives += truth && !ccd::may_collide(said);
+        } else if (said.outcome != ccd::outcome::uncertain && said.outcome != right) {
+            fail(method, said.outcome);
+        }
+    }
+}
+
+void print(kind which, const report& r) {
+    std::cout << format("%-22s%9s%11s%10s%9s%9s%10s\n", std::string(name(which)).c_str(), "queries",
+                        "collisions", "float FP", "safe FP", "tight FP", "float FN");
+    const auto row = [](std::string_view title, const tally& t) {
+        std::cout << format(
+            "%-22s%9ju%11ju%10ju%9ju%9ju%10ju\n", std::string(title).c_str(),
+            std::uintmax_t{t.queries}, std::uintmax_t{t.collisions},
+            std::uintmax_t{t.false_positives[0]}, std::uintmax_t{t.false_positives[1]},
+            std::uintmax_t{t.false_positives[2]}, std::uintmax_t{t.float_false_negatives});
+    };
+    tally total;
+    for (std::size_t i = 0; i < family_count; ++i) {
+        row(families[i].name, r.tallies[i]);
+        total.add(r.tallies[i]);
+    }
+    row("all", total);
+}
+
+void expect_promises_kept(kind which) {
+    const report r = for_all_queries(queries_per_family(),
+                                     [which](std::size_t family, std::uint64_t index, report& out) {
+                                         check_methods(which, family, index, out);
+                                     });
+    print(which, r);
+    expect_no_failures(r);
+}
+
+TEST(promises, vertex_face) {
+    expect_promises_kept(kind::vertex_face);
+}
+
+TEST(promises, edge_edge) {
+    expect_promises_kept(kind::edge_edge);
+}
+
+// A face with equal corners is an edge or a vertex, and so is an edge with equal ends; the oracle
+// has decisions of its own for those.
+TEST(promises, features_that_are_smaller_than_they_look) {
+    const auto check = [](std::size_t family, std::uint64_t index, report& out) {
+        const auto agree = [&](kind which, const points& original, const points& as_face,
+                               const points& as_edges) {
+            const ccd::outcome right =
+                oracle_collides(which, original) ? ccd::outcome::collides : ccd::outcome::separate;
+            if (decide(ccd::method::exact, kind::vertex_face, as_face).outcome != right) {
+                out.failures.push_back(describe(family, which, index, original, "as vertex-face"));
+            }
+            if (decide(ccd::method::exact, kind::edge_edge, as_edges).outcome != right) {
+                out.failures.push_back(describe(family, which, index, original, "as edge-edge"));
+            }
+        };
+        const points e = query_families::make(families[family], kind::vertex_edge, seed(), index);
+        agree(kind::vertex_edge, e, {e[0], e[1], e[2], e[1]}, {e[0], e[0], e[1], e[2]});
+        const points v = query_families::make(families[family], kind::vertex_vertex, seed(), index);
+        agree(kind::vertex_vertex, v, {v[0], v[1], v[1], v[1]}, {v[0], v[0], v[1], v[1]});
+    };
+    expect_no_failures(for_all_queries(queries_per_family() / 10 + 1, check));
+}
+
+TEST(oracle, shortcuts_change_nothing) {
+    const auto check = [](std::size_t family, std::uint64_t index, report& out) {
+        for (const kind which :
+             {kind::vertex_face, kind::edge_edge, kind::vertex_edge, kind::vertex_vertex}) {
+            const points p = query_families::make(families[family], which, seed(), index);
+            if (oracle_collides(which, p, oracle::shortcuts::on) !=
+                oracle_collides(which, p, oracle::shortcuts::off)) {
+                out.failures.push_back(describe(family, which, index, p, "shortcut differs"));
+            }
+        }
+    };
+    expect_no_failures(for_all_queries(queries_per_family() / 20 + 1, check));
+}
+
+// ---- Symmetries of exact verdicts ----
+
+// RapidCheck's own default is 100 cases. It reads its parameters once, at the first property.
+const bool enough_cases = setenv("RC_PARAMS", "max_success=3000", 0) == 0;
+
+points any_query(kind which) {
+    const auto family = *rc::gen::inRange<std::size_t>(0, family_count).as("family");
+    const auto index = *rc::gen::inRange<std::uint64_t>(0, 1000000).as("index");
+    const points p = query_families::make(families[family], which, seed(), index);
+    RC_LOG(csv(p));
+    return p;
+}
+
+kind any_kind() {
+    return *rc::gen::element(kind::vertex_face, kind::edge_edge).as("0 vertex-face, 1 edge-edge");
+}
+
+bool same_verdict(kind which, const points& a, const points& b) {
+    const ccd::verdict verdict = decide(ccd::method::exact, which, a);
+    return verdict.outcome != ccd::outcome::uncertain &&
+           verdict == decide(ccd::method::exact, which, b);
+}
+
+template <class Change>
+points changed(points p, Change change) {
+    for (auto& m : p) {
+        change(m.t0);
+        change(m.t1);
+    }
+    return p;
+}
+
+RC_GTEST_PROP(symmetries, corners_of_a_face, ()) {
+    const points p = any_query(kind::vertex_face);
+    RC_ASSERT(same_verdict(kind::vertex_face, p, {p[0], p[2], p[3], p[1]}));
+    RC_ASSERT(same_verdict(kind::vertex_face, p, {p[0], p[1], p[3], p[2]}));
+}
+
+RC_GTEST_PROP(symmetries, edges_and_their_ends, ()) {
+    const points p = any_query(kind::edge_edge);
+    RC_ASSERT(same_verdict(kind::edge_edge, p, {p[1], p[0], p[2], p[3]}));
+    RC_ASSERT(same_verdict(kind::edge_edge, p, {p[0], p[1], p[3], p[2]}));
+    RC_ASSERT(same_verdict(kind::edge_edge, p, {p[2], p[3], p[0], p[1]}));
+}
+
+RC_GTEST_PROP(symmetries, time_reversed, ()) {
+    const kind which = any_kind();
+    const points p = any_query(which);
+    points reversed = p;
+    for (auto& m : reversed) std::swap(m.t0, m.t1);
+    RC_ASSERT(same_verdict(which, p, reversed));
+}
+
+RC_GTEST_PROP(symmetries, axes_exchanged, ()) {
+    const kind which = any_kind();
+    const points p = any_query(which);
+    RC_ASSERT(same_verdict(which, p, changed(p, [](ccd::point<double>& at) {
+                               at = {at.y, at.z, at.x};
+                           })));
+    RC_ASSERT(
+        same_verdict(which, p, changed(p, [](ccd::point<double>& at) { std::swap(at.x, at.y); })));
+}
+
+RC_GTEST_PROP(symmetries, mirrored, ()) {
+    const kind which = any_kind();
+    const points p = any_query(which);
+    RC_ASSERT(same_verdict(which, p, changed(p, [](ccd::point<double>& at) { at.z = -at.z; })));
+}
+
+RC_GTEST_PROP(symmetries, scaled_by_a_power_of_two, ()) {
+    const kind which = any_kind();
+    const points p = any_query(which);
+    const int exponent = *rc::gen::inRange(-1000, 1001).as("exponent");
+    bool exact = true;
+    const points scaled = changed(p, [&](ccd::point<double>& at) {
+        for (double* x : {&at.x, &at.y, &at.z}) {
+            const double original = *x;
+            *x = std::ldexp(original, exponent);
+            exact = exact && std::isfinite(*x) && std::ldexp(*x, -exponent) == original;
+        }
+    });
+    RC_PRE(exact);
+    RC_ASSERT(same_verdict(which, p, scaled));
+}
+
+}  // namespace
