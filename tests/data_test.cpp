@@ -28,7 +28,6 @@ fs::path data_folder() {
 #endif
 }
 
-// Every folder that holds query files names their kind in its own or in their names.
 std::vector<fs::path> query_paths(const fs::path& folder) {
     std::vector<fs::path> paths;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

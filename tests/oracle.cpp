@@ -159,9 +159,9 @@ struct instant {
 const dyadic start{0, 0};
 const dyadic finish{1, 0};
 
-// Finds a dyadic root by chance of bisection, or isolates all roots of p between low and high.
-// Returns true if a root was hit exactly; then `found` ends with it and the search starts anew
-// without that root, since a Tarski query may not end on one.
+// Isolates all roots of p between low and high by bisection. If a middle happens to be a root it
+// stops and returns true, with that root at the end of `found`: a Tarski query may not end on a
+// root, so the search must start anew without it.
 bool hits_root(const polynomial& p, const chain& sturm, const dyadic& low, const dyadic& high,
                int changes_low, int changes_high, std::vector<instant>& found) {
     if (changes_low == changes_high) return false;

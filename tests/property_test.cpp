@@ -13,10 +13,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <thread>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -124,7 +124,8 @@ report for_all_queries(std::uint64_t per_family, const Check& check) {
     for (unsigned worker = 0; worker < workers; ++worker) {
         threads.emplace_back([&, worker] {
             for (std::size_t family = 0; family < family_count; ++family) {
-                for (std::uint64_t i = worker; i < per_family; i += workers) {
+                for (std::uint64_t i = worker; i * families[family].thinning < per_family;
+                     i += workers) {
                     check(family, i, reports[worker]);
                 }
             }

@@ -15,11 +15,4 @@ inline constexpr bool is_exact_number<boost::multiprecision::number<Backend, Et>
     boost::multiprecision::number_category<Backend>::value ==
         boost::multiprecision::number_kind_rational;
 
-/// x·2^e for small e >= 0.
-template <exact_number Number>
-Number scale(Number x, int e) {
-    for (; e > 0; --e) x += x;
-    return x;
-}
-
 }  // namespace errbound

@@ -54,4 +54,11 @@ constexpr sign_type sign_of(const T& x) {
     return x < 0 ? sign_type::negative : sign_type::zero;
 }
 
+/// x·2^e for small e >= 0.
+template <exact_number Number>
+Number scale(Number x, int e) {
+    for (; e > 0; --e) x += x;
+    return x;
+}
+
 }  // namespace errbound

@@ -9,7 +9,9 @@
 //    than η where they underflow, so 4η is added. Sums need none: a sum that is not exact is at
 //    least 2^p·η in size, and |v|ε is then at least its last place;
 //  * exact zero: a product with an exact zero is an exact zero, without the 4η;
-//  * overflow: an infinite or NaN value has an infinite or NaN bound, which no sign passes.
+//  * overflow: an infinite or NaN value has an infinite or NaN bound, which no sign passes. (Under
+//    directed rounding an operation on values or bounds may overflow to the largest finite number
+//    instead; that is the one thing not noticed there.)
 #pragma once
 
 #include <errbound/rules/operand.hpp>
@@ -26,12 +28,12 @@ struct tight {
     };
 
     template <class T>
-    static constexpr bound<T> exact(const T&) {
-        return {T(0)};
+    static constexpr bound<T> exact(const T& value) {
+        return {value - value};  // 0, or NaN if the value is not finite
     }
     template <class T>
-    static constexpr bound<T> within(const T&, const T& error) {
-        return {error};
+    static constexpr bound<T> within(const T& value, const T& error) {
+        return {error + (value - value)};
     }
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
@@ -81,7 +83,7 @@ struct tight {
         const T scaled = traits::scale(a.bound.error, e);
         const bool lossless =
             e >= 0 || (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.error);
-        return {lossless ? scaled + (v - v) : scaled + 2 * traits::underflow_unit()};
+        return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
   private:

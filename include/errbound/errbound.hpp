@@ -1,0 +1,7 @@
+// Everything of errbound that needs nothing but the standard library.
+#pragma once
+
+#include <errbound/bernstein.hpp>
+#include <errbound/bsc.hpp>
+#include <errbound/environment.hpp>
+#include <errbound/tracked.hpp>

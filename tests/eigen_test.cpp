@@ -1,0 +1,28 @@
+// Tracked scalars inside Eigen's matrices.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <errbound/eigen.hpp>
+
+namespace {
+
+using errbound::sign_type;
+using number = errbound::tracked<double>;
+
+TEST(Eigen, MatricesOfTrackedScalars) {
+    Eigen::Matrix<number, 3, 3> m;
+    m << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0;
+    const number by_columns = m.col(0).cross(m.col(1)).dot(m.col(2));
+    const number determinant = m.determinant();
+    EXPECT_EQ(by_columns.value(), -3);
+    EXPECT_EQ(determinant.value(), -3);
+    EXPECT_GT(determinant.error(), 0);
+    EXPECT_EQ(sign_of(determinant), sign_type::negative);
+    const Eigen::Matrix<number, 3, 3> square = m * m - m.transpose();
+    EXPECT_EQ(square(0, 0).value(), 1 + 8 + 21 - 1);
+    Eigen::Matrix<number, Eigen::Dynamic, 1> v = Eigen::Matrix<number, Eigen::Dynamic, 1>::Ones(5);
+    EXPECT_EQ(v.sum().value(), 5);
+    EXPECT_LT(v.sum().error(), 1e-14);
+}
+
+}  // namespace

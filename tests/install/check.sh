@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Installs a build tree to a temporary prefix, then builds and runs a separate project against it.
+# Arguments: source folder, build folder, C++ compiler.
+set -euo pipefail
+source=$1 build=$2 compiler=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cmake --install "$build" --prefix "$work/prefix" >/dev/null
+cmake -S "$source/tests/install" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" \
+      -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build "$work/build" >/dev/null
+"$work/build/use_headers"
+"$work/build/use_ccd"
+"$work/prefix/bin/ccd" methods | grep -q exact
+echo "installed package found, built against and run"

@@ -1,0 +1,4 @@
+// Compiled with -ffast-math: the headers must refuse.
+#include <errbound/tracked.hpp>
+
+int main() { return 0; }

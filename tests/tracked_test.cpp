@@ -1,0 +1,240 @@
+// The tracked scalar against rationals: every rule, number type and rounding direction; bounds from
+// both sides; exact zero, underflow, overflow, NaN.
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/gmp.hpp>
+#include <cfenv>
+#include <cmath>
+#include <cstdint>
+#include <errbound/errbound.hpp>
+#include <errbound/multiprecision.hpp>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using errbound::sign_type;
+using errbound::tracked;
+using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
+                                               boost::multiprecision::et_off>;
+
+template <class T>
+rational exactly(T x) {
+    int e = 0;
+    const T m = std::ldexp(std::frexp(x, &e), std::numeric_limits<T>::digits);
+    e -= std::numeric_limits<T>::digits;
+    rational r(static_cast<std::int64_t>(m));
+    if constexpr (std::numeric_limits<T>::digits > 63) {
+        r = rational(static_cast<std::int64_t>(m / 2)) * 2 +
+            rational(static_cast<int>(m - 2 * std::trunc(m / 2)));
+    }
+    boost::multiprecision::mpz_int power = 1;
+    power <<= std::abs(e);
+    return e >= 0 ? rational(r * rational(power)) : rational(r / rational(power));
+}
+
+/// Values that find trouble: zeros, powers of two and their neighbours, subnormals, huge numbers,
+/// and mantissas with few bits (many exact results) or all bits.
+template <class T>
+T special_value(std::mt19937_64& random) {
+    using limits = std::numeric_limits<T>;
+    const int spread = static_cast<int>(random() % 4);
+    const int range = spread == 0 ? 4 : spread == 1 ? 60 : limits::max_exponent - 2;
+    const int e = static_cast<int>(random() % static_cast<unsigned>(2 * range + 1)) - range;
+    const bool few_bits = random() % 3 == 0;
+    const auto bits = static_cast<std::int64_t>(random() >> (few_bits ? 60 : 11));
+    switch (random() % 12) {
+        case 0:
+            return T(0);
+        case 1:
+            return limits::denorm_min() * T(static_cast<int>(random() % 8));
+        case 2:
+            return limits::min() * T(static_cast<int>(random() % 5));
+        case 3:
+            return std::nextafter(std::ldexp(T(1), e), random() % 2 ? T(0) : limits::max());
+        default:
+            break;
+    }
+    const T m = T(bits) * (random() % 2 ? T(1) : T(-1));
+    return std::ldexp(m, e - (few_bits ? 4 : 53));
+}
+
+/// A value or one of its own kind of operand that arrives with a bound, and the exact number that
+/// it stands for.
+template <class Number>
+struct sample {
+    Number number;
+    rational exact;
+};
+
+template <class T, class Rule>
+void check(const sample<tracked<T, Rule>>& s, const std::string& what) {
+    const T value = s.number.value(), error = s.number.error();
+    const sign_type sign = sign_of(s.number);
+    if (!std::isfinite(value) || !std::isfinite(error)) {
+        ASSERT_EQ(sign, sign_type::uncertain) << what;
+        return;
+    }
+    ASSERT_GE(error, T(0)) << what;
+    const rational off = exactly(value) - s.exact;
+    ASSERT_LE(boost::multiprecision::abs(off), exactly(error))
+        << what << " value " << value << " error " << error;
+    ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << what;
+}
+
+/// Random programs: each step combines two earlier numbers; exact numbers and numbers with bounds
+/// come in at random. Division only where the rule has it.
+template <class T, class Rule, bool WithDivision>
+void run_programs(int programs, std::uint64_t seed) {
+    using number = tracked<T, Rule>;
+    std::mt19937_64 random(seed);
+    for (int k = 0; k < programs; ++k) {
+        std::vector<sample<number>> pool;
+        for (int i = 0; i < 4; ++i) {
+            const T value = special_value<T>(random);
+            if (random() % 4 == 0) {
+                const T error = std::abs(special_value<T>(random)) * (random() % 2 ? T(1) : T(0));
+                const rational offset =
+                    exactly(error) * rational(static_cast<int>(random() % 9) - 4) / 4;
+                pool.push_back({number::within(value, error), exactly(value) + offset});
+            } else {
+                pool.push_back({number(value), exactly(value)});
+            }
+        }
+        for (int step = 0; step < 7; ++step) {
+            const auto& a = pool[random() % pool.size()];
+            const auto& b = pool[random() % pool.size()];
+            sample<number> c = a;
+            std::string what = std::string(Rule::name) + " seed " + std::to_string(seed) +
+                               " program " + std::to_string(k) + " step " + std::to_string(step);
+            switch (random() % (WithDivision ? 6 : 5)) {
+                case 0:
+                    c = {a.number + b.number, a.exact + b.exact};
+                    break;
+                case 1:
+                    c = {a.number - b.number, a.exact - b.exact};
+                    break;
+                case 2:
+                    c = {a.number * b.number, a.exact * b.exact};
+                    break;
+                case 3:
+                    c = {-a.number, -a.exact};
+                    break;
+                case 4: {
+                    const int e = static_cast<int>(random() % 200) - 100;
+                    const rational factor = exactly(std::ldexp(T(1), e));
+                    c = {scale(a.number, e), a.exact * factor};
+                    break;
+                }
+                default:
+                    if constexpr (WithDivision) {
+                        if (b.exact == 0) continue;
+                        c = {a.number / b.number, a.exact / b.exact};
+                    }
+            }
+            // Overflow to the largest finite number, in directed rounding: see rules/tight.hpp.
+            if (std::fegetround() != FE_TONEAREST &&
+                (std::abs(c.number.value()) == std::numeric_limits<T>::max() ||
+                 c.number.error() == std::numeric_limits<T>::max()))
+                continue;
+            check(c, what);
+            if (testing::Test::HasFatalFailure()) return;
+            pool.push_back(c);
+        }
+    }
+}
+
+constexpr int programs = 20000;
+
+TEST(Tracked, BoundsHoldInRandomPrograms) {
+    run_programs<double, errbound::tight, true>(programs, 1);
+    run_programs<double, errbound::safe, false>(programs, 2);
+    run_programs<float, errbound::tight, true>(programs, 3);
+    run_programs<float, errbound::safe, false>(programs, 4);
+    run_programs<long double, errbound::tight, true>(programs / 10, 5);
+    run_programs<long double, errbound::safe, false>(programs / 10, 6);
+}
+
+TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
+    for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        ASSERT_EQ(std::fesetround(direction), 0);
+        run_programs<double, errbound::tight, true>(programs / 4, 7);
+        run_programs<double, errbound::safe, false>(programs / 4, 8);
+        std::fesetround(FE_TONEAREST);
+    }
+}
+
+// From the other side: a bound of one operation on exact, normal numbers is at most 1.01·ε|v|.
+TEST(Tracked, BoundsOfOneOperationAreTight) {
+    std::mt19937_64 random(9);
+    for (int k = 0; k < 10000; ++k) {
+        const double x = std::ldexp(static_cast<double>(random() >> 11), -53) + 1;
+        const double y = std::ldexp(static_cast<double>(random() >> 11), -50) + 1;
+        const tracked<double> a = x, b = y;
+        for (const auto& c : {a + b, a - b, a * b, a / b})
+            ASSERT_LE(c.error(), 1.01 * 0x1p-52 * std::abs(c.value()));
+    }
+}
+
+TEST(Tracked, ExactZeroIsNeitherPositiveNorUncertain) {
+    const tracked<double> x = 0.1, zero = x * tracked<double>(0);
+    EXPECT_EQ(sign_of(tracked<double>()), sign_type::zero);
+    EXPECT_EQ(sign_of(zero), sign_type::zero);
+    EXPECT_EQ(sign_of(tracked<double>(3) - tracked<double>(3)), sign_type::zero);
+    EXPECT_EQ(sign_of(tracked<double, errbound::safe>(0) * tracked<double, errbound::safe>(0.1)),
+              sign_type::zero);
+    // Zero by value only: uncertain.
+    EXPECT_EQ(sign_of((x + x) + x - tracked<double>(0.1 + 0.1 + 0.1)), sign_type::uncertain);
+    // A value that equals its bound may belong to zero.
+    EXPECT_EQ(sign_of(tracked<double>::within(1.0, 1.0)), sign_type::uncertain);
+}
+
+template <class Rule>
+void check_range() {
+    using number = tracked<double, Rule>;
+    const double huge = std::numeric_limits<double>::max();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const number nan(std::numeric_limits<double>::quiet_NaN());
+    for (const number& x : {number(huge) * number(huge), number(huge) + number(huge),
+                            number(-huge) - number(huge), number(infinity), number(-infinity), nan,
+                            number(0) * number(infinity), scale(number(huge), 1)})
+        EXPECT_EQ(sign_of(x), sign_type::uncertain) << Rule::name << " " << x.value();
+    // Underflow to zero and to the smallest number is not a sign where a bound is promised.
+    if constexpr (!std::same_as<Rule, errbound::none>) {
+        EXPECT_EQ(sign_of(number(1e-200) * number(1e-200)), sign_type::uncertain);
+        EXPECT_EQ(sign_of(number(1e-162) * number(3e-162)), sign_type::uncertain);
+        EXPECT_EQ(sign_of(scale(number(1.5), -1075)), sign_type::uncertain);
+    }
+}
+
+TEST(Tracked, OverflowAndUnderflowEndUncertain) {
+    check_range<errbound::tight>();
+    check_range<errbound::safe>();
+    check_range<errbound::none>();
+}
+
+TEST(Tracked, DivisionByWhatMayBeZeroIsUnknown) {
+    const auto b = tracked<double>::within(1e-3, 1e-3);
+    EXPECT_EQ(sign_of(tracked<double>(1) / b), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double>(1) / tracked<double>(0)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double>(0) / tracked<double>(3)), sign_type::zero);
+}
+
+TEST(Tracked, RulesAndTypesLiveSideBySideAndInConstantExpressions) {
+    constexpr tracked<double> a = 3, b = 0.25;
+    static_assert(sign_of(a * b - a) == sign_type::negative);
+    static_assert(compare(a, b) == sign_type::positive);
+    constexpr tracked<float, errbound::safe> c = 2.0F;
+    static_assert(sign_of(c * c) == sign_type::positive);
+    static_assert(sizeof(tracked<double, errbound::none>) == sizeof(double));
+}
+
+TEST(Environment, TheTestsRunInASoundOne) {
+    const auto report = errbound::floating_point_environment();
+    EXPECT_TRUE(report.sound());
+    EXPECT_TRUE(report.nearest_even);
+}
+
+}  // namespace
