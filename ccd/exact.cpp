@@ -11,15 +11,14 @@
 // other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
 // crossing edges) that did not hold at t = 0 began at an edge (or an end).
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
 #include <ccd/exact.hpp>
 #include <ccd/forms.hpp>
 #include <ccd/transform.hpp>
+#include <cmath>
+#include <cstdint>
 #include <errbound/multiprecision.hpp>
 #include <errbound/real_roots.hpp>
+#include <limits>
 #ifdef ERRBOUND_HAVE_GMP
 #include <boost/multiprecision/gmp.hpp>
 #else
@@ -220,14 +219,30 @@ Query<double> frozen(Query<double> query) {
 
 }  // namespace
 
-verdict decide_exact(const vertex_face<double>& q) { return decide_finite(q); }
-verdict decide_exact(const edge_edge<double>& q) { return decide_finite(q); }
-verdict decide_exact(const vertex_edge<double>& q) { return decide_finite(q); }
-verdict decide_exact(const vertex_vertex<double>& q) { return decide_finite(q); }
+verdict decide_exact(const vertex_face<double>& q) {
+    return decide_finite(q);
+}
+verdict decide_exact(const edge_edge<double>& q) {
+    return decide_finite(q);
+}
+verdict decide_exact(const vertex_edge<double>& q) {
+    return decide_finite(q);
+}
+verdict decide_exact(const vertex_vertex<double>& q) {
+    return decide_finite(q);
+}
 
-verdict touches_at_start(const vertex_face<double>& q) { return decide_finite(frozen(q)); }
-verdict touches_at_start(const edge_edge<double>& q) { return decide_finite(frozen(q)); }
-verdict touches_at_start(const vertex_edge<double>& q) { return decide_finite(frozen(q)); }
-verdict touches_at_start(const vertex_vertex<double>& q) { return decide_finite(frozen(q)); }
+verdict touches_at_start(const vertex_face<double>& q) {
+    return decide_finite(frozen(q));
+}
+verdict touches_at_start(const edge_edge<double>& q) {
+    return decide_finite(frozen(q));
+}
+verdict touches_at_start(const vertex_edge<double>& q) {
+    return decide_finite(frozen(q));
+}
+verdict touches_at_start(const vertex_vertex<double>& q) {
+    return decide_finite(frozen(q));
+}
 
 }  // namespace ccd

@@ -1,13 +1,12 @@
 // The table of methods and the dispatch by method.
+#include <algorithm>
+#include <array>
 #include <ccd/bsc.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <errbound/rules/none.hpp>
 #include <errbound/rules/safe.hpp>
 #include <errbound/rules/tight.hpp>
-
-#include <algorithm>
-#include <array>
 
 namespace ccd {
 namespace {
@@ -30,9 +29,12 @@ constexpr std::array<method_info, 4> table{{
 template <class Query>
 verdict decide_any(method m, const Query& query) {
     switch (m) {
-        case method::float_: return decide_bsc<errbound::none>(query);
-        case method::safe: return decide_bsc<errbound::safe>(query);
-        case method::tight: return decide_bsc<errbound::tight>(query);
+        case method::float_:
+            return decide_bsc<errbound::none>(query);
+        case method::safe:
+            return decide_bsc<errbound::safe>(query);
+        case method::tight:
+            return decide_bsc<errbound::tight>(query);
         case method::exact: {
             const verdict filtered = decide_bsc<errbound::tight>(query);
             return filtered.outcome == outcome::uncertain ? decide_exact(query) : filtered;
@@ -43,7 +45,9 @@ verdict decide_any(method m, const Query& query) {
 
 }  // namespace
 
-std::span<const method_info> methods() { return table; }
+std::span<const method_info> methods() {
+    return table;
+}
 
 std::optional<method> find_method(std::string_view name) {
     const auto found = std::ranges::find(table, name, &method_info::name);
@@ -51,9 +55,15 @@ std::optional<method> find_method(std::string_view name) {
     return found->method;
 }
 
-const method_info& info(method m) { return *std::ranges::find(table, m, &method_info::method); }
+const method_info& info(method m) {
+    return *std::ranges::find(table, m, &method_info::method);
+}
 
-verdict decide(method m, const vertex_face<double>& query) { return decide_any(m, query); }
-verdict decide(method m, const edge_edge<double>& query) { return decide_any(m, query); }
+verdict decide(method m, const vertex_face<double>& query) {
+    return decide_any(m, query);
+}
+verdict decide(method m, const edge_edge<double>& query) {
+    return decide_any(m, query);
+}
 
 }  // namespace ccd

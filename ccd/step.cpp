@@ -1,8 +1,13 @@
 // One step of a mesh: candidates by sweep and prune, then one decision per candidate.
-#include <ccd/step.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
+#include <ccd/step.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -12,11 +17,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace ccd {
 namespace {
@@ -46,9 +46,8 @@ template <std::size_t N>
 std::vector<box> swept_boxes(const mesh& before, const mesh& after,
                              const std::vector<std::array<index, N>>& elements) {
     std::vector<box> boxes(elements.size());
-    std::ranges::transform(elements, boxes.begin(), [&](const auto& element) {
-        return swept_box(before, after, element);
-    });
+    std::ranges::transform(elements, boxes.begin(),
+                           [&](const auto& element) { return swept_box(before, after, element); });
     return boxes;
 }
 
@@ -103,17 +102,16 @@ class pair_collector {
 template <class Emit>
 void sweep(const sorted_boxes& from, const sorted_boxes& to, bool after, bool same_list,
            pair_collector& collected, const Emit& emit) {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, from.boxes.size(), 256),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            auto& pairs = collected.local();
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                std::size_t j = same_list ? i + 1 : to.first_from(from.low(i), after);
-                for (; j < to.boxes.size() && to.low(j) <= from.high(i); ++j)
-                    if (touch_beside(from.boxes[i], to.boxes[j], from.axis))
-                        emit(from.order[i], to.order[j], pairs);
-            }
-        });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, from.boxes.size(), 256),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          auto& pairs = collected.local();
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              std::size_t j = same_list ? i + 1 : to.first_from(from.low(i), after);
+                              for (; j < to.boxes.size() && to.low(j) <= from.high(i); ++j)
+                                  if (touch_beside(from.boxes[i], to.boxes[j], from.axis))
+                                      emit(from.order[i], to.order[j], pairs);
+                          }
+                      });
 }
 
 /// The axis along which the boxes' middles vary most: the sweep then meets fewest others.
@@ -221,10 +219,10 @@ step_result run_step(const mesh& before, const mesh& after, method m) {
     };
     for (const auto& [v, f] : reported(vf, [&](index i, index j) {
              const face& t = before.faces[j];
-             return may_collide(decide(m, vertex_face<double>{.v = moving(i),
-                                                              .f0 = moving(t[0]),
-                                                              .f1 = moving(t[1]),
-                                                              .f2 = moving(t[2])}));
+             return may_collide(decide(
+                 m,
+                 vertex_face<double>{
+                     .v = moving(i), .f0 = moving(t[0]), .f1 = moving(t[1]), .f2 = moving(t[2])}));
          }))
         result.vertex_face.push_back({v, ascending(before.faces[f])});
     for (const auto& [a, b] : reported(ee, [&](index i, index j) {
@@ -258,7 +256,8 @@ std::vector<edge> unique_edges(const std::vector<face>& faces) {
 
 step_result step(const mesh& before, const mesh& after, const step_options& options) {
     check(before, after);
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    const int cores = tbb::info::default_concurrency();
+    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
     step_result result;
     arena.execute([&] { result = run_step(before, after, options.method); });
     result.threads = arena.max_concurrency();

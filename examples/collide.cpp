@@ -1,9 +1,8 @@
 // For simulation authors: one query, and one whole step of a mesh.
-#include <cstdio>
-
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
+#include <cstdio>
 
 int main() {
     // A vertex falls from z = 1 to z = -1 through a resting triangle; it hits edge f0 f1 exactly.

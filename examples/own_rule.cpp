@@ -1,7 +1,6 @@
 // A bound rule of one's own in a page of code: `sharp`, TightBound with u = 2^-53 in place of
 // ε = 2u, valid under rounding to nearest only. Prints its bound beside those of the other rules.
 #include <cstdio>
-
 #include <errbound/tracked.hpp>
 
 // What a rule must provide is listed in errbound/rules/operand.hpp. Proof sketch: rounding to

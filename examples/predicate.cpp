@@ -1,8 +1,7 @@
 // For predicate authors: an expression written once, whose sign is never a guess.
 #include <cstdio>
-#include <initializer_list>
-
 #include <errbound/tracked.hpp>
+#include <initializer_list>
 
 // Twice the signed area of the triangle a b c, for any scalar.
 template <class S>

@@ -1,12 +1,12 @@
 // Whole steps against brute force, and real frames against their published numbers.
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <ccd/exact.hpp>
+#include <ccd/step.hpp>
 #include <filesystem>
 #include <random>
 #include <vector>
-
-#include <ccd/exact.hpp>
-#include <ccd/step.hpp>
-#include <gtest/gtest.h>
 
 #include "ccd/io/mesh_file.hpp"
 

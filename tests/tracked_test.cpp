@@ -90,12 +90,21 @@ template <class T, class Rule, bool WithDivision>
 void run_programs(int programs, std::uint64_t seed) {
     using number = tracked<T, Rule>;
     std::mt19937_64 random(seed);
+    // In directed rounding overflow may end at the largest finite number, unnoticed (see
+    // rules/tight.hpp): there, inputs are smaller and programs that grow far end early.
+    const bool directed = std::fegetround() != FE_TONEAREST;
+    const T huge = std::sqrt(std::numeric_limits<T>::max());
+    const auto draw = [&] {
+        T x = special_value<T>(random);
+        while (directed && std::abs(x) > huge) x = special_value<T>(random);
+        return x;
+    };
     for (int k = 0; k < programs; ++k) {
         std::vector<sample<number>> pool;
         for (int i = 0; i < 4; ++i) {
-            const T value = special_value<T>(random);
+            const T value = draw();
             if (random() % 4 == 0) {
-                const T error = std::abs(special_value<T>(random)) * (random() % 2 ? T(1) : T(0));
+                const T error = std::abs(draw()) * (random() % 2 ? T(1) : T(0));
                 const rational offset =
                     exactly(error) * rational(static_cast<int>(random() % 9) - 4) / 4;
                 pool.push_back({number::within(value, error), exactly(value) + offset});
@@ -134,11 +143,7 @@ void run_programs(int programs, std::uint64_t seed) {
                         c = {a.number / b.number, a.exact / b.exact};
                     }
             }
-            // Overflow to the largest finite number, in directed rounding: see rules/tight.hpp.
-            if (std::fegetround() != FE_TONEAREST &&
-                (std::abs(c.number.value()) == std::numeric_limits<T>::max() ||
-                 c.number.error() == std::numeric_limits<T>::max()))
-                continue;
+            if (directed && !(std::abs(c.number.value()) < huge && c.number.error() < huge)) break;
             check(c, what);
             if (testing::Test::HasFatalFailure()) return;
             pool.push_back(c);

@@ -48,8 +48,9 @@ void write_whole(const fs::path& path, std::string_view text) {
                          ": found no file name, expected a file to write");
     }
     fs::path temporary = target;
-    temporary.replace_filename("." + target.filename().string() + "." + std::to_string(getpid()) +
-                               ".tmp");
+    std::string hidden = ".";
+    hidden.append(target.filename().string()).append(".").append(std::to_string(getpid()));
+    temporary.replace_filename(hidden.append(".tmp"));
     try {
         write_directly(temporary, text, path);
         fs::rename(temporary, target, error);

@@ -45,10 +45,14 @@ verdict decide_bsc(const Query<T>& query) {
     if (!finite) return {outcome::uncertain, cause::range};
     const auto forms = forms_of(scaled);
     switch (errbound::root_with_nonnegative(forms.y(), [&] { return forms.inside(); })) {
-        case errbound::existence::no: return {outcome::separate, cause::none};
-        case errbound::existence::yes: return {outcome::collides, cause::none};
-        case errbound::existence::maybe_root: return {outcome::uncertain, cause::coplanarity};
-        default: return {outcome::uncertain, cause::inside};
+        case errbound::existence::no:
+            return {outcome::separate, cause::none};
+        case errbound::existence::yes:
+            return {outcome::collides, cause::none};
+        case errbound::existence::maybe_root:
+            return {outcome::uncertain, cause::coplanarity};
+        default:
+            return {outcome::uncertain, cause::inside};
     }
 }
 

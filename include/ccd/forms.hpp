@@ -7,7 +7,6 @@
 #pragma once
 
 #include <array>
-
 #include <ccd/query.hpp>
 #include <errbound/bernstein.hpp>
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
+#include <ccd/query.hpp>
 #include <cstdint>
 #include <vector>
-
-#include <ccd/query.hpp>
 
 namespace ccd {
 

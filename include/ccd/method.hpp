@@ -4,12 +4,11 @@
 // thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with cause `range`.
 #pragma once
 
+#include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
-
-#include <ccd/query.hpp>
-#include <ccd/verdict.hpp>
 
 namespace ccd {
 

@@ -1,12 +1,11 @@
 // One step of a mesh: from two frames in memory to the colliding pairs.
 #pragma once
 
+#include <ccd/mesh.hpp>
+#include <ccd/method.hpp>
 #include <compare>
 #include <cstddef>
 #include <vector>
-
-#include <ccd/mesh.hpp>
-#include <ccd/method.hpp>
 
 namespace ccd {
 
@@ -25,7 +24,7 @@ struct edge_edge_pair {
 
 struct step_options {
     ccd::method method = ccd::method::exact;
-    int threads = 0;  ///< 0: as many as the machine has cores
+    int threads = 0;  ///< at most; 0, or more than the machine has cores: one per core
 };
 
 struct step_result {
@@ -35,7 +34,7 @@ struct step_result {
     std::vector<edge_edge_pair> edge_edge;      ///< reported pairs, sorted
     double broad_phase_seconds = 0;
     double narrow_phase_seconds = 0;
-    int threads = 0;
+    int threads = 0;  ///< that could work on it
 };
 
 /// The pairs of one step that `options.method` cannot certify as separate.

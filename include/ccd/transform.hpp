@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-
 #include <ccd/query.hpp>
 
 namespace ccd {

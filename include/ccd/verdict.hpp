@@ -8,7 +8,8 @@ namespace ccd {
 enum class outcome : std::uint8_t {
     separate,   ///< certainly no contact in the closed step
     collides,   ///< certainly a contact
-    uncertain,  ///< the method's arithmetic could not tell; conservative callers count it as contact
+    uncertain,  ///< the method's arithmetic could not tell; conservative callers count it as
+                ///< contact
 };
 
 /// Why an outcome is uncertain.
@@ -27,6 +28,8 @@ struct verdict {
 };
 
 /// What a conservative caller reports: true unless the features are certainly separate.
-constexpr bool may_collide(verdict v) { return v.outcome != outcome::separate; }
+constexpr bool may_collide(verdict v) {
+    return v.outcome != outcome::separate;
+}
 
 }  // namespace ccd

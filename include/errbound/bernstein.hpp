@@ -10,10 +10,9 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
-
 #include <errbound/sign.hpp>
 #include <errbound/tracked.hpp>
+#include <utility>
 
 namespace errbound {
 
@@ -85,8 +84,7 @@ constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
 
 /// dp/dt = ∂p/∂t − ∂p/∂s: coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i.
 template <class S, int N>
-    requires(N >= 1)
-constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
+requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
     const auto times = [](const S& x, int n) { return n == 1 ? x : S(x * S(n)); };
     bernstein<S, N - 1> r;
     for (int i = 0; i < N; ++i) r[i] = times(p[i + 1], i + 1) - times(p[i], N - i);
@@ -141,7 +139,7 @@ constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const 
 /// The parts of p on [0, w/(v + w)] and on the rest, both times (v + w)^N > 0.
 template <class S, int N>
 constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N>& p, const S& v,
-                                                           const S& w) {
+                                                            const S& w) {
     return {left_part(p, v, w), reversed(left_part(reversed(p), w, v))};
 }
 

@@ -22,7 +22,6 @@
 
 #include <array>
 #include <cstdint>
-
 #include <errbound/bernstein.hpp>
 
 namespace errbound {
@@ -55,7 +54,8 @@ class conjunction {
 
     constexpr void require_nonnegative(sign_type s) {
         if (s == sign_type::negative) excluded_ = true;
-        // An exact zero satisfies G >= 0, but all G vanish where the normal does: not a certain yes.
+        // An exact zero satisfies G >= 0, but all G vanish where the normal does: not a certain
+        // yes.
         if (s != sign_type::positive) all_positive_ = false;
     }
     constexpr bool excluded() const { return excluded_; }
@@ -86,7 +86,8 @@ struct linear_signs {
     sign_type at0, at1;
 
     template <class S>
-    explicit constexpr linear_signs(const bernstein<S, 1>& l) : at0(sign_of(l[0])), at1(sign_of(l[1])) {}
+    explicit constexpr linear_signs(const bernstein<S, 1>& l)
+        : at0(sign_of(l[0])), at1(sign_of(l[1])) {}
 
     constexpr bool opposite() const {
         return certain(at0) && certain(at1) && at0 * at1 == sign_type::negative;
@@ -164,7 +165,8 @@ struct decomposition {
     }
 };
 
-/// sign J from those of M and R; where M vanishes at the root, the root is M's and J is asked there.
+/// sign J from those of M and R; where M vanishes at the root, the root is M's and J is asked
+/// there.
 template <class S>
 sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                    const bernstein<S, 2>& j) {
@@ -213,10 +215,14 @@ sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
         if (!ends.opposite()) return ends.inside();
         const linear_root<S> r(l);
         switch (sign_of(value_at(d, r.s, r.t))) {
-            case sign_type::negative: return ends.at1;
-            case sign_type::positive: return ends.at0;
-            case sign_type::zero: return sign_type::zero;
-            default: return sign_type::uncertain;
+            case sign_type::negative:
+                return ends.at1;
+            case sign_type::positive:
+                return ends.at0;
+            case sign_type::zero:
+                return sign_type::zero;
+            default:
+                return sign_type::uncertain;
         }
     };
     const S three(3), two(2);
@@ -290,15 +296,13 @@ existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<
     // with Y(0) = 0 and an inner root is negative before it.
     if (!certainly_nonnegative(y0) || y0 == sign_type::zero) {
         if (possibly_positive(y3))
-            found = either(found,
-                           at_crossing(y, sign_type::negative,
-                                       ends_are_certain && y0 == sign_type::negative, g));
+            found = either(found, at_crossing(y, sign_type::negative,
+                                              ends_are_certain && y0 == sign_type::negative, g));
     }
     if (possibly_positive(y0)) {
         if (possibly_negative(y3) || y3 == sign_type::zero)
-            found = either(found,
-                           at_crossing(y, sign_type::positive,
-                                       ends_are_certain && y3 == sign_type::negative, g));
+            found = either(found, at_crossing(y, sign_type::positive,
+                                              ends_are_certain && y3 == sign_type::negative, g));
         if (possibly_positive(y3)) found = either(found, at_pair(y, d, ends_are_certain, g));
     }
     return found;
@@ -348,8 +352,8 @@ existence on_part(const cubic<S>& y, const quartics<S, M>& g, sign_type curvatur
     };
     if (ends.opposite()) {
         const linear_root<S> inflection(second);
-        const auto parts = parts_of(
-            [&](const auto& form) { return split(form, inflection.s, inflection.t); }, y);
+        const auto parts =
+            parts_of([&](const auto& form) { return split(form, inflection.s, inflection.t); }, y);
         const existence left = on_part(parts.y_left, parts.g_left, ends.at0, 0);
         if (left == existence::yes) return left;
         return either(left, on_part(parts.y_right, parts.g_right, ends.at1, 0));

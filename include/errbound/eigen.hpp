@@ -8,7 +8,6 @@
 #pragma once
 
 #include <Eigen/Core>
-
 #include <errbound/tracked.hpp>
 
 namespace Eigen {

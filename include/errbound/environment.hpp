@@ -1,4 +1,5 @@
-// What the library needs of the compiler and the floating-point environment, checked where it can be.
+// What the library needs of the compiler and the floating-point environment, checked where it can
+// be.
 //
 // Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format
 // (any rounding direction), and no value-changing optimisation. Contraction to fused
@@ -16,7 +17,8 @@
 #endif
 
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
-#error "errbound: operations must round to their own type (FLT_EVAL_METHOD 0); use -msse2 -mfpmath=sse"
+#error \
+    "errbound: operations must round to their own type (FLT_EVAL_METHOD 0); use -msse2 -mfpmath=sse"
 #endif
 
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559,
@@ -28,9 +30,9 @@ namespace errbound {
 /// (flush-to-zero is set at start-up by code that other flags link in), so this one is asked at
 /// run time: a program that cares asserts `floating_point_environment().sound()` once.
 struct environment_report {
-    bool gradual_underflow;    ///< subnormals are neither flushed nor read as zero
-    bool no_reassociation;     ///< (a + b) − a is computed as written
-    bool nearest_even;         ///< default rounding; bounds hold in every mode, results differ
+    bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
+    bool no_reassociation;   ///< (a + b) − a is computed as written
+    bool nearest_even;       ///< default rounding; bounds hold in every mode, results differ
 
     /// Every bound rule that promises one keeps it.
     constexpr bool sound() const { return gradual_underflow && no_reassociation; }

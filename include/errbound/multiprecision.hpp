@@ -2,7 +2,6 @@
 #pragma once
 
 #include <boost/multiprecision/number.hpp>
-
 #include <errbound/sign.hpp>
 
 namespace errbound {

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
-
 #include <errbound/environment.hpp>
+#include <limits>
 
 namespace errbound {
 

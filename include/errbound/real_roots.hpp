@@ -9,11 +9,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
-#include <vector>
-
 #include <errbound/bernstein.hpp>
 #include <errbound/sign.hpp>
+#include <utility>
+#include <vector>
 
 namespace errbound {
 

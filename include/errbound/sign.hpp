@@ -8,7 +8,9 @@ namespace errbound {
 /// The sign of a number known up to a bound. `uncertain` is no sign and converts to none.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
-constexpr bool certain(sign_type s) { return s != sign_type::uncertain; }
+constexpr bool certain(sign_type s) {
+    return s != sign_type::uncertain;
+}
 constexpr bool certainly_nonnegative(sign_type s) {
     return s == sign_type::zero || s == sign_type::positive;
 }

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <concepts>
-
 #include <errbound/number_traits.hpp>
 #include <errbound/rules/none.hpp>
 #include <errbound/rules/safe.hpp>
@@ -32,9 +31,7 @@ class tracked {
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
     constexpr tracked(const T& value) : value_(value), bound_(Rule::exact(value)) {}
     /// Exactly `value`, for literals such as 2. Every int is exact in double; in float up to 2^24.
-    constexpr tracked(int value)
-        requires(!std::same_as<T, int>)
-        : tracked(T(value)) {}
+    constexpr tracked(int value) requires(!std::same_as<T, int>) : tracked(T(value)) {}
     /// A number that is known to lie within `error` >= 0 of `value`.
     static constexpr tracked within(const T& value, const T& error) {
         return {value, Rule::within(value, error)};
@@ -85,7 +82,9 @@ class tracked {
         return x.value_ == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
     /// The certain sign of a − b. There is no operator<: it would have to guess.
-    friend constexpr sign_type compare(const tracked& a, const tracked& b) { return sign_of(a - b); }
+    friend constexpr sign_type compare(const tracked& a, const tracked& b) {
+        return sign_of(a - b);
+    }
 
   private:
     constexpr tracked(const T& value, const bound_type& bound) : value_(value), bound_(bound) {}

@@ -1,4 +1,6 @@
 // Compiled with -ffast-math: the headers must refuse.
 #include <errbound/tracked.hpp>
 
-int main() { return 0; }
+int main() {
+    return 0;
+}

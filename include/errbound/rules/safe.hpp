@@ -1,4 +1,5 @@
-// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), with its gaps closed.
+// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), with its gaps
+// closed.
 //
 // A number is known by (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Closed here:
 //  * B is itself rounded: every B is multiplied by 1 + 4ε, so that it is at least the exact
@@ -48,8 +49,8 @@ struct safe {
     /// B = Ba + Bb, k = max(ka, kb) + 1.
     template <class T>
     static constexpr bound<T> add(const T&, operand<T, safe> a, operand<T, safe> b) {
-        const int k = a.bound.operations < b.bound.operations ? b.bound.operations
-                                                              : a.bound.operations;
+        const int k =
+            a.bound.operations < b.bound.operations ? b.bound.operations : a.bound.operations;
         return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
     }
     template <class T>
@@ -78,7 +79,8 @@ struct safe {
     static bound<T> scale(const T& v, operand<T, safe> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.magnitude, e);
-        if (e >= 0 || (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.magnitude))
+        if (e >= 0 ||
+            (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.magnitude))
             return {scaled, a.bound.operations};
         return {traits::max(enlarged<T>(scaled), traits::smallest_normal()),
                 counted(a.bound.operations)};

@@ -68,8 +68,8 @@ struct tight {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // |â/b̂| itself may have been rounded down; inflated() is applied to it alone too. Where b is
-        // not exact, 4η pays for underflow in the numerator before the division enlarges it.
+        // |â/b̂| itself may have been rounded down; inflated() is applied to it alone too. Where b
+        // is not exact, 4η pays for underflow in the numerator before the division enlarges it.
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
         const T inherited = (a.bound.error + quotient * b.bound.error + lost) / distance;
@@ -81,8 +81,8 @@ struct tight {
     static bound<T> scale(const T& v, operand<T, tight> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.error, e);
-        const bool lossless =
-            e >= 0 || (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.error);
+        const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&
+                                         traits::scale(scaled, -e) == a.bound.error);
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
