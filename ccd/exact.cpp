@@ -10,6 +10,7 @@
 // a segment, which its edges cover, or the two edges are parallel, and an end of one lies on the
 // other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
 // crossing edges) that did not hold at t = 0 began at an edge (or an end).
+#include <algorithm>
 #include <bit>
 #include <ccd/exact.hpp>
 #include <ccd/forms.hpp>
@@ -53,17 +54,30 @@ struct decomposed {
     }
 };
 
-/// The query with every coordinate times one power of two that makes all of them integers.
+/// The query with integer coordinates: each axis times a power of two of its own. Contact does not
+/// depend on the axes' units: they scale all three kinds of equation at a contact by positive
+/// factors, and integers stay short when one axis is much smaller than the others.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
-    int lowest = std::numeric_limits<int>::max();
-    for_each_coordinate(query, [&lowest](double x) {
-        if (x != 0) lowest = std::min(lowest, decomposed(x).exponent);
-    });
-    return transformed(query, [lowest](double x) {
+    constexpr int none = std::numeric_limits<int>::max();
+    point<int> lowest{none, none, none};
+    const auto lower = [](int& bound, double x) {
+        if (x != 0) bound = std::min(bound, decomposed(x).exponent);
+    };
+    for (const auto& p : points_of(query))
+        for (const auto& x : {p.t0, p.t1}) {
+            lower(lowest.x, x.x);
+            lower(lowest.y, x.y);
+            lower(lowest.z, x.z);
+        }
+    const auto to_integer = [](double x, int unit) {
         if (x == 0) return integer(0);
         const decomposed d(x);
-        return integer(integer(d.mantissa) << (d.exponent - lowest));
+        return integer(integer(d.mantissa) << (d.exponent - unit));
+    };
+    return transformed_points(query, [&](const point<double>& p) {
+        return point<integer>{to_integer(p.x, lowest.x), to_integer(p.y, lowest.y),
+                              to_integer(p.z, lowest.z)};
     });
 }
 

@@ -41,7 +41,7 @@ std::uint64_t seed() {
 }
 
 std::uint64_t queries_per_family() {
-    return from_environment("ERRBOUND_PROPERTY_QUERIES", 200000) / family_count + 1;
+    return from_environment("ERRBOUND_PROPERTY_QUERIES", 215000) / family_count + 1;
 }
 
 template <class... Values>

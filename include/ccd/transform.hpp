@@ -1,4 +1,4 @@
-// Queries as lists of their moving points: conversion of every coordinate by one function.
+// Queries as lists of their moving points: conversion of every position or coordinate.
 #pragma once
 
 #include <array>
@@ -23,33 +23,38 @@ constexpr std::array<moving_point<T>, 2> points_of(const vertex_vertex<T>& q) {
     return {q.v, q.w};
 }
 
-/// `f` applied to the three coordinates.
+/// The query with `f` applied to every position.
 template <class T, class F>
-constexpr auto transformed(const point<T>& p, const F& f) {
-    return point<decltype(f(p.x))>{f(p.x), f(p.y), f(p.z)};
+constexpr auto transformed_points(const moving_point<T>& p, const F& f) {
+    return moving_point<decltype(f(p.t0).x)>{f(p.t0), f(p.t1)};
 }
 template <class T, class F>
-constexpr auto transformed(const moving_point<T>& p, const F& f) {
-    return moving_point<decltype(f(p.t0.x))>{transformed(p.t0, f), transformed(p.t1, f)};
+constexpr auto transformed_points(const vertex_face<T>& q, const F& f) {
+    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
+    return vertex_face<decltype(f(q.v.t0).x)>{g(q.v), g(q.f0), g(q.f1), g(q.f2)};
 }
 template <class T, class F>
-constexpr auto transformed(const vertex_face<T>& q, const F& f) {
-    return vertex_face<decltype(f(q.v.t0.x))>{transformed(q.v, f), transformed(q.f0, f),
-                                              transformed(q.f1, f), transformed(q.f2, f)};
+constexpr auto transformed_points(const edge_edge<T>& q, const F& f) {
+    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
+    return edge_edge<decltype(f(q.a0.t0).x)>{g(q.a0), g(q.a1), g(q.b0), g(q.b1)};
 }
 template <class T, class F>
-constexpr auto transformed(const edge_edge<T>& q, const F& f) {
-    return edge_edge<decltype(f(q.a0.t0.x))>{transformed(q.a0, f), transformed(q.a1, f),
-                                             transformed(q.b0, f), transformed(q.b1, f)};
+constexpr auto transformed_points(const vertex_edge<T>& q, const F& f) {
+    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
+    return vertex_edge<decltype(f(q.v.t0).x)>{g(q.v), g(q.e0), g(q.e1)};
 }
 template <class T, class F>
-constexpr auto transformed(const vertex_edge<T>& q, const F& f) {
-    return vertex_edge<decltype(f(q.v.t0.x))>{transformed(q.v, f), transformed(q.e0, f),
-                                              transformed(q.e1, f)};
+constexpr auto transformed_points(const vertex_vertex<T>& q, const F& f) {
+    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
+    return vertex_vertex<decltype(f(q.v.t0).x)>{g(q.v), g(q.w)};
 }
-template <class T, class F>
-constexpr auto transformed(const vertex_vertex<T>& q, const F& f) {
-    return vertex_vertex<decltype(f(q.v.t0.x))>{transformed(q.v, f), transformed(q.w, f)};
+
+/// The query with `f` applied to every coordinate.
+template <class Query, class F>
+constexpr auto transformed(const Query& q, const F& f) {
+    return transformed_points(q, [&f](const auto& p) {
+        return point<decltype(f(p.x))>{f(p.x), f(p.y), f(p.z)};
+    });
 }
 
 /// `f` called with each of the query's coordinates.

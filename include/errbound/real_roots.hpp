@@ -130,7 +130,14 @@ class real_roots {
     /// Exact: zero is decided by a common factor, any other sign by refining the root's interval
     /// until g's coefficients on it have one sign.
     sign_type sign_at_root(const integer_form<Integer>& g, std::size_t k) {
+        // A remainder by the squarefree part has g's signs at the roots, and at most its degree.
+        return sign_of_reduced(detail::pseudo_divide(g, squarefree_).second, k);
+    }
+
+  private:
+    sign_type sign_of_reduced(integer_form<Integer> g, std::size_t k) {
         if (g.empty()) return sign_type::zero;
+        detail::make_primitive(g);
         const integer_form<Integer> common = common_factor(squarefree_, g);
         interval& root = intervals_[k];
         if (common.size() > 1) {
@@ -145,7 +152,6 @@ class real_roots {
         }
     }
 
-  private:
     /// Contains exactly one root, in (low, high].
     struct interval {
         dyadic<Integer> low, high;
