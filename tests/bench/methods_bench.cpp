@@ -1,16 +1,16 @@
 // ns per query of every method, one query at a time, on the candidates of whole steps: the bundled
-// scene, and real scenes where they are. A share of the candidates is drawn evenly from all of them.
+// scene, and real scenes where they are. A share of the candidates is drawn evenly from all of
+// them.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <ccd/method.hpp>
-#include <ccd/step.hpp>
 
 #include "ccd/io/mesh_file.hpp"
 
@@ -82,8 +82,8 @@ void add(const std::string& name, ccd::method method, const std::vector<Query>& 
         const auto decided =
             static_cast<double>(state.iterations()) * static_cast<double>(queries.size());
         state.counters["queries"] = static_cast<double>(queries.size());
-        state.counters["s_per_query"] = benchmark::Counter(
-            decided, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+        state.counters["s_per_query"] =
+            benchmark::Counter(decided, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     });
 }
 
