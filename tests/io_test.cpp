@@ -102,7 +102,7 @@ TEST(Numbers, QuotientsReachTheEndsOfTheFormat) {
             *digit = static_cast<char>('0' + doubled % 10);
             carry = doubled / 10;
         }
-        if (carry != 0) power.insert(0, "1");
+        if (carry != 0) power.insert(power.begin(), '1');
     }
     EXPECT_EQ(parse_quotient("1", power, false).value, 0x1p-1074);
     EXPECT_EQ(parse_quotient("-3", power, false).value, -0x3p-1074);
@@ -123,7 +123,8 @@ TEST(Numbers, RoundedQuotientsAgreeWithDecimals) {
     for (int i = 0; i < 20000; ++i) {
         const std::string digits = std::to_string(random()) + std::to_string(random() % 1000);
         const int shift = static_cast<int>(random() % 345);
-        const number quotient = parse_quotient(digits, "1" + repeated("0", shift), true);
+        const number quotient =
+            parse_quotient(digits, std::string("1").append(repeated("0", shift)), true);
         const number decimal = parse_double(digits + "e-" + std::to_string(shift), false);
         ASSERT_EQ(quotient.status, number_status::ok);
         ASSERT_EQ(bits(quotient.value), bits(decimal.value)) << digits << "e-" << shift;
