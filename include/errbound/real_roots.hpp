@@ -2,7 +2,7 @@
 //
 // A polynomial is a form Σ h_i s^(n−i) t^i, as in bernstein.hpp, of run-time degree; h_i are at
 // the same time power-basis coefficients in x = t/s, in which (0, 1) is (0, ∞). Integer is an exact
-// type with + − × / %, comparison, abs() and gcd() found by argument-dependent lookup
+// type with + − × / %, comparison, abs(), gcd() and msb() found by argument-dependent lookup
 // (Boost.Multiprecision's integers). Allocates; time and memory are bounded by degree and size of
 // the coefficients (the root separation of the polynomials limits the refinement).
 #pragma once
@@ -88,30 +88,26 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
     return a;
 }
 
-/// A point t = numerator/2^exponent of [0, 1].
+/// The point t/(s + t) of [0, 1], for s, t >= 0 not both zero; x = t/s there.
 template <exact_number Integer>
-struct dyadic {
-    Integer numerator;
-    unsigned exponent;
-
-    Integer s() const { return (Integer(1) << exponent) - numerator; }
-    const Integer& t() const { return numerator; }
+struct ratio {
+    Integer s, t;
 };
 
-/// The sign of p at a point.
+/// The sign of p at a point. (At x = ∞ it is that of p's last coefficient, which is not zero.)
 template <exact_number Integer>
-sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& point) {
+sign_type sign_at(const integer_form<Integer>& p, const ratio<Integer>& point) {
     if (p.empty()) return sign_type::zero;
-    const Integer s = point.s(), &t = point.t();
     Integer sum = p[0], power = 1;
     for (std::size_t i = 1; i < p.size(); ++i) {
-        power *= t;
-        sum = sum * s + p[i] * power;
+        power *= point.t;
+        sum = sum * point.s + p[i] * power;
     }
     return sign_of(sum);
 }
 
-/// The distinct roots of a polynomial in (0, 1), by Sturm's theorem and bisection.
+/// The distinct roots of a polynomial in (0, 1), by Sturm's theorem and bisection: of the
+/// exponent of x first, so that roots near the ends take few steps, then of x itself.
 template <exact_number Integer>
 class real_roots {
   public:
@@ -121,7 +117,11 @@ class real_roots {
         squarefree_ = d.empty() ? p : detail::pseudo_divide(p, common_factor(p, d)).first;
         detail::make_primitive(squarefree_);
         chain_ = sturm_chain(squarefree_);
-        isolate({0, 0}, {1, 0});
+        for (const Integer& c : squarefree_) {
+            const Integer size = abs(c);
+            if (size > 0) exponent_bound_ = std::max(exponent_bound_, int(msb(size)) + 2);
+        }
+        isolate({1, 0}, {0, 1});
     }
 
     std::size_t size() const { return intervals_.size(); }
@@ -154,7 +154,7 @@ class real_roots {
 
     /// Contains exactly one root, in (low, high].
     struct interval {
-        dyadic<Integer> low, high;
+        ratio<Integer> low, high;
     };
     using chain_type = std::vector<integer_form<Integer>>;
 
@@ -172,12 +172,11 @@ class real_roots {
 
     /// Sign variations of the chain: those at low less those at high are the number of roots of a
     /// squarefree polynomial in (low, high].
-    static int variations(const chain_type& chain, const dyadic<Integer>& point) {
+    static int variations(const chain_type& chain, const ratio<Integer>& point) {
         int count = 0;
         sign_type last = sign_type::zero;
-        // At t = 1 the point is x = ∞: every form's sign is that of its last coefficient.
         for (const auto& p : chain) {
-            const sign_type s = point.s() == 0 ? sign_of(p.back()) : sign_at(p, point);
+            const sign_type s = sign_at(p, point);
             if (s == sign_type::zero) continue;
             if (last != sign_type::zero && s != last) ++count;
             last = s;
@@ -185,26 +184,42 @@ class real_roots {
         return count;
     }
 
-    static dyadic<Integer> middle(const dyadic<Integer>& a, const dyadic<Integer>& b) {
-        const unsigned e = std::max(a.exponent, b.exponent);
-        return {Integer((a.numerator << (e - a.exponent)) + (b.numerator << (e - b.exponent))),
-                e + 1};
+    /// ⌊log2 x⌋ of a point (every s here is a power of two or 0). At the ends it is a bound of
+    /// Cauchy's: roots have 2^-bound < x < 2^(bound − 1), so no interval that holds one is narrow
+    /// and has x = ∞ as its end.
+    int exponent(const ratio<Integer>& point) const {
+        if (point.t == 0) return -exponent_bound_;
+        if (point.s == 0) return exponent_bound_;
+        return int(msb(point.t)) - int(msb(point.s));
     }
 
-    void isolate(const dyadic<Integer>& low, const dyadic<Integer>& high) {
+    /// A point strictly between a and b.
+    ratio<Integer> middle(const ratio<Integer>& a, const ratio<Integer>& b) const {
+        const int low = exponent(a), high = exponent(b);
+        if (high - low >= 2) {
+            const int e = low + (high - low) / 2;
+            return e >= 0 ? ratio<Integer>{1, Integer(1) << e}
+                          : ratio<Integer>{Integer(1) << -e, 1};
+        }
+        // x = (xa + xb)/2
+        const Integer& s = a.s < b.s ? b.s : a.s;
+        return {Integer(2 * s), Integer(a.t * (s / a.s) + b.t * (s / b.s))};
+    }
+
+    void isolate(const ratio<Integer>& low, const ratio<Integer>& high) {
         const int count = variations(chain_, low) - variations(chain_, high);
         if (count == 0) return;
         if (count == 1) {
             intervals_.push_back({low, high});
             return;
         }
-        const dyadic<Integer> half = middle(low, high);
+        const ratio<Integer> half = middle(low, high);
         isolate(low, half);
         isolate(half, high);
     }
 
     void refine(interval& root) const {
-        const dyadic<Integer> half = middle(root.low, root.high);
+        const ratio<Integer> half = middle(root.low, root.high);
         if (variations(chain_, root.low) != variations(chain_, half))
             root.high = half;
         else
@@ -213,10 +228,8 @@ class real_roots {
 
     /// The one sign of g's coefficients on [low, high], or uncertain.
     static sign_type sign_on(const integer_form<Integer>& g, const interval& range) {
-        const integer_form<Integer> s{range.low.s() << scale_of(range.low, range),
-                                      range.high.s() << scale_of(range.high, range)};
-        const integer_form<Integer> t{range.low.t() << scale_of(range.low, range),
-                                      range.high.t() << scale_of(range.high, range)};
+        const integer_form<Integer> s{range.low.s, range.high.s};
+        const integer_form<Integer> t{range.low.t, range.high.t};
         // g(s(σ, τ), t(σ, τ)) by Horner's rule; s and t are linear forms on the interval.
         integer_form<Integer> sum{g[0]}, power{Integer(1)};
         for (std::size_t i = 1; i < g.size(); ++i) {
@@ -229,9 +242,6 @@ class real_roots {
             if (sign_of(c) != all || c == 0) return sign_type::uncertain;
         return all;
     }
-    static unsigned scale_of(const dyadic<Integer>& point, const interval& range) {
-        return std::max(range.low.exponent, range.high.exponent) - point.exponent;
-    }
     static integer_form<Integer> product(const integer_form<Integer>& a,
                                          const integer_form<Integer>& b) {
         integer_form<Integer> r(a.size() + b.size() - 1);
@@ -242,6 +252,7 @@ class real_roots {
 
     integer_form<Integer> squarefree_;
     chain_type chain_;
+    int exponent_bound_ = 0;
     std::vector<interval> intervals_;
 };
 
