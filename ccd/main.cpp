@@ -27,10 +27,10 @@ ccd::method method_named(const std::string& name) {
     throw usage_error("--method: found '" + name + "', expected one of " + known);
 }
 
-/// The methods of a list M[,M...]; all if it is empty.
-std::vector<ccd::method> methods_named(const std::string& list) {
+/// The methods of a list M[,M...], or all.
+std::vector<ccd::method> methods_named(const std::string& list, bool all) {
     std::vector<ccd::method> result;
-    if (list.empty()) {
+    if (all) {
         for (const method_info& entry : methods()) result.push_back(entry.method);
         return result;
     }
@@ -40,6 +40,24 @@ std::vector<ccd::method> methods_named(const std::string& list) {
         result.push_back(method_named(list.substr(begin, comma - begin)));
     }
     return result;
+}
+
+/// An output must be neither an input nor another output: nothing is lost.
+void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
+                      std::vector<std::filesystem::path> taken) {
+    for (const auto& output : outputs) {
+        if (!output) continue;
+        for (const std::filesystem::path& other : taken) {
+            std::error_code ignored;
+            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
+                              output->lexically_normal() == other.lexically_normal();
+            if (same && std::filesystem::status(*output, ignored).type() !=
+                            std::filesystem::file_type::character)
+                throw usage_error("found the output '" + output->string() +
+                                  "' among the inputs or twice, expected a file of its own");
+        }
+        taken.push_back(*output);
+    }
 }
 
 struct command_line {
@@ -56,17 +74,26 @@ struct command_line {
 
     command_line() {
         app.require_subcommand(1);
+        app.set_version_flag("--version", std::string("ccd ") + ERRBOUND_VERSION);
 
         query_command = app.add_subcommand("query", "Decide stored queries");
-        query_command->add_option("FILE", query.files, "CSV, 8 rows per query")->required();
+        query_command
+            ->add_option(
+                "FILE", query.files,
+                "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
+                "is\n"
+                "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1")
+            ->required();
         query_command->add_option("--method", query_methods, "Methods M[,M...], else all")
             ->type_name("M[,M...]");
         query_command
             ->add_option("--kind", query_kind,
-                         "Kind of query; else the path tells (vertex-face...)")
+                         "Kind of query; else the path tells (vertex-face or vf, edge-edge or ee)")
             ->check(CLI::IsMember({"vf", "ee"}));
-        query_command->add_flag("--round", query.round,
-                                "Round a rational that no double equals, instead of refusing it");
+        query_command->add_flag(
+            "--round", query.round,
+            "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
+            "them (decimals always mean the nearest double)");
         query_command
             ->add_option("--verdicts", query.verdicts,
                          "Write 0 or 1 per query (one method, one file)")
@@ -93,7 +120,7 @@ struct command_line {
 
     void run() {
         if (query_command->parsed()) {
-            query.methods = methods_named(query_methods);
+            query.methods = methods_named(query_methods, query_command->count("--method") == 0);
             if (!query_kind.empty()) {
                 query.kind =
                     query_kind == "vf" ? io::query_kind::vertex_face : io::query_kind::edge_edge;
@@ -103,9 +130,11 @@ struct command_line {
                                   " files and " + std::to_string(query.methods.size()) +
                                   " methods, expected one FILE and one --method");
             }
+            require_separate({query.verdicts, query.json}, query.files);
             run_query(query);
         } else if (step_command->parsed()) {
             step.method = method_named(step_method);
+            require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
         } else if (methods_command->parsed()) {
             run_methods();
@@ -119,7 +148,7 @@ int main_with_status(int argc, char** argv) {
         line.app.parse(argc, argv);
         line.run();
     } catch (const CLI::ParseError& error) {
-        return line.app.exit(error) == 0 ? done : bad_usage;
+        if (line.app.exit(error) != 0) return bad_usage;
     } catch (const usage_error& error) {
         std::cerr << "ccd: " << error.what() << '\n';
         return bad_usage;

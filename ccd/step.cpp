@@ -249,8 +249,7 @@ std::vector<edge> unique_edges(const std::vector<face>& faces) {
             if (v != w) edges.push_back({std::min(v, w), std::max(v, w)});
         }
     std::ranges::sort(edges);
-    const auto repeated = std::ranges::unique(edges);
-    edges.erase(repeated.begin(), repeated.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
 }
 

@@ -20,6 +20,11 @@ TEST(Eigen, MatricesOfTrackedScalars) {
     EXPECT_EQ(sign_of(determinant), sign_type::negative);
     const Eigen::Matrix<number, 3, 3> square = m * m - m.transpose();
     EXPECT_EQ(square(0, 0).value(), 1 + 8 + 21 - 1);
+    const Eigen::Matrix<number, 3, 3> doubled = 2.0 * m;
+    EXPECT_EQ(doubled(2, 2).value(), 20);
+    const Eigen::Matrix<number, 3, 1> image = m * Eigen::Vector3d(1, 0, -1);
+    EXPECT_EQ(image(0).value(), -2);
+    EXPECT_EQ(sign_of((m * m.inverse())(0, 0)), sign_type::positive);
     Eigen::Matrix<number, Eigen::Dynamic, 1> v = Eigen::Matrix<number, Eigen::Dynamic, 1>::Ones(5);
     EXPECT_EQ(v.sum().value(), 5);
     EXPECT_LT(v.sum().error(), 1e-14);

@@ -248,6 +248,23 @@ class Step(ProgramTest):
             expected = expected or pairs.read_text()
             self.assertEqual(pairs.read_text(), expected)
 
+    def test_outputs_replace_neither_inputs_nor_each_other(self):
+        frame = self.write("frame.ply", ply(BEFORE, FACES))
+        before = frame.read_bytes()
+        for outputs in (["--pairs", frame], ["--json", frame],
+                        ["--pairs", self.directory / "o", "--json", self.directory / "o"]):
+            self.assertIn("expected a file of its own",
+                          self.bad_usage("step", frame, frame, *outputs))
+        self.assertEqual(frame.read_bytes(), before)
+        self.assertFalse((self.directory / "o").exists())
+
+    def test_a_replaced_file_keeps_its_permissions(self):
+        frame = self.write("frame.ply", ply(BEFORE, FACES))
+        out = self.write("out.json", "")
+        out.chmod(0o600)
+        self.good("step", frame, frame, "--json", out)
+        self.assertEqual(out.stat().st_mode & 0o777, 0o600)
+
     def test_bad_input(self):
         good = self.write("good.ply", ply(BEFORE, FACES))
         binary = b"ply\nformat binary_little_endian 1.0\nelement vertex 4000000\n" \

@@ -55,8 +55,9 @@ bool touch(const std::array<interval, 3>& a, const std::array<interval, 3>& b) {
 }
 
 TEST(Step, AgreesWithBruteForce) {
-    for (const std::uint64_t seed : {1, 2, 3}) {
-        const auto [before, after] = random_soup(seed, 60, 50);
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        const auto frames = random_soup(seed, 60, 50);
+        const ccd::mesh &before = frames.first, &after = frames.second;
         const auto moving = [&](ccd::index v) {
             return ccd::moving_point<double>{before.vertices[v], after.vertices[v]};
         };

@@ -2,6 +2,7 @@
 // both sides; exact zero, underflow, overflow, NaN.
 #include <gtest/gtest.h>
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/gmp.hpp>
 #include <cfenv>
 #include <cmath>
@@ -234,6 +235,16 @@ TEST(Tracked, RulesAndTypesLiveSideBySideAndInConstantExpressions) {
     constexpr tracked<float, errbound::safe> c = 2.0F;
     static_assert(sign_of(c * c) == sign_type::positive);
     static_assert(sizeof(tracked<double, errbound::none>) == sizeof(double));
+}
+
+TEST(Tracked, WhatCannotBeExactIsNotTakenForIt) {
+    // 2^24 + 1 is no float: the difference is not certainly zero.
+    EXPECT_EQ(sign_of(tracked<float>(16777217) - tracked<float>(16777216)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double>(16777217) - tracked<double>(16777216)), sign_type::positive);
+    EXPECT_EQ(sign_of(tracked<double>::within(1.0, -1.0)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double, errbound::safe>::within(1.0, -1.0)), sign_type::uncertain);
+    static_assert(errbound::is_exact_number<rational>);
+    static_assert(!errbound::is_exact_number<boost::multiprecision::int128_t>);
 }
 
 TEST(Environment, TheTestsRunInASoundOne) {

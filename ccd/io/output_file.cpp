@@ -41,6 +41,10 @@ void write_whole(const fs::path& path, std::string_view text) {
         write_directly(path, text, path);
         return;
     }
+    if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, error))) {
+        throw file_error(path.string() +
+                         ": found a symbolic link to nothing, expected a file to write");
+    }
     // A symbolic link to a file stays one; the file is replaced.
     const fs::path target = fs::exists(status) ? fs::canonical(path, error) : path;
     if (!target.has_filename()) {
@@ -53,6 +57,7 @@ void write_whole(const fs::path& path, std::string_view text) {
     temporary.replace_filename(hidden.append(".tmp"));
     try {
         write_directly(temporary, text, path);
+        if (fs::exists(status)) fs::permissions(temporary, status.permissions(), error);
         fs::rename(temporary, target, error);
         if (error) {
             throw file_error(path.string() + ": cannot be replaced (" + error.message() + ")");

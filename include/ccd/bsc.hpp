@@ -12,12 +12,13 @@
 #include <ccd/transform.hpp>
 #include <ccd/verdict.hpp>
 #include <errbound/bsc.hpp>
+#include <utility>
 
 namespace ccd {
 
 /// The query over tracked numbers, times the power of two that brings its largest coordinate near
-/// 1. Coordinates that underflow by that carry the loss as their bound. False in `second` if a
-/// coordinate is not finite.
+/// 1. A coordinate that underflows when scaled carries that loss as its bound. False in `second` if
+/// a coordinate is not finite.
 template <class Rule, class T, template <class> class Query>
 std::pair<Query<errbound::tracked<T, Rule>>, bool> tracked_query(const Query<T>& query) {
     using scalar = errbound::tracked<T, Rule>;

@@ -19,7 +19,7 @@ verdict decide_exact(const edge_edge<double>& query);
 verdict decide_exact(const vertex_edge<double>& query);
 verdict decide_exact(const vertex_vertex<double>& query);
 
-/// Whether the features touch already at t = 0: tells a collision's kind apart from a later impact.
+/// Whether the features touch already at t = 0: tells initial contact from a later impact.
 verdict touches_at_start(const vertex_face<double>& query);
 verdict touches_at_start(const edge_edge<double>& query);
 verdict touches_at_start(const vertex_edge<double>& query);

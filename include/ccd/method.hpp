@@ -1,7 +1,8 @@
 // The methods by name: what each promises, its source, and one call to decide a query with it.
 //
-// decide() never throws, allocates only inside `exact` (big integers), and may be called from any
-// thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with cause `range`.
+// decide() allocates only inside `exact` (big integers), throws only std::bad_alloc there, and may
+// be called from any thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with
+// cause `range`.
 #pragma once
 
 #include <ccd/query.hpp>

@@ -34,7 +34,7 @@ struct step_result {
     std::vector<edge_edge_pair> edge_edge;      ///< reported pairs, sorted
     double broad_phase_seconds = 0;
     double narrow_phase_seconds = 0;
-    int threads = 0;  ///< that could work on it
+    int threads = 0;  ///< used at most
 };
 
 /// The pairs of one step that `options.method` cannot certify as separate.
@@ -44,6 +44,6 @@ struct step_result {
 ///
 /// `before` and `after` must have the same faces and numbers of vertices, all indices in range and
 /// all coordinates finite; throws std::invalid_argument otherwise.
-step_result step(const mesh& before, const mesh& after, const step_options& options);
+step_result step(const mesh& before, const mesh& after, const step_options& options = {});
 
 }  // namespace ccd

@@ -141,7 +141,9 @@ sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const berns
 }
 
 /// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of
-/// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign_of(y0·y3)·sign J.
+/// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J.
+/// (A world may count an end value of exactly zero as negative. J then vanishes at the root, so
+/// that no certain sign of J but zero can come out and nothing is concluded wrongly.)
 template <class S>
 bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],

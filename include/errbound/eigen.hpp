@@ -3,8 +3,9 @@
 //   Eigen::Matrix<errbound::tracked<double>, 3, 3> m;
 //   auto d = m.col(0).cross(m.col(1)).dot(m.col(2));   // d.error() bounds its rounding error
 //
-// Products, sums, dot, cross and fixed-size determinants work. What must compare magnitudes to
-// choose a pivot (inverse, decompositions) does not compile: a tracked number has no operator<.
+// Products, sums, dot, cross, determinants and inverses of small fixed-size matrices work, and so
+// do products with plain T (2.0 * m). What must compare magnitudes to choose a pivot
+// (decompositions, dynamic-size inverse) does not compile: a tracked number has no operator<.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,6 +32,16 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     static Scalar epsilon() { return Scalar(NumTraits<T>::epsilon()); }
     static Scalar dummy_precision() { return Scalar(NumTraits<T>::dummy_precision()); }
     static int digits10() { return NumTraits<T>::digits10(); }
+};
+
+/// T and tracked numbers over T mix: T is exact.
+template <class T, class Rule, class BinaryOp>
+struct ScalarBinaryOpTraits<errbound::tracked<T, Rule>, T, BinaryOp> {
+    using ReturnType = errbound::tracked<T, Rule>;
+};
+template <class T, class Rule, class BinaryOp>
+struct ScalarBinaryOpTraits<T, errbound::tracked<T, Rule>, BinaryOp> {
+    using ReturnType = errbound::tracked<T, Rule>;
 };
 
 }  // namespace Eigen

@@ -3,15 +3,18 @@
 
 #include <boost/multiprecision/number.hpp>
 #include <errbound/sign.hpp>
+#include <limits>
 
 namespace errbound {
 
-/// Integers and rationals of unbounded size are exact; floating-point backends are not.
+/// Integers and rationals of unbounded size are exact; fixed-size ones, which wrap around,
+/// and floating-point ones are not.
 template <class Backend, boost::multiprecision::expression_template_option Et>
 inline constexpr bool is_exact_number<boost::multiprecision::number<Backend, Et>> =
-    boost::multiprecision::number_category<Backend>::value ==
-        boost::multiprecision::number_kind_integer ||
-    boost::multiprecision::number_category<Backend>::value ==
-        boost::multiprecision::number_kind_rational;
+    !std::numeric_limits<boost::multiprecision::number<Backend, Et>>::is_bounded &&
+    (boost::multiprecision::number_category<Backend>::value ==
+         boost::multiprecision::number_kind_integer ||
+     boost::multiprecision::number_category<Backend>::value ==
+         boost::multiprecision::number_kind_rational);
 
 }  // namespace errbound

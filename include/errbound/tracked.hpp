@@ -4,8 +4,10 @@
 //   number x = 0.1, y = number::within(0.2, 1e-12);      // exact; known to within 1e-12
 //   sign_of(x * y - x);                                     // never a guess
 //
-// No exceptions, no allocation, no global state, no virtual calls. For x of any rule but `none`:
-// the number that exact arithmetic would have given lies within x.error() of x.value().
+// No exceptions,
+// no allocation, no global state, no virtual calls. For x of any rule but `none`, and in a sound
+// environment (environment.hpp): the number that exact arithmetic would have given lies within
+// x.error() of x.value().
 #pragma once
 
 #include <concepts>
@@ -30,9 +32,10 @@ class tracked {
     constexpr tracked() : tracked(T(0)) {}
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
     constexpr tracked(const T& value) : value_(value), bound_(Rule::exact(value)) {}
-    /// Exactly `value`, for literals such as 2. Every int is exact in double; in float up to 2^24.
-    constexpr tracked(int value) requires(!std::same_as<T, int>) : tracked(T(value)) {}
-    /// A number that is known to lie within `error` >= 0 of `value`.
+    /// `value`, for literals such as 2: exact if T holds it (every int in double, up to 2^24 in
+    /// float), else within the rounding error of its conversion.
+    constexpr tracked(int value) requires(!std::same_as<T, int>) : tracked(from_int(value)) {}
+    /// A number that is known to lie within `error` of `value`; unknown unless error >= 0.
     static constexpr tracked within(const T& value, const T& error) {
         return {value, Rule::within(value, error)};
     }
@@ -87,6 +90,14 @@ class tracked {
     }
 
   private:
+    static constexpr tracked from_int(int value) {
+        using traits = number_traits<T>;
+        const T converted = static_cast<T>(value);
+        // |value| <= 2^31, so that the way back fits a long long.
+        if (static_cast<long long>(converted) == value) return tracked(converted);
+        return within(converted, 2 * traits::epsilon() * traits::abs(converted));
+    }
+
     constexpr tracked(const T& value, const bound_type& bound) : value_(value), bound_(bound) {}
     constexpr operand<T, Rule> as_operand() const { return {value_, bound_}; }
 

@@ -8,7 +8,8 @@
 //                                                infinity or NaN: nothing is known
 //   add, subtract, multiply(result, a, b)        the bound of the rounded result of a ∘ b
 //   divide(result, a, b)                         likewise; leave it out if the rule has none
-//   scale(result, a, e)                          the bound of result = a·2^e, rounded once
+//   scale(result, a, e)                          the bound of result = a·2^e, rounded once; asked
+//                                                for by polynomials and BSC only
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
 #pragma once
 
@@ -16,6 +17,7 @@
 
 namespace errbound {
 
+/// References: valid during the rule's call only.
 template <class T, class Rule>
 struct operand {
     const T& value;

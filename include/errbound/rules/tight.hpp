@@ -33,7 +33,7 @@ struct tight {
     }
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
-        return {error + (value - value)};
+        return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
