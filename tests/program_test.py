@@ -249,7 +249,7 @@ class Step(ProgramTest):
             self.assertEqual(pairs.read_text(), expected)
 
     def test_outputs_replace_neither_inputs_nor_each_other(self):
-        frame = self.write("frame.ply", ply(BEFORE, FACES))
+        frame = pathlib.Path(self.write("frame.ply", ply(BEFORE, FACES)))
         before = frame.read_bytes()
         for outputs in (["--pairs", frame], ["--json", frame],
                         ["--pairs", self.directory / "o", "--json", self.directory / "o"]):
@@ -260,7 +260,7 @@ class Step(ProgramTest):
 
     def test_a_replaced_file_keeps_its_permissions(self):
         frame = self.write("frame.ply", ply(BEFORE, FACES))
-        out = self.write("out.json", "")
+        out = pathlib.Path(self.write("out.json", ""))
         out.chmod(0o600)
         self.good("step", frame, frame, "--json", out)
         self.assertEqual(out.stat().st_mode & 0o777, 0o600)

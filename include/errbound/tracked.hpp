@@ -2,10 +2,10 @@
 //
 //   using number = errbound::tracked<double>;            // rule `tight`
 //   number x = 0.1, y = number::within(0.2, 1e-12);      // exact; known to within 1e-12
-//   sign_of(x * y - x);                                     // never a guess
+//   sign_of(x * y - x);                                  // never a guess
 //
-// No exceptions,
-// no allocation, no global state, no virtual calls. For x of any rule but `none`, and in a sound
+// A literal is the double nearest to it: 0.1 above means that double, not a tenth. No exceptions,
+// no allocation, no global state, no virtual calls. For x of any rule but `none`, in a sound
 // environment (environment.hpp): the number that exact arithmetic would have given lies within
 // x.error() of x.value().
 #pragma once
