@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <cmath>
 #include <cstddef>
@@ -72,6 +73,11 @@ std::string_view name(kind which) {
 ccd::verdict decide(ccd::method method, kind which, const points& p) {
     return which == kind::vertex_face ? ccd::decide(method, query_families::as_vertex_face(p))
                                       : ccd::decide(method, query_families::as_edge_edge(p));
+}
+
+ccd::verdict decide_exact(kind which, const points& p) {
+    return which == kind::vertex_face ? ccd::decide_exact(query_families::as_vertex_face(p))
+                                      : ccd::decide_exact(query_families::as_edge_edge(p));
 }
 
 bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle::shortcuts::on) {
@@ -170,6 +176,9 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     };
     const ccd::outcome exact = decide(ccd::method::exact, which, p).outcome;
     if (exact != right) fail(ccd::method::exact, exact);
+    // The reference alone too, without the filter that settles most queries before it.
+    const ccd::outcome unfiltered = decide_exact(which, p).outcome;
+    if (unfiltered != right) fail(ccd::method::exact, unfiltered);
 
     std::size_t column = 0;
     for (const ccd::method method : {ccd::method::float_, ccd::method::safe, ccd::method::tight}) {
