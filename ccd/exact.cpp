@@ -111,8 +111,7 @@ template <template <class> class Query>
 bool regular_contact(const Query<integer>& query) {
     const auto forms = forms_of(query);
     const auto y = forms.y();
-    const sign_type hull = errbound::sign_throughout(y);
-    if (hull == sign_type::positive || hull == sign_type::negative) return false;
+    if (errbound::certainly_rootless(y)) return false;
     const auto g = forms.inside();
     for (const auto& f : g)
         if (errbound::sign_throughout(f) == sign_type::negative) return false;
@@ -145,10 +144,8 @@ bool contact(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
     const auto off_line = cross(w, e);
-    for (const auto* f : {&off_line.x, &off_line.y, &off_line.z}) {
-        const sign_type hull = errbound::sign_throughout(*f);
-        if (hull == sign_type::positive || hull == sign_type::negative) return false;
-    }
+    for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
+        if (errbound::certainly_rootless(*f)) return false;
     // W·(W − E), not positive between the ends.
     const auto beyond = dot(w, difference(query.v, query.e1));
     const auto on_line_at = [&](std::size_t i) {

@@ -1,5 +1,5 @@
-// The PLY reader. Our own, because the PLY libraries that distributions carry convert coordinates to
-// float.
+// The PLY reader. Our own, because the PLY libraries that distributions carry convert coordinates
+// to float.
 #include <algorithm>
 #include <array>
 #include <bit>

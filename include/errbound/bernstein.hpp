@@ -206,4 +206,11 @@ constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
     return first;
 }
 
+/// Whether the coefficients alone show that p has no root in [0, 1].
+template <class S, int N>
+constexpr bool certainly_rootless(const bernstein<S, N>& p) {
+    const sign_type hull = sign_throughout(p);
+    return hull == sign_type::positive || hull == sign_type::negative;
+}
+
 }  // namespace errbound

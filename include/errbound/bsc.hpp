@@ -296,7 +296,7 @@ existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
     // An end value of exactly zero leaves the inner roots that a negative one would: a convex Y
     // with Y(0) = 0 and an inner root is negative before it.
-    if (!certainly_nonnegative(y0) || y0 == sign_type::zero) {
+    if (possibly_negative(y0) || y0 == sign_type::zero) {
         if (possibly_positive(y3))
             found = either(found, at_crossing(y, sign_type::negative,
                                               ends_are_certain && y0 == sign_type::negative, g));
@@ -313,8 +313,7 @@ existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<
 /// Whether the coefficients alone exclude a root with all G_i >= 0.
 template <class S, std::size_t M>
 bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
-    const sign_type hull = sign_throughout(y);
-    if (hull == sign_type::positive || hull == sign_type::negative) return true;
+    if (certainly_rootless(y)) return true;
     for (const bernstein<S, 4>& form : g)
         if (sign_throughout(form) == sign_type::negative) return true;
     return false;
@@ -337,34 +336,35 @@ existence on_part(const cubic<S>& y, const quartics<S, M>& g, sign_type curvatur
     if (!certain(curvature) && !ends.opposite()) curvature = ends.inside();
     if (curvature == sign_type::positive) return on_convex(y, d, g);
     if (curvature == sign_type::negative) return on_convex(-y, -d, g);
-    const auto parts_of = [&g](const auto& form_parts_of, const cubic<S>& cubic_form) {
+    const auto parts_of = [&y, &g](const auto& form_parts_of) {
         struct {
             cubic<S> y_left, y_right;
             quartics<S, M> g_left, g_right;
         } parts;
-        auto halves_of_y = form_parts_of(cubic_form);
-        parts.y_left = normalized(halves_of_y.first);
-        parts.y_right = normalized(halves_of_y.second);
+        const auto parts_of_y = form_parts_of(y);
+        parts.y_left = normalized(parts_of_y.first);
+        parts.y_right = normalized(parts_of_y.second);
         for (std::size_t i = 0; i < M; ++i) {
-            auto halves_of_g = form_parts_of(g[i]);
-            parts.g_left[i] = normalized(halves_of_g.first);
-            parts.g_right[i] = normalized(halves_of_g.second);
+            const auto parts_of_g = form_parts_of(g[i]);
+            parts.g_left[i] = normalized(parts_of_g.first);
+            parts.g_right[i] = normalized(parts_of_g.second);
         }
         return parts;
     };
     if (ends.opposite()) {
         const linear_root<S> inflection(second);
         const auto parts =
-            parts_of([&](const auto& form) { return split(form, inflection.s, inflection.t); }, y);
+            parts_of([&](const auto& form) { return split(form, inflection.s, inflection.t); });
         const existence left = on_part(parts.y_left, parts.g_left, ends.at0, 0);
         if (left == existence::yes) return left;
         return either(left, on_part(parts.y_right, parts.g_right, ends.at1, 0));
     }
     if (halvings_left == 0) return existence::maybe_root;
-    const auto parts = parts_of([](const auto& form) { return halves(form); }, y);
+    const auto parts = parts_of([](const auto& form) { return halves(form); });
     const existence left =
         on_part(parts.y_left, parts.g_left, sign_type::uncertain, halvings_left - 1);
-    if (left != existence::no) return left;  // so that at most `max_halvings` leaves are visited
+    // A "maybe" ends the search: an undecidable query must not visit all 2^max_halvings parts.
+    if (left != existence::no) return left;
     return on_part(parts.y_right, parts.g_right, sign_type::uncertain, halvings_left - 1);
 }
 
@@ -379,8 +379,7 @@ existence on_part(const cubic<S>& y, const quartics<S, M>& g, sign_type curvatur
 template <class S, class MakeConstraints>
 existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);
-    const sign_type hull = sign_throughout(cubic);
-    if (hull == sign_type::positive || hull == sign_type::negative) return existence::no;
+    if (certainly_rootless(cubic)) return existence::no;
     auto g = make_g();
     for (auto& form : g) form = normalized(form);
     return bsc::on_part(cubic, g, sign_type::uncertain, bsc::max_halvings);
