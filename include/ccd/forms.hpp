@@ -43,24 +43,25 @@ struct coplanarity_forms {
     vector_form<S, 1> b, c, p;
     vector_form<S, 2> n;
 
-    coplanarity_forms(const vector_form<S, 1>& b_, const vector_form<S, 1>& c_,
-                      const vector_form<S, 1>& p_)
+    constexpr coplanarity_forms(const vector_form<S, 1>& b_, const vector_form<S, 1>& c_,
+                                const vector_form<S, 1>& p_)
         : b(b_), c(c_), p(p_), n(cross(b, c)) {}
 
     /// Y = det(b, c, p).
-    errbound::bernstein<S, 3> y() const { return dot(n, p); }
+    constexpr errbound::bernstein<S, 3> y() const { return dot(n, p); }
     /// |N|².
-    errbound::bernstein<S, 4> normal_squared() const { return dot(n, n); }
+    constexpr errbound::bernstein<S, 4> normal_squared() const { return dot(n, n); }
 };
 
 /// Vertex/face: b = f1 − f0, c = f2 − f0, p = v − f0.
 template <class S>
 struct vertex_face_forms : coplanarity_forms<S> {
-    explicit vertex_face_forms(const vertex_face<S>& q)
+    using coplanarity_forms<S>::coplanarity_forms;
+    constexpr explicit vertex_face_forms(const vertex_face<S>& q)
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
     /// The barycentric weights of f2, f1 and f0, times |N|².
-    std::array<errbound::bernstein<S, 4>, 3> inside() const {
+    constexpr std::array<errbound::bernstein<S, 4>, 3> inside() const {
         const auto w2 = dot(cross(this->b, this->p), this->n);
         const auto w1 = dot(cross(this->p, this->c), this->n);
         return {w2, w1, this->normal_squared() - w1 - w2};
@@ -70,11 +71,12 @@ struct vertex_face_forms : coplanarity_forms<S> {
 /// Edge/edge: b = a1 − a0, c = b1 − b0, p = b0 − a0.
 template <class S>
 struct edge_edge_forms : coplanarity_forms<S> {
-    explicit edge_edge_forms(const edge_edge<S>& q)
+    using coplanarity_forms<S>::coplanarity_forms;
+    constexpr explicit edge_edge_forms(const edge_edge<S>& q)
         : coplanarity_forms<S>(difference(q.a1, q.a0), difference(q.b1, q.b0),
                                difference(q.b0, q.a0)) {}
     /// The parameters on edges a and b and their distances from 1, times |N|².
-    std::array<errbound::bernstein<S, 4>, 4> inside() const {
+    constexpr std::array<errbound::bernstein<S, 4>, 4> inside() const {
         const auto on_a = dot(cross(this->p, this->c), this->n);
         const auto on_b = dot(cross(this->p, this->b), this->n);
         const auto n2 = this->normal_squared();
