@@ -3,10 +3,13 @@
 // Closed semantics: a query collides when the two closed features share a point at some t in the
 // closed interval [0, 1]; a degenerate triangle or edge is the segment or point that it is.
 //
-// Decided in integers on a common exponent, so nothing is rounded. Time and memory grow with the
-// spread of the coordinates' exponents (about 100 bits in ordinary scenes, 2,100 at most) and are
-// bounded. Allocates; throws only std::bad_alloc. Coordinates must be finite: otherwise the answer
-// is `uncertain` with cause `range`, the only case in which it is not certain.
+// Decided in integers of fixed width where the coordinates allow it, which is where their
+// differences span at most 125 bits of each axis (single precision data span 30 to 60, double
+// precision 50 to 110): a microsecond or two, no allocation. Else, and where fixed widths do not
+// separate what nearly coincides, by the reference (ccd/reference.hpp): up to a thousand times
+// slower, bounded in time and memory, allocates, throws only std::bad_alloc. Coordinates must be
+// finite: otherwise the answer is `uncertain` with cause `range`, the only case in which it is not
+// certain.
 #pragma once
 
 #include <ccd/query.hpp>
