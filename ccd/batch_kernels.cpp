@@ -181,8 +181,7 @@ class pipeline {
             const auto y = errbound::control_values_of(forms.y());
             const pack error = sizes.template error_of_y<Forms>();
             const std::uint32_t left = lanes_of(
-                !(sizes.usable &
-                  (static_filter::above(y, error) | static_filter::below(y, error))),
+                !(sizes.usable & (static_filter::above(y, error) | static_filter::below(y, error))),
                 count);
             turn.count(count, count - count_of(left), 0);
             if (left == 0) return;
@@ -228,8 +227,8 @@ class pipeline {
         for (int i = 0; i <= N; ++i) c[i].store_unaligned(to[column + static_cast<std::size_t>(i)]);
     }
     template <int N, class Queue>
-    static void halve_form(const Queue& from, std::size_t column, std::size_t at,
-                           part_values& left, part_values& right) {
+    static void halve_form(const Queue& from, std::size_t column, std::size_t at, part_values& left,
+                           part_values& right) {
         const auto halves = errbound::halves(load_form<N>(from, column, at));
         store_form(halves.first, left, column);
         store_form(halves.second, right, column);
@@ -255,8 +254,8 @@ class pipeline {
                 const pack error_of_y = whole.load(error_columns, at);
                 const pack error_of_g = whole.load(error_columns + 1, at);
                 const auto y = load_form<3>(whole, 0, at);
-                pack_mask excluded = static_filter::above(y, error_of_y) |
-                                     static_filter::below(y, error_of_y);
+                pack_mask excluded =
+                    static_filter::above(y, error_of_y) | static_filter::below(y, error_of_y);
                 pack_mask collides = static_filter::changes_sign(y, error_of_y);
                 for (std::size_t i = 0; i < constraints; ++i) {
                     const auto g = load_form<4>(whole, 4 + 5 * i, at);
@@ -273,8 +272,7 @@ class pipeline {
                 open &= ~hit;
                 if (open == 0) return;
                 std::uint32_t hopeless = 0;
-                if (depth == static_filter::max_depth ||
-                    halved.size + 2 * width > halved.capacity)
+                if (depth == static_filter::max_depth || halved.size + 2 * width > halved.capacity)
                     hopeless = open;
                 else if (depth >= static_filter::patient_depth)
                     hopeless = open & lanes_of(static_filter::within_error(y, error_of_y), count);

@@ -1,10 +1,9 @@
-#include "ccd/filter.hpp"
-
 #include <array>
 #include <ccd/static_filter.hpp>
 #include <ccd/transform.hpp>
 #include <cmath>
 
+#include "ccd/cascade.hpp"
 #include "ccd/stage_turn.hpp"
 
 namespace ccd {
@@ -44,9 +43,8 @@ outcome subdivide(const static_filter::whole_step<double, Forms>& whole) {
             continue;
         }
         if (collides) return outcome::collides;
-        if (part.depth == static_filter::max_depth ||
-            (part.depth >= static_filter::patient_depth &&
-             static_filter::within_error(y, errors.y)))
+        if (part.depth == static_filter::max_depth || (part.depth >= static_filter::patient_depth &&
+                                                       static_filter::within_error(y, errors.y)))
             return outcome::uncertain;
         auto& next = waiting.parts[waiting.size++];
         const auto [left, right] = errbound::halves(y);

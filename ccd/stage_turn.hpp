@@ -20,7 +20,7 @@ class stage_turn {
     stage_turn& operator=(const stage_turn&) = delete;
 
     [[gnu::always_inline]] inline void count(std::size_t entered, std::size_t separate,
-                                      std::size_t collides) {
+                                             std::size_t collides) {
         if (entry_ == nullptr) return;
         entry_->entered += entered;
         entry_->separate += separate;

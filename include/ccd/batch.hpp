@@ -61,9 +61,9 @@ std::string_view name(instruction_set set);
 std::optional<instruction_set> find_instruction_set(std::string_view name);
 
 struct batch_options {
-    int threads = 1;                         ///< at most; 0: one per core
+    int threads = 1;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
-    stage_report* report = nullptr;          ///< added to, if given: costs a few per cent
+    stage_report* report = nullptr;           ///< added to, if given: costs a few per cent
 };
 
 /// Decides queries[i] by `exact` into answers[i]. Coordinates that are not finite give `uncertain`.

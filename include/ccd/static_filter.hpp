@@ -173,9 +173,8 @@ mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin, const Project
 ///
 /// Margins: a difference d̂ is off by at most ε·m, a sum of two axes by 2ε(1 + ε)(m_x + m_y), so two
 /// compared projections together by 4ε(1 + ε)(m_x + m_y); an edge's far end is a sum of two such,
-/// rounded once more, of twice the size: 8ε(1 + ε)(m_x + m_y). The bound's own addition rounds too, by ε(m_x + m_y): 9.2ε serves
-/// all. Sums lose nothing to
-/// underflow.
+/// rounded once more, of twice the size: 8ε(1 + ε)(m_x + m_y). The bound's own addition rounds too,
+/// by ε(m_x + m_y): 9.2ε serves all. Sums lose nothing to underflow.
 template <class S, class Forms>
 mask<S> parted(const Forms& f, const sizes<S>& m) {
     constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon();
@@ -187,12 +186,10 @@ mask<S> parted(const Forms& f, const sizes<S>& m) {
     found = found | detail::parted_along<S>(f, m.z * S(margin), z);
     const auto diagonals = [&](const auto& u, const auto& v, const S& size) {
         const S e = size * S(margin);
-        found = found | detail::parted_along<S>(f, e, [&](const auto& d, int end) {
-                    return u(d, end) + v(d, end);
-                });
-        found = found | detail::parted_along<S>(f, e, [&](const auto& d, int end) {
-                    return u(d, end) - v(d, end);
-                });
+        found = found | detail::parted_along<S>(
+                            f, e, [&](const auto& d, int end) { return u(d, end) + v(d, end); });
+        found = found | detail::parted_along<S>(
+                            f, e, [&](const auto& d, int end) { return u(d, end) - v(d, end); });
     };
     diagonals(x, y, m.x + m.y);
     diagonals(y, z, m.y + m.z);
