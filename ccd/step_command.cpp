@@ -49,8 +49,11 @@ std::string json_of(const step_arguments& arguments, const step_result& result, 
          {{"vertex_face", result.vertex_face.size()}, {"edge_edge", result.edge_edge.size()}}},
         {"seconds",
          {{"read", read},
+          {"prepare", result.prepare_seconds},
           {"broad", result.broad_phase_seconds},
-          {"narrow", result.narrow_phase_seconds}}},
+          {"narrow", result.narrow_phase_seconds},
+          {"sort", result.sort_seconds},
+          {"total", result.total_seconds}}},
         {"threads", result.threads},
         {"peak_memory_bytes", memory}};
     return document.dump(2) + '\n';
@@ -69,9 +72,10 @@ std::string text_of_step(const step_arguments& arguments, const step_result& res
                          {"edge-edge", std::to_string(result.edge_edge_candidates),
                           std::to_string(result.edge_edge.size())}};
     const table costs = {
-        {"read", "broad phase", "narrow phase", "threads", "peak memory"},
-        {fixed(read, "%.3f s"), fixed(result.broad_phase_seconds, "%.3f s"),
-         fixed(result.narrow_phase_seconds, "%.3f s"), std::to_string(result.threads),
+        {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
+        {fixed(read, "%.3f s"), fixed(result.prepare_seconds, "%.3f s"),
+         fixed(result.broad_phase_seconds, "%.3f s"), fixed(result.narrow_phase_seconds, "%.3f s"),
+         fixed(result.sort_seconds, "%.3f s"), std::to_string(result.threads),
          fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0);
 }

@@ -32,8 +32,11 @@ struct step_result {
     std::size_t edge_edge_candidates = 0;
     std::vector<vertex_face_pair> vertex_face;  ///< reported pairs, sorted
     std::vector<edge_edge_pair> edge_edge;      ///< reported pairs, sorted
-    double broad_phase_seconds = 0;
-    double narrow_phase_seconds = 0;
+    double prepare_seconds = 0;                 ///< checks of the input, the mesh's edges
+    double broad_phase_seconds = 0;             ///< both phases together, less the narrow phase
+    double narrow_phase_seconds = 0;            ///< of all threads together, over their number
+    double sort_seconds = 0;                    ///< of the reported pairs
+    double total_seconds = 0;
     int threads = 0;  ///< used at most
 };
 
