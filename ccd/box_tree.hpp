@@ -26,84 +26,92 @@ struct float_box {
 /// Bit i stands for box i of a pack.
 using pack_mask = std::uint32_t;
 
-template <class Visit>
-void for_each_bit(pack_mask mask, const Visit& visit) {
+template <class Mask, class Visit>
+void for_each_bit(Mask mask, const Visit& visit) {
     for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
 }
 
 /// Up to eight boxes side by side; the rest are nowhere and touch nothing.
+///
+/// The comparisons are written with the vector types of GCC and clang, on which plain loops were
+/// vectorised in some places where they are inlined and not in others.
 class box_pack {
   public:
     static constexpr std::size_t size = 8;
 
     box_pack() {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low_[k].fill(nowhere);
-            high_[k].fill(-nowhere);
-        }
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t part = 0; part < parts; ++part) {
+                low_[k][part] = floats{} + nowhere;
+                high_[k][part] = floats{} - nowhere;
+            }
     }
 
     void set(std::size_t i, const float_box& b) {
         for (std::size_t k = 0; k < 3; ++k) {
-            low_[k][i] = b.low[k];
-            high_[k][i] = b.high[k];
+            low_[k][i / width][i % width] = b.low[k];
+            high_[k][i / width][i % width] = b.high[k];
         }
     }
 
     float_box box(std::size_t i) const {
-        return {{low_[0][i], low_[1][i], low_[2][i]}, {high_[0][i], high_[1][i], high_[2][i]}};
+        float_box b;
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.low[k] = low_[k][i / width][i % width];
+            b.high[k] = high_[k][i / width][i % width];
+        }
+        return b;
     }
 
     /// The smallest box around all of them.
     float_box hull() const {
-        float_box b;
-        for (std::size_t k = 0; k < 3; ++k) {
-            b.low[k] = *std::ranges::min_element(low_[k]);
-            b.high[k] = *std::ranges::max_element(high_[k]);
+        float_box b = box(0);
+        for (std::size_t i = 1; i < size; ++i) {
+            const float_box other = box(i);
+            for (std::size_t k = 0; k < 3; ++k) {
+                b.low[k] = std::min(b.low[k], other.low[k]);
+                b.high[k] = std::max(b.high[k], other.high[k]);
+            }
         }
         return b;
     }
 
     /// Those that touch b.
     pack_mask touching(const float_box& b) const {
-        pack_mask found = 0;
-        for (std::size_t i = 0; i < size; ++i) found |= gap(i, b) <= 0 ? bits[i] : 0;
-        return found;
+        return mask_of([&](std::size_t part) {
+            lanes found = lanes{} - 1;
+            for (std::size_t k = 0; k < 3; ++k)
+                found &= (low_[k][part] <= b.high[k]) & (high_[k][part] >= b.low[k]);
+            return found;
+        });
     }
 
-    struct comparison {
-        pack_mask touching;  ///< as touching()
-        pack_mask overlap;   ///< those of them that reach into b on every axis
-    };
-    comparison compare(const float_box& b) const {
-        comparison found{0, 0};
-        for (std::size_t i = 0; i < size; ++i) {
-            found.touching |= gap(i, b) <= 0 ? bits[i] : 0;
-            found.overlap |= gap(i, b) < 0 ? bits[i] : 0;
-        }
-        return found;
+    /// Those that overlap b on every axis: they touch it, and still do when an end moves a little.
+    pack_mask overlapping(const float_box& b) const {
+        return mask_of([&](std::size_t part) {
+            lanes found = lanes{} - 1;
+            for (std::size_t k = 0; k < 3; ++k)
+                found &= (low_[k][part] < b.high[k]) & (high_[k][part] > b.low[k]);
+            return found;
+        });
     }
 
   private:
+    static constexpr std::size_t width = 4, parts = size / width;
+    typedef float floats __attribute__((vector_size(width * sizeof(float))));
+    typedef std::int32_t lanes __attribute__((vector_size(width * sizeof(float))));
     static constexpr float nowhere = 4;
-    static constexpr std::array<pack_mask, size> bits = [] {
-        std::array<pack_mask, size> powers{};
-        for (std::size_t i = 0; i < size; ++i) powers[i] = pack_mask(1) << i;
-        return powers;
-    }();
 
-    /// The largest distance between box i and b along an axis; negative where they overlap. Its
-    /// sign is right: a difference of floats is 0 only between equals, and where a processor
-    /// flushes small ones to 0, boxes seem to touch on that axis without overlap.
-    float gap(std::size_t i, const float_box& b) const {
-        float largest = std::max(low_[0][i] - b.high[0], b.low[0] - high_[0][i]);
-        for (std::size_t k = 1; k < 3; ++k)
-            largest =
-                std::max(largest, std::max(low_[k][i] - b.high[k], b.low[k] - high_[k][i]));
-        return largest;
+    /// One bit for each lane of lanes_of(0), lanes_of(1), ... that is -1 rather than 0.
+    template <class LanesOf>
+    static pack_mask mask_of(const LanesOf& lanes_of) {
+        lanes bits{1, 2, 4, 8}, found{};
+        for (std::size_t part = 0; part < parts; ++part, bits <<= width)
+            found |= lanes_of(part) & bits;
+        return static_cast<pack_mask>(found[0] | found[1] | found[2] | found[3]);
     }
 
-    std::array<std::array<float, size>, 3> low_, high_;
+    floats low_[3][parts], high_[3][parts];
 };
 
 class box_tree {
@@ -166,14 +174,13 @@ class box_tree {
     template <class BoxOf>
     void fill(std::size_t level, std::size_t count, const BoxOf& box_of) {
         const std::size_t start = level_start_[level];
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, level_start_[level + 1] - start, 128),
-            [&](const tbb::blocked_range<std::size_t>& range) {
-                for (std::size_t p = range.begin(); p < range.end(); ++p)
-                    for (std::size_t i = p * box_pack::size;
-                         i < std::min(count, (p + 1) * box_pack::size); ++i)
-                        packs_[start + p].set(i % box_pack::size, box_of(i));
-            });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, level_start_[level + 1] - start, 128),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t p = range.begin(); p < range.end(); ++p)
+                                  for (std::size_t i = p * box_pack::size;
+                                       i < std::min(count, (p + 1) * box_pack::size); ++i)
+                                      packs_[start + p].set(i % box_pack::size, box_of(i));
+                          });
     }
 
     std::vector<box_pack> packs_;  ///< the leaves, the nodes above them, ..., the root
@@ -189,6 +196,11 @@ void for_each_touching(const box_tree& a, const box_tree& b, const LocalOf& loca
                        const Visit& visit) {
     const bool within_one = &a == &b;
     constexpr std::size_t size = box_pack::size;
+    constexpr std::uint64_t below_diagonal = [] {
+        std::uint64_t mask = 0;
+        for (std::size_t j = 0; j < size; ++j) mask |= ((std::uint64_t(1) << j) - 1) << (size * j);
+        return mask;
+    }();
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, a.leaves().size(), 16),
         [&](const tbb::blocked_range<std::size_t>& range) {
@@ -196,12 +208,17 @@ void for_each_touching(const box_tree& a, const box_tree& b, const LocalOf& loca
             for (std::size_t p = range.begin(); p < range.end(); ++p) {
                 const box_pack& group = a.leaves()[p];
                 b.find(group.hull(), within_one ? p : 0, [&](std::size_t q, pack_mask members) {
+                    // Bit size j + i: box i of the group and box j of leaf q.
+                    std::uint64_t touching = 0, certain = 0;
                     for_each_bit(members, [&](std::size_t j) {
-                        auto [touching, overlap] = group.compare(b.leaves()[q].box(j));
-                        if (within_one && p == q) touching &= (pack_mask(1) << j) - 1;
-                        for_each_bit(touching, [&](std::size_t i) {
-                            visit(local, size * p + i, size * q + j, (overlap >> i & 1) != 0);
-                        });
+                        const float_box member = b.leaves()[q].box(j);
+                        touching |= std::uint64_t(group.touching(member)) << (size * j);
+                        certain |= std::uint64_t(group.overlapping(member)) << (size * j);
+                    });
+                    if (within_one && p == q) touching &= below_diagonal;
+                    for_each_bit(touching, [&](std::size_t bit) {
+                        visit(local, size * p + bit % size, size * q + bit / size,
+                              (certain >> bit & 1) != 0);
                     });
                 });
             }

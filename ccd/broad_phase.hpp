@@ -115,7 +115,9 @@ std::size_t edge_edge_candidates(const step_frames& frames, std::vector<edge> ed
     for_each_touching(
         tree, tree, [&]() -> auto& { return blocks.local(); },
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
-            const auto& [a, b] = std::minmax(edges[i], edges[j]);
+            // Of edges that share no vertex the lesser one is that with the lesser first vertex.
+            const bool in_order = edges[i][0] < edges[j][0];
+            const edge a = edges[in_order ? i : j], b = edges[in_order ? j : i];
             block.add({a[0], a[1], b[0], b[1]},
                       !share_vertex(a, b) && (certain || frames.touch(a, b)));
         });

@@ -13,7 +13,7 @@ std::vector<edge> unique_edges(const std::vector<face>& faces) {
     // Edges go to buckets by their lower vertices, which leaves only short runs to sort.
     unsigned shift = 0;
     while (last >> shift > faces.size()) ++shift;
-    std::vector<index> bucket_end((last >> shift) + 2);
+    std::vector<std::size_t> bucket_end((last >> shift) + 2);
     const auto for_each_edge = [&faces](const auto& visit) {
         for (const face& f : faces)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -29,7 +29,7 @@ std::vector<edge> unique_edges(const std::vector<face>& faces) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bucket_end.size() - 1, 1024),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                              const index begin = b == 0 ? 0 : bucket_end[b - 1];
+                              const std::size_t begin = b == 0 ? 0 : bucket_end[b - 1];
                               std::sort(edges.begin() + begin, edges.begin() + bucket_end[b]);
                           }
                       });

@@ -14,8 +14,12 @@ namespace {
 /// Position on the curve in the upper half, element in the lower.
 using curve_key = std::uint64_t;
 
-index element_of(curve_key key) { return static_cast<index>(key); }
-std::uint32_t position_of(curve_key key) { return static_cast<std::uint32_t>(key >> 32); }
+index element_of(curve_key key) {
+    return static_cast<index>(key);
+}
+std::uint32_t position_of(curve_key key) {
+    return static_cast<std::uint32_t>(key >> 32);
+}
 
 /// Cells of the curve along an axis.
 constexpr std::uint32_t cells = 1024;
@@ -33,7 +37,9 @@ struct extent {
     std::array<double, 3> length_sum{};  ///< of the boxes
 };
 
-float middle(const float_box& b, std::size_t k) { return 0.5F * (b.low[k] + b.high[k]); }
+float middle(const float_box& b, std::size_t k) {
+    return 0.5F * (b.low[k] + b.high[k]);
+}
 
 template <class BoxOf>
 extent extent_of(std::span<const curve_key> keys, const BoxOf& box_of) {
@@ -74,30 +80,29 @@ void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of) {
     double most_lengths = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double spread = double(e.high[k]) - e.low[k];
-        length[k] =
-            std::max(e.length_sum[k] / static_cast<double>(keys.size()), spread / cells);
+        length[k] = std::max(e.length_sum[k] / static_cast<double>(keys.size()), spread / cells);
         if (spread > 0) most_lengths = std::max(most_lengths, spread / length[k]);
     }
     if (most_lengths == 0) return;  // one middle for all
 
     const double cells_a_length = (cells - 1) / most_lengths;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 4096),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                              const index element = element_of(keys[i]);
-                              const float_box b = box_of(element);
-                              std::uint32_t position = 0;
-                              for (std::size_t k = 0; k < 3; ++k) {
-                                  if (length[k] == 0) continue;
-                                  const double cell =
-                                      (double(middle(b, k)) - e.low[k]) / length[k] * cells_a_length;
-                                  position |= spread_bits(std::min(
-                                                  static_cast<std::uint32_t>(cell), cells - 1))
-                                              << k;
-                              }
-                              keys[i] = curve_key(position) << 32 | element;
-                          }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, keys.size(), 4096),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                const index element = element_of(keys[i]);
+                const float_box b = box_of(element);
+                std::uint32_t position = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (length[k] == 0) continue;
+                    const double cell =
+                        (double(middle(b, k)) - e.low[k]) / length[k] * cells_a_length;
+                    position |= spread_bits(std::min(static_cast<std::uint32_t>(cell), cells - 1))
+                                << k;
+                }
+                keys[i] = curve_key(position) << 32 | element;
+            }
+        });
     tbb::parallel_sort(keys.begin(), keys.end());
 
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
