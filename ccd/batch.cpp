@@ -1,10 +1,10 @@
 // decide_batch: checks, then chunks of queries on all threads.
-#include <ccd/batch.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <ccd/batch.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>

@@ -144,7 +144,7 @@ class pipeline {
         for (std::size_t i = size; i % width != 0; ++i)
             for (auto& column : coordinates_) column[i] = 0;
         std::size_t separate = 0;
-        const bool asked = axes_.blocks_left_out == 0;
+        const bool asked = axes_.blocks_to_pass == 0;
         for (std::size_t at = 0; at < size; at += width) {
             const Forms<pack> forms = forms_of_coordinates(at);
             const std::size_t count = size - at < width ? size - at : width;
@@ -166,11 +166,20 @@ class pipeline {
         }
         if (asked) {
             turn.count(size, separate, 0);
-            if (4 * separate < size) axes_.blocks_left_out = 63;
+            judge_axes(separate, size);
         } else {
-            --axes_.blocks_left_out;
-            axes_.paused_queries += size;
+            turn.leave_out(size);
+            --axes_.blocks_to_pass;
         }
+    }
+
+    /// The cull costs about as much as the next stage. Where it settles fewer than a quarter of
+    /// several blocks, it is left out of the next ones.
+    void judge_axes(std::size_t settled, std::size_t of) {
+        constexpr std::size_t patience = 4, pause = 124;
+        axes_.poor_blocks = 4 * settled < of ? axes_.poor_blocks + 1 : 0;
+        if (axes_.poor_blocks < patience) return;
+        axes_ = {0, pause};
     }
 
     void test_coplanarity() {

@@ -14,10 +14,10 @@
 
 namespace ccd {
 
-/// How the cull by fixed axes fares in a stream of queries; it pauses where it does not pay.
+/// How the cull by fixed axes fares in a stream of queries: where it does not pay it pauses.
 struct cull_state {
-    std::size_t blocks_left_out = 0;  ///< to pass by before it is tried again
-    std::size_t paused_queries = 0;   ///< that it was not asked, for the report
+    std::size_t poor_blocks = 0;     ///< of which it settled too few, in a row
+    std::size_t blocks_to_pass = 0;  ///< before it is tried again
 };
 
 /// Decides `count` queries in floating point: `uncertain` in answers[i] leaves the query to exact
@@ -35,16 +35,15 @@ struct batch_kernels {
                              cull_state& axes, stage_report* report);
 };
 
+// Which of them there are is up to the build: ERRBOUND_HAVE_X86_KERNELS.
 namespace baseline {
 extern const batch_kernels kernels;
 }
-#ifdef ERRBOUND_HAVE_X86_KERNELS
 namespace avx2 {
 extern const batch_kernels kernels;
 }
 namespace avx512 {
 extern const batch_kernels kernels;
 }
-#endif
 
 }  // namespace ccd

@@ -41,15 +41,6 @@ struct available_sets {
     }
 };
 
-template <class T>
-moving_point<double> moving(const vertex_rows& rows, T vertex) {
-    const auto at = [vertex](const double* frame) {
-        const double* row = frame + 3 * std::size_t(vertex);
-        return point<double>{row[0], row[1], row[2]};
-    };
-    return {at(rows.before), at(rows.after)};
-}
-
 }  // namespace
 
 std::span<const instruction_set> instruction_sets() {
@@ -86,23 +77,17 @@ void batch_worker::settle_uncertain(std::size_t count, outcome* answers, const A
 
 void batch_worker::decide(const vertex_rows& rows, std::span<const vertex_face_indices> queries,
                           outcome* answers) {
-    kernels_->indexed_vertex_face(rows, queries.data(), queries.size(), answers,
-                                  axes_vertex_face_, counts());
-    settle_uncertain(queries.size(), answers, [&](std::size_t i) {
-        const auto& [v, f0, f1, f2] = queries[i];
-        return vertex_face<double>{moving(rows, v), moving(rows, f0), moving(rows, f1),
-                                   moving(rows, f2)};
-    });
+    kernels_->indexed_vertex_face(rows, queries.data(), queries.size(), answers, axes_vertex_face_,
+                                  counts());
+    settle_uncertain(queries.size(), answers,
+                     [&](std::size_t i) { return query_of(rows, queries[i]); });
 }
 void batch_worker::decide(const vertex_rows& rows, std::span<const edge_edge_indices> queries,
                           outcome* answers) {
     kernels_->indexed_edge_edge(rows, queries.data(), queries.size(), answers, axes_edge_edge_,
                                 counts());
-    settle_uncertain(queries.size(), answers, [&](std::size_t i) {
-        const auto& [a0, a1, b0, b1] = queries[i];
-        return edge_edge<double>{moving(rows, a0), moving(rows, a1), moving(rows, b0),
-                                 moving(rows, b1)};
-    });
+    settle_uncertain(queries.size(), answers,
+                     [&](std::size_t i) { return query_of(rows, queries[i]); });
 }
 void batch_worker::decide(std::span<const vertex_face<double>> queries, outcome* answers) {
     kernels_->stored_vertex_face(queries.data(), queries.size(), answers, axes_vertex_face_,

@@ -27,6 +27,10 @@ class stage_turn {
         entry_->collides += collides;
     }
 
+    [[gnu::always_inline]] inline void leave_out(std::size_t queries) {
+        if (entry_ != nullptr) entry_->left_out += queries;
+    }
+
     /// Stops the clock before the end of the scope.
     [[gnu::always_inline]] inline void end() {
         if (entry_ != nullptr) entry_->seconds += now() - start_;

@@ -35,6 +35,7 @@ constexpr std::array<index, 4> vertices_of(const edge_edge_indices& q) {
 /// Positions of the same vertices at t = 0 and t = 1: `vertices` rows of x y z each, contiguous
 /// (a row-major Eigen matrix's data(), a vector of point<double>). Not owned.
 struct vertex_rows {
+    static_assert(sizeof(point<double>) == 3 * sizeof(double));
     const double* before = nullptr;
     const double* after = nullptr;
     std::size_t vertices = 0;
@@ -47,7 +48,23 @@ struct vertex_rows {
         : before(&at_start.vertices.data()->x),
           after(&at_end.vertices.data()->x),
           vertices(at_start.vertices.size()) {}
+
+    moving_point<double> operator[](index vertex) const {
+        const auto at = [vertex](const double* frame) {
+            const double* row = frame + 3 * std::size_t(vertex);
+            return point<double>{row[0], row[1], row[2]};
+        };
+        return {at(before), at(after)};
+    }
 };
+
+/// The query that the indices stand for.
+inline vertex_face<double> query_of(const vertex_rows& rows, const vertex_face_indices& q) {
+    return {rows[q.v], rows[q.f0], rows[q.f1], rows[q.f2]};
+}
+inline edge_edge<double> query_of(const vertex_rows& rows, const edge_edge_indices& q) {
+    return {rows[q.a0], rows[q.a1], rows[q.b0], rows[q.b1]};
+}
 
 /// What the kernels are compiled for.
 enum class instruction_set : std::uint8_t {

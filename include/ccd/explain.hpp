@@ -28,7 +28,8 @@ const stage_info& info(stage s);
 /// What the stages did. Counters only grow, so one report can serve many calls.
 struct stage_report {
     struct entry {
-        std::uint64_t entered = 0;  ///< queries that came to the stage
+        std::uint64_t entered = 0;   ///< queries that the stage was asked
+        std::uint64_t left_out = 0;  ///< queries that passed it by, where it settled too few
         std::uint64_t separate = 0;
         std::uint64_t collides = 0;
         double seconds = 0;  ///< of all threads together
@@ -40,6 +41,7 @@ struct stage_report {
     stage_report& operator+=(const stage_report& other) {
         for (std::size_t i = 0; i < stage_count; ++i) {
             stages[i].entered += other.stages[i].entered;
+            stages[i].left_out += other.stages[i].left_out;
             stages[i].separate += other.stages[i].separate;
             stages[i].collides += other.stages[i].collides;
             stages[i].seconds += other.stages[i].seconds;
