@@ -28,6 +28,7 @@
 
 namespace {
 
+using query_families::csv;
 using query_families::families;
 using query_families::kind;
 using query_families::points;
@@ -52,17 +53,6 @@ std::string format(const char* pattern, Values... values) {
     std::array<char, 256> text;
     std::snprintf(text.data(), text.size(), pattern, values...);
     return text.data();
-}
-
-// Eight rows in the order of the benchmark's files: all points at t = 0, then all at t = 1.
-std::string csv(const points& p) {
-    std::string rows;
-    const auto row = [&](const ccd::point<double>& at) {
-        rows += format("%a,%a,%a\n", at.x, at.y, at.z);
-    };
-    for (const auto& m : p) row(m.t0);
-    for (const auto& m : p) row(m.t1);
-    return rows;
 }
 
 std::string_view name(kind which) {

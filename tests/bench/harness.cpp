@@ -1,0 +1,96 @@
+#include "harness.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "ccd/table.hpp"
+
+namespace bench {
+
+std::vector<timing> race(const std::vector<std::function<void()>>& passes, int repeats) {
+    constexpr double least_seconds = 2e-3;
+    std::vector<int> runs;  // of each pass per measurement
+    for (const auto& pass : passes) {
+        const auto seconds_of_one = [&pass] {
+            const clock::time_point start = clock::now();
+            pass();
+            return seconds_since(start);
+        };
+        // The first meets cold caches and new pages; where that is nothing, it tells the time too.
+        double one = seconds_of_one();
+        if (one < 10 * least_seconds) one = seconds_of_one();
+        runs.push_back(1 + static_cast<int>(least_seconds / std::max(one, 1e-7)));
+    }
+    std::vector<std::vector<double>> seconds(passes.size());
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            const std::size_t which = repeat % 2 == 0 ? i : passes.size() - 1 - i;
+            const clock::time_point start = clock::now();
+            for (int run = 0; run < runs[which]; ++run) passes[which]();
+            seconds[which].push_back(seconds_since(start) / runs[which]);
+        }
+    }
+    std::vector<timing> timings;
+    for (auto& s : seconds) {
+        std::ranges::sort(s);
+        timings.push_back({s.front(), s[s.size() / 2]});
+    }
+    return timings;
+}
+
+cell word(std::string_view text) {
+    return {std::string(text), text};
+}
+
+cell count(std::uint64_t n) {
+    const std::string digits = std::to_string(n);
+    std::string text;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+        text += digits[i];
+    }
+    return {text, n};
+}
+
+cell number(double x, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, x);
+    return {text, x};
+}
+
+cell percent(double share) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f %%", 100 * share);
+    return {text, share};
+}
+
+cell none() {
+    return {"-", nullptr};
+}
+
+void report::table(std::string_view section, const nlohmann::json& about, const std::string& title,
+                   const std::vector<column>& columns, const std::vector<std::vector<cell>>& rows) {
+    ccd::program::table text(1);
+    for (const column& c : columns) text[0].push_back(c.heading);
+    nlohmann::json values = nlohmann::json::array();
+    for (const auto& row : rows) {
+        text.emplace_back();
+        nlohmann::json entry = about;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            text.back().push_back(row[i].text);
+            entry[columns[i].key] = row[i].value;
+        }
+        values.push_back(std::move(entry));
+    }
+    const auto left = static_cast<std::size_t>(std::ranges::count(columns, true, &column::left));
+    std::printf("\n%s\n\n%s", title.c_str(), ccd::program::text_of(text, left).c_str());
+    std::fflush(stdout);
+    tables_.push_back({{"section", section}, {"title", title}, {"rows", std::move(values)}});
+}
+
+void report::say(const std::string& line) {
+    std::printf("%s\n", line.c_str());
+    std::fflush(stdout);
+}
+
+}  // namespace bench

@@ -1,0 +1,111 @@
+// ./run bench: what `exact` costs, beside the other methods, as tables.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "ccd/io/output_file.hpp"
+#include "sections.hpp"
+
+namespace {
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    }
+    return "unknown";
+}
+
+nlohmann::json head(const std::string& commit) {
+    std::string sets;
+    for (const auto set : ccd::instruction_sets()) {
+        sets.append(sets.empty() ? "" : ", ").append(ccd::name(set));
+    }
+    double load[1] = {0};
+    getloadavg(load, 1);
+    const nlohmann::json all{{"processor", processor()},
+                             {"cores", std::thread::hardware_concurrency()},
+                             {"load", load[0]},
+                             {"instruction_sets", sets},
+                             {"compiler", ERRBOUND_COMPILER},
+                             {"flags", ERRBOUND_FLAGS},
+                             {"commit", commit}};
+    std::printf("%s, %u cores, load %.2f; instruction sets: %s\n%s, flags: %s\ncommit %s\n",
+                processor().c_str(), std::thread::hardware_concurrency(), load[0], sets.c_str(),
+                ERRBOUND_COMPILER, ERRBOUND_FLAGS, commit.c_str());
+    return all;
+}
+
+void run_scene(const std::string& name, const bench::options& o, bench::report& out) {
+    bench::scene s;
+    const bench::clock::time_point start = bench::clock::now();
+    if (!bench::load(name, s)) {
+        bench::report::say("\n== " + name + ": left out, its data is not here");
+        return;
+    }
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.1f s", bench::seconds_since(start));
+    bench::report::say("\n== " + name + ": " +
+                       (s.is_step() ? bench::count(s.before.vertices.size()).text + " vertices, " +
+                                          bench::count(s.before.faces.size()).text + " faces, "
+                                    : "") +
+                       bench::count(s.queries.vertex_face.size()).text + " vf and " +
+                       bench::count(s.queries.edge_edge.size()).text + " ee " +
+                       (s.is_step() ? "candidates" : "queries") + " (made ready in " + seconds +
+                       ")");
+    if (o.wants("methods")) bench::methods(s, o, out);
+    if (o.wants("stages")) bench::stages(s, o, out);
+    if (o.wants("steps") && s.is_step()) bench::steps(s, o, out);
+    if (o.wants("growth") && s.is_step()) bench::growth_with_queries(s, o, out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    CLI::App app{"Times exact and the other methods; prints tables."};
+    app.name("./run bench");
+    bench::options o;
+    std::string json, commit = "unknown";
+    app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
+    app.add_option("--json", json, "The tables as JSON, to this file");
+    app.add_option("--scene", o.scene, "Only scenes whose name holds this");
+    app.add_option("--sections", o.sections, "Only these: methods, stages, steps, growth")
+        ->delimiter(',')
+        ->check(CLI::IsMember(std::vector<std::string>(std::begin(bench::section_names),
+                                                       std::end(bench::section_names))));
+    app.add_option("--commit", commit, "To be printed at the head");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+
+    const nlohmann::json machine = head(commit);
+    bench::report out;
+    bool any = false;
+    for (const std::string& name : bench::scene_names()) {
+        if (name.find(o.scene) == std::string::npos) continue;
+        any = true;
+        run_scene(name, o, out);
+    }
+    if (!any) {
+        std::string names;
+        for (const std::string& name : bench::scene_names()) names += " " + name;
+        std::fprintf(stderr, "bench: found no scene \"%s\", expected part of one of:%s\n",
+                     o.scene.c_str(), names.c_str());
+        return 1;
+    }
+    if (o.wants("growth") && o.scene.empty()) bench::growth_with_mesh(o, out);
+    if (!json.empty()) {
+        ccd::io::write_whole(
+            json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");
+    }
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench: %s\n", error.what());
+    return 1;
+}

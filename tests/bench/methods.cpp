@@ -1,0 +1,93 @@
+#include <ccd/batch.hpp>
+#include <ccd/method.hpp>
+#include <stdexcept>
+
+#include "sections.hpp"
+
+namespace bench {
+namespace {
+
+struct contestant {
+    std::string name;
+    std::size_t queries;
+    std::size_t collisions;  ///< or uncertain
+};
+
+template <class Query>
+void add_rows(const scene& s, const query_set<Query>& all, const options& o,
+              std::vector<std::vector<cell>>& rows) {
+    if (all.size() == 0) return;
+    const std::vector<Query> sample = all.at_most(o.most_queries()).all_stored();
+    const query_set<Query> batch = o.quick ? all.at_most(5 * o.most_queries()) : all;
+    std::vector<ccd::outcome> answers(batch.size());
+
+    std::vector<contestant> contestants;
+    std::vector<std::function<void()>> passes;
+    std::size_t tight = 0;
+    for (const ccd::method_info& m : ccd::methods()) {
+        if (m.method == ccd::method::tight) tight = contestants.size();
+        const auto collisions = std::ranges::count_if(
+            sample, [&m](const Query& q) { return ccd::may_collide(ccd::decide(m.method, q)); });
+        contestants.push_back(
+            {std::string(m.name), sample.size(), static_cast<std::size_t>(collisions)});
+        passes.push_back([&sample, method = m.method] {
+            for (const Query& q : sample) keep(ccd::decide(method, q));
+        });
+    }
+    const auto add_batch = [&](ccd::instruction_set set, int threads, const std::string& how) {
+        const auto pass = [&batch, &answers, set, threads] {
+            batch.decide_batch(0, answers, {.threads = threads, .set = set});
+        };
+        const auto previous = answers;
+        pass();
+        if (contestants.size() > std::size(ccd::methods()) && answers != previous)
+            throw std::runtime_error(s.name + ": answers differ on " + how);
+        contestants.push_back(
+            {"exact, " + how, batch.size(),
+             static_cast<std::size_t>(std::ranges::count(answers, ccd::outcome::collides))});
+        passes.push_back(pass);
+    };
+    for (const ccd::instruction_set set : ccd::instruction_sets()) {
+        add_batch(set, 1, "batch on " + std::string(ccd::name(set)));
+    }
+    // What batches answered is what the queries get one by one.
+    for (std::size_t i = 0; i < batch.size(); i += 1 + batch.size() / o.most_queries()) {
+        if (ccd::decide(ccd::method::exact, batch[i]).outcome != answers[i])
+            throw std::runtime_error(s.name + ": batches and one by one differ");
+    }
+    const ccd::instruction_set best = ccd::instruction_sets().back();
+    add_batch(best, 0, "batch on " + std::string(ccd::name(best)) + ", all threads");
+
+    const std::vector<timing> timings = race(passes, o.repeats());
+    const auto ns = [&](std::size_t i, double seconds) {
+        return 1e9 * seconds / static_cast<double>(contestants[i].queries);
+    };
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+        rows.push_back({word(kind_of<Query>::name), word(contestants[i].name),
+                        count(contestants[i].queries), count(contestants[i].collisions),
+                        number(ns(i, timings[i].minimum), 1), number(ns(i, timings[i].median), 1),
+                        number(ns(tight, timings[tight].minimum) / ns(i, timings[i].minimum), 2)});
+    }
+}
+
+}  // namespace
+
+void methods(const scene& s, const options& o, report& out) {
+    std::vector<std::vector<cell>> rows;
+    add_rows(s, s.queries.vertex_face, o, rows);
+    add_rows(s, s.queries.edge_edge, o, rows);
+    out.table("methods", {{"scene", s.name}},
+              s.name +
+                  ": ns per query, one by one and in batches (one thread unless said; times "
+                  "tight: how often as fast as tight one by one)",
+              {{"kind", "kind", true},
+               {"contestant", "method", true},
+               {"queries", "queries"},
+               {"collisions", "collide"},
+               {"ns_min", "min ns"},
+               {"ns_median", "median ns"},
+               {"times_tight", "times tight"}},
+              rows);
+}
+
+}  // namespace bench

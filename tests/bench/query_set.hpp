@@ -1,0 +1,94 @@
+// The queries that benchmarks decide: a step's candidates by index, or stored ones.
+#pragma once
+
+#include <algorithm>
+#include <ccd/batch.hpp>
+#include <ccd/mesh.hpp>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace bench {
+
+template <class Query>
+struct kind_of;
+template <>
+struct kind_of<ccd::vertex_face<double>> {
+    using indices = ccd::vertex_face_indices;
+    static constexpr std::string_view name = "vf";
+};
+template <>
+struct kind_of<ccd::edge_edge<double>> {
+    using indices = ccd::edge_edge_indices;
+    static constexpr std::string_view name = "ee";
+};
+
+/// Queries of one kind, in the order in which they are decided. Either `by_index` into `rows`,
+/// which are not owned, or `stored`.
+template <class Query>
+struct query_set {
+    using indices = typename kind_of<Query>::indices;
+
+    ccd::vertex_rows rows;
+    std::vector<indices> by_index;
+    std::vector<Query> stored;
+
+    std::size_t size() const { return by_index.size() + stored.size(); }
+    Query operator[](std::size_t i) const {
+        return by_index.empty() ? stored[i] : query(by_index[i]);
+    }
+    /// Queries from `first` on, as many as there are answers.
+    void decide_batch(std::size_t first, std::span<ccd::outcome> answers,
+                      const ccd::batch_options& options) const {
+        if (by_index.empty()) {
+            ccd::decide_batch(std::span(stored).subspan(first, answers.size()), answers, options);
+        } else {
+            ccd::decide_batch(rows, std::span(by_index).subspan(first, answers.size()), answers,
+                              options);
+        }
+    }
+    /// So many: drawn evenly where there are more, over and over where there are fewer.
+    query_set resized(std::size_t count) const {
+        query_set result{.rows = rows, .by_index = {}, .stored = {}};
+        const auto draw = [&](const auto& from, auto& to) {
+            to.reserve(from.empty() ? 0 : count);
+            for (std::size_t i = 0; i < count && !from.empty(); ++i) {
+                to.push_back(from[count < from.size() ? i * from.size() / count : i % from.size()]);
+            }
+        };
+        draw(by_index, result.by_index);
+        draw(stored, result.stored);
+        return result;
+    }
+    query_set at_most(std::size_t count) const { return size() > count ? resized(count) : *this; }
+    /// All as stored queries.
+    std::vector<Query> all_stored() const {
+        std::vector<Query> queries;
+        queries.reserve(size());
+        for (std::size_t i = 0; i < size(); ++i) queries.push_back((*this)[i]);
+        return queries;
+    }
+
+  private:
+    ccd::moving_point<double> moving(ccd::index v) const {
+        const std::size_t i = 3 * static_cast<std::size_t>(v);
+        const auto at = [i](const double* x) {
+            return ccd::point<double>{x[i], x[i + 1], x[i + 2]};
+        };
+        return {at(rows.before), at(rows.after)};
+    }
+    ccd::vertex_face<double> query(const ccd::vertex_face_indices& q) const {
+        return {moving(q.v), moving(q.f0), moving(q.f1), moving(q.f2)};
+    }
+    ccd::edge_edge<double> query(const ccd::edge_edge_indices& q) const {
+        return {moving(q.a0), moving(q.a1), moving(q.b0), moving(q.b1)};
+    }
+};
+
+struct query_sets {
+    query_set<ccd::vertex_face<double>> vertex_face;
+    query_set<ccd::edge_edge<double>> edge_edge;
+};
+
+}  // namespace bench

@@ -1,0 +1,27 @@
+// The benchmark's tables. Each function prints its own.
+#pragma once
+
+#include "harness.hpp"
+#include "scenes.hpp"
+
+namespace bench {
+
+/// ns per query of every method one by one, and of batches on every instruction set and with all
+/// threads. Throws std::runtime_error if batches and one by one disagree.
+void methods(const scene& s, const options& o, report& out);
+
+/// What each stage of `exact` settles and costs, its slowest single queries, and those that reach
+/// the integers.
+void stages(const scene& s, const options& o, report& out);
+
+/// Whole steps: time by phase, memory. Throws std::runtime_error if a step has other candidates
+/// than those found here.
+void steps(const scene& s, const options& o, report& out);
+
+/// ns per query of batches against the number of queries.
+void growth_with_queries(const scene& s, const options& o, report& out);
+
+/// Whole steps against the size of the mesh.
+void growth_with_mesh(const options& o, report& out);
+
+}  // namespace bench

@@ -1,0 +1,131 @@
+#include <ccd/step.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "heap.hpp"
+#include "sections.hpp"
+
+namespace bench {
+namespace {
+
+/// A way to do a step, and its best run.
+struct contestant {
+    ccd::method method;
+    int threads;  ///< 0: all
+    ccd::step_result quickest = {};
+    double seconds = std::numeric_limits<double>::infinity();
+};
+
+void run(const ccd::mesh& before, const ccd::mesh& after, contestant& c) {
+    const clock::time_point start = clock::now();
+    ccd::step_result result = ccd::step(before, after, {.method = c.method, .threads = c.threads});
+    const double seconds = seconds_since(start);
+    if (seconds >= c.seconds) return;
+    c.seconds = seconds;
+    c.quickest = std::move(result);
+}
+
+/// Races the contestants; afterwards each holds its quickest run.
+std::vector<timing> race_steps(const ccd::mesh& before, const ccd::mesh& after,
+                               std::vector<contestant>& contestants, int repeats) {
+    std::vector<std::function<void()>> passes;
+    for (contestant& c : contestants) {
+        passes.push_back([&before, &after, &c] { run(before, after, c); });
+    }
+    return race(passes, repeats);
+}
+
+std::size_t bytes_of(const ccd::mesh& m) {
+    return m.vertices.size() * sizeof m.vertices[0] + m.faces.size() * sizeof m.faces[0];
+}
+
+double megabytes(std::size_t bytes) {
+    return static_cast<double>(bytes) / 1e6;
+}
+
+}  // namespace
+
+void steps(const scene& s, const options& o, report& out) {
+    std::vector<contestant> contestants{{ccd::method::exact, 1}, {ccd::method::exact, 0}};
+    if (!o.quick) {
+        contestants.push_back({ccd::method::tight, 1});
+        contestants.push_back({ccd::method::float_, 1});
+    }
+    const auto timings = race_steps(s.before, s.after, contestants, o.repeats());
+    std::vector<std::vector<cell>> rows;
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+        const contestant& c = contestants[i];
+        const ccd::step_result& r = c.quickest;
+        if (r.vertex_face_candidates != s.queries.vertex_face.size() ||
+            r.edge_edge_candidates != s.queries.edge_edge.size()) {
+            throw std::runtime_error(s.name + ": the step has other candidates than found here");
+        }
+        const std::size_t heap = peak_heap([&] {
+            keep(ccd::step(s.before, s.after, {.method = c.method, .threads = c.threads}));
+        });
+        const std::size_t frames = bytes_of(s.before) + bytes_of(s.after);
+        const std::size_t result = r.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
+                                   r.edge_edge.size() * sizeof(ccd::edge_edge_pair);
+        const std::size_t without_result = heap - std::min(heap, result);
+        rows.push_back(
+            {word(ccd::info(c.method).name), count(static_cast<std::uint64_t>(r.threads)),
+             number(1e3 * timings[i].minimum, 2), number(1e3 * timings[i].median, 2),
+             number(1e3 * r.broad_phase_seconds, 2), number(1e3 * r.narrow_phase_seconds, 2),
+             count(r.vertex_face_candidates + r.edge_edge_candidates),
+             count(r.vertex_face.size() + r.edge_edge.size()), number(megabytes(frames), 2),
+             number(megabytes(result), 2), number(megabytes(heap), 2),
+             number(static_cast<double>(without_result) / static_cast<double>(frames), 2)});
+    }
+    out.table("steps", {{"scene", s.name}},
+              s.name +
+                  ": whole steps, frames in memory to sorted pairs (peak: heap on top of the "
+                  "frames; its ratio to the frames without the result)",
+              {{"method", "method", true},
+               {"threads", "threads"},
+               {"ms_min", "min ms"},
+               {"ms_median", "median ms"},
+               {"broad_ms", "broad ms"},
+               {"narrow_ms", "narrow ms"},
+               {"candidates", "candidates"},
+               {"pairs", "pairs"},
+               {"frames_mb", "frames MB"},
+               {"result_mb", "result MB"},
+               {"peak_mb", "peak MB"},
+               {"peak_to_frames", "peak/frames"}},
+              rows);
+}
+
+void growth_with_mesh(const options& o, report& out) {
+    std::vector<std::vector<cell>> rows;
+    for (const int n : o.quick ? std::vector{25, 50} : std::vector{50, 100, 200, 400, 800}) {
+        ccd::mesh before, after;
+        make_cloth_over_sphere(n, before, after);
+        std::vector<contestant> contestants{{ccd::method::exact, 1}, {ccd::method::exact, 0}};
+        const auto timings = race_steps(before, after, contestants, o.repeats());
+        const ccd::step_result& r = contestants[0].quickest;
+        const auto candidates =
+            static_cast<double>(r.vertex_face_candidates + r.edge_edge_candidates);
+        const auto vertices = static_cast<double>(before.vertices.size());
+        rows.push_back({count(before.vertices.size()), count(before.faces.size()),
+                        count(r.vertex_face_candidates + r.edge_edge_candidates),
+                        count(r.vertex_face.size() + r.edge_edge.size()),
+                        number(1e3 * timings[0].minimum, 2), number(1e3 * timings[1].minimum, 2),
+                        number(1e9 * timings[0].minimum / vertices, 0),
+                        number(1e9 * timings[0].minimum / candidates, 1),
+                        number(timings[0].minimum / timings[1].minimum, 2)});
+    }
+    out.table("growth", {{"with", "mesh"}},
+              "cloth on a sphere, made for this: a whole step by exact against the mesh's size",
+              {{"vertices", "vertices"},
+               {"faces", "faces"},
+               {"candidates", "candidates"},
+               {"pairs", "pairs"},
+               {"ms_one_thread", "min ms, 1 thread"},
+               {"ms_all_threads", "all threads"},
+               {"ns_per_vertex", "ns per vertex"},
+               {"ns_per_candidate", "ns per candidate"},
+               {"speedup", "all to 1"}},
+              rows);
+}
+
+}  // namespace bench

@@ -1,0 +1,76 @@
+"""The soak program as a person uses it: stopped by signals, resumed, same report as in one go.
+
+    SOAK_PROGRAM=build/tests/errbound_soak python3 stop_and_resume.py
+"""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = os.environ["SOAK_PROGRAM"]
+
+
+class StopAndResume(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def command(self, name, queries, *options):
+        folder = str(Path(self.folder.name) / name)
+        return [PROGRAM, "--folder", folder, "--queries", str(queries), *options]
+
+    def state(self, name):
+        state = json.loads((Path(self.folder.name) / name / "state.json").read_text())
+        del state["seconds"]
+        return state
+
+    def test_signals(self):
+        whole = subprocess.run(self.command("whole", 8000), capture_output=True, text=True)
+        self.assertEqual(whole.returncode, 0, whole.stdout + whole.stderr)
+        self.assertIn("seed 1: ", whole.stdout)
+        self.assertIn(" 0 differ", whole.stdout)
+
+        stopped, more = 0, ["--threads", "1"]
+        for sent in [signal.SIGINT, signal.SIGTERM] * 50:
+            command = self.command("parts", 8000, *more)
+            part = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+            part.stdout.readline()  # only then has it started
+            time.sleep(0.1)
+            part.send_signal(sent)
+            text = part.stdout.read()
+            part.stdout.close()
+            more = ["--resume"]
+            if part.wait() == 0:
+                break
+            self.assertEqual(part.returncode, 3, text)
+            self.assertIn("--resume goes on", text)
+            stopped += 1
+        self.assertEqual(part.returncode, 0)
+        self.assertGreater(stopped, 0)
+        self.assertEqual(self.state("parts"), self.state("whole"))
+
+    def test_unfinished_run_is_not_overwritten(self):
+        command = self.command("once", 1)
+        self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
+        again = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("--resume", again.stderr)
+        other_seed = subprocess.run(
+            command + ["--resume", "--seed", "2"], capture_output=True, text=True
+        )
+        self.assertEqual(other_seed.returncode, 1)
+        self.assertIn("found seed 1, expected the seed given, 2", other_seed.stderr)
+
+    def test_bad_usage(self):
+        for options in (["many"], [1, "--unknown"]):
+            command = self.command("none", *options)
+            self.assertEqual(subprocess.run(command, capture_output=True).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
