@@ -163,16 +163,16 @@ class box_tree {
         std::size_t opened = 0;
         open[opened++] = {levels_ - 1, 0};
         while (opened > 0) {
-            const auto [level, position] = open[--opened];
-            const pack_mask members = packs_[level_start_[level] + position].touching(b);
-            if (level == 0) {
-                if (members != 0) visit(position, members);
+            const node n = open[--opened];
+            const pack_mask members = packs_[level_start_[n.level] + n.position].touching(b);
+            if (n.level == 0) {
+                if (members != 0) visit(n.position, members);
                 continue;
             }
-            const std::size_t first_child = first >> (pack_bits * (level - 1));
+            const std::size_t first_child = first >> (pack_bits * (n.level - 1));
             for_each_bit(members, [&](std::size_t i) {
-                const std::size_t child = pack::size * position + i;
-                if (child >= first_child) open[opened++] = {level - 1, child};
+                const std::size_t child = pack::size * n.position + i;
+                if (child >= first_child) open[opened++] = {n.level - 1, child};
             });
         }
     }

@@ -94,8 +94,8 @@ std::size_t vertex_face_candidates_by(const step_frames& frames, std::span<const
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
             const std::array<index, 1>& v = vertices[i];
             const face& f = faces[j];
-            block.add({v[0], f[0], f[1], f[2]},
-                      !share_vertex(v, f) && (certain || frames.touch(v, f)));
+            const bool apart = !share_vertex(v, f);
+            block.add({v[0], f[0], f[1], f[2]}, certain ? apart : apart && frames.touch(v, f));
         });
     return blocks.finish();
 }
@@ -113,8 +113,8 @@ std::size_t edge_edge_candidates_by(const step_frames& frames, std::vector<edge>
             // Of edges that share no vertex the lesser one is that with the lesser first vertex.
             const bool in_order = edges[i][0] < edges[j][0];
             const edge a = edges[in_order ? i : j], b = edges[in_order ? j : i];
-            block.add({a[0], a[1], b[0], b[1]},
-                      !share_vertex(a, b) && (certain || frames.touch(a, b)));
+            const bool apart = !share_vertex(a, b);
+            block.add({a[0], a[1], b[0], b[1]}, certain ? apart : apart && frames.touch(a, b));
         });
     return blocks.finish();
 }
