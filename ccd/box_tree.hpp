@@ -91,7 +91,7 @@ class box_pack {
         });
     }
 
-    /// Those that touch b with no end of theirs at an end of b.
+    /// Those that touch b, and none of whose ends touches an end of b.
     pack_mask overlapping(const box<Real>& b) const {
         return mask_of([&](std::size_t part) {
             lanes found = lanes{} - 1;
@@ -201,8 +201,8 @@ class box_tree {
 };
 
 /// Calls visit(local, i, j, certain) for all pairs of box i of `a` and box j of `b` that touch; if
-/// both are one tree, once for each pair of two of its boxes. `certain`: they overlap on every
-/// axis. From several threads at once; `local` is local_of() of the thread that calls.
+/// both are one tree, once for each pair of two of its boxes. `certain`: no end of one is at an end
+/// of the other. From several threads at once; `local` is local_of() of the thread that calls.
 template <class Real, class LocalOf, class Visit>
 void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const LocalOf& local_of,
                        const Visit& visit) {

@@ -8,11 +8,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 
-#include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
 #include <ccd/mesh.hpp>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <utility>

@@ -1,3 +1,5 @@
+// The order of elements along a space-filling curve (Morton, "A computer oriented geodetic data
+// base and a new technique in file sequencing", 1966).
 #include "ccd/step_frames.hpp"
 
 #include <tbb/blocked_range.h>
