@@ -19,7 +19,7 @@ struct mesh {
 };
 
 /// The mesh's unique edges, each ascending, sorted; a vertex repeated within a face makes no edge.
-/// Cost: O(faces) unless very many of them share a vertex; memory: 24 bytes a face and 8 a vertex.
+/// Cost: O(faces) unless very many of them share a vertex; memory: 36 bytes a face and 8 a vertex.
 std::vector<edge> unique_edges(const std::vector<face>& faces);
 
 }  // namespace ccd
