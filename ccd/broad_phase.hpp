@@ -8,13 +8,14 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_for_each.h>
 
-#include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
 #include <ccd/mesh.hpp>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ccd/box_tree.hpp"
@@ -75,21 +76,17 @@ bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) 
     return shared;
 }
 
-/// Calls consume(block) with all vertex/face candidates, in blocks (spans of vertex_face_indices)
-/// of up to 2048, from several threads at once; it must not wait for other tasks of its arena. The
-/// vertices of a face come in the mesh's order. Returns the number of candidates. Working memory:
-/// about 40 bytes a face and 32 a vertex, and 32 KB a thread.
-template <class Consume>
-std::size_t vertex_face_candidates(const step_frames& frames, std::span<const face> mesh_faces,
-                                   std::size_t vertex_count, const Consume& consume) {
+template <class Real, class Consume>
+std::size_t vertex_face_candidates_by(const step_frames& frames, std::span<const face> mesh_faces,
+                                      std::size_t vertex_count, const Consume& consume) {
     std::vector<std::array<index, 1>> vertices(vertex_count);
     for (std::size_t i = 0; i < vertex_count; ++i) vertices[i] = {static_cast<index>(i)};
-    vertices = frames.along_curve(std::span<const std::array<index, 1>>(vertices));
-    const std::vector<face> faces = frames.along_curve(mesh_faces);
-    const box_tree vertex_tree(vertices.size(),
-                               [&](std::size_t i) { return frames.rounded_box(vertices[i]); });
-    const box_tree face_tree(faces.size(),
-                             [&](std::size_t i) { return frames.rounded_box(faces[i]); });
+    vertices = frames.along_curve<Real>(std::span<const std::array<index, 1>>(vertices));
+    const std::vector<face> faces = frames.along_curve<Real>(mesh_faces);
+    const box_tree<Real> vertex_tree(
+        vertices.size(), [&](std::size_t i) { return frames.swept_box<Real>(vertices[i]); });
+    const box_tree<Real> face_tree(faces.size(),
+                                   [&](std::size_t i) { return frames.swept_box<Real>(faces[i]); });
 
     candidate_blocks<vertex_face_indices, Consume> blocks(consume);
     for_each_touching(
@@ -97,20 +94,18 @@ std::size_t vertex_face_candidates(const step_frames& frames, std::span<const fa
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
             const std::array<index, 1>& v = vertices[i];
             const face& f = faces[j];
-            block.add({v[0], f[0], f[1], f[2]},
-                      !share_vertex(v, f) && (certain || frames.touch(v, f)));
+            const bool apart = !share_vertex(v, f);
+            block.add({v[0], f[0], f[1], f[2]}, certain ? apart : apart && frames.touch(v, f));
         });
     return blocks.finish();
 }
 
-/// The same for the edge/edge candidates, in blocks of edge_edge_indices: each edge as given, the
-/// lesser edge first. `edges` must be unique; they are released when no longer needed. Working
-/// memory: about 44 bytes an edge, and 32 KB a thread.
-template <class Consume>
-std::size_t edge_edge_candidates(const step_frames& frames, std::vector<edge> edges,
-                                 const Consume& consume) {
-    edges = frames.along_curve(std::span<const edge>(edges));
-    const box_tree tree(edges.size(), [&](std::size_t i) { return frames.rounded_box(edges[i]); });
+template <class Real, class Consume>
+std::size_t edge_edge_candidates_by(const step_frames& frames, std::vector<edge> edges,
+                                    const Consume& consume) {
+    edges = frames.along_curve<Real>(std::span<const edge>(edges));
+    const box_tree<Real> tree(edges.size(),
+                              [&](std::size_t i) { return frames.swept_box<Real>(edges[i]); });
     candidate_blocks<edge_edge_indices, Consume> blocks(consume);
     for_each_touching(
         tree, tree, [&]() -> auto& { return blocks.local(); },
@@ -118,10 +113,33 @@ std::size_t edge_edge_candidates(const step_frames& frames, std::vector<edge> ed
             // Of edges that share no vertex the lesser one is that with the lesser first vertex.
             const bool in_order = edges[i][0] < edges[j][0];
             const edge a = edges[in_order ? i : j], b = edges[in_order ? j : i];
-            block.add({a[0], a[1], b[0], b[1]},
-                      !share_vertex(a, b) && (certain || frames.touch(a, b)));
+            const bool apart = !share_vertex(a, b);
+            block.add({a[0], a[1], b[0], b[1]}, certain ? apart : apart && frames.touch(a, b));
         });
     return blocks.finish();
+}
+
+/// Calls consume(block) with all vertex/face candidates, in blocks (spans of vertex_face_indices)
+/// of up to 2048, from several threads at once; it must not wait for other tasks of its arena. The
+/// vertices of a face come in the mesh's order. Returns the number of candidates. Working memory:
+/// about 40 bytes a face and 32 a vertex, twice as much where floats do not do, and 32 KB a thread.
+template <class Consume>
+std::size_t vertex_face_candidates(const step_frames& frames, std::span<const face> faces,
+                                   std::size_t vertex_count, const Consume& consume) {
+    return frames.need_doubles(faces)
+               ? vertex_face_candidates_by<double>(frames, faces, vertex_count, consume)
+               : vertex_face_candidates_by<float>(frames, faces, vertex_count, consume);
+}
+
+/// The same for the edge/edge candidates, in blocks of edge_edge_indices: each edge as given, the
+/// lesser edge first. `edges` must be unique; they are released when no longer needed. Working
+/// memory: about 44 bytes an edge, twice as much where floats do not do, and 32 KB a thread.
+template <class Consume>
+std::size_t edge_edge_candidates(const step_frames& frames, std::vector<edge> edges,
+                                 const Consume& consume) {
+    return frames.need_doubles(std::span<const edge>(edges))
+               ? edge_edge_candidates_by<double>(frames, std::move(edges), consume)
+               : edge_edge_candidates_by<float>(frames, std::move(edges), consume);
 }
 
 }  // namespace ccd

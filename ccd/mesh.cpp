@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ccd/mesh.hpp>
 #include <cstddef>
+#include <span>
 
 namespace ccd {
 
@@ -26,13 +27,14 @@ std::vector<edge> unique_edges(const std::vector<face>& faces) {
 
     std::vector<edge> edges(bucket_end.back());
     for_each_edge([&](const edge& e) { edges[bucket_end[e[0] >> shift]++] = e; });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bucket_end.size() - 1, 1024),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                              const std::size_t begin = b == 0 ? 0 : bucket_end[b - 1];
-                              std::sort(edges.begin() + begin, edges.begin() + bucket_end[b]);
-                          }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, bucket_end.size() - 1, 1024),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t b = range.begin(); b < range.end(); ++b) {
+                const std::size_t begin = b == 0 ? 0 : bucket_end[b - 1];
+                std::ranges::sort(std::span(edges).subspan(begin, bucket_end[b] - begin));
+            }
+        });
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     edges.shrink_to_fit();
     return edges;

@@ -1,12 +1,13 @@
+// The order of elements along a space-filling curve (Morton, "A computer oriented geodetic data
+// base and a new technique in file sequencing", 1966).
 #include "ccd/step_frames.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
-#include <tbb/parallel_sort.h>
 
 #include <cstdint>
-#include <limits>
+#include <numeric>
 
 namespace ccd {
 namespace {
@@ -23,6 +24,8 @@ std::uint32_t position_of(curve_key key) {
 
 /// Cells of the curve along an axis.
 constexpr std::uint32_t cells = 1024;
+constexpr unsigned curve_bits = 30;
+constexpr std::size_t leaf_size = box_pack<float>::size;
 
 /// The ten bits of x with two zeros before each.
 std::uint32_t spread_bits(std::uint32_t x) {
@@ -32,84 +35,145 @@ std::uint32_t spread_bits(std::uint32_t x) {
     return (x | (x << 2)) & 0x09249249;
 }
 
-struct extent {
-    std::array<float, 3> low, high;      ///< of the boxes' middles
-    std::array<double, 3> length_sum{};  ///< of the boxes
-};
+template <class Real>
+double middle(const box<Real>& b, std::size_t k) {
+    return 0.5 * double(b.low[k]) + 0.5 * double(b.high[k]);
+}
 
-float middle(const float_box& b, std::size_t k) {
-    return 0.5F * (b.low[k] + b.high[k]);
+void widen(box<double>& b, const box<double>& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        b.low[k] = std::min(b.low[k], other.low[k]);
+        b.high[k] = std::max(b.high[k], other.high[k]);
+    }
 }
 
 template <class BoxOf>
-extent extent_of(std::span<const curve_key> keys, const BoxOf& box_of) {
-    const float_box first = box_of(element_of(keys.front()));
-    extent none;
-    for (std::size_t k = 0; k < 3; ++k) none.low[k] = none.high[k] = middle(first, k);
+box<double> box_of_middles(std::span<const curve_key> keys, const BoxOf& box_of) {
+    const auto middle_of = [&](curve_key key) {
+        const auto b = box_of(element_of(key));
+        const std::array<double, 3> m{middle(b, 0), middle(b, 1), middle(b, 2)};
+        return box<double>{m, m};
+    };
     return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<std::size_t>(0, keys.size(), 4096), none,
-        [&](const tbb::blocked_range<std::size_t>& range, extent e) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                const float_box b = box_of(element_of(keys[i]));
-                for (std::size_t k = 0; k < 3; ++k) {
-                    e.low[k] = std::min(e.low[k], middle(b, k));
-                    e.high[k] = std::max(e.high[k], middle(b, k));
-                    e.length_sum[k] += b.high[k] - b.low[k];
-                }
-            }
-            return e;
+        tbb::blocked_range<std::size_t>(0, keys.size(), 4096), middle_of(keys.front()),
+        [&](const tbb::blocked_range<std::size_t>& range, box<double> all) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                widen(all, middle_of(keys[i]));
+            return all;
         },
-        [](extent a, const extent& b) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                a.low[k] = std::min(a.low[k], b.low[k]);
-                a.high[k] = std::max(a.high[k], b.high[k]);
-                a.length_sum[k] += b.length_sum[k];
-            }
+        [](box<double> a, const box<double>& b) {
+            widen(a, b);
             return a;
         });
 }
 
-/// Sorts the keys by the middles of their elements' boxes. Cells are as many times longer on one
-/// axis than on another as the boxes are: an axis on which boxes are long tells few of them apart.
-/// What then shares a cell is sorted again by finer cells, so that neither a remote element nor a
-/// huge one leaves the others in disorder.
-template <class BoxOf>
-void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of) {
-    const extent e = extent_of(keys, box_of);
-    std::array<double, 3> length{};  // of the boxes on the average, but at least that of a cell
-    double most_lengths = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double spread = double(e.high[k]) - e.low[k];
-        length[k] = std::max(e.length_sum[k] / static_cast<double>(keys.size()), spread / cells);
-        if (spread > 0) most_lengths = std::max(most_lengths, spread / length[k]);
-    }
-    if (most_lengths == 0) return;  // one middle for all
+/// Every how manieth of `count` to take for a sample of about a thousand.
+std::size_t sample_stride(std::size_t count) {
+    return 1 + count / 1024;
+}
 
-    const double cells_a_length = (cells - 1) / most_lengths;
+/// By radix: serial, but beside the rest of the work hardly to be seen, which no sort by
+/// comparisons on a few cores was.
+void sort_keys(std::span<curve_key> keys) {
+    constexpr std::size_t few = 4096, digit_bits = 8;
+    if (keys.size() < few) {
+        std::ranges::sort(keys);
+        return;
+    }
+    std::vector<curve_key> buffer(keys.size());
+    std::span<curve_key> from = keys, to = buffer;
+    for (std::size_t shift = 32; shift < 64; shift += digit_bits) {
+        const auto digit = [shift](curve_key key) { return (key >> shift) % (1U << digit_bits); };
+        std::array<std::size_t, (1U << digit_bits) + 1> start{};
+        for (const curve_key key : from) ++start[digit(key) + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        for (const curve_key key : from) to[start[digit(key)]++] = key;
+        std::swap(from, to);
+    }
+}
+
+/// Calls visit(run) for all runs of keys whose positions have the same upper bits.
+template <class Visit>
+void for_each_run(std::span<curve_key> keys, unsigned lower_bits, const Visit& visit) {
+    const auto upper = [lower_bits](curve_key key) { return position_of(key) >> lower_bits; };
+    for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+        while (end < keys.size() && upper(keys[end]) == upper(keys[begin])) ++end;
+        visit(keys.subspan(begin, end - begin));
+    }
+}
+
+/// Sorts the keys by their elements' boxes: along a Morton curve through the middles, which gathers
+/// in each leaf boxes that are near each other.
+///
+/// Cells of the curve are as many times longer on one axis than on another as the boxes are: an
+/// axis on which boxes are long tells few of them apart. Boxes that are long beside the whole (and
+/// not of `one_kind`) come after all others, by the axis on which they are longest, each kind along
+/// a curve of its own: one long box, or two that cross, would make a leaf of everything. What
+/// shares a cell in the end is sorted again by finer cells, so that nothing remote leaves the
+/// others in disorder.
+template <class BoxOf>
+void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of, bool one_kind) {
+    const box<double> middles = box_of_middles(std::span<const curve_key>(keys), box_of);
+    if (middles.low == middles.high) return;
+    std::array<unit_axis, 3> axes;
+    for (std::size_t k = 0; k < 3; ++k) axes[k] = unit_axis(middles.low[k], middles.high[k]);
+
+    // As a part of the spread of the middles; bounded, since it may be infinite.
+    const auto length = [&](const auto& b, std::size_t k) {
+        return std::min<double>(0.5 * (axes[k](b.high[k]) - axes[k](b.low[k])), cells);
+    };
+    std::array<double, 3> half_cells{};  // half the number of cells along each axis
+    const std::size_t stride = sample_stride(keys.size());
+    for (std::size_t i = 0; i < keys.size(); i += stride) {
+        const auto b = box_of(element_of(keys[i]));
+        for (std::size_t k = 0; k < 3; ++k) half_cells[k] += length(b, k);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double mean =
+            half_cells[k] * static_cast<double>(stride) / static_cast<double>(keys.size());
+        half_cells[k] = middles.low[k] < middles.high[k] ? 1 / std::max(mean, 1.0 / cells) : 0;
+    }
+    const double most = *std::ranges::max_element(half_cells);
+    for (double& half : half_cells) half *= 0.5 * (cells - 1) / most;
+
+    const auto kind_of = [&](const auto& b) {
+        double longest = 1.0 / 16;
+        std::uint32_t kind = 0;
+        for (std::uint32_t k = 0; k < 3; ++k)
+            if (length(b, k) > longest) {
+                longest = length(b, k);
+                kind = k + 1;
+            }
+        return kind;
+    };
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, keys.size(), 4096),
         [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 const index element = element_of(keys[i]);
-                const float_box b = box_of(element);
-                std::uint32_t position = 0;
+                const auto b = box_of(element);
+                std::uint32_t position = one_kind ? 0 : kind_of(b) << curve_bits;
                 for (std::size_t k = 0; k < 3; ++k) {
-                    if (length[k] == 0) continue;
-                    const double cell =
-                        (double(middle(b, k)) - e.low[k]) / length[k] * cells_a_length;
-                    position |= spread_bits(std::min(static_cast<std::uint32_t>(cell), cells - 1))
-                                << k;
+                    const double cell = half_cells[k] + half_cells[k] * axes[k](middle(b, k));
+                    position |=
+                        spread_bits(static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1.0)))
+                        << k;
                 }
                 keys[i] = curve_key(position) << 32 | element;
             }
         });
-    tbb::parallel_sort(keys.begin(), keys.end());
+    sort_keys(keys);
 
-    for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
-        while (end < keys.size() && position_of(keys[end]) == position_of(keys[begin])) ++end;
-        if (end - begin > box_pack::size && end - begin < keys.size())
-            sort_along_curve(keys.subspan(begin, end - begin), box_of);
-    }
+    for_each_run(keys, curve_bits, [&](std::span<curve_key> kind) {
+        if (position_of(kind.front()) >> curve_bits != 0) {
+            sort_along_curve(kind, box_of, true);
+            return;
+        }
+        for_each_run(kind, 0, [&](std::span<curve_key> cell) {
+            if (cell.size() > leaf_size && cell.size() < keys.size())
+                sort_along_curve(cell, box_of, one_kind);
+        });
+    });
 }
 
 }  // namespace
@@ -117,34 +181,50 @@ void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of) {
 step_frames::step_frames(const mesh& before, const mesh& after)
     : before_(before.vertices), after_(after.vertices) {
     if (before_.empty()) return;
-    exact_box all;
+    box<double> all;
     all.low = all.high = coordinates(before_, 0);
     for (const std::vector<point<double>>* frame : {&before_, &after_})
         for (std::size_t v = 0; v < frame->size(); ++v)
             widen(all, coordinates(*frame, static_cast<index>(v)));
-    for (std::size_t k = 0; k < 3; ++k) {
-        // Halved before adding, and the inverse bounded: neither may overflow.
-        middle_[k] = all.low[k] / 2 + all.high[k] / 2;
-        const double radius = std::max(all.high[k] - middle_[k], middle_[k] - all.low[k]);
-        scale_[k] = std::min(1 / radius, std::numeric_limits<double>::max());
-    }
+    for (std::size_t k = 0; k < 3; ++k) axes_[k] = unit_axis(all.low[k], all.high[k]);
 }
 
 template <std::size_t N>
+bool step_frames::need_doubles(std::span<const std::array<index, N>> elements) const {
+    std::size_t confused = 0, samples = 0;
+    for (std::size_t i = 0; i < elements.size(); i += sample_stride(elements.size()), ++samples) {
+        const box<double> exact = swept_box<double>(elements[i]);
+        const box<float> rounded = swept_box<float>(elements[i]);
+        bool merged = false;
+        for (std::size_t k = 0; k < 3; ++k)
+            merged |= exact.low[k] != exact.high[k] && rounded.low[k] == rounded.high[k];
+        confused += merged;
+    }
+    return confused > samples / 16;
+}
+
+template <class Real, std::size_t N>
 std::vector<std::array<index, N>> step_frames::along_curve(
     std::span<const std::array<index, N>> elements) const {
     std::vector<curve_key> keys(elements.size());
     for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = i;
     if (!keys.empty())
-        sort_along_curve(std::span(keys), [&](index i) { return rounded_box(elements[i]); });
+        sort_along_curve(
+            std::span(keys), [&](index i) { return swept_box<Real>(elements[i]); }, false);
     std::vector<std::array<index, N>> ordered(elements.size());
     for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = elements[element_of(keys[i])];
     return ordered;
 }
 
-template std::vector<std::array<index, 1>> step_frames::along_curve(
+template bool step_frames::need_doubles(std::span<const edge>) const;
+template bool step_frames::need_doubles(std::span<const face>) const;
+template std::vector<std::array<index, 1>> step_frames::along_curve<float>(
     std::span<const std::array<index, 1>>) const;
-template std::vector<edge> step_frames::along_curve(std::span<const edge>) const;
-template std::vector<face> step_frames::along_curve(std::span<const face>) const;
+template std::vector<std::array<index, 1>> step_frames::along_curve<double>(
+    std::span<const std::array<index, 1>>) const;
+template std::vector<edge> step_frames::along_curve<float>(std::span<const edge>) const;
+template std::vector<edge> step_frames::along_curve<double>(std::span<const edge>) const;
+template std::vector<face> step_frames::along_curve<float>(std::span<const face>) const;
+template std::vector<face> step_frames::along_curve<double>(std::span<const face>) const;
 
 }  // namespace ccd

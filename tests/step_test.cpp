@@ -246,6 +246,37 @@ TEST_P(NastyShape, AgreesWithBruteForce) {
 INSTANTIATE_TEST_SUITE_P(Shapes, NastyShape, testing::ValuesIn(shapes),
                          [](const auto& info) { return info.param.name; });
 
+TEST(Step, FindsInEachOfManyCopiesWhatItFindsInOne) {
+    const auto [before, after] = random_soup(4, 60, 50);
+    const auto one = brute_force(before, after, ccd::method::exact);
+    constexpr ccd::index copies = 120;
+    ccd::mesh all_before, all_after;
+    std::vector<ccd::vertex_face_pair> vertex_face;
+    std::vector<ccd::edge_edge_pair> edge_edge;
+    for (ccd::index copy = 0; copy < copies; ++copy) {
+        const ccd::index first = 60 * copy;
+        const ccd::point<double> offset{100.0 * (copy % 5), 100.0 * (copy / 5), 0};
+        for (ccd::index v = 0; v < 60; ++v) {
+            all_before.vertices.push_back(before.vertices[v] + offset);
+            all_after.vertices.push_back(after.vertices[v] + offset);
+        }
+        for (const auto& [a, b, c] : before.faces)
+            all_before.faces.push_back({first + a, first + b, first + c});
+        for (const auto& [v, f] : one.vertex_face)
+            vertex_face.push_back({first + v, {first + f[0], first + f[1], first + f[2]}});
+        for (const auto& [a, b] : one.edge_edge)
+            edge_edge.push_back({{first + a[0], first + a[1]}, {first + b[0], first + b[1]}});
+    }
+    all_after.faces = all_before.faces;
+    for (const int threads : {1, 2, 3}) {
+        const auto all = ccd::step(all_before, all_after, {.threads = threads});
+        EXPECT_EQ(all.vertex_face_candidates, copies * one.vertex_face_candidates);
+        EXPECT_EQ(all.edge_edge_candidates, copies * one.edge_edge_candidates);
+        EXPECT_EQ(all.vertex_face, vertex_face);
+        EXPECT_EQ(all.edge_edge, edge_edge);
+    }
+}
+
 TEST(Step, TakesOneFaceAndNone) {
     const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}}, {{0, 1, 2}}};
     expect_as_by_brute_force(one, one, ccd::method::exact);
