@@ -1,5 +1,7 @@
 // The stages of `exact`, each alone and all together, on every instruction set: never a wrong
 // certain answer, and the same answers everywhere.
+#include "ccd/cascade.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +18,6 @@
 #include <string>
 #include <vector>
 
-#include "ccd/cascade.hpp"
 #include "ccd/integers.hpp"
 #include "query_families.hpp"
 
@@ -42,7 +43,8 @@ test_set<Query> make_set(kind which, const As& as) {
     test_set<Query> set;
     for (const auto& family : families)
         // Squared: each of these queries is decided many times.
-        for (std::uint64_t i = 0; i * family.thinning * family.thinning < queries_per_family(); ++i) {
+        for (std::uint64_t i = 0; i * family.thinning * family.thinning < queries_per_family();
+             ++i) {
             const Query query = as(query_families::make(family, which, 7, i));
             set.queries.push_back(query);
             set.truth.push_back(ccd::decide_reference(query).outcome);
@@ -99,8 +101,8 @@ struct float_stages {
         const ccd::static_filter::sizes<double> sizes(forms);
         const auto y = errbound::control_values_of(forms.y());
         const double error = sizes.template error_of_y<Forms>();
-        return sizes.usable && (ccd::static_filter::above(y, error) ||
-                                ccd::static_filter::below(y, error))
+        return sizes.usable &&
+                       (ccd::static_filter::above(y, error) || ccd::static_filter::below(y, error))
                    ? ccd::outcome::separate
                    : ccd::outcome::uncertain;
     }
@@ -119,9 +121,9 @@ void expect_float_stages_never_wrong(const test_set<Query>& set) {
     EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::axes(q); }), 0u);
     EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::coplanarity(q); }), 0u);
     EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::inside(q); }), 0u);
-    EXPECT_GT(expect_never_wrong(
-                  set, [](const Query& q) { return ccd::filter(q, nullptr).outcome; }),
-              0u);
+    EXPECT_GT(
+        expect_never_wrong(set, [](const Query& q) { return ccd::filter(q, nullptr).outcome; }),
+        0u);
 }
 
 TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
@@ -131,8 +133,8 @@ TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
 
 TEST(stages, integers_are_never_wrong_where_they_are_certain) {
     for_both_kinds([](const auto& set) {
-        const auto certain = expect_never_wrong(
-            set, [](const auto& q) { return ccd::decide_integers(q).outcome; });
+        const auto certain =
+            expect_never_wrong(set, [](const auto& q) { return ccd::decide_integers(q).outcome; });
         EXPECT_GT(certain, set.queries.size() / 4);
     });
 }
