@@ -11,6 +11,7 @@
 #include <string>
 
 #include "ccd/batch_worker.hpp"
+#include "ccd/rounded_positions.hpp"
 #include "ccd/threads.hpp"
 
 namespace ccd {
@@ -79,11 +80,15 @@ void decide_indexed(const vertex_rows& rows, std::span<const Indices> queries,
     check_lengths(queries.size(), answers.size());
     const bool finite =
         all_finite(rows.before, 3 * rows.vertices) && all_finite(rows.after, 3 * rows.vertices);
+    // Rounding a vertex costs about what it saves in one query.
+    std::optional<rounded_positions> rounded;
+    if (finite && queries.size() > rows.vertices) rounded.emplace(rows);
+    const batch_positions positions{rows, rounded ? rounded->data() : nullptr};
     for_each_chunk(queries.size(), options,
                    [&](batch_worker& worker, std::size_t first, std::size_t count) {
                        const auto part = queries.subspan(first, count);
                        check_indices(part, first, rows.vertices);
-                       worker.decide(rows, part, &answers[first]);
+                       worker.decide(positions, part, &answers[first]);
                        if (finite) return;
                        for (std::size_t i = 0; i < count; ++i)
                            for (const index v : vertices_of(part[i]))

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
+#include "ccd/rounded_positions.hpp"
 #include "ccd/stage_turn.hpp"
 
 namespace ccd::ERRBOUND_INSTRUCTION_SET {
@@ -59,8 +60,30 @@ inline std::uint32_t lanes_of(const pack_mask& m, std::size_t count) {
     return bits;
 }
 
+constexpr index vertex_of(const vertex_face_indices& q, std::size_t point) {
+    return point == 0 ? q.v : point == 1 ? q.f0 : point == 2 ? q.f1 : q.f2;
+}
+constexpr index vertex_of(const edge_edge_indices& q, std::size_t point) {
+    return point == 0 ? q.a0 : point == 1 ? q.a1 : point == 2 ? q.b0 : q.b1;
+}
+
 inline std::size_t count_of(std::uint32_t bits) {
     return static_cast<std::size_t>(__builtin_popcount(bits));
+}
+
+/// Whether a cull is to be asked now; it counts down its pause.
+inline bool is_due(cull_state& state) {
+    if (state.blocks_to_pass == 0) return true;
+    --state.blocks_to_pass;
+    return false;
+}
+
+/// A cull costs about as much as the next stage. Where it settles fewer than a quarter of several
+/// blocks in a row, it is left out of the next ones.
+inline void judge(cull_state& state, std::size_t settled, std::size_t of) {
+    constexpr std::size_t patience = 4, pause = 124;
+    state.poor_blocks = 4 * settled < of ? state.poor_blocks + 1 : 0;
+    if (state.poor_blocks >= patience) state = {0, pause};
 }
 
 /// The coordinates of the three differences b, c, p at both ends, in a fixed order.
@@ -77,28 +100,25 @@ inline void store_differences(const coplanarity_forms<pack>& f, difference_value
 template <template <class> class Query, template <class> class Forms>
 class pipeline {
   public:
-    pipeline(outcome* answers, cull_state& axes, stage_report* report)
-        : answers_(answers), axes_(axes), report_(report) {}
+    pipeline(outcome* answers, stage_report* report) : answers_(answers), report_(report) {}
 
-    /// `read(i, at)` writes the 24 coordinates of query i to at[0], at[block], at[2·block], ...: by
-    /// point, end of the step, axis.
+    /// Takes in queries `ids[0]`, ..., whose answers are `separate` so far. `read(id, at)` writes
+    /// the 24 coordinates of a query to at[0], at[stride], at[2·stride], ...: by point, end of the
+    /// step, axis. Where `axes` is null the cull by axes is left out.
     template <class Read>
-    void run(std::size_t count, const Read& read) {
+    void take(const std::uint32_t* ids, std::size_t count, const Read& read, cull_state* axes) {
         for (std::size_t first = 0; first < count; first += block) {
             const std::size_t size = count - first < block ? count - first : block;
-            for (std::size_t i = 0; i < size; ++i) {
-                read(first + i, &coordinates_[0][i]);
-                answers_[first + i] = outcome::separate;
-            }
-            test_axes(static_cast<std::uint32_t>(first), size);
-            if (to_coplanarity_.size >= block) test_coplanarity();
-            if (to_inside_.size >= block) test_inside();
-            if (parts_[0].size >= block) subdivide();
+            for (std::size_t i = 0; i < size; ++i) read(ids[first + i], &coordinates_[0][i]);
+            test_axes(ids + first, size, axes);
+            settle_waiting(block);
         }
-        test_coplanarity();
-        test_inside();
-        subdivide();
     }
+
+    /// Settles what still waits.
+    void finish() { settle_waiting(1); }
+
+    static constexpr std::size_t stride = block + 8;  ///< of coordinates
 
   private:
     static constexpr std::size_t constraints =
@@ -130,21 +150,35 @@ class pipeline {
         return Forms<pack>(Query<pack>{moving(0), moving(6), moving(12), moving(18)});
     }
 
-    /// Packs of the queue from its start, emptying it: `test(at, count)`.
-    template <class Queue, class Test>
-    static void for_each_pack(Queue& from, const Test& test) {
-        from.pad();
-        for (std::size_t at = 0; at < from.size; at += width)
-            test(at, from.size - at < width ? from.size - at : width);
-        from.size = 0;
+    /// Runs each stage as long as at least `enough` queries wait for it.
+    void settle_waiting(std::size_t enough) {
+        while (to_coplanarity_.size >= enough) {
+            test_coplanarity();
+            while (to_inside_.size >= enough) {
+                test_inside();
+                if (parts_[0].size >= enough) subdivide();
+            }
+        }
+        while (to_inside_.size >= enough) test_inside();
+        if (parts_[0].size >= enough) subdivide();
     }
 
-    void test_axes(std::uint32_t first, std::size_t size) {
-        stage_turn turn(report_, stage::axes);
+    /// Takes up to `most` queries from the end of the queue, in packs: `test(at, count)`.
+    template <class Queue, class Test>
+    static void for_each_pack(Queue& from, std::size_t most, const Test& test) {
+        from.pad();
+        const std::size_t end = from.size;
+        from.size = end < most ? 0 : end - most;
+        for (std::size_t at = from.size; at < end; at += width)
+            test(at, end - at < width ? end - at : width);
+    }
+
+    void test_axes(const std::uint32_t* ids, std::size_t size, cull_state* axes) {
+        stage_turn turn(axes != nullptr ? report_ : nullptr, stage::axes);
         for (std::size_t i = size; i % width != 0; ++i)
             for (auto& column : coordinates_) column[i] = 0;
+        const bool asked = axes != nullptr && is_due(*axes);
         std::size_t separate = 0;
-        const bool asked = axes_.blocks_to_pass == 0;
         for (std::size_t at = 0; at < size; at += width) {
             const Forms<pack> forms = forms_of_coordinates(at);
             const std::size_t count = size - at < width ? size - at : width;
@@ -159,32 +193,19 @@ class pipeline {
             if (left == 0) continue;
             difference_values values;
             store_differences(forms, values);
-            std::uint32_t query[width];
-            for (std::size_t i = 0; i < width; ++i)
-                query[i] = first + static_cast<std::uint32_t>(at + i);
-            to_coplanarity_.append(values, query, left);
+            to_coplanarity_.append(values, ids + at, left);
         }
         if (asked) {
             turn.count(size, separate, 0);
-            judge_axes(separate, size);
+            judge(*axes, separate, size);
         } else {
             turn.leave_out(size);
-            --axes_.blocks_to_pass;
         }
-    }
-
-    /// The cull costs about as much as the next stage. Where it settles fewer than a quarter of
-    /// several blocks, it is left out of the next ones.
-    void judge_axes(std::size_t settled, std::size_t of) {
-        constexpr std::size_t patience = 4, pause = 124;
-        axes_.poor_blocks = 4 * settled < of ? axes_.poor_blocks + 1 : 0;
-        if (axes_.poor_blocks < patience) return;
-        axes_ = {0, pause};
     }
 
     void test_coplanarity() {
         stage_turn turn(report_, stage::coplanarity);
-        for_each_pack(to_coplanarity_, [&](std::size_t at, std::size_t count) {
+        for_each_pack(to_coplanarity_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_coplanarity_, at);
             const static_filter::sizes<pack> sizes(forms);
             const auto y = errbound::control_values_of(forms.y());
@@ -202,7 +223,7 @@ class pipeline {
 
     void test_inside() {
         stage_turn turn(report_, stage::inside);
-        for_each_pack(to_inside_, [&](std::size_t at, std::size_t count) {
+        for_each_pack(to_inside_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_inside_, at);
             const static_filter::sizes<pack> sizes(forms);
             const std::uint32_t* query = &to_inside_.query[at];
@@ -259,7 +280,7 @@ class pipeline {
         const std::size_t entered = parts_[0].size;
         for (int depth = 0; parts_[depth % 2].size > 0; ++depth) {
             auto &whole = parts_[depth % 2], &halved = parts_[(depth + 1) % 2];
-            for_each_pack(whole, [&](std::size_t at, std::size_t count) {
+            for_each_pack(whole, whole.capacity, [&](std::size_t at, std::size_t count) {
                 const pack error_of_y = whole.load(error_columns, at);
                 const pack error_of_g = whole.load(error_columns + 1, at);
                 const auto y = load_form<3>(whole, 0, at);
@@ -303,41 +324,179 @@ class pipeline {
     }
 
     outcome* answers_;
-    cull_state& axes_;
     stage_report* report_;
-    alignas(64) double coordinates_[24][block];
-    // A stage runs when a block waits for it, and may then receive all that its predecessor has.
-    queue<difference_columns, 2 * block> to_coplanarity_;
-    queue<difference_columns, 3 * block> to_inside_;
+    alignas(64) double coordinates_[24][stride];
+    // A stage runs when a block waits for it, and its predecessor hands it at most a block.
+    queue<difference_columns, 2 * block> to_coplanarity_, to_inside_;
     std::array<queue<part_columns, 6 * block>, 2> parts_;  ///< the first receives whole steps
 };
 
-inline void read_row(const double* row, double* to) {
-    for (std::size_t k = 0; k < 3; ++k) to[k * block] = row[k];
+/// Queries of one turn of the cull in single precision.
+constexpr std::size_t rounded_block = 256;
+
+using float_pack = xsimd::batch<float, xsimd::default_arch>;
+constexpr std::size_t float_width = float_pack::size;
+static_assert(rounded_block % float_width == 0 && float_width % 4 == 0);
+
+/// Columns of rounded coordinates: by point, end of the step, axis.
+struct rounded_columns {
+    alignas(64) float at[24][rounded_block + 16];
+
+    /// Fills four lanes of the columns of point p from the rows of four vertices.
+    void fill(std::size_t p, std::size_t lane, const float* const (&rows)[4]) {
+        typedef float quad __attribute__((vector_size(16)));
+        for (std::size_t end = 0; end < 2; ++end) {
+            quad r[4];
+            for (std::size_t i = 0; i < 4; ++i)
+                __builtin_memcpy(&r[i], rows[i] + 4 * end, sizeof(quad));
+            const quad xy0 = __builtin_shufflevector(r[0], r[2], 0, 4, 1, 5);
+            const quad xy1 = __builtin_shufflevector(r[1], r[3], 0, 4, 1, 5);
+            const quad z0 = __builtin_shufflevector(r[0], r[2], 2, 6, 3, 7);
+            const quad z1 = __builtin_shufflevector(r[1], r[3], 2, 6, 3, 7);
+            const quad columns[3] = {__builtin_shufflevector(xy0, xy1, 0, 4, 1, 5),
+                                     __builtin_shufflevector(xy0, xy1, 2, 6, 3, 7),
+                                     __builtin_shufflevector(z0, z1, 0, 4, 1, 5)};
+            for (std::size_t k = 0; k < 3; ++k)
+                __builtin_memcpy(&at[6 * p + 3 * end + k][lane], &columns[k], sizeof(quad));
+        }
+    }
+    float_pack load(std::size_t column, std::size_t lane) const {
+        return float_pack::load_aligned(&at[column][lane]);
+    }
+};
+
+/// By how much an axis parts the features at one end of the step, if it does.
+struct gap {
+    float_pack above, below;
+};
+template <class Indices>
+gap gap_between(const float_pack (&x)[4]) {
+    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
+        return {x[0] - max(max(x[1], x[2]), x[3]), min(min(x[1], x[2]), x[3]) - x[0]};
+    else
+        return {min(x[2], x[3]) - max(x[0], x[1]), min(x[0], x[1]) - max(x[2], x[3])};
+}
+template <class Indices>
+float_pack parted_by(const float_pack (&start)[4], const float_pack (&end)[4]) {
+    const gap g0 = gap_between<Indices>(start), g1 = gap_between<Indices>(end);
+    return max(min(g0.above, g1.above), min(g0.below, g1.below));
+}
+
+/// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly parts the features of the queries from
+/// `lane` on throughout the step: static_filter::parted in single precision.
+template <class Indices>
+xsimd::batch_bool<float, xsimd::default_arch> parted(const rounded_columns& columns,
+                                                     std::size_t lane) {
+    float_pack coordinate[3][2][4], along = float_pack(-1.0f), across = float_pack(-1.0f);
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t p = 0; p < 4; ++p)
+            for (std::size_t end = 0; end < 2; ++end)
+                coordinate[k][end][p] = columns.load(6 * p + 3 * end + k, lane);
+        along = max(along, parted_by<Indices>(coordinate[k][0], coordinate[k][1]));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto &u = coordinate[k], &v = coordinate[(k + 1) % 3];
+        float_pack sum[2][4], difference[2][4];
+        for (std::size_t end = 0; end < 2; ++end)
+            for (std::size_t p = 0; p < 4; ++p) {
+                sum[end][p] = u[end][p] + v[end][p];
+                difference[end][p] = u[end][p] - v[end][p];
+            }
+        across = max(across, parted_by<Indices>(sum[0], sum[1]));
+        across = max(across, parted_by<Indices>(difference[0], difference[1]));
+    }
+    return (along > float_pack(0.0f)) | (across > float_pack(rounded_positions::margin));
+}
+
+/// Writes those of the queries first, first + 1, ... that no axis certainly parts to `left`;
+/// returns their number.
+template <class Indices>
+std::size_t cull(const float* rounded, const Indices* queries, std::uint32_t first,
+                 std::size_t count, std::uint32_t* left) {
+    rounded_columns columns;
+    for (std::size_t at = 0; at < count; at += 4)
+        for (std::size_t p = 0; p < 4; ++p) {
+            const float* rows[4];
+            for (std::size_t i = 0; i < 4; ++i) {
+                // Lanes beyond the last query repeat it.
+                const std::size_t q = first + (at + i < count ? at + i : count - 1);
+                rows[i] = rounded + rounded_positions::row * std::size_t(vertex_of(queries[q], p));
+            }
+            columns.fill(p, at, rows);
+        }
+    std::size_t size = 0;
+    for (std::size_t at = 0; at < count; at += float_width) {
+        bool separate[float_width];
+        parted<Indices>(columns, at).store_unaligned(separate);
+        for (std::size_t i = 0; i < float_width && at + i < count; ++i) {
+            left[size] = first + static_cast<std::uint32_t>(at + i);
+            size += !separate[i];
+        }
+    }
+    return size;
+}
+
+inline void read_row(const double* row, double* to, std::size_t stride) {
+    for (std::size_t k = 0; k < 3; ++k) to[k * stride] = row[k];
 }
 
 template <template <class> class Query, template <class> class Forms, class Indices>
-void decide_indexed(const vertex_rows& positions, const Indices* queries, std::size_t count,
-                    outcome* answers, cull_state& axes, stage_report* report) {
-    pipeline<Query, Forms> stages(answers, axes, report);
-    stages.run(count, [&](std::size_t i, double* at) {
-        for (const index v : vertices_of(queries[i])) {
-            read_row(positions.before + 3 * std::size_t(v), at);
-            read_row(positions.after + 3 * std::size_t(v), at + 3 * block);
-            at += 6 * block;
+void decide_indexed(const batch_positions& positions, const Indices* queries, std::size_t count,
+                    outcome* answers, axes_state& axes, stage_report* report) {
+    using stages_type = pipeline<Query, Forms>;
+    stages_type stages(answers, report);
+    const auto read = [&](std::uint32_t id, double* at) {
+        for (std::size_t p = 0; p < 4; ++p) {
+            const std::size_t row = 3 * std::size_t(vertex_of(queries[id], p));
+            read_row(positions.exact.before + row, at, stages_type::stride);
+            read_row(positions.exact.after + row, at + 3 * stages_type::stride,
+                     stages_type::stride);
+            at += 6 * stages_type::stride;
         }
-    });
+    };
+    for (std::size_t first = 0; first < count; first += rounded_block) {
+        const std::size_t size = count - first < rounded_block ? count - first : rounded_block;
+        for (std::size_t i = 0; i < size; ++i) answers[first + i] = outcome::separate;
+        std::uint32_t ids[rounded_block];
+        if (positions.rounded != nullptr && is_due(axes.in_float)) {
+            stage_turn turn(report, stage::axes);
+            const std::size_t left =
+                cull(positions.rounded, queries, static_cast<std::uint32_t>(first), size, ids);
+            turn.count(size, size - left, 0);
+            turn.end();
+            judge(axes.in_float, size - left, size);
+            stages.take(ids, left, read, nullptr);
+        } else {
+            for (std::size_t i = 0; i < size; ++i) ids[i] = static_cast<std::uint32_t>(first + i);
+            stages.take(ids, size, read, &axes.in_double);
+        }
+    }
+    stages.finish();
 }
 
 template <template <class> class Query, template <class> class Forms>
 void decide_stored(const Query<double>* queries, std::size_t count, outcome* answers,
-                   cull_state& axes, stage_report* report) {
+                   axes_state& axes, stage_report* report) {
     static_assert(sizeof(Query<double>) == 24 * sizeof(double));
-    pipeline<Query, Forms> stages(answers, axes, report);
+    using stages_type = pipeline<Query, Forms>;
+    stages_type stages(answers, report);
     const double* numbers = reinterpret_cast<const double*>(queries);
-    stages.run(count, [&](std::size_t i, double* at) {
-        for (std::size_t c = 0; c < 24; ++c) at[c * block] = numbers[24 * i + c];
-    });
+    std::uint32_t ids[block];
+    for (std::size_t first = 0; first < count; first += block) {
+        const std::size_t size = count - first < block ? count - first : block;
+        for (std::size_t i = 0; i < size; ++i) {
+            ids[i] = static_cast<std::uint32_t>(first + i);
+            answers[first + i] = outcome::separate;
+        }
+        stages.take(
+            ids, size,
+            [&](std::uint32_t id, double* at) {
+                for (std::size_t c = 0; c < 24; ++c)
+                    at[c * stages_type::stride] = numbers[24 * std::size_t(id) + c];
+            },
+            &axes.in_double);
+    }
+    stages.finish();
 }
 
 }  // namespace

@@ -14,25 +14,37 @@
 
 namespace ccd {
 
-/// How the cull by fixed axes fares in a stream of queries: where it does not pay it pauses.
+/// How a cull fares in a stream of queries: where it does not pay it pauses.
 struct cull_state {
     std::size_t poor_blocks = 0;     ///< of which it settled too few, in a row
     std::size_t blocks_to_pass = 0;  ///< before it is tried again
 };
 
+/// The cull by fixed axes: in single precision where there are such positions, else, or where that
+/// settles too little, in double.
+struct axes_state {
+    cull_state in_float, in_double;
+};
+
+/// Positions of a batch; `rounded` are those of ccd/rounded_positions.hpp, or null.
+struct batch_positions {
+    vertex_rows exact;
+    const float* rounded = nullptr;
+};
+
 /// Decides `count` queries in floating point: `uncertain` in answers[i] leaves the query to exact
-/// arithmetic. `report` may be null. No allocation; some 100 KB of stack.
+/// arithmetic. `report` may be null. No allocation; some 300 KB of stack.
 struct batch_kernels {
-    void (*indexed_vertex_face)(const vertex_rows& positions, const vertex_face_indices* queries,
-                                std::size_t count, outcome* answers, cull_state& axes,
-                                stage_report* report);
-    void (*indexed_edge_edge)(const vertex_rows& positions, const edge_edge_indices* queries,
-                              std::size_t count, outcome* answers, cull_state& axes,
+    void (*indexed_vertex_face)(const batch_positions& positions,
+                                const vertex_face_indices* queries, std::size_t count,
+                                outcome* answers, axes_state& axes, stage_report* report);
+    void (*indexed_edge_edge)(const batch_positions& positions, const edge_edge_indices* queries,
+                              std::size_t count, outcome* answers, axes_state& axes,
                               stage_report* report);
     void (*stored_vertex_face)(const vertex_face<double>* queries, std::size_t count,
-                               outcome* answers, cull_state& axes, stage_report* report);
+                               outcome* answers, axes_state& axes, stage_report* report);
     void (*stored_edge_edge)(const edge_edge<double>* queries, std::size_t count, outcome* answers,
-                             cull_state& axes, stage_report* report);
+                             axes_state& axes, stage_report* report);
 };
 
 // Which of them there are is up to the build: ERRBOUND_HAVE_X86_KERNELS.

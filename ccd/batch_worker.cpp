@@ -75,19 +75,19 @@ void batch_worker::settle_uncertain(std::size_t count, outcome* answers, const A
         if (answers[i] == outcome::uncertain) answers[i] = settle(query_at(i), counts()).outcome;
 }
 
-void batch_worker::decide(const vertex_rows& rows, std::span<const vertex_face_indices> queries,
-                          outcome* answers) {
-    kernels_->indexed_vertex_face(rows, queries.data(), queries.size(), answers, axes_vertex_face_,
-                                  counts());
+void batch_worker::decide(const batch_positions& positions,
+                          std::span<const vertex_face_indices> queries, outcome* answers) {
+    kernels_->indexed_vertex_face(positions, queries.data(), queries.size(), answers,
+                                  axes_vertex_face_, counts());
     settle_uncertain(queries.size(), answers,
-                     [&](std::size_t i) { return query_of(rows, queries[i]); });
+                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
 }
-void batch_worker::decide(const vertex_rows& rows, std::span<const edge_edge_indices> queries,
-                          outcome* answers) {
-    kernels_->indexed_edge_edge(rows, queries.data(), queries.size(), answers, axes_edge_edge_,
+void batch_worker::decide(const batch_positions& positions,
+                          std::span<const edge_edge_indices> queries, outcome* answers) {
+    kernels_->indexed_edge_edge(positions, queries.data(), queries.size(), answers, axes_edge_edge_,
                                 counts());
     settle_uncertain(queries.size(), answers,
-                     [&](std::size_t i) { return query_of(rows, queries[i]); });
+                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
 }
 void batch_worker::decide(std::span<const vertex_face<double>> queries, outcome* answers) {
     kernels_->stored_vertex_face(queries.data(), queries.size(), answers, axes_vertex_face_,

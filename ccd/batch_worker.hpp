@@ -21,9 +21,9 @@ class batch_worker {
         : kernels_(&kernels), counted_(counted) {}
 
     /// Decides by `exact`. Coordinates must be finite and indices in range.
-    void decide(const vertex_rows& positions, std::span<const vertex_face_indices> queries,
+    void decide(const batch_positions& positions, std::span<const vertex_face_indices> queries,
                 outcome* answers);
-    void decide(const vertex_rows& positions, std::span<const edge_edge_indices> queries,
+    void decide(const batch_positions& positions, std::span<const edge_edge_indices> queries,
                 outcome* answers);
     void decide(std::span<const vertex_face<double>> queries, outcome* answers);
     void decide(std::span<const edge_edge<double>> queries, outcome* answers);
@@ -36,7 +36,7 @@ class batch_worker {
     stage_report* counts() { return counted_ ? &report_ : nullptr; }
 
     const batch_kernels* kernels_;
-    cull_state axes_vertex_face_, axes_edge_edge_;
+    axes_state axes_vertex_face_, axes_edge_edge_;
     stage_report report_;
     bool counted_;
 };

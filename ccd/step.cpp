@@ -17,6 +17,7 @@
 
 #include "ccd/batch_worker.hpp"
 #include "ccd/broad_phase.hpp"
+#include "ccd/rounded_positions.hpp"
 #include "ccd/step_frames.hpp"
 #include "ccd/threads.hpp"
 
@@ -65,8 +66,8 @@ edge_edge_pair pair_of(const edge_edge_indices& q) {
 template <class Pair>
 class narrow_phase {
   public:
-    narrow_phase(const mesh& before, const mesh& after, const step_options& options)
-        : rows_(before, after),
+    narrow_phase(const batch_positions& positions, const step_options& options)
+        : positions_(positions),
           method_(options.method),
           parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
 
@@ -77,13 +78,13 @@ class narrow_phase {
         part& local = parts_.local();
         if (method_ == method::exact) {
             local.answers.resize(candidates.size());
-            local.worker.decide(rows_, candidates, local.answers.data());
+            local.worker.decide(positions_, candidates, local.answers.data());
             for (std::size_t i = 0; i < candidates.size(); ++i)
                 if (local.answers[i] == outcome::collides)
                     local.pairs.push_back(pair_of(candidates[i]));
         } else {
             for (const Candidate& c : candidates)
-                if (may_collide(ccd::decide(method_, query_of(rows_, c))))
+                if (may_collide(ccd::decide(method_, query_of(positions_.exact, c))))
                     local.pairs.push_back(pair_of(c));
         }
         local.seconds += watch.lap();
@@ -125,7 +126,7 @@ class narrow_phase {
         double seconds = 0;
     };
 
-    vertex_rows rows_;
+    batch_positions positions_;
     method method_;
     mutable tbb::enumerable_thread_specific<part> parts_;
 };
@@ -135,11 +136,13 @@ step_result run_step(const mesh& before, const mesh& after, const step_options& 
     step_result result;
     check(before, after);
     std::vector<edge> edges = unique_edges(before.faces);
+    const vertex_rows rows(before, after);
+    const rounded_positions rounded(rows);
     result.prepare_seconds = watch.lap();
 
     const step_frames frames(before, after);
-    narrow_phase<vertex_face_pair> vertex_face(before, after, options);
-    narrow_phase<edge_edge_pair> edge_edge(before, after, options);
+    narrow_phase<vertex_face_pair> vertex_face({rows, rounded.data()}, options);
+    narrow_phase<edge_edge_pair> edge_edge({rows, rounded.data()}, options);
     result.vertex_face_candidates =
         vertex_face_candidates(frames, before.faces, before.vertices.size(), vertex_face);
     result.edge_edge_candidates = edge_edge_candidates(frames, std::move(edges), edge_edge);
