@@ -91,7 +91,9 @@ struct integer_units {
   private:
     template <class Points>
     integer_units(const Points& points, int)
-        : x(points, &point<double>::x), y(points, &point<double>::y), z(points, &point<double>::z) {}
+        : x(points, &point<double>::x),
+          y(points, &point<double>::y),
+          z(points, &point<double>::z) {}
 
     template <int Words>
     static errbound::fixed_integer<Words> in_units(double coordinate, int unit) {

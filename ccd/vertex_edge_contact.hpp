@@ -56,10 +56,8 @@ bool nonpositive_at_a_root(const quadratic_form<Words>& f, const quadratic_form<
     using errbound::value_at;
     const auto first = sign_of(f[0]), last = sign_of(f[2]);
     // A root at an end leaves a linear form, whose root is rational.
-    if (first == sign_type::zero)
-        return value_at(b, magnitude(f[2]), magnitude(f[1])) <= 0;
-    if (last == sign_type::zero)
-        return value_at(b, magnitude(f[1]), magnitude(f[0])) <= 0;
+    if (first == sign_type::zero) return value_at(b, magnitude(f[2]), magnitude(f[1])) <= 0;
+    if (last == sign_type::zero) return value_at(b, magnitude(f[1]), magnitude(f[0])) <= 0;
 
     const bool two_roots = first == last;  // else one, where f changes its sign
     if (two_roots) {
@@ -96,10 +94,13 @@ bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
-    const auto off_line = cross(w, e);
-    const std::array<quadratic_form<2 * Words>, 3> f{off_line.x, off_line.y, off_line.z};
-    for (const auto& component : f)
-        if (certainly_rootless(component)) return false;
+    std::array<quadratic_form<2 * Words>, 3> f;  // W × E, one component after the other
+    f[0] = w.y * e.z - w.z * e.y;
+    if (certainly_rootless(f[0])) return false;
+    f[1] = w.z * e.x - w.x * e.z;
+    if (certainly_rootless(f[1])) return false;
+    f[2] = w.x * e.y - w.y * e.x;
+    if (certainly_rootless(f[2])) return false;
     const auto b = dot(w, difference(query.v, query.e1));
     if (sign_throughout(b) == sign_type::positive) return false;
 

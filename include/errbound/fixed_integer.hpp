@@ -15,8 +15,8 @@
 #include <array>
 #include <bit>
 #include <compare>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/sign.hpp>
 #include <type_traits>
 
@@ -156,40 +156,61 @@ class fixed_integer {
         return 0;
     }
 
+    /// ⌊x/2^shift⌋ in Result words, modulo their width, for shift >= 0.
+    template <int Result>
+    constexpr fixed_integer<Result> from_bit(int shift) const {
+        const word beyond = sign_word(words_[Words - 1]);
+        const auto word_at = [&](int i) { return i < Words ? (*this)[i] : beyond; };
+        const int whole = shift / 64, bits = shift % 64;
+        fixed_integer<Result> r;
+        word low = word_at(whole);
+        for (int i = 0; i < Result; ++i) {
+            const word high = word_at(whole + i + 1);
+            // Two shifts: one by 64, where bits = 0, is undefined.
+            r.at(i) = low >> bits | high << 1 << (63 - bits);
+            low = high;
+        }
+        return r;
+    }
+    /// The number modulo 2^64.
+    constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
+
     /// The exact product. The unsigned product of the words of two's complement numbers a and b is
     /// a·b, plus 2^(64A)·b where a < 0, plus 2^(64B)·a where b < 0, modulo the width of the result.
     template <int B>
     constexpr fixed_integer<Words + B> times(const fixed_integer<B>& b) const {
         const fixed_integer& a = *this;
-        std::array<word, Words + B> r{};
+        fixed_integer<Words + B> r;
         if constexpr (Words == 1 && B == 1) {
             const auto product = words::signed_double_word(static_cast<std::int64_t>(a[0])) *
                                  static_cast<std::int64_t>(b[0]);
-            r = {static_cast<word>(product), static_cast<word>(product >> 64)};
+            r.at(0) = static_cast<word>(product);
+            r.at(1) = static_cast<word>(product >> 64);
         } else {
-            for (std::size_t i = 0; i < Words; ++i) {
+            for (int i = 0; i < Words; ++i) {
                 word carry = 0;
-                for (std::size_t j = 0; j < B; ++j) {
-                    const words::double_word sum =
-                        words::double_word(a[int(i)]) * b[int(j)] + r[i + j] + carry;
-                    r[i + j] = static_cast<word>(sum);
+                for (int j = 0; j < B; ++j) {
+                    const auto sum = words::double_word(a[i]) * b[j] + r[i + j] + carry;
+                    r.at(i + j) = static_cast<word>(sum);
                     carry = static_cast<word>(sum >> 64);
                 }
-                r[i + B] = carry;
+                r.at(i + B) = carry;
             }
             const word if_a = sign_word(a[Words - 1]), if_b = sign_word(b[B - 1]);
             unsigned char borrow = 0;
-            for (std::size_t j = 0; j < B; ++j)
-                r[Words + j] =
-                    words::subtract_with_borrow(r[Words + j], b[int(j)] & if_a, borrow);
+            for (int j = 0; j < B; ++j)
+                r.at(Words + j) = words::subtract_with_borrow(r[Words + j], b[j] & if_a, borrow);
             borrow = 0;
-            for (std::size_t i = 0; i < Words; ++i)
-                r[B + i] = words::subtract_with_borrow(r[B + i], a[int(i)] & if_b, borrow);
+            for (int i = 0; i < Words; ++i)
+                r.at(B + i) = words::subtract_with_borrow(r[B + i], a[i] & if_b, borrow);
         }
-        return fixed_integer<Words + B>::from_words(r);
+        return r;
     }
 
   private:
+    template <int>
+    friend class fixed_integer;
+
     /// All ones if the word's first bit is set, else 0.
     static constexpr word sign_word(word w) {
         return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
