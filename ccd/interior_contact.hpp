@@ -32,12 +32,11 @@
 #include <optional>
 
 #include "ccd/bounded_integer.hpp"
+#include "ccd/common_roots.hpp"
 #include "ccd/integer_coordinates.hpp"
 
 namespace ccd {
 
-template <int Words>
-using linear_form = errbound::bernstein<errbound::fixed_integer<Words>, 1>;
 template <int Words>
 using cubic_form = errbound::bernstein<errbound::fixed_integer<Words>, 3>;
 
@@ -179,14 +178,15 @@ class interior_contact {
         return outcome::uncertain;
     }
 
-    /// Whether there may be a root on the part that is not a double root. (An even number of roots,
-    /// and not three real ones in all: a complex pair, or a double root.)
-    bool possible(const inner_sign_changes& roots) const {
+    /// Whether there are roots on the part that are not a double root. An odd number of sign
+    /// changes says so, and any number if Y has three real roots: Descartes' count is then exact.
+    /// Otherwise an even number stems from a complex pair or the double root.
+    bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
 
     outcome on_part(const part& whole) const {
-        if (!possible(whole.roots)) return outcome::separate;
+        if (!any_root(whole.roots)) return outcome::separate;
         if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {
             const int bits = std::min(whole.level + 48, 62);
             const double place =
@@ -196,7 +196,7 @@ class interior_contact {
             const auto found = near<1>(whole, center, bits);
             if (found) return *found;
         }
-        if (whole.level == most_halvings) return outcome::uncertain;
+        if (whole.level == most_halvings) return throughout<1>(whole.index, whole.level, 1);
 
         const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
         if (middle == sign_type::zero) {
@@ -243,19 +243,52 @@ class interior_contact {
                 static_cast<int>(std::bit_width(static_cast<std::uint64_t>(width)));
             const auto found = throughout<T>(low, bits, width_bits);
             if (found != outcome::uncertain) return found;
+            if constexpr (T == 2)
+                if (distinct_ && normal_vanishes(low, high, bits)) return outcome::separate;
             if constexpr (T == most_end_words) {
                 return outcome::uncertain;
             } else {
-                // The secant's root, to as many bits as a double knows of it.
-                const auto [v, w] = approximated(std::array{y_low, y_high});
+                // The root of Y on the bracket, to as many bits as a double knows of it.
+                const auto d = slope();
+                const number<1> across(width);
+                const number<3 * (Words + T)> rise_at_low = across * value_at(d, end - low, low),
+                                              rise_at_high = across * value_at(d, end - high, high);
+                const std::array h{y_low, (y_low << 1) + y_low + rise_at_low,
+                                   (y_high << 1) + y_high - rise_at_high, y_high};
                 const int more = 46 - width_bits;
-                const double place = std::ldexp(static_cast<double>(width) * (v / (v - w)), more);
+                const double place =
+                    std::ldexp(static_cast<double>(width) * estimated_root(approximated(h)), more);
                 const auto refined =
                     (number<T + 1>(low) << more) + number<T + 1>(static_cast<std::int64_t>(place));
                 return near<T + 1>(whole, refined, bits + more).value_or(outcome::uncertain);
             }
         }
         return {};
+    }
+
+    /// Y' in scaled coefficients; at most 36D³.
+    errbound::bernstein<number<3 * Words>, 2> slope() const {
+        const auto thrice = [](const auto& x) { return (x << 1) + x; };
+        return {{y_[1] - thrice(y_[0]), (y_[2] - y_[1]) << 1, thrice(y_[3]) - y_[2]}};
+    }
+
+    /// Whether N = 0 at some time strictly between low and high, over 2^bits: a root of Y without
+    /// contact, and the only one there if Y has no multiple roots.
+    template <int T>
+    bool normal_vanishes(const number<T>& low, const number<T>& high, int bits) const {
+        const auto end = number<T>::shifted(1, bits);
+        const std::array<quadratic_form<2 * Words>, 3> n{forms_.n.x, forms_.n.y, forms_.n.z};
+        const common_roots<2 * Words> roots(n);
+        using kind = typename common_roots<2 * Words>::kind_type;
+        if (roots.kind == kind::one) {
+            const auto& s = roots.squares[0];  // s² and st, that is s and t
+            const auto& t = roots.squares[1];
+            return t * (end - low) > s * low && t * (end - high) < s * high;
+        }
+        if (roots.kind != kind::of_quadratic) return false;
+        const auto& f = *roots.quadratic;
+        return sign_of(value_at(f, end - low, low)) * sign_of(value_at(f, end - high, high)) ==
+               sign_type::negative;
     }
 
     /// What the signs of all G_i are between t = low/2^bits and (low + width)/2^bits, width <
