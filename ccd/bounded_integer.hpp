@@ -7,12 +7,12 @@
 namespace ccd {
 
 /// The real number that it stands for is less than 2^error_bits away from `value`, or equal to it
-/// if error_bits is `exact`. Bounds are kept to powers of two, and rounded up: some ten operations
-/// cost as many bits, which is little where errors are far below the values. Widths are those of
-/// errbound::fixed_integer, and so is the caller's duty to bound the values.
+/// if error_bits is below exact/2. Bounds are kept to powers of two, and rounded up: some ten
+/// operations cost as many bits, which is little where errors are far below the values. Widths are
+/// those of errbound::fixed_integer, and so is the caller's duty to bound the values.
 template <int Words>
 struct bounded_integer {
-    /// So low that no product of a few values makes a bound of it.
+    /// So low that a few operations leave it below exact/2.
     static constexpr int exact = -(1 << 20);
 
     errbound::fixed_integer<Words> value;
@@ -26,7 +26,9 @@ struct bounded_integer {
     }
     friend constexpr errbound::sign_type sign_of(const bounded_integer& x) {
         // |value| >= 2^(bit_length − 1), or is zero.
-        if (x.value.bit_length() <= x.error_bits) return errbound::sign_type::uncertain;
+        const bool is_exact = x.error_bits < exact / 2;
+        if (!is_exact && x.value.bit_length() <= std::max(x.error_bits, 0))
+            return errbound::sign_type::uncertain;
         return sign_of(x.value);
     }
 };

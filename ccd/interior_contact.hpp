@@ -21,11 +21,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <ccd/forms.hpp>
 #include <ccd/verdict.hpp>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
 #include <errbound/fixed_integer.hpp>
@@ -33,79 +30,10 @@
 
 #include "ccd/bounded_integer.hpp"
 #include "ccd/common_roots.hpp"
+#include "ccd/cubic_roots.hpp"
 #include "ccd/integer_coordinates.hpp"
 
 namespace ccd {
-
-template <int Words>
-using cubic_form = errbound::bernstein<errbound::fixed_integer<Words>, 3>;
-
-/// What the coefficients' signs tell about the roots of a cubic in (0, 1).
-struct inner_sign_changes {
-    int count = 0;          ///< the number of roots, or an even number more (Descartes)
-    bool opposite = false;  ///< the number is odd: just inside the ends, the signs are opposite
-    errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
-
-    template <int Words>
-    explicit inner_sign_changes(const cubic_form<Words>& y) {
-        auto last = errbound::sign_type::zero;
-        for (const auto& h : y.h) {
-            const auto sign = sign_of(h);
-            if (sign == errbound::sign_type::zero) continue;
-            if (last == errbound::sign_type::zero)
-                first = sign;
-            else if (sign != last)
-                ++count;
-            last = sign;
-        }
-        opposite = first != last;
-    }
-};
-
-/// The Hessian of a cubic form: a quadratic form that has its double root as a double root, and is
-/// zero if the root is triple. 4·h0·h2 − h1² is 3 times the discriminant: positive if there are
-/// three distinct real roots t/s, infinity included, negative if there is one and a complex pair.
-/// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
-template <int Words>
-errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(const cubic_form<Words>& y) {
-    const auto thrice = [](const auto& x) { return (x << 1) + x; };
-    return {{y[1] * y[1] - thrice(y[0] * y[2]), y[1] * y[2] - thrice(thrice(y[0] * y[3])),
-             y[2] * y[2] - thrice(y[1] * y[3])}};
-}
-
-/// All numbers, in floating point, times one power of two.
-template <int Words, std::size_t N>
-std::array<double, N> approximated(const std::array<errbound::fixed_integer<Words>, N>& x) {
-    int bits = 0;
-    for (const auto& number : x) bits = std::max(bits, number.bit_length());
-    std::array<double, N> r;
-    for (std::size_t i = 0; i < N; ++i)
-        r[i] = static_cast<double>(x[i].template from_bit<1>(std::max(0, bits - 63)).low_word());
-    return r;
-}
-
-/// A root in [0, 1] of a cubic, given by scaled Bernstein coefficients whose ends have opposite
-/// signs (or are zero): by Newton's method, and bisection where that leaves the interval known.
-inline double estimated_root(const std::array<double, 4>& h) {
-    constexpr double precision = 0x1p-52;
-    constexpr int most_steps = 60;
-    const bool rising = h[3] > h[0];
-    double low = 0, high = 1, t = h[0] == h[3] ? 0.5 : h[0] / (h[0] - h[3]);
-    for (int k = 0; k < most_steps && high - low > precision; ++k) {
-        const double s = 1 - t;
-        const double value = ((h[0] * s + h[1] * t) * s + h[2] * t * t) * s + h[3] * t * t * t;
-        const double slope =
-            (h[1] - 3 * h[0]) * s * s + 2 * (h[2] - h[1]) * s * t + (3 * h[3] - h[2]) * t * t;
-        if (value == 0) return t;
-        (value < 0) == rising ? low = t : high = t;
-        const double newton = t - value / slope;
-        const double next = newton > low && newton < high ? newton : (low + high) / 2;
-        const double moved = std::fabs(next - t);
-        t = next;
-        if (moved <= precision) break;
-    }
-    return t;
-}
 
 /// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of Words
 /// words, in which differences stay below 2^(64·Words − 3).
@@ -127,9 +55,9 @@ class interior_contact {
             const auto multiple = at_multiple_root();
             if (multiple != outcome::uncertain) return multiple;
         }
-        cubic_form<part_words> wide;
-        std::copy(y_.h.begin(), y_.h.end(), wide.h.begin());
-        return on_part({wide, roots, 0, 0});
+        part whole{{}, roots, 0, 0};
+        std::copy(y_.h.begin(), y_.h.end(), whole.y.h.begin());
+        return on_part(whole);
     }
 
   private:
@@ -137,19 +65,10 @@ class interior_contact {
     using number = errbound::fixed_integer<W>;
     using sign_type = errbound::sign_type;
 
-    /// Halvings multiply coefficients by 8 each: spare words for `most_halvings` of them.
-    static constexpr int part_words = 3 * Words + 2;
-    static constexpr int most_halvings = 40;
+    using part = cubic_part<3 * Words>;
+
     /// Brackets after the first have two words as their ends' numerators, then three and so on.
     static constexpr int most_end_words = 4;
-
-    /// Y on [index, index + 1]/2^level.
-    struct part {
-        cubic_form<part_words> y;
-        inner_sign_changes roots;
-        std::int64_t index;
-        int level;
-    };
 
     template <class Values>
     static bool all_positive(const Values& forms_at_a_time) {
@@ -168,7 +87,7 @@ class interior_contact {
         if (distinct_) return outcome::uncertain;
         if (h[2] == 0) {
             // Triple, of 3·y3·t + y2·s, and inside as there are sign changes.
-            const auto s = (y_[3] << 1) + y_[3];
+            const auto s = thrice(y_[3]);
             const bool contact = s.negative() ? all_positive(forms_at(forms_, -s, y_[2]))
                                               : all_positive(forms_at(forms_, s, -y_[2]));
             return contact ? outcome::collides : outcome::separate;
@@ -188,19 +107,14 @@ class interior_contact {
     outcome on_part(const part& whole) const {
         if (!any_root(whole.roots)) return outcome::separate;
         if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {
-            const int bits = std::min(whole.level + 48, 62);
-            const double place =
-                std::ldexp(estimated_root(approximated(whole.y.h)), bits - whole.level);
-            const auto center =
-                (whole.index << (bits - whole.level)) + static_cast<std::int64_t>(place);
-            const auto found = near<1>(whole, center, bits);
+            const auto found = near(whole, estimated_place(whole));
             if (found) return *found;
         }
-        if (whole.level == most_halvings) return throughout<1>(whole.index, whole.level, 1);
+        if (whole.level == part::most_halvings) return throughout<1>(whole.index, whole.level, 1);
 
         const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
         if (middle == sign_type::zero) {
-            const number<1> one(1), end = number<1>::shifted(1, whole.level + 1);
+            const number<1> end = number<1>::shifted(1, whole.level + 1);
             const number<1> t(2 * whole.index + 1);
             if (all_positive(forms_at(forms_, end - t, t))) return outcome::collides;
         }
@@ -215,68 +129,34 @@ class interior_contact {
         return found;
     }
 
-    /// Decides by a bracket [low, high]/2^bits around the estimate center/2^bits of the part's only
-    /// root (but for a double root); nothing if no bracket holds it.
+    /// Decides by a bracket near that place of the part's only root (but for a double root);
+    /// nothing if no bracket holds it.
     template <int T>
-    std::optional<outcome> near(const part& whole, const number<T>& center, int bits) const {
-        const auto end = number<T>::shifted(1, bits);
-        const int to_bits = bits - whole.level;
-        const auto first = number<T>::shifted(static_cast<std::uint64_t>(whole.index), to_bits);
-        const auto last = number<T>::shifted(static_cast<std::uint64_t>(whole.index + 1), to_bits);
-        for (const int radius : {4, 14, 24}) {
-            const auto reach = number<T>::shifted(1, radius);
-            const auto low = std::max(center - reach, first), high = std::min(center + reach, last);
-            const auto y_low = value_at(y_, end - low, low);
-            const auto y_high = value_at(y_, end - high, high);
-            // Just inside the part's ends, signs are known whatever Y is there.
-            const auto at_low = low == first ? whole.roots.first : sign_of(y_low);
-            const auto at_high = high == last ? -whole.roots.first : sign_of(y_high);
-            for (const auto& [sign, t] : {std::pair(at_low, low), std::pair(at_high, high)}) {
-                if (sign != sign_type::zero) continue;
-                if (all_positive(forms_at(forms_, end - t, t))) return outcome::collides;
-                return distinct_ ? outcome::separate : outcome::uncertain;
-            }
-            if (at_low != whole.roots.first || at_high == whole.roots.first) continue;
-
-            const std::int64_t width = (high - low).low_word();
-            const int width_bits =
-                static_cast<int>(std::bit_width(static_cast<std::uint64_t>(width)));
-            const auto found = throughout<T>(low, bits, width_bits);
-            if (found != outcome::uncertain) return found;
-            if constexpr (T == 2)
-                if (distinct_ && normal_vanishes(low, high, bits)) return outcome::separate;
-            if constexpr (T == most_end_words) {
-                return outcome::uncertain;
-            } else {
-                // The root of Y on the bracket, to as many bits as a double knows of it.
-                const auto d = slope();
-                const number<1> across(width);
-                const number<3 * (Words + T)> rise_at_low = across * value_at(d, end - low, low),
-                                              rise_at_high = across * value_at(d, end - high, high);
-                const std::array h{y_low, (y_low << 1) + y_low + rise_at_low,
-                                   (y_high << 1) + y_high - rise_at_high, y_high};
-                const int more = 46 - width_bits;
-                const double place =
-                    std::ldexp(static_cast<double>(width) * estimated_root(approximated(h)), more);
-                const auto refined =
-                    (number<T + 1>(low) << more) + number<T + 1>(static_cast<std::int64_t>(place));
-                return near<T + 1>(whole, refined, bits + more).value_or(outcome::uncertain);
-            }
+    std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
+        const auto bracket = bracket_near(y_, whole, place);
+        if (!bracket) return {};
+        if (bracket->is_root()) {
+            const auto& t = bracket->low;
+            const auto s = number<T>::shifted(1, place.bits) - t;
+            if (all_positive(forms_at(forms_, s, t))) return outcome::collides;
+            return distinct_ ? outcome::separate : outcome::uncertain;
         }
-        return {};
+        const auto found = throughout<T>(bracket->low, place.bits, bracket->width_bits());
+        if (found != outcome::uncertain) return found;
+        if constexpr (T == 2)
+            if (distinct_ && normal_vanishes(*bracket)) return outcome::separate;
+        if constexpr (T == most_end_words)
+            return outcome::uncertain;
+        else
+            return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);
     }
 
-    /// Y' in scaled coefficients; at most 36D³.
-    errbound::bernstein<number<3 * Words>, 2> slope() const {
-        const auto thrice = [](const auto& x) { return (x << 1) + x; };
-        return {{y_[1] - thrice(y_[0]), (y_[2] - y_[1]) << 1, thrice(y_[3]) - y_[2]}};
-    }
-
-    /// Whether N = 0 at some time strictly between low and high, over 2^bits: a root of Y without
-    /// contact, and the only one there if Y has no multiple roots.
+    /// Whether N = 0 inside the bracket: a root of Y without contact, and the only one there if Y
+    /// has no multiple roots.
     template <int T>
-    bool normal_vanishes(const number<T>& low, const number<T>& high, int bits) const {
-        const auto end = number<T>::shifted(1, bits);
+    bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
+        const auto end = number<T>::shifted(1, bracket.bits);
+        const auto &low = bracket.low, &high = bracket.high;
         const std::array<quadratic_form<2 * Words>, 3> n{forms_.n.x, forms_.n.y, forms_.n.z};
         const common_roots<2 * Words> roots(n);
         using kind = typename common_roots<2 * Words>::kind_type;

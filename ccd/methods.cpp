@@ -23,7 +23,7 @@ constexpr std::array<method_info, 4> table{{
      "TightCCD; Wang, Tang, Manocha, Tong 2015"},
     {method::exact, "exact", false, false,
      "no false negative, no false positive, on any finite input",
-     "tight as filter, then integers on a common exponent and Sturm sequences"},
+     "tight as filter, then integers of fixed width, then unbounded ones and Sturm sequences"},
 }};
 
 template <class Query>
