@@ -76,7 +76,8 @@ inline double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52;
     constexpr int most_steps = 60;
     const bool rising = h[3] > h[0];
-    double low = 0, high = 1, t = h[0] == h[3] ? 0.5 : h[0] / (h[0] - h[3]);
+    // The secant's root; if an end is a root itself, the one inside is asked for.
+    double low = 0, high = 1, t = h[0] == 0 || h[3] == 0 ? 0.5 : h[0] / (h[0] - h[3]);
     for (int k = 0; k < most_steps && high - low > precision; ++k) {
         const double s = 1 - t;
         const double value = ((h[0] * s + h[1] * t) * s + h[2] * t * t) * s + h[3] * t * t * t;
@@ -152,15 +153,21 @@ std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
     for (const int radius : {4, 14, 24}) {
         const auto reach = number::shifted(1, radius);
         root_bracket<Words, T> r{std::max(place.numerator - reach, first),
-                                 std::min(place.numerator + reach, last), place.bits, {}, {}};
+                                 std::min(place.numerator + reach, last),
+                                 place.bits,
+                                 {},
+                                 {}};
         r.y_low = value_at(y, end - r.low, r.low);
         r.y_high = value_at(y, end - r.high, r.high);
         // Just inside the part's ends, signs are known whatever Y is there.
         const auto at_low = r.low == first ? part.roots.first : sign_of(r.y_low);
         const auto at_high = r.high == last ? -part.roots.first : sign_of(r.y_high);
-        if (at_low == sign_type::zero) r.high = r.low;
-        else if (at_high == sign_type::zero) r.low = r.high;
-        else if (at_low != part.roots.first || at_high == part.roots.first) continue;
+        if (at_low == sign_type::zero)
+            r.high = r.low;
+        else if (at_high == sign_type::zero)
+            r.low = r.high;
+        else if (at_low != part.roots.first || at_high == part.roots.first)
+            continue;
         return r;
     }
     return {};
@@ -169,7 +176,8 @@ std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
 /// The root's place to as many bits more as doubles know of it: the root of the cubic that has the
 /// bracket's end values and slopes, that is of y itself.
 template <int Words, int T>
-dyadic_point<T + 1> refined_place(const cubic_form<Words>& y, const root_bracket<Words, T>& bracket) {
+dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
+                                  const root_bracket<Words, T>& bracket) {
     using number = errbound::fixed_integer<Words + 3 * T>;
     const auto end = errbound::fixed_integer<T>::shifted(1, bracket.bits);
     // dy/dt, at most twice as large as y's coefficients may be.
@@ -181,8 +189,8 @@ dyadic_point<T + 1> refined_place(const cubic_form<Words>& y, const root_bracket
     const std::array h{bracket.y_low, thrice(bracket.y_low) + rise_at_low,
                        thrice(bracket.y_high) - rise_at_high, bracket.y_high};
     const int more = 46 - bracket.width_bits();
-    const double place = std::ldexp(
-        static_cast<double>(bracket.width()) * estimated_root(approximated(h)), more);
+    const double place =
+        std::ldexp(static_cast<double>(bracket.width()) * estimated_root(approximated(h)), more);
     return {(errbound::fixed_integer<T + 1>(bracket.low) << more) +
                 errbound::fixed_integer<T + 1>(static_cast<std::int64_t>(place)),
             bracket.bits + more};

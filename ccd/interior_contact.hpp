@@ -15,8 +15,10 @@
 //    evaluated exactly at one end of the bracket. Their signs hold at the root if they exceed what
 //    they can change by within the bracket. If not, the bracket's end values predict the root to
 //    some 40 more bits, and so on.
-// What stays uncertain: roots where N = 0 (every G_i vanishes) or G_i are tiny beyond the last
-// bracket, and pairs of roots too close to part.
+//  * Where N = 0 at a root, every G_i vanishes and no bracket tells; N's components then have a
+//    common root there, which ccd/common_roots.hpp finds.
+// What stays uncertain: G_i too tiny for the last bracket, and pairs of roots too close to part
+// with a G_i that changes its sign near them.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +66,6 @@ class interior_contact {
     template <int W>
     using number = errbound::fixed_integer<W>;
     using sign_type = errbound::sign_type;
-
     using part = cubic_part<3 * Words>;
 
     /// Brackets after the first have two words as their ends' numerators, then three and so on.
@@ -110,6 +111,8 @@ class interior_contact {
             const auto found = near(whole, estimated_place(whole));
             if (found) return *found;
         }
+        // There is a root; if all over the part G_i have the signs asked for, its place matters
+        // not.
         if (whole.level == part::most_halvings) return throughout<1>(whole.index, whole.level, 1);
 
         const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
