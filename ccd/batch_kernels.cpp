@@ -502,10 +502,10 @@ void decide_stored(const Query<double>* queries, std::size_t count, outcome* ans
 }  // namespace
 
 const batch_kernels kernels = {
-    decide_indexed<vertex_face, vertex_face_forms, vertex_face_indices>,
-    decide_indexed<edge_edge, edge_edge_forms, edge_edge_indices>,
-    decide_stored<vertex_face, vertex_face_forms>,
-    decide_stored<edge_edge, edge_edge_forms>,
+    decide_indexed<vertex_face, linear_vertex_face_forms, vertex_face_indices>,
+    decide_indexed<edge_edge, linear_edge_edge_forms, edge_edge_indices>,
+    decide_stored<vertex_face, linear_vertex_face_forms>,
+    decide_stored<edge_edge, linear_edge_edge_forms>,
 };
 
 }  // namespace ccd::ERRBOUND_INSTRUCTION_SET

@@ -96,10 +96,10 @@ verdict run_stages(const Query<double>& query, stage_report* report) {
 }  // namespace
 
 verdict filter(const vertex_face<double>& query, stage_report* report) {
-    return run_stages<vertex_face_forms>(query, report);
+    return run_stages<linear_vertex_face_forms>(query, report);
 }
 verdict filter(const edge_edge<double>& query, stage_report* report) {
-    return run_stages<edge_edge_forms>(query, report);
+    return run_stages<linear_edge_edge_forms>(query, report);
 }
 
 }  // namespace ccd

@@ -16,7 +16,8 @@ using errbound::fixed_integer;
 /// VF and EE: the union that the head of ccd/reference.cpp states, vertex/edge contacts first.
 /// Every contact has Y = 0.
 template <int Words, template <class> class Query>
-outcome decide(const Query<fixed_integer<Words>>& query, const Query<double>& original) {
+outcome decide(const Query<fixed_integer<Words>>& query, const Query<double>& original,
+               const integer_units& units) {
     const auto forms = forms_of(query);
     const auto y = forms.y();
     if (certainly_rootless(y)) return outcome::separate;
@@ -24,15 +25,16 @@ outcome decide(const Query<fixed_integer<Words>>& query, const Query<double>& or
     const auto original_edges = vertex_edge_queries(original);
     for (std::size_t i = 0; i < edges.size(); ++i)
         if (!parted(original_edges[i]) && contact(edges[i])) return outcome::collides;
-    return interior_contact<Words>(y, forms.inside());
+    return interior_contact(forms, y, units)();
 }
 template <int Words>
-outcome decide(const vertex_edge<fixed_integer<Words>>& query,
-               const vertex_edge<double>& original) {
+outcome decide(const vertex_edge<fixed_integer<Words>>& query, const vertex_edge<double>& original,
+               const integer_units&) {
     return !parted(original) && contact(query) ? outcome::collides : outcome::separate;
 }
 template <int Words>
-outcome decide(const vertex_vertex<fixed_integer<Words>>& query, const vertex_vertex<double>&) {
+outcome decide(const vertex_vertex<fixed_integer<Words>>& query, const vertex_vertex<double>&,
+               const integer_units&) {
     return contact(query) ? outcome::collides : outcome::separate;
 }
 
@@ -48,8 +50,8 @@ verdict decide_any(const Query<double>& query) {
     if (!units.finite() || units.bits() > extent_limit(2))
         return {outcome::uncertain, cause::range};
     const outcome found = units.bits() <= extent_limit(1)
-                              ? decide<1>(units.converted<1>(query), query)
-                              : decide<2>(units.converted<2>(query), query);
+                              ? decide<1>(units.converted<1>(query), query, units)
+                              : decide<2>(units.converted<2>(query), query, units);
     return {found, found == outcome::uncertain ? cause::inside : cause::none};
 }
 

@@ -8,179 +8,208 @@
 // as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is contact,
 // since contact is closed, but with some G_i = 0: a vertex/edge contact.
 //
-// Inner roots of Y are isolated by halving, in scaled Bernstein coefficients, which every halving
-// multiplies by 2^degree and which therefore stay whole. Strict signs end the search at every root
-// but those where some G_i vanishes and none is negative, that is where N = 0, and pairs of roots
-// that nearly coincide. True double roots are rational and asked beforehand.
-//
-// Widths, for coordinates of W words whose differences stay below D = 2^(64W − 3): Y in 3W words
-// (|h_i| <= 18D³), G in 4W (216D⁴); the Hessian of Y in 6W (648D⁶), its discriminant in 12W
-// (2^20.2·D^12), G at a double root in 28W words (2^49·D^28).
+// So G_i are needed at roots of Y alone, and are never expanded into quartics:
+//  * Roots at t = 0 and 1, double and triple roots are rational: G_i are evaluated there.
+//  * Other inner roots are isolated by halving Y, whose scaled Bernstein coefficients stay whole.
+//    A root's place is then estimated in floating point, bracketed by exact signs of Y, and G_i are
+//    evaluated exactly at one end of the bracket. Their signs hold at the root if they exceed what
+//    they can change by within the bracket. If not, the bracket's end values predict the root to
+//    some 40 more bits, and so on.
+//  * Where N = 0 at a root, every G_i vanishes and no bracket tells; N's components then have a
+//    common root there, which ccd/common_roots.hpp finds.
+// What stays uncertain: G_i too tiny for the last bracket, and pairs of roots too close to part
+// with a G_i that changes its sign near them.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <ccd/forms.hpp>
 #include <ccd/verdict.hpp>
-#include <cstddef>
+#include <cstdint>
 #include <errbound/bernstein.hpp>
 #include <errbound/fixed_integer.hpp>
+#include <optional>
+
+#include "ccd/bounded_integer.hpp"
+#include "ccd/common_roots.hpp"
+#include "ccd/cubic_roots.hpp"
+#include "ccd/integer_coordinates.hpp"
 
 namespace ccd {
 
-template <int Words>
-using cubic_form = errbound::bernstein<errbound::fixed_integer<Words>, 3>;
-template <int Words, std::size_t M>
-using quartic_forms = std::array<errbound::bernstein<errbound::fixed_integer<Words>, 4>, M>;
-
-/// What the coefficients' signs tell about the roots of a cubic in (0, 1).
-struct inner_sign_changes {
-    int count = 0;          ///< the number of roots, or an even number more (Descartes)
-    bool opposite = false;  ///< the number is odd: just inside the ends, the signs are opposite
-    errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
-
-    template <int Words>
-    explicit inner_sign_changes(const cubic_form<Words>& y) {
-        auto last = errbound::sign_type::zero;
-        for (const auto& h : y.h) {
-            const auto sign = sign_of(h);
-            if (sign == errbound::sign_type::zero) continue;
-            if (last == errbound::sign_type::zero)
-                first = sign;
-            else if (sign != last)
-                ++count;
-            last = sign;
-        }
-        opposite = first != last;
-    }
-};
-
-/// The search for an inner root of Y at which all G_i are positive.
-template <int YWords, int GWords, std::size_t M>
-class root_search {
+/// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of Words
+/// words, in which differences stay below 2^(64·Words − 3).
+template <int Words, template <class, int> class Forms>
+class interior_contact {
   public:
-    /// `close_pairs`: whether Y may have two distinct roots between signs that are not opposite.
-    /// Otherwise a root of even multiplicity there is not looked for.
-    explicit root_search(bool close_pairs) : close_pairs_(close_pairs) {}
+    /// y = forms.y(). Differences of coordinates are below 2^units.x.bits and so on.
+    interior_contact(const Forms<errbound::fixed_integer<Words>, 1>& forms,
+                     const cubic_form<3 * Words>& y, const integer_units& units)
+        : forms_(forms), y_(y), units_(units) {}
 
-    outcome operator()(const cubic_form<YWords>& y, const quartic_forms<GWords, M>& g) const {
-        int y_bits = 0, g_bits = 0;
-        for (const auto& h : y.h) y_bits = std::max(y_bits, h.bit_length());
-        for (const auto& form : g)
-            for (const auto& h : form.h) g_bits = std::max(g_bits, h.bit_length());
-        // Coefficients stay below binomial(N, i)·2^(N·depth) times the largest, since the control
-        // values do not grow: 2 bits for binomials up to 3, 3 bits for those up to 6.
-        const int depth =
-            std::min((YWords * 64 - 1 - 2 - y_bits) / 3, (GWords * 64 - 1 - 3 - g_bits) / 4);
-        return on_part(y, inner_sign_changes(y), g, M, depth);
+    /// Whether Y = 0 and all G_i > 0 at some t in [0, 1].
+    outcome operator()() {
+        if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
+        if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
+        const inner_sign_changes roots(y_);
+        if (roots.count == 0) return outcome::separate;
+        if (roots.count > 1) {
+            const auto multiple = at_multiple_root();
+            if (multiple != outcome::uncertain) return multiple;
+        }
+        part whole{{}, roots, 0, 0};
+        std::copy(y_.h.begin(), y_.h.end(), whole.y.h.begin());
+        return on_part(whole);
     }
 
   private:
-    bool possible(const inner_sign_changes& roots) const {
-        return roots.opposite || (close_pairs_ && roots.count > 0);
+    template <int W>
+    using number = errbound::fixed_integer<W>;
+    using sign_type = errbound::sign_type;
+    using part = cubic_part<3 * Words>;
+
+    /// Brackets after the first have two words as their ends' numerators, then three and so on.
+    static constexpr int most_end_words = 4;
+
+    template <class Values>
+    static bool all_positive(const Values& forms_at_a_time) {
+        const auto g = forms_at_a_time.inside();
+        return std::all_of(g.begin(), g.end(), [](const auto& form) { return form[0] > 0; });
     }
 
-    /// `undecided`: how many of g, the first ones, are not known to be positive on the part.
-    outcome on_part(const cubic_form<YWords>& y, const inner_sign_changes& roots,
-                    quartic_forms<GWords, M> g, std::size_t undecided, int depth) const {
-        using errbound::sign_type;
-        if (!possible(roots)) return outcome::separate;
-        for (std::size_t i = 0; i < undecided;) {
-            const auto sign = sign_inside(g[i]);
-            if (errbound::certainly_nonpositive(sign)) return outcome::separate;
-            if (sign == sign_type::positive)
-                g[i] = g[--undecided];
-            else
-                ++i;
+    /// Asks at a multiple root of Y, if there is one inside, and finds out whether there are other
+    /// roots to ask at, in which case the answer is `uncertain`. The Hessian's discriminant has 12W
+    /// words (2^20.2·D^12), G at its root 28W (2^47·D^28).
+    outcome at_multiple_root() {
+        const auto h = hessian(y_);
+        const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
+        distinct_ = discriminant != sign_type::zero;
+        three_real_roots_ = discriminant == sign_type::positive;
+        if (distinct_) return outcome::uncertain;
+        if (h[2] == 0) {
+            // Triple, of 3·y3·t + y2·s, and inside as there are sign changes.
+            const auto s = thrice(y_[3]);
+            const bool contact = s.negative() ? all_positive(forms_at(forms_, -s, y_[2]))
+                                              : all_positive(forms_at(forms_, s, -y_[2]));
+            return contact ? outcome::collides : outcome::separate;
         }
-        if (roots.opposite && undecided == 0) return outcome::collides;
-        if (depth <= 0) return outcome::uncertain;
+        // h is h2·(t − xs)² with h2 > 0 for the double root x, which lies inside if x > 0.
+        if (h[1] < 0 && all_positive(forms_at(forms_, h[2] << 1, -h[1]))) return outcome::collides;
+        return outcome::uncertain;
+    }
 
-        const auto middle = sign_of(y[0] + y[1] + y[2] + y[3]);
+    /// Whether there are roots on the part that are not a double root. An odd number of sign
+    /// changes says so, and any number if Y has three real roots: Descartes' count is then exact.
+    /// Otherwise an even number stems from a complex pair or the double root.
+    bool any_root(const inner_sign_changes& roots) const {
+        return roots.opposite || (three_real_roots_ && roots.count > 0);
+    }
+
+    outcome on_part(const part& whole) const {
+        if (!any_root(whole.roots)) return outcome::separate;
+        if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {
+            const auto found = near(whole, estimated_place(whole));
+            if (found) return *found;
+        }
+        // There is a root; if all over the part G_i have the signs asked for, its place matters
+        // not.
+        if (whole.level == part::most_halvings) return throughout<1>(whole.index, whole.level, 1);
+
+        const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
         if (middle == sign_type::zero) {
-            const bool all_positive =
-                std::all_of(g.begin(), g.begin() + undecided, [](const auto& f) {
-                    return sign_of(f[0] + f[1] + f[2] + f[3] + f[4]) == sign_type::positive;
-                });
-            if (all_positive) return outcome::collides;
-            if (roots.count == 1) return outcome::separate;
+            const number<1> end = number<1>::shifted(1, whole.level + 1);
+            const number<1> t(2 * whole.index + 1);
+            if (all_positive(forms_at(forms_, end - t, t))) return outcome::collides;
         }
         auto found = outcome::separate;
-        const auto search = [&](const auto& half_of) {
-            const auto half = half_of(y);
-            const inner_sign_changes roots_of_half(half);
-            if (!possible(roots_of_half)) return;
-            quartic_forms<GWords, M> g_of_half;
-            for (std::size_t i = 0; i < undecided; ++i) g_of_half[i] = half_of(g[i]);
-            const auto in_half = on_part(half, roots_of_half, g_of_half, undecided, depth - 1);
-            if (in_half != outcome::separate) found = in_half;
-        };
-        const bool one = roots.count == 1;  // on the side of the middle that its sign tells
-        if (!one || middle != roots.first) search([](const auto& form) { return left_half(form); });
-        if (found == outcome::collides) return found;
-        if (!one || middle == roots.first)
-            search([](const auto& form) { return reversed(left_half(reversed(form))); });
+        for (const bool right : {false, true}) {
+            const auto y = right ? reversed(left_half(reversed(whole.y))) : left_half(whole.y);
+            const auto in_half =
+                on_part({y, inner_sign_changes(y), 2 * whole.index + right, whole.level + 1});
+            if (in_half == outcome::collides) return in_half;
+            if (in_half == outcome::uncertain) found = in_half;
+        }
         return found;
     }
 
-    bool close_pairs_;
-};
-
-/// Whether all of g are positive at the point t/(s + t).
-template <int GWords, std::size_t M, int Words>
-bool all_positive_at(const quartic_forms<GWords, M>& g, const errbound::fixed_integer<Words>& s,
-                     const errbound::fixed_integer<Words>& t) {
-    return std::all_of(g.begin(), g.end(),
-                       [&](const auto& form) { return value_at(form, s, t) > 0; });
-}
-
-/// The Hessian of a cubic form: a quadratic form that has its double root as a double root, and is
-/// zero if the root is triple. 4·h0·h2 − h1² is 3 times the discriminant: positive if there are
-/// three distinct real roots t/s, infinity included, negative if there is one and a complex pair.
-template <int Words>
-errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(const cubic_form<Words>& y) {
-    const auto thrice = [](const auto& x) { return (x << 1) + x; };
-    return {{y[1] * y[1] - thrice(y[0] * y[2]), y[1] * y[2] - thrice(thrice(y[0] * y[3])),
-             y[2] * y[2] - thrice(y[1] * y[3])}};
-}
-
-/// Whether Y = 0 and all G_i > 0 at some t in [0, 1], or at t = 0 if Y ≡ 0.
-template <int Words, std::size_t M>
-outcome interior_contact(const cubic_form<3 * Words>& y, const quartic_forms<4 * Words, M>& g) {
-    using errbound::sign_type;
-    for (const auto& form : g)
-        if (errbound::certainly_nonpositive(sign_inside(form))) return outcome::separate;
-    const auto all_positive = [&g](int end) {
-        return std::all_of(g.begin(), g.end(), [end](const auto& form) { return form[end] > 0; });
-    };
-    if (y[0] == 0 && all_positive(0)) return outcome::collides;
-    if (y[3] == 0 && all_positive(4)) return outcome::collides;
-
-    const inner_sign_changes roots(y);
-    if (roots.count == 0) return outcome::separate;
-    bool close_pairs = false;
-    if (roots.count > 1) {
-        const auto h = hessian(y);
-        const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
-        close_pairs = discriminant == sign_type::positive;
-        if (discriminant == sign_type::zero) {
-            // h2·(t − xs)² with h2 > 0 for a double root x, which lies inside if x > 0; a triple
-            // root, of 3·y3·t + y2·s, is the only root, and inside as there are sign changes.
-            if (h[2] == 0) {
-                const auto s = (y[3] << 1) + y[3];
-                const bool contact =
-                    s.negative() ? all_positive_at(g, -s, y[2]) : all_positive_at(g, s, -y[2]);
-                return contact ? outcome::collides : outcome::separate;
-            }
-            if (h[1] < 0 && all_positive_at(g, h[2] << 1, -h[1])) return outcome::collides;
+    /// Decides by a bracket near that place of the part's only root (but for a double root);
+    /// nothing if no bracket holds it.
+    template <int T>
+    std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
+        const auto bracket = bracket_near(y_, whole, place);
+        if (!bracket) return {};
+        if (bracket->is_root()) {
+            const auto& t = bracket->low;
+            const auto s = number<T>::shifted(1, place.bits) - t;
+            if (all_positive(forms_at(forms_, s, t))) return outcome::collides;
+            return distinct_ ? outcome::separate : outcome::uncertain;
         }
+        const auto found = throughout<T>(bracket->low, place.bits, bracket->width_bits());
+        if (found != outcome::uncertain) return found;
+        if constexpr (T == 2)
+            if (distinct_ && normal_vanishes(*bracket)) return outcome::separate;
+        if constexpr (T == most_end_words)
+            return outcome::uncertain;
+        else
+            return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);
     }
-    const root_search<3 * Words + 1, 4 * Words + 1, M> search(close_pairs);
-    cubic_form<3 * Words + 1> wide_y;
-    std::copy(y.h.begin(), y.h.end(), wide_y.h.begin());
-    quartic_forms<4 * Words + 1, M> wide_g;
-    for (std::size_t i = 0; i < M; ++i)
-        std::copy(g[i].h.begin(), g[i].h.end(), wide_g[i].h.begin());
-    return search(wide_y, wide_g);
-}
+
+    /// Whether N = 0 inside the bracket: a root of Y without contact, and the only one there if Y
+    /// has no multiple roots.
+    template <int T>
+    bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
+        const auto end = number<T>::shifted(1, bracket.bits);
+        const auto &low = bracket.low, &high = bracket.high;
+        const std::array<quadratic_form<2 * Words>, 3> n{forms_.n.x, forms_.n.y, forms_.n.z};
+        const common_roots<2 * Words> roots(n);
+        using kind = typename common_roots<2 * Words>::kind_type;
+        if (roots.kind == kind::one) {
+            const auto& s = roots.squares[0];  // s² and st, that is s and t
+            const auto& t = roots.squares[1];
+            return t * (end - low) > s * low && t * (end - high) < s * high;
+        }
+        if (roots.kind != kind::of_quadratic) return false;
+        const auto& f = *roots.quadratic;
+        return sign_of(value_at(f, end - low, low)) * sign_of(value_at(f, end - high, high)) ==
+               sign_type::negative;
+    }
+
+    /// What the signs of all G_i are between t = low/2^bits and (low + width)/2^bits, width <
+    /// 2^width_bits: `collides` if all are positive, `separate` if one is negative, else
+    /// `uncertain`. More is not known of the root, so the differences at low, times 2^bits, are cut
+    /// to T words, one unit for each axis.
+    template <int T>
+    outcome throughout(const number<T>& low, int bits, int width_bits) const {
+        using known = bounded_integer<T>;
+        const auto s = number<T>::shifted(1, bits) - low;
+        const auto component = [&](const linear_form<Words>& x, const axis_extent& axis) {
+            const int cut = std::max(0, bits + axis.bits - (64 * T - 4));
+            known r{value_at(x, s, low).template from_bit<T>(cut)};
+            // Changes within the bracket, and the cut.
+            const auto slope = x[1] - x[0];
+            if (!(slope == 0)) r.error_bits = slope.bit_length() + width_bits - cut;
+            if (cut > 0) r.error_bits = std::max(r.error_bits, 0) + 1;
+            return errbound::bernstein<known, 0>{{r}};
+        };
+        const auto at_low = [&](const vector_form<number<Words>, 1>& v) {
+            return vector_form<known, 0>{component(v.x, units_.x), component(v.y, units_.y),
+                                         component(v.z, units_.z)};
+        };
+        const Forms<known, 0> known_forms(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p));
+        auto found = outcome::collides;
+        for (const auto& g : known_forms.inside()) {
+            const auto sign = sign_of(g[0]);
+            if (sign == sign_type::negative) return outcome::separate;
+            if (sign != sign_type::positive) found = outcome::uncertain;
+        }
+        return found;
+    }
+
+    const Forms<errbound::fixed_integer<Words>, 1>& forms_;
+    const cubic_form<3 * Words>& y_;
+    const integer_units& units_;
+    bool distinct_ = true;           ///< no root of Y is known to be multiple
+    bool three_real_roots_ = false;  ///< Y may have a pair of roots between equal signs
+};
 
 }  // namespace ccd

@@ -20,9 +20,10 @@ class rounded_positions {
     static constexpr std::size_t row = 8;
 
     /// Two projections x ± y that differ by more than this, as computed in float, differ in exact
-    /// arithmetic and have the same order. In units of ε = 2^-23, for sizes up to 1.01: a coordinate
-    /// is off by 1.01ε (and far less, from double), a sum by that of its two and 2.02ε of its own,
-    /// hence 4.04ε; a difference of two sums by 8.08ε and 4.04ε of its own: less than 13ε in all.
+    /// arithmetic and have the same order. In units of ε = 2^-23, for sizes up to 1.01: a
+    /// coordinate is off by 1.01ε (and far less, from double), a sum by that of its two and 2.02ε
+    /// of its own, hence 4.04ε; a difference of two sums by 8.08ε and 4.04ε of its own: less than
+    /// 13ε in all.
     static constexpr float margin = 13 * std::numeric_limits<float>::epsilon();
 
     /// Of finite positions. Cost: some 5 ns a vertex; memory: 32 bytes a vertex.

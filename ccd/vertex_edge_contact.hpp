@@ -1,18 +1,14 @@
 // Vertex/edge contact in closed form, in integers of fixed width.
 //
 // With E = e1 − e0, W = v − e0, X = v − e1, contact at t means that the three quadratics of W × E
-// vanish there and that the quadratic W·X is not positive (see ccd/reference.cpp). The quadratics'
-// common roots need no search:
-//  * Two that are not proportional have at most one root in common, and it is rational: there
-//    (s², st, t²) is orthogonal to both coefficient vectors, hence parallel to their cross product
-//    m, and a vector m is of that form exactly if m1² = m0·m2.
-//  * If all are proportional to f, W·X modulo f is a linear form times s (or t), whose sign at f's
-//    roots follows from the sign of f at the linear form's own root.
+// vanish there and that the quadratic W·X is not positive (ccd/reference.cpp says why). Where the
+// three have a rational root in common, W·X is evaluated there. Where they are all proportional to
+// some f, W·X modulo f is a linear form times s, whose sign at f's roots follows from the sign of f
+// at the linear form's own root.
 //
 // Widths, for coordinates of W words whose differences stay below D = 2^(64W − 3): f in 2W words
-// (|f0|, |f2| <= 2D², |f1| <= 4D²), b = W·X in 2W words (3D², 6D²), m in 4W (16D⁴), m·b in 6W
-// (144D⁶), the remainder l in 4W (12D⁴, 24D⁴), f at l's root in 10W (2592·D^10 < 2^(11.4 + 640W −
-// 30)), m1² in 8W (2^8·D^8).
+// (|f0|, |f2| <= 2D², |f1| <= 4D²), b = W·X in 2W words (3D², 6D²), b at a rational root in 6W
+// (144D⁶), the remainder l in 4W (12D⁴, 24D⁴), f at l's root in 10W (2592·D^10).
 #pragma once
 
 #include <array>
@@ -20,32 +16,13 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/fixed_integer.hpp>
 
-#include "ccd/features.hpp"
+#include "ccd/common_roots.hpp"
 
 namespace ccd {
 
 template <int Words>
-using linear_form = errbound::bernstein<errbound::fixed_integer<Words>, 1>;
-template <int Words>
-using quadratic_form = errbound::bernstein<errbound::fixed_integer<Words>, 2>;
-
-template <int Words>
 constexpr errbound::fixed_integer<Words> magnitude(const errbound::fixed_integer<Words>& x) {
     return x.negative() ? -x : x;
-}
-
-/// The cross product of two coefficient vectors: parallel to (s², st, t²) at a common root.
-template <int Words>
-constexpr quadratic_form<2 * Words> minors(const quadratic_form<Words>& f,
-                                           const quadratic_form<Words>& g) {
-    return {{f[1] * g[2] - f[2] * g[1], f[2] * g[0] - f[0] * g[2], f[0] * g[1] - f[1] * g[0]}};
-}
-
-/// f at the point whose (s², st, t²) is m.
-template <int A, int B>
-constexpr errbound::fixed_integer<A + B> value_at_squares(const quadratic_form<A>& f,
-                                                          const quadratic_form<B>& m) {
-    return f[0] * m[0] + f[1] * m[1] + f[2] * m[2];
 }
 
 /// Whether b <= 0 at some root of f in (0, 1), for an f whose coefficients have both signs.
@@ -94,10 +71,13 @@ bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
-    const auto off_line = cross(w, e);
-    const std::array<quadratic_form<2 * Words>, 3> f{off_line.x, off_line.y, off_line.z};
-    for (const auto& component : f)
-        if (certainly_rootless(component)) return false;
+    std::array<quadratic_form<2 * Words>, 3> f;  // W × E, one component after the other
+    f[0] = w.y * e.z - w.z * e.y;
+    if (certainly_rootless(f[0])) return false;
+    f[1] = w.z * e.x - w.x * e.z;
+    if (certainly_rootless(f[1])) return false;
+    f[2] = w.x * e.y - w.y * e.x;
+    if (certainly_rootless(f[2])) return false;
     const auto b = dot(w, difference(query.v, query.e1));
     if (sign_throughout(b) == sign_type::positive) return false;
 
@@ -106,31 +86,23 @@ bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
     };
     if (touches_at_end(0) || touches_at_end(2)) return true;
 
-    // The others, inside the step, where b must not be positive and every f must have a root.
+    // Other contacts are inside the step, where b must not be positive throughout.
     if (sign_inside(b) == sign_type::positive) return false;
-    std::array<const quadratic_form<2 * Words>*, 3> moving{};  // those not identically zero
-    std::size_t count = 0;
-    for (const auto& component : f) {
-        const auto hull = sign_inside(component);
-        if (hull == sign_type::zero) continue;
-        if (certain(hull)) return false;
-        moving[count++] = &component;
+    const common_roots<2 * Words> roots(f);
+    using kind = typename common_roots<2 * Words>::kind_type;
+    switch (roots.kind) {
+        case kind::none:
+            return false;
+        case kind::one:
+            return value_at_squares(b, roots.squares) <= 0;
+        case kind::of_quadratic:
+            return nonpositive_at_a_root(*roots.quadratic, b);
+        case kind::everywhere:
+            break;
     }
     // Collinear throughout: b is positive at both ends by now, so it has a value <= 0 inside
     // exactly if it has real roots t/s > 0.
-    if (count == 0) return b[1] < 0 && b[1] * b[1] >= (b[0] * b[2]) << 2;
-
-    for (std::size_t i = 1; i < count; ++i) {
-        const auto m = minors(*moving[0], *moving[i]);
-        const auto sign = sign_of(m[0]);
-        if (sign == sign_type::zero && sign_of(m[1]) == sign && sign_of(m[2]) == sign) continue;
-        if (sign == sign_type::zero || sign_of(m[1]) != sign || sign_of(m[2]) != sign) return false;
-        for (std::size_t k = 1; k < count; ++k)
-            if (k != i && !(value_at_squares(*moving[k], m) == 0)) return false;
-        if (!(m[1] * m[1] == m[0] * m[2])) return false;
-        return errbound::certainly_nonpositive(sign_of(value_at_squares(b, m)) * sign);
-    }
-    return nonpositive_at_a_root(*moving[0], b);
+    return b[1] < 0 && b[1] * b[1] >= (b[0] * b[2]) << 2;
 }
 
 }  // namespace ccd

@@ -127,8 +127,8 @@ void expect_float_stages_never_wrong(const test_set<Query>& set) {
 }
 
 TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
-    expect_float_stages_never_wrong<ccd::vertex_face_forms>(vertex_face_set());
-    expect_float_stages_never_wrong<ccd::edge_edge_forms>(edge_edge_set());
+    expect_float_stages_never_wrong<ccd::linear_vertex_face_forms>(vertex_face_set());
+    expect_float_stages_never_wrong<ccd::linear_edge_edge_forms>(edge_edge_set());
 }
 
 TEST(stages, integers_are_never_wrong_where_they_are_certain) {
@@ -281,11 +281,11 @@ TEST(static_filter, constants_are_those_of_the_forms) {
     // of the forms that makes the errors larger must not go unseen.
     using namespace ccd::static_filter;
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    EXPECT_LT(y_constants<ccd::vertex_face_forms>.relative, 400 * epsilon);
-    EXPECT_LT(g_constants<ccd::vertex_face_forms>.relative, 10000 * epsilon);
-    EXPECT_GT(y_constants<ccd::vertex_face_forms>.relative, 3 * 36 * epsilon);
-    EXPECT_LT(y_constants<ccd::vertex_face_forms>.absolute, 1e-190);
-    EXPECT_LT(g_constants<ccd::edge_edge_forms>.absolute, 1e-130);
+    EXPECT_LT(y_constants<ccd::linear_vertex_face_forms>.relative, 400 * epsilon);
+    EXPECT_LT(g_constants<ccd::linear_vertex_face_forms>.relative, 10000 * epsilon);
+    EXPECT_GT(y_constants<ccd::linear_vertex_face_forms>.relative, 3 * 36 * epsilon);
+    EXPECT_LT(y_constants<ccd::linear_vertex_face_forms>.absolute, 1e-190);
+    EXPECT_LT(g_constants<ccd::linear_edge_edge_forms>.absolute, 1e-130);
 }
 
 }  // namespace

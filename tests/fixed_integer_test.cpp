@@ -65,6 +65,11 @@ void check_one_width(std::mt19937_64& random) {
         EXPECT_EQ(a.negative(), x < 0);
         const integer size = x < 0 ? integer(-x - 1) : x;
         EXPECT_EQ(a.bit_length(), size == 0 ? 0 : static_cast<int>(msb(size)) + 1);
+        for (const int shift : {0, 1, 63, 64, 100, 64 * Words - 1, 64 * Words + 70}) {
+            const integer floor = x < 0 ? integer(-((-x - 1) >> shift) - 1) : integer(x >> shift);
+            EXPECT_EQ(big(a.template from_bit<1>(shift)), wrapped<1>(floor)) << x << " " << shift;
+            EXPECT_EQ(big(a.template from_bit<3>(shift)), wrapped<3>(floor)) << x << " " << shift;
+        }
         for (const int bits : {0, 1, 7, 63}) {
             EXPECT_EQ(big(a << bits), wrapped<Words>(x << bits));
             EXPECT_EQ(big(scale(a, bits)), wrapped<Words>(x << bits));

@@ -9,6 +9,7 @@
 #include <array>
 #include <ccd/query.hpp>
 #include <errbound/bernstein.hpp>
+#include <type_traits>
 #include <utility>
 
 namespace ccd {
@@ -39,17 +40,31 @@ constexpr auto dot(const vector_form<S, A>& p, const vector_form<T, B>& q) {
     return p.x * q.x + p.y * q.y + p.z * q.z;
 }
 
-/// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. Over scalars of
-/// W words (errbound/fixed_integer.hpp) n has coefficients of 2W words, y of 3W and the others of
-/// 4W; every other scalar is its own product.
-template <class S>
+/// The form of degree 0 that is p's value at (s, t), as value_at says; coefficient 0 is its value
+/// at t = 0, and coefficient N at t = 1.
+template <class S, int N, class T>
+constexpr auto value_at(const vector_form<S, N>& p, const T& s, const T& t) {
+    using value = decltype(value_at(p.x, s, t));
+    return vector_form<value, 0>{
+        {{value_at(p.x, s, t)}}, {{value_at(p.y, s, t)}}, {{value_at(p.z, s, t)}}};
+}
+template <class S, int N>
+constexpr vector_form<S, 0> coefficient(const vector_form<S, N>& p, int i) {
+    return {{{p.x[i]}}, {{p.y[i]}}, {{p.z[i]}}};
+}
+
+/// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. They are linear in
+/// t; of degree 0, it is the forms' values at one time. Over scalars of W words
+/// (errbound/fixed_integer.hpp) n has coefficients of 2W words, y of 3W and the others of 4W; every
+/// other scalar is its own product.
+template <class S, int Degree = 1>
 struct coplanarity_forms {
     using product = decltype(std::declval<S>() * std::declval<S>());
-    vector_form<S, 1> b, c, p;
-    vector_form<product, 2> n;
+    vector_form<S, Degree> b, c, p;
+    vector_form<product, 2 * Degree> n;
 
-    constexpr coplanarity_forms(const vector_form<S, 1>& b_, const vector_form<S, 1>& c_,
-                                const vector_form<S, 1>& p_)
+    constexpr coplanarity_forms(const vector_form<S, Degree>& b_, const vector_form<S, Degree>& c_,
+                                const vector_form<S, Degree>& p_)
         : b(b_), c(c_), p(p_), n(cross(b, c)) {}
 
     /// Y = det(b, c, p), a cubic.
@@ -59,9 +74,9 @@ struct coplanarity_forms {
 };
 
 /// Vertex/face: b = f1 − f0, c = f2 − f0, p = v − f0.
-template <class S>
-struct vertex_face_forms : coplanarity_forms<S> {
-    using coplanarity_forms<S>::coplanarity_forms;
+template <class S, int Degree = 1>
+struct vertex_face_forms : coplanarity_forms<S, Degree> {
+    using coplanarity_forms<S, Degree>::coplanarity_forms;
     constexpr explicit vertex_face_forms(const vertex_face<S>& q)
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
@@ -74,9 +89,9 @@ struct vertex_face_forms : coplanarity_forms<S> {
 };
 
 /// Edge/edge: b = a1 − a0, c = b1 − b0, p = b0 − a0.
-template <class S>
-struct edge_edge_forms : coplanarity_forms<S> {
-    using coplanarity_forms<S>::coplanarity_forms;
+template <class S, int Degree = 1>
+struct edge_edge_forms : coplanarity_forms<S, Degree> {
+    using coplanarity_forms<S, Degree>::coplanarity_forms;
     constexpr explicit edge_edge_forms(const edge_edge<S>& q)
         : coplanarity_forms<S>(difference(q.a1, q.a0), difference(q.b1, q.b0),
                                difference(q.b0, q.a0)) {}
@@ -88,6 +103,25 @@ struct edge_edge_forms : coplanarity_forms<S> {
         return std::array{on_a, n2 - on_a, on_b, n2 - on_b};
     }
 };
+
+/// The forms' values at (s, t), as value_at says.
+template <template <class, int> class Forms, class S, class T>
+constexpr auto forms_at(const Forms<S, 1>& f, const T& s, const T& t) {
+    const auto b = value_at(f.b, s, t);
+    return Forms<std::remove_cvref_t<decltype(b.x[0])>, 0>(b, value_at(f.c, s, t),
+                                                           value_at(f.p, s, t));
+}
+/// The forms' values at t = 0 or t = 1.
+template <template <class, int> class Forms, class S>
+constexpr Forms<S, 0> forms_at_end(const Forms<S, 1>& f, int end) {
+    return {coefficient(f.b, end), coefficient(f.c, end), coefficient(f.p, end)};
+}
+
+/// The forms of queries, for code that is generic in the kind.
+template <class S>
+using linear_vertex_face_forms = vertex_face_forms<S>;
+template <class S>
+using linear_edge_edge_forms = edge_edge_forms<S>;
 
 template <class S>
 constexpr vertex_face_forms<S> forms_of(const vertex_face<S>& q) {

@@ -64,6 +64,38 @@ constexpr word subtract_with_borrow(word a, word b, unsigned char& borrow) {
 }
 #undef ERRBOUND_X86_CARRY
 
+/// All ones if the word's first bit is set, else 0.
+constexpr word sign_word(word w) {
+    return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
+}
+
+/// r = a·b, for two's complement numbers of m and n words and a zeroed r of m + n. The unsigned
+/// product of the words is a·b, plus 2^(64m)·b where a < 0, plus 2^(64n)·a where b < 0, modulo the
+/// width of the result.
+[[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
+                                               int n) {
+    for (int i = 0; i < m; ++i) {
+        word carry = 0;
+        for (int j = 0; j < n; ++j) {
+            const auto sum = double_word(a[i]) * b[j] + r[i + j] + carry;
+            r[i + j] = static_cast<word>(sum);
+            carry = static_cast<word>(sum >> 64);
+        }
+        r[i + n] = carry;
+    }
+    const word if_a = sign_word(a[m - 1]), if_b = sign_word(b[n - 1]);
+    unsigned char borrow = 0;
+    for (int j = 0; j < n; ++j) r[m + j] = subtract_with_borrow(r[m + j], b[j] & if_a, borrow);
+    borrow = 0;
+    for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i] & if_b, borrow);
+}
+
+/// The same for any sizes in one piece of code.
+[[gnu::noinline]] constexpr void multiply_long(word* r, const word* a, int m, const word* b,
+                                               int n) {
+    multiply(r, a, m, b, n);
+}
+
 }  // namespace words
 
 template <int Words>
@@ -156,52 +188,68 @@ class fixed_integer {
         return 0;
     }
 
-    /// The exact product. The unsigned product of the words of two's complement numbers a and b is
-    /// a·b, plus 2^(64A)·b where a < 0, plus 2^(64B)·a where b < 0, modulo the width of the result.
-    template <int B>
-    constexpr fixed_integer<Words + B> times(const fixed_integer<B>& b) const {
-        const fixed_integer& a = *this;
-        std::array<word, Words + B> r{};
-        if constexpr (Words == 1 && B == 1) {
-            const auto product = words::signed_double_word(static_cast<std::int64_t>(a[0])) *
-                                 static_cast<std::int64_t>(b[0]);
-            r = {static_cast<word>(product), static_cast<word>(product >> 64)};
-        } else {
-            for (std::size_t i = 0; i < Words; ++i) {
-                word carry = 0;
-                for (std::size_t j = 0; j < B; ++j) {
-                    const words::double_word sum =
-                        words::double_word(a[int(i)]) * b[int(j)] + r[i + j] + carry;
-                    r[i + j] = static_cast<word>(sum);
-                    carry = static_cast<word>(sum >> 64);
-                }
-                r[i + B] = carry;
-            }
-            const word if_a = sign_word(a[Words - 1]), if_b = sign_word(b[B - 1]);
-            unsigned char borrow = 0;
-            for (std::size_t j = 0; j < B; ++j)
-                r[Words + j] = words::subtract_with_borrow(r[Words + j], b[int(j)] & if_a, borrow);
-            borrow = 0;
-            for (std::size_t i = 0; i < Words; ++i)
-                r[B + i] = words::subtract_with_borrow(r[B + i], a[int(i)] & if_b, borrow);
+    /// ⌊x/2^shift⌋ in Result words, modulo their width, for shift >= 0.
+    template <int Result>
+    constexpr fixed_integer<Result> from_bit(int shift) const {
+        const word beyond = sign_word(words_[Words - 1]);
+        const auto word_at = [&](int i) { return i < Words ? (*this)[i] : beyond; };
+        const int whole = shift / 64, bits = shift % 64;
+        fixed_integer<Result> r;
+        word low = word_at(whole);
+        for (int i = 0; i < Result; ++i) {
+            const word high = word_at(whole + i + 1);
+            // Two shifts: one by 64, where bits = 0, is undefined.
+            r.at(i) = low >> bits | high << 1 << (63 - bits);
+            low = high;
         }
-        return fixed_integer<Words + B>::from_words(r);
+        return r;
+    }
+    /// The number modulo 2^64.
+    constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
+
+    /// The exact product. Small ones are unrolled where they stand: calls would cost as much as
+    /// they do. Large ones are rare, and code for each size would be long.
+    template <int B>
+    [[gnu::always_inline]] constexpr fixed_integer<Words + B> times(
+        const fixed_integer<B>& b) const {
+        fixed_integer<Words + B> r;
+        if constexpr (Words == 1 && B == 1) {
+            const auto product = words::signed_double_word(low_word()) * b.low_word();
+            r.at(0) = static_cast<word>(product);
+            r.at(1) = static_cast<word>(product >> 64);
+        } else if constexpr (Words * B <= 8) {
+            words::multiply(r.words_.data(), words_.data(), Words, b.words_.data(), B);
+        } else if constexpr (Words * B <= 36) {
+            multiply(r.words_, words_, b.words_);
+        } else {
+            words::multiply_long(r.words_.data(), words_.data(), Words, b.words_.data(), B);
+        }
+        return r;
     }
 
   private:
-    /// All ones if the word's first bit is set, else 0.
-    static constexpr word sign_word(word w) {
-        return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
-    }
+    template <int>
+    friend class fixed_integer;
+
+    static constexpr word sign_word(word w) { return words::sign_word(w); }
     constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
     static constexpr word& at(fixed_integer& x, int i) { return x.at(i); }
+
+    /// Called, not inlined, but for these sizes only.
+    template <std::size_t A, std::size_t B>
+    [[gnu::noinline]] static constexpr void multiply(std::array<word, A + B>& r,
+                                                     const std::array<word, A>& a,
+                                                     const std::array<word, B>& b) {
+        words::multiply(r.data(), a.data(), A, b.data(), B);
+    }
 
     std::array<word, Words> words_{};
 };
 
 /// The exact product.
 template <int A, int B>
-constexpr fixed_integer<A + B> operator*(const fixed_integer<A>& a, const fixed_integer<B>& b) {
+[[gnu::always_inline]] constexpr fixed_integer<A + B> operator*(const fixed_integer<A>& a,
+                                                                const fixed_integer<B>& b) {
     return a.times(b);
 }
 
