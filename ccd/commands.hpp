@@ -2,6 +2,7 @@
 // throw io::file_error on bad input.
 #pragma once
 
+#include <ccd/batch.hpp>
 #include <ccd/method.hpp>
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,8 @@ struct step_arguments {
     std::filesystem::path before, after;
     ccd::method method = ccd::method::exact;
     int threads = 0;  ///< 0: as many as the machine has cores
+    std::optional<instruction_set> set;
+    bool explain = false;
     std::optional<std::filesystem::path> pairs;
     std::optional<std::filesystem::path> json;
 };

@@ -1,259 +1,81 @@
-// Exact decisions in integers: see include/ccd/exact.hpp for what they promise.
-//
-// A query collides exactly if one of these holds (algebra in brackets):
-//  * VF, EE: Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1]    [roots of the cubic Y]
-//  * one of three (VF) or four (EE) vertex/edge contacts
-//  * VE: W × E = 0 and W·(W − E) <= 0 at some t, with W = v − e0, E = e1 − e0. (On the line, v lies
-//    between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
-//    too, where it says W = 0.)                                   [roots of a common factor]
-// Complete: a contact with N ≠ 0 satisfies the first. If N = 0 at the contact, the triangle is then
-// a segment, which its edges cover, or the two edges are parallel, and an end of one lies on the
-// other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
-// crossing edges) that did not hold at t = 0 began at an edge (or an end).
-#include <algorithm>
-#include <bit>
+// Exact decisions: the cascade, and its exact stages.
 #include <ccd/exact.hpp>
-#include <ccd/forms.hpp>
-#include <ccd/transform.hpp>
-#include <cmath>
-#include <cstdint>
-#include <errbound/multiprecision.hpp>
-#include <errbound/real_roots.hpp>
-#include <limits>
-#ifdef ERRBOUND_HAVE_GMP
-#include <boost/multiprecision/gmp.hpp>
-#else
-#include <boost/multiprecision/cpp_int.hpp>
-#endif
+#include <ccd/reference.hpp>
+
+#include "ccd/cascade.hpp"
+#include "ccd/integers.hpp"
+#include "ccd/stage_turn.hpp"
 
 namespace ccd {
 namespace {
 
-namespace mp = boost::multiprecision;
-#ifdef ERRBOUND_HAVE_GMP
-using integer = mp::number<mp::gmp_int, mp::et_off>;
-#else
-using integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
-#endif
-
-using errbound::bernstein;
-using errbound::sign_type;
-using form = errbound::integer_form<integer>;
-
-/// x = mantissa·2^exponent with an odd mantissa, for x finite and not zero.
-struct decomposed {
-    std::int64_t mantissa;
-    int exponent;
-
-    explicit decomposed(double x) {
-        int e = 0;
-        const auto m = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &e), 53));
-        const int zeros = std::countr_zero(static_cast<std::uint64_t>(m));
-        mantissa = m >> zeros;
-        exponent = e - 53 + zeros;
-    }
-};
-
-/// The query with integer coordinates: each axis times a power of two of its own. Contact does not
-/// depend on the axes' units: they scale all three kinds of equation at a contact by positive
-/// factors, and integers stay short when one axis is much smaller than the others.
-template <template <class> class Query>
-Query<integer> to_integers(const Query<double>& query) {
-    constexpr int none = std::numeric_limits<int>::max();
-    point<int> lowest{none, none, none};
-    const auto lower = [](int& bound, double x) {
-        if (x != 0) bound = std::min(bound, decomposed(x).exponent);
+template <class Query>
+verdict settle_any(const Query& query, stage_report* report) {
+    const auto counted = [&](stage s, const auto& decide) {
+        stage_turn turn(report, s);
+        const verdict answer = decide(query);
+        turn.count(1, answer.outcome == outcome::separate, answer.outcome == outcome::collides);
+        return answer;
     };
-    for (const auto& p : points_of(query))
-        for (const auto& x : {p.t0, p.t1}) {
-            lower(lowest.x, x.x);
-            lower(lowest.y, x.y);
-            lower(lowest.z, x.z);
-        }
-    const auto to_integer = [](double x, int unit) {
-        if (x == 0) return integer(0);
-        const decomposed d(x);
-        return integer(integer(d.mantissa) << (d.exponent - unit));
-    };
-    return transformed_points(query, [&](const point<double>& p) {
-        return point<integer>{to_integer(p.x, lowest.x), to_integer(p.y, lowest.y),
-                              to_integer(p.z, lowest.z)};
-    });
+    const verdict fast =
+        counted(stage::integers, [](const Query& q) { return decide_integers(q); });
+    if (fast.outcome != outcome::uncertain) return fast;
+    return counted(stage::unbounded, [](const Query& q) { return decide_reference(q); });
 }
 
 template <class Query>
-bool is_finite(const Query& query) {
-    bool finite = true;
-    for_each_coordinate(query, [&finite](double x) { finite = finite && std::isfinite(x); });
-    return finite;
+verdict run_cascade(const Query& query, stage_report* report) {
+    const verdict filtered = filter(query, report);
+    return filtered.outcome == outcome::uncertain ? settle(query, report) : filtered;
 }
 
-/// True if some coordinate axis parts v from all of `others` the same way at t = 0 and at t = 1,
-/// and therefore, the motion being linear, throughout.
-template <std::size_t N>
-bool parted(const moving_point<double>& v, const std::array<moving_point<double>, N>& others) {
-    for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z}) {
-        bool above = true, below = true;
-        for (const auto& o : others) {
-            above = above && v.t0.*axis > o.t0.*axis && v.t1.*axis > o.t1.*axis;
-            below = below && v.t0.*axis < o.t0.*axis && v.t1.*axis < o.t1.*axis;
-        }
-        if (above || below) return true;
-    }
-    return false;
-}
-bool parted(const vertex_edge<double>& q) {
-    return parted<2>(q.v, {q.e0, q.e1});
-}
-
-/// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
-template <template <class> class Query>
-bool regular_contact(const Query<integer>& query) {
-    const auto forms = forms_of(query);
-    const auto y = forms.y();
-    if (errbound::certainly_rootless(y)) return false;
-    const auto g = forms.inside();
-    for (const auto& f : g)
-        if (errbound::sign_throughout(f) == sign_type::negative) return false;
-    const auto n2 = forms.normal_squared();
-
-    const auto contact_at = [&](const auto& sign_there) {
-        if (sign_there(n2) == sign_type::zero) return false;
-        for (const auto& f : g)
-            if (sign_there(f) == sign_type::negative) return false;
-        return true;
-    };
-    const auto at_start = [](const auto& f) { return errbound::sign_of(f.h.front()); };
-    const auto at_end = [](const auto& f) { return errbound::sign_of(f.h.back()); };
-    if (y.h.front() == 0 && contact_at(at_start)) return true;
-    if (y.h.back() == 0 && contact_at(at_end)) return true;
-
-    const form inner = errbound::without_end_roots(y);
-    if (inner.size() < 2) return false;
-    errbound::real_roots<integer> roots(inner);
-    for (std::size_t k = 0; k < roots.size(); ++k) {
-        const auto at_root = [&roots, k](const auto& f) {
-            return roots.sign_at_root(errbound::without_end_roots(f), k);
-        };
-        if (contact_at(at_root)) return true;
-    }
-    return false;
-}
-
-bool contact(const vertex_edge<integer>& query) {
-    const auto e = difference(query.e1, query.e0);
-    const auto w = difference(query.v, query.e0);
-    const auto off_line = cross(w, e);
-    for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
-        if (errbound::certainly_rootless(*f)) return false;
-    // W·(W − E), not positive between the ends.
-    const auto beyond = dot(w, difference(query.v, query.e1));
-    const auto on_line_at = [&](std::size_t i) {
-        return off_line.x.h[i] == 0 && off_line.y.h[i] == 0 && off_line.z.h[i] == 0;
-    };
-    if (on_line_at(0) && beyond.h[0] <= 0) return true;
-    if (on_line_at(2) && beyond.h[2] <= 0) return true;
-
-    form on_line;  // the common factor of the three; empty: the motion is collinear throughout
-    for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
-        on_line = errbound::common_factor(on_line, errbound::without_end_roots(*f));
-    if (on_line.empty()) {
-        // Both ends are positive by now, so a value <= 0 inside needs real roots with t/s > 0.
-        return beyond.h[1] < 0 && beyond.h[1] * beyond.h[1] >= 4 * beyond.h[0] * beyond.h[2];
-    }
-    if (on_line.size() < 2) return false;
-    errbound::real_roots<integer> roots(on_line);
-    for (std::size_t k = 0; k < roots.size(); ++k)
-        if (roots.sign_at_root(errbound::without_end_roots(beyond), k) != sign_type::positive)
-            return true;
-    return false;
-}
-
-/// W(t) = 0 for the linear W from w0 to w1: they are antiparallel, or one of them is zero.
-bool contact(const vertex_vertex<integer>& query) {
-    const auto w = difference(query.v, query.w);
-    const vector_form<integer, 0> w0{{{w.x[0]}}, {{w.y[0]}}, {{w.z[0]}}};
-    const vector_form<integer, 0> w1{{{w.x[1]}}, {{w.y[1]}}, {{w.z[1]}}};
-    const auto c = cross(w0, w1);
-    return c.x[0] == 0 && c.y[0] == 0 && c.z[0] == 0 && dot(w0, w1)[0] <= 0;
-}
-
-template <class T>
-std::array<vertex_edge<T>, 3> vertex_edge_queries(const vertex_face<T>& q) {
-    return {{{q.v, q.f0, q.f1}, {q.v, q.f1, q.f2}, {q.v, q.f2, q.f0}}};
-}
-template <class T>
-std::array<vertex_edge<T>, 4> vertex_edge_queries(const edge_edge<T>& q) {
-    return {{{q.a0, q.b0, q.b1}, {q.a1, q.b0, q.b1}, {q.b0, q.a0, q.a1}, {q.b1, q.a0, q.a1}}};
-}
-
-/// VF and EE: the union stated at the head of this file.
-template <template <class> class Query>
-bool contact(const Query<integer>& query, const Query<double>& original) {
-    if (regular_contact(query)) return true;
-    const auto edges = vertex_edge_queries(query);
-    const auto original_edges = vertex_edge_queries(original);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        if (!parted(original_edges[i]) && contact(edges[i])) return true;
-    return false;
-}
-bool contact(const vertex_edge<integer>& query, const vertex_edge<double>& original) {
-    return !parted(original) && contact(query);
-}
-bool contact(const vertex_vertex<integer>& query, const vertex_vertex<double>&) {
-    return contact(query);
-}
-
-template <template <class> class Query>
-verdict decide_finite(const Query<double>& query) {
-    if (!is_finite(query)) return {outcome::uncertain, cause::range};
-    return {contact(to_integers(query), query) ? outcome::collides : outcome::separate,
-            cause::none};
-}
-
-/// The query without motion.
-template <template <class> class Query>
-Query<double> frozen(Query<double> query) {
-    if constexpr (requires { query.f0; }) {
-        query.f0.t1 = query.f0.t0, query.f1.t1 = query.f1.t0, query.f2.t1 = query.f2.t0;
-    } else if constexpr (requires { query.a0; }) {
-        query.a0.t1 = query.a0.t0, query.a1.t1 = query.a1.t0;
-        query.b0.t1 = query.b0.t0, query.b1.t1 = query.b1.t0;
-    } else if constexpr (requires { query.e0; }) {
-        query.e0.t1 = query.e0.t0, query.e1.t1 = query.e1.t0;
-    } else {
-        query.w.t1 = query.w.t0;
-    }
-    if constexpr (requires { query.v; }) query.v.t1 = query.v.t0;
-    return query;
+template <class... Points>
+void freeze(Points&... points) {
+    ((points.t1 = points.t0), ...);
 }
 
 }  // namespace
 
-verdict decide_exact(const vertex_face<double>& q) {
-    return decide_finite(q);
+verdict settle(const vertex_face<double>& query, stage_report* report) {
+    return settle_any(query, report);
 }
-verdict decide_exact(const edge_edge<double>& q) {
-    return decide_finite(q);
-}
-verdict decide_exact(const vertex_edge<double>& q) {
-    return decide_finite(q);
-}
-verdict decide_exact(const vertex_vertex<double>& q) {
-    return decide_finite(q);
+verdict settle(const edge_edge<double>& query, stage_report* report) {
+    return settle_any(query, report);
 }
 
+verdict decide_exact(const vertex_face<double>& q, stage_report* report) {
+    return run_cascade(q, report);
+}
+verdict decide_exact(const edge_edge<double>& q, stage_report* report) {
+    return run_cascade(q, report);
+}
+verdict decide_exact(const vertex_edge<double>& q) {
+    return settle_any(q, nullptr);
+}
+verdict decide_exact(const vertex_vertex<double>& q) {
+    return settle_any(q, nullptr);
+}
+
+// The query without motion, decided.
 verdict touches_at_start(const vertex_face<double>& q) {
-    return decide_finite(frozen(q));
+    auto still = q;
+    freeze(still.v, still.f0, still.f1, still.f2);
+    return decide_exact(still);
 }
 verdict touches_at_start(const edge_edge<double>& q) {
-    return decide_finite(frozen(q));
+    auto still = q;
+    freeze(still.a0, still.a1, still.b0, still.b1);
+    return decide_exact(still);
 }
 verdict touches_at_start(const vertex_edge<double>& q) {
-    return decide_finite(frozen(q));
+    auto still = q;
+    freeze(still.v, still.e0, still.e1);
+    return decide_exact(still);
 }
 verdict touches_at_start(const vertex_vertex<double>& q) {
-    return decide_finite(frozen(q));
+    auto still = q;
+    freeze(still.v, still.w);
+    return decide_exact(still);
 }
 
 }  // namespace ccd

@@ -27,6 +27,16 @@ ccd::method method_named(const std::string& name) {
     throw usage_error("--method: found '" + name + "', expected one of " + known);
 }
 
+ccd::instruction_set instruction_set_named(const std::string& name) {
+    std::string known;
+    for (const ccd::instruction_set set : instruction_sets()) {
+        if (ccd::name(set) == name) return set;
+        known += (known.empty() ? "" : ", ") + std::string(ccd::name(set));
+    }
+    throw usage_error("--instruction-set: found '" + name + "', expected one of " + known +
+                      " (what this build holds and this machine runs)");
+}
+
 /// The methods of a list M[,M...], or all.
 std::vector<ccd::method> methods_named(const std::string& list, bool all) {
     std::vector<ccd::method> result;
@@ -67,7 +77,7 @@ struct command_line {
         "ccd"};
     query_arguments query;
     step_arguments step;
-    std::string query_methods, query_kind, step_method = "exact";
+    std::string query_methods, query_kind, step_method = "exact", step_set;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
     CLI::App* methods_command = nullptr;
@@ -111,6 +121,13 @@ struct command_line {
             ->type_name("OUT");
         step_command->add_option("--threads", step.threads, "Threads; 0: one per core")
             ->check(CLI::Range(0, 4096));
+        step_command
+            ->add_option("--instruction-set", step_set,
+                         "For exact: baseline, avx2 or avx512, else the strongest that runs here")
+            ->type_name("SET");
+        step_command->add_flag("--explain", step.explain,
+                               "Tell what each stage of exact settled, at what cost, and what was\n"
+                               "left out");
         step_command->add_option("--json", step.json, "Write counts and seconds as JSON")
             ->type_name("OUT");
 
@@ -134,6 +151,10 @@ struct command_line {
             run_query(query);
         } else if (step_command->parsed()) {
             step.method = method_named(step_method);
+            if (!step_set.empty()) step.set = instruction_set_named(step_set);
+            if (step.method != method::exact && (step.explain || step.set))
+                throw usage_error("--explain and --instruction-set: found --method " + step_method +
+                                  ", expected exact, which alone has stages");
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
         } else if (methods_command->parsed()) {

@@ -23,7 +23,7 @@ constexpr std::array<method_info, 4> table{{
      "TightCCD; Wang, Tang, Manocha, Tong 2015"},
     {method::exact, "exact", false, false,
      "no false negative, no false positive, on any finite input",
-     "tight as filter, then integers on a common exponent and Sturm sequences"},
+     "static filters, then integers on a common exponent (ccd/explain.hpp)"},
 }};
 
 template <class Query>
@@ -35,10 +35,8 @@ verdict decide_any(method m, const Query& query) {
             return decide_bsc<errbound::safe>(query);
         case method::tight:
             return decide_bsc<errbound::tight>(query);
-        case method::exact: {
-            const verdict filtered = decide_bsc<errbound::tight>(query);
-            return filtered.outcome == outcome::uncertain ? decide_exact(query) : filtered;
-        }
+        case method::exact:
+            return decide_exact(query);
     }
     return {};
 }

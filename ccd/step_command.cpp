@@ -1,6 +1,7 @@
 // `ccd step`: one step of a mesh, from files to colliding pairs.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <ccd/step.hpp>
 #include <chrono>
 #include <cstdio>
@@ -40,7 +41,7 @@ std::string lines_of_pairs(const step_result& result) {
 
 std::string json_of(const step_arguments& arguments, const step_result& result, double read,
                     std::size_t memory) {
-    const nlohmann::ordered_json document = {
+    nlohmann::ordered_json document = {
         {"method", info(arguments.method).name},
         {"candidates",
          {{"vertex_face", result.vertex_face_candidates},
@@ -49,31 +50,69 @@ std::string json_of(const step_arguments& arguments, const step_result& result, 
          {{"vertex_face", result.vertex_face.size()}, {"edge_edge", result.edge_edge.size()}}},
         {"seconds",
          {{"read", read},
+          {"prepare", result.prepare_seconds},
           {"broad", result.broad_phase_seconds},
-          {"narrow", result.narrow_phase_seconds}}},
+          {"narrow", result.narrow_phase_seconds},
+          {"sort", result.sort_seconds},
+          {"total", result.total_seconds}}},
         {"threads", result.threads},
         {"peak_memory_bytes", memory}};
+    if (arguments.explain) {
+        document["stages"] = nlohmann::ordered_json::array();
+        for (std::size_t i = 0; i < stage_count; ++i) {
+            const stage_report::entry& entry = result.stages.stages[i];
+            document["stages"].push_back({{"stage", info(static_cast<stage>(i)).name},
+                                          {"entered", entry.entered},
+                                          {"left_out", entry.left_out},
+                                          {"separate", entry.separate},
+                                          {"collides", entry.collides},
+                                          {"seconds", entry.seconds}});
+        }
+    }
     return document.dump(2) + '\n';
+}
+
+std::string fixed(double value, const char* format) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+/// What each stage settled, at what cost, and why some queries passed it by.
+std::string text_of_stages(const stage_report& report) {
+    table rows = {{"stage", "queries", "separate", "collide", "left open", "ms", "ns/query", ""}};
+    std::string notes;
+    for (std::size_t i = 0; i < stage_count; ++i) {
+        const stage_info& stage = info(static_cast<ccd::stage>(i));
+        const stage_report::entry& entry = report.stages[i];
+        const double asked = static_cast<double>(std::max<std::uint64_t>(entry.entered, 1));
+        rows.push_back({std::string(stage.name), std::to_string(entry.entered),
+                        std::to_string(entry.separate), std::to_string(entry.collides),
+                        std::to_string(entry.entered - entry.separate - entry.collides),
+                        fixed(1e3 * entry.seconds, "%.2f"),
+                        fixed(1e9 * entry.seconds / asked, "%.1f"), std::string(stage.how)});
+        if (entry.left_out > 0)
+            notes += std::string(stage.name) + ": left out for " + std::to_string(entry.left_out) +
+                     " queries, since it settled fewer than a quarter of those before them\n";
+    }
+    return text_of(rows, 1) + notes;
 }
 
 std::string text_of_step(const step_arguments& arguments, const step_result& result, double read,
                          std::size_t memory) {
-    const auto fixed = [](double value, const char* format) {
-        char text[64];
-        std::snprintf(text, sizeof text, format, value);
-        return std::string(text);
-    };
     const table pairs = {{std::string(info(arguments.method).name), "candidates", "collisions"},
                          {"vertex-face", std::to_string(result.vertex_face_candidates),
                           std::to_string(result.vertex_face.size())},
                          {"edge-edge", std::to_string(result.edge_edge_candidates),
                           std::to_string(result.edge_edge.size())}};
     const table costs = {
-        {"read", "broad phase", "narrow phase", "threads", "peak memory"},
-        {fixed(read, "%.3f s"), fixed(result.broad_phase_seconds, "%.3f s"),
-         fixed(result.narrow_phase_seconds, "%.3f s"), std::to_string(result.threads),
+        {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
+        {fixed(read, "%.3f s"), fixed(result.prepare_seconds, "%.3f s"),
+         fixed(result.broad_phase_seconds, "%.3f s"), fixed(result.narrow_phase_seconds, "%.3f s"),
+         fixed(result.sort_seconds, "%.3f s"), std::to_string(result.threads),
          fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
-    return text_of(pairs, 1) + '\n' + text_of(costs, 0);
+    return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
+           (arguments.explain ? '\n' + text_of_stages(result.stages) : "");
 }
 
 }  // namespace
@@ -86,8 +125,11 @@ void run_step(const step_arguments& arguments) {
     const double read =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-    const step_result result =
-        step(before, after, {.method = arguments.method, .threads = arguments.threads});
+    const step_result result = step(before, after,
+                                    {.method = arguments.method,
+                                     .threads = arguments.threads,
+                                     .set = arguments.set,
+                                     .explain = arguments.explain});
     const std::size_t memory = peak_memory_bytes();
     if (arguments.pairs) io::write_whole(*arguments.pairs, lines_of_pairs(result));
     if (arguments.json) {

@@ -228,7 +228,8 @@ class Step(ProgramTest):
         count = {name: sum(line[0] == kind for line in lines)
                  for name, kind in (("vertex_face", "vf"), ("edge_edge", "ee"))}
         self.assertEqual(result["collisions"], count)
-        self.assertEqual(set(result["seconds"]), {"read", "broad", "narrow"})
+        self.assertEqual(list(result["seconds"]),
+                         ["read", "prepare", "broad", "narrow", "sort", "total"])
         self.assertGreater(result["peak_memory_bytes"], 1 << 20)
         table = {row.split()[0]: row.split()[1:] for row in text.splitlines() if row}
         self.assertEqual(table["vertex-face"],

@@ -8,6 +8,7 @@
 #include <array>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/reference.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/integers.hpp"
 #include "oracle.hpp"
 #include "query_families.hpp"
 
@@ -65,9 +67,30 @@ ccd::verdict decide(ccd::method method, kind which, const points& p) {
                                       : ccd::decide(method, query_families::as_edge_edge(p));
 }
 
+// decide(query) of the points as a query of that kind, for a decide() that takes all kinds.
+template <class Decide>
+ccd::verdict decide_by(const Decide& decide, kind which, const points& p) {
+    switch (which) {
+        case kind::vertex_face:
+            return decide(query_families::as_vertex_face(p));
+        case kind::edge_edge:
+            return decide(query_families::as_edge_edge(p));
+        case kind::vertex_edge:
+            return decide(query_families::as_vertex_edge(p));
+        case kind::vertex_vertex:
+            return decide(query_families::as_vertex_vertex(p));
+    }
+    return {};
+}
+
 ccd::verdict decide_exact(kind which, const points& p) {
-    return which == kind::vertex_face ? ccd::decide_exact(query_families::as_vertex_face(p))
-                                      : ccd::decide_exact(query_families::as_edge_edge(p));
+    return decide_by([](const auto& q) { return ccd::decide_exact(q); }, which, p);
+}
+ccd::verdict decide_reference(kind which, const points& p) {
+    return decide_by([](const auto& q) { return ccd::decide_reference(q); }, which, p);
+}
+ccd::verdict decide_integers(kind which, const points& p) {
+    return decide_by([](const auto& q) { return ccd::decide_integers(q); }, which, p);
 }
 
 bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle::shortcuts::on) {
@@ -96,12 +119,15 @@ struct tally {
     std::uint64_t collisions = 0;
     std::uint64_t false_positives[3] = {};  // float, safe, tight
     std::uint64_t float_false_negatives = 0;
+    std::uint64_t out_of_range = 0, unsettled = 0;  // integers of fixed width: uncertain
 
     void add(const tally& other) {
         queries += other.queries;
         collisions += other.collisions;
         for (std::size_t i = 0; i < 3; ++i) false_positives[i] += other.false_positives[i];
         float_false_negatives += other.float_false_negatives;
+        out_of_range += other.out_of_range;
+        unsettled += other.unsettled;
     }
 };
 
@@ -158,17 +184,23 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     tally& count = out.tallies[family];
     ++count.queries;
     count.collisions += truth;
-    const auto fail = [&](ccd::method method, ccd::outcome said) {
-        const std::string what = std::string(ccd::info(method).name) + " says " +
-                                 std::string(name(said)) + ", the oracle says " +
-                                 std::string(name(right));
+    const auto fail = [&](std::string_view who, ccd::outcome said) {
+        const std::string what = std::string(who) + " says " + std::string(name(said)) +
+                                 ", the oracle says " + std::string(name(right));
         out.failures.push_back(describe(family, which, index, p, what));
     };
-    const ccd::outcome exact = decide(ccd::method::exact, which, p).outcome;
-    if (exact != right) fail(ccd::method::exact, exact);
-    // The reference alone too, without the filter that settles most queries before it.
-    const ccd::outcome unfiltered = decide_exact(which, p).outcome;
-    if (unfiltered != right) fail(ccd::method::exact, unfiltered);
+    const auto require_right = [&](std::string_view who, ccd::verdict said) {
+        if (said.outcome != right) fail(who, said.outcome);
+    };
+    require_right("exact", decide(ccd::method::exact, which, p));
+    // What comes last in it alone too, without the filter that settles most queries before.
+    require_right("decide_exact", decide_exact(which, p));
+    require_right("decide_reference", decide_reference(which, p));
+    const ccd::verdict integers = decide_integers(which, p);
+    if (integers.outcome == ccd::outcome::uncertain)
+        ++(integers.cause == ccd::cause::range ? count.out_of_range : count.unsettled);
+    else
+        require_right("decide_integers", integers);
 
     std::size_t column = 0;
     for (const ccd::method method : {ccd::method::float_, ccd::method::safe, ccd::method::tight}) {
@@ -177,20 +209,22 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
         if (method == ccd::method::float_) {
             count.float_false_negatives += truth && !ccd::may_collide(said);
         } else if (said.outcome != ccd::outcome::uncertain && said.outcome != right) {
-            fail(method, said.outcome);
+            fail(ccd::info(method).name, said.outcome);
         }
     }
 }
 
 void print(kind which, const report& r) {
-    std::cout << format("%-22s%9s%11s%10s%9s%9s%10s\n", std::string(name(which)).c_str(), "queries",
-                        "collisions", "float FP", "safe FP", "tight FP", "float FN");
+    std::cout << format("%-22s%9s%11s%10s%9s%9s%10s%14s%11s\n", std::string(name(which)).c_str(),
+                        "queries", "collisions", "float FP", "safe FP", "tight FP", "float FN",
+                        "out of range", "unsettled");
     const auto row = [](std::string_view title, const tally& t) {
         std::cout << format(
-            "%-22s%9ju%11ju%10ju%9ju%9ju%10ju\n", std::string(title).c_str(),
+            "%-22s%9ju%11ju%10ju%9ju%9ju%10ju%14ju%11ju\n", std::string(title).c_str(),
             std::uintmax_t{t.queries}, std::uintmax_t{t.collisions},
             std::uintmax_t{t.false_positives[0]}, std::uintmax_t{t.false_positives[1]},
-            std::uintmax_t{t.false_positives[2]}, std::uintmax_t{t.float_false_negatives});
+            std::uintmax_t{t.false_positives[2]}, std::uintmax_t{t.float_false_negatives},
+            std::uintmax_t{t.out_of_range}, std::uintmax_t{t.unsettled});
     };
     tally total;
     for (std::size_t i = 0; i < family_count; ++i) {
@@ -230,6 +264,15 @@ TEST(promises, features_that_are_smaller_than_they_look) {
             }
             if (decide(ccd::method::exact, kind::edge_edge, as_edges).outcome != right) {
                 out.failures.push_back(describe(family, which, index, original, "as edge-edge"));
+            }
+            const ccd::verdict integers = decide_integers(which, original);
+            if (integers.outcome == ccd::outcome::uncertain ? integers.cause != ccd::cause::range
+                                                            : integers.outcome != right) {
+                out.failures.push_back(describe(family, which, index, original, "in integers"));
+            }
+            if (decide_exact(which, original).outcome != right ||
+                decide_reference(which, original).outcome != right) {
+                out.failures.push_back(describe(family, which, index, original, "as it is"));
             }
         };
         const points e = query_families::make(families[family], kind::vertex_edge, seed(), index);

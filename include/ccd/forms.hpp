@@ -9,6 +9,7 @@
 #include <array>
 #include <ccd/query.hpp>
 #include <errbound/bernstein.hpp>
+#include <utility>
 
 namespace ccd {
 
@@ -26,68 +27,74 @@ constexpr vector_form<S, 1> difference(const moving_point<S>& q, const moving_po
             {{q.t0.z - p.t0.z, q.t1.z - p.t1.z}}};
 }
 
-template <class S, int A, int B>
-constexpr vector_form<S, A + B> cross(const vector_form<S, A>& p, const vector_form<S, B>& q) {
-    return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+template <class S, class T, int A, int B>
+constexpr auto cross(const vector_form<S, A>& p, const vector_form<T, B>& q) {
+    using product = decltype(p.x[0] * q.x[0]);
+    return vector_form<product, A + B>{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z,
+                                       p.x * q.y - p.y * q.x};
 }
 
-template <class S, int A, int B>
-constexpr errbound::bernstein<S, A + B> dot(const vector_form<S, A>& p,
-                                            const vector_form<S, B>& q) {
+template <class S, class T, int A, int B>
+constexpr auto dot(const vector_form<S, A>& p, const vector_form<T, B>& q) {
     return p.x * q.x + p.y * q.y + p.z * q.z;
 }
 
-/// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c.
+/// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. Over scalars of
+/// W words (errbound/fixed_integer.hpp) n has coefficients of 2W words, y of 3W and the others of
+/// 4W; every other scalar is its own product.
 template <class S>
 struct coplanarity_forms {
+    using product = decltype(std::declval<S>() * std::declval<S>());
     vector_form<S, 1> b, c, p;
-    vector_form<S, 2> n;
+    vector_form<product, 2> n;
 
-    coplanarity_forms(const vector_form<S, 1>& b_, const vector_form<S, 1>& c_,
-                      const vector_form<S, 1>& p_)
+    constexpr coplanarity_forms(const vector_form<S, 1>& b_, const vector_form<S, 1>& c_,
+                                const vector_form<S, 1>& p_)
         : b(b_), c(c_), p(p_), n(cross(b, c)) {}
 
-    /// Y = det(b, c, p).
-    errbound::bernstein<S, 3> y() const { return dot(n, p); }
-    /// |N|².
-    errbound::bernstein<S, 4> normal_squared() const { return dot(n, n); }
+    /// Y = det(b, c, p), a cubic.
+    constexpr auto y() const { return dot(n, p); }
+    /// |N|², a quartic.
+    constexpr auto normal_squared() const { return dot(n, n); }
 };
 
 /// Vertex/face: b = f1 − f0, c = f2 − f0, p = v − f0.
 template <class S>
 struct vertex_face_forms : coplanarity_forms<S> {
-    explicit vertex_face_forms(const vertex_face<S>& q)
+    using coplanarity_forms<S>::coplanarity_forms;
+    constexpr explicit vertex_face_forms(const vertex_face<S>& q)
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
     /// The barycentric weights of f2, f1 and f0, times |N|².
-    std::array<errbound::bernstein<S, 4>, 3> inside() const {
+    constexpr auto inside() const {
         const auto w2 = dot(cross(this->b, this->p), this->n);
         const auto w1 = dot(cross(this->p, this->c), this->n);
-        return {w2, w1, this->normal_squared() - w1 - w2};
+        return std::array{w2, w1, this->normal_squared() - w1 - w2};
     }
 };
 
 /// Edge/edge: b = a1 − a0, c = b1 − b0, p = b0 − a0.
 template <class S>
 struct edge_edge_forms : coplanarity_forms<S> {
-    explicit edge_edge_forms(const edge_edge<S>& q)
+    using coplanarity_forms<S>::coplanarity_forms;
+    constexpr explicit edge_edge_forms(const edge_edge<S>& q)
         : coplanarity_forms<S>(difference(q.a1, q.a0), difference(q.b1, q.b0),
                                difference(q.b0, q.a0)) {}
     /// The parameters on edges a and b and their distances from 1, times |N|².
-    std::array<errbound::bernstein<S, 4>, 4> inside() const {
+    constexpr auto inside() const {
         const auto on_a = dot(cross(this->p, this->c), this->n);
         const auto on_b = dot(cross(this->p, this->b), this->n);
         const auto n2 = this->normal_squared();
-        return {on_a, n2 - on_a, on_b, n2 - on_b};
+        return std::array{on_a, n2 - on_a, on_b, n2 - on_b};
     }
 };
 
 template <class S>
-vertex_face_forms<S> forms_of(const vertex_face<S>& q) {
+constexpr vertex_face_forms<S> forms_of(const vertex_face<S>& q) {
     return vertex_face_forms<S>(q);
 }
 template <class S>
-edge_edge_forms<S> forms_of(const edge_edge<S>& q) {
+constexpr edge_edge_forms<S> forms_of(const edge_edge<S>& q) {
     return edge_edge_forms<S>(q);
 }
 

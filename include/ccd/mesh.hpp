@@ -18,7 +18,8 @@ struct mesh {
     std::vector<face> faces;
 };
 
-/// The mesh's unique edges, each ascending, sorted.
+/// The mesh's unique edges, each ascending, sorted; a vertex repeated within a face makes no edge.
+/// Cost: O(faces) unless very many of them share a vertex; memory: 36 bytes a face and 8 a vertex.
 std::vector<edge> unique_edges(const std::vector<face>& faces);
 
 }  // namespace ccd

@@ -58,14 +58,16 @@ struct bernstein {
     }
 };
 
-/// The product: a plain convolution of scaled coefficients.
-template <class S, int A, int B>
-constexpr bernstein<S, A + B> operator*(const bernstein<S, A>& p, const bernstein<S, B>& q) {
-    bernstein<S, A + B> r;
+/// The product: a plain convolution of scaled coefficients. The factors' scalars may differ, where
+/// their product is a type of its own (errbound/fixed_integer.hpp).
+template <class S, class T, int A, int B>
+constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
+    using product = decltype(p[0] * q[0]);
+    bernstein<product, A + B> r;
     // The first term of each sum is stored, not added to zero: an addition to zero has a bound.
     for (int k = 0; k <= A + B; ++k) {
         const int first = k > B ? k - B : 0;
-        S sum = p[first] * q[k - first];
+        product sum = p[first] * q[k - first];
         for (int i = first + 1; i <= A && i <= k; ++i) sum = sum + p[i] * q[k - i];
         r[k] = sum;
     }
@@ -91,17 +93,30 @@ requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>&
     return r;
 }
 
+namespace detail {
+
+/// Horner's rule from term I on: sum holds the terms before it, power is t^I. The types may grow
+/// from step to step (errbound/fixed_integer.hpp).
+template <int I, class S, int N, class T, class Sum, class Power>
+constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t, const Sum& sum,
+                               const Power& power) {
+    const auto next = sum * s + p[I] * power;
+    if constexpr (I == N)
+        return next;
+    else
+        return value_from_term<I + 1>(p, s, t, next, power * t);
+}
+
+}  // namespace detail
+
 /// The form p(s, t), that is (s + t)^N · p(t/(s + t)). At s = 1 − t it is the polynomial's value.
 /// Cost: 3N − 1 products.
-template <class S, int N>
-constexpr S value_at(const bernstein<S, N>& p, const S& s, const S& t) {
-    S sum = p[0];
-    S power = t;
-    for (int i = 1; i <= N; ++i) {
-        sum = sum * s + p[i] * power;
-        if (i < N) power = power * t;
-    }
-    return sum;
+template <class S, int N, class T>
+constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
+    if constexpr (N == 0)
+        return p[0];
+    else
+        return detail::value_from_term<1>(p, s, t, p[0], t);
 }
 
 /// The polynomial's value at t.
@@ -143,20 +158,24 @@ constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N
     return {left_part(p, v, w), reversed(left_part(reversed(p), w, v))};
 }
 
-/// The parts of p on [0, 1/2] and [1/2, 1], times 2^N: additions and exact doublings only.
+/// The part of p on [0, 1/2], times 2^N: additions and exact doublings only. The part on [1/2, 1]
+/// is reversed(left_half(reversed(p))).
 template <class S, int N>
-std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, N>& p) {
-    const auto left = [](const bernstein<S, N>& q) {
-        bernstein<S, N> r;
-        r[0] = q[0];
-        for (int i = 1; i <= N; ++i) {
-            r[i] = r[i - 1] + q[i];
-            for (int j = i - 1; j > 0; --j) r[j] = scale(r[j], 1) + r[j - 1];
-            r[0] = scale(r[0], 1);
-        }
-        return r;
-    };
-    return {left(p), reversed(left(reversed(p)))};
+constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
+    bernstein<S, N> r;
+    r[0] = p[0];
+    for (int i = 1; i <= N; ++i) {
+        r[i] = r[i - 1] + p[i];
+        for (int j = i - 1; j > 0; --j) r[j] = scale(r[j], 1) + r[j - 1];
+        r[0] = scale(r[0], 1);
+    }
+    return r;
+}
+
+/// The parts of p on [0, 1/2] and [1/2, 1], times 2^N.
+template <class S, int N>
+constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, N>& p) {
+    return {left_half(p), reversed(left_half(reversed(p)))};
 }
 
 /// The form times a power of two that brings its largest coefficient near 1, so that products of

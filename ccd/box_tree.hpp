@@ -1,0 +1,240 @@
+// A tree over boxes, eight to a node, that finds all boxes touching a given one.
+//
+// The boxes come in an order in which neighbours are near each other; eight consecutive boxes form
+// a leaf, eight consecutive leaves a node above it, and so on up to one root. Nodes therefore need
+// no pointers, and one box is compared with a whole node by straight loops over floats.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace ccd {
+
+/// A closed box with finite coordinates.
+template <class Real>
+struct box {
+    std::array<Real, 3> low, high;
+};
+
+/// Bit i stands for box i of a pack.
+using pack_mask = std::uint32_t;
+
+template <class Mask, class Visit>
+void for_each_bit(Mask mask, const Visit& visit) {
+    for (; mask != 0; mask &= mask - 1) visit(static_cast<std::size_t>(std::countr_zero(mask)));
+}
+
+/// Up to eight boxes side by side; the rest are nowhere and touch nothing.
+///
+/// The comparisons are written with the vector types of GCC and clang, on which plain loops were
+/// vectorised in some places where they are inlined and not in others.
+template <class Real>
+class box_pack {
+  public:
+    static constexpr std::size_t size = 8;
+
+    box_pack() {
+        constexpr Real infinity = std::numeric_limits<Real>::infinity();
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t part = 0; part < parts; ++part) {
+                low_[k][part] = reals{} + infinity;
+                high_[k][part] = reals{} - infinity;
+            }
+    }
+
+    void set(std::size_t i, const box<Real>& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low_[k][i / width][i % width] = b.low[k];
+            high_[k][i / width][i % width] = b.high[k];
+        }
+    }
+
+    box<Real> operator[](std::size_t i) const {
+        box<Real> b;
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.low[k] = low_[k][i / width][i % width];
+            b.high[k] = high_[k][i / width][i % width];
+        }
+        return b;
+    }
+
+    /// The smallest box around all of them.
+    box<Real> hull() const {
+        box<Real> all = (*this)[0];
+        for (std::size_t i = 1; i < size; ++i) {
+            const box<Real> b = (*this)[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                all.low[k] = std::min(all.low[k], b.low[k]);
+                all.high[k] = std::max(all.high[k], b.high[k]);
+            }
+        }
+        return all;
+    }
+
+    /// Those that touch b.
+    pack_mask touching(const box<Real>& b) const {
+        return mask_of([&](std::size_t part) {
+            lanes found = lanes{} - 1;
+            for (std::size_t k = 0; k < 3; ++k)
+                found &= (low_[k][part] <= b.high[k]) & (high_[k][part] >= b.low[k]);
+            return found;
+        });
+    }
+
+    /// Those that touch b, and none of whose ends touches an end of b.
+    pack_mask overlapping(const box<Real>& b) const {
+        return mask_of([&](std::size_t part) {
+            lanes found = lanes{} - 1;
+            for (std::size_t k = 0; k < 3; ++k)
+                found &= (low_[k][part] < b.high[k]) & (high_[k][part] > b.low[k]);
+            return found;
+        });
+    }
+
+  private:
+    using lane = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+    static constexpr std::size_t vector_bytes = 16;  // what every processor has
+    static constexpr std::size_t width = vector_bytes / sizeof(Real), parts = size / width;
+    typedef Real reals __attribute__((vector_size(vector_bytes)));
+    typedef lane lanes __attribute__((vector_size(vector_bytes)));
+
+    /// One bit for each lane of lanes_of(0), lanes_of(1), ... that is -1 rather than 0.
+    template <class LanesOf>
+    static pack_mask mask_of(const LanesOf& lanes_of) {
+        lanes bits, found{};
+        for (std::size_t i = 0; i < width; ++i) bits[i] = lane(1) << i;
+        for (std::size_t part = 0; part < parts; ++part, bits <<= width)
+            found |= lanes_of(part) & bits;
+        lane mask = 0;
+        for (std::size_t i = 0; i < width; ++i) mask |= found[i];
+        return static_cast<pack_mask>(mask);
+    }
+
+    reals low_[3][parts], high_[3][parts];
+};
+
+template <class Real>
+class box_tree {
+  public:
+    using pack = box_pack<Real>;
+
+    /// Over the boxes box_of(0), ..., box_of(count - 1). Cost: O(count), on all threads of the
+    /// arena; memory: 27.5 bytes a box for floats, 55 for doubles.
+    template <class BoxOf>
+    box_tree(std::size_t count, const BoxOf& box_of) {
+        std::size_t packs = 0, in_level = count;
+        do {
+            in_level = (in_level + pack::size - 1) / pack::size;
+            level_start_[levels_++] = packs;
+            packs += in_level;
+        } while (in_level > 1);
+        level_start_[levels_] = packs;
+        packs_.resize(packs);
+
+        fill(0, count, box_of);
+        for (std::size_t level = 1; level < levels_; ++level) {
+            const pack* below = &packs_[level_start_[level - 1]];
+            fill(level, level_start_[level] - level_start_[level - 1],
+                 [below](std::size_t i) { return below[i].hull(); });
+        }
+    }
+
+    /// Leaf p holds boxes 8 p to 8 p + 7.
+    std::span<const pack> leaves() const { return {packs_.data(), level_start_[1]}; }
+
+    /// Calls visit(p, members) for every leaf p >= first with members that touch b.
+    template <class Visit>
+    void find(const box<Real>& b, std::size_t first, const Visit& visit) const {
+        if (packs_.empty()) return;
+        struct node {
+            std::size_t level, position;
+        };
+        std::array<node, pack::size * most_levels> open;
+        std::size_t opened = 0;
+        open[opened++] = {levels_ - 1, 0};
+        while (opened > 0) {
+            const node n = open[--opened];
+            const pack_mask members = packs_[level_start_[n.level] + n.position].touching(b);
+            if (n.level == 0) {
+                if (members != 0) visit(n.position, members);
+                continue;
+            }
+            const std::size_t first_child = first >> (pack_bits * (n.level - 1));
+            for_each_bit(members, [&](std::size_t i) {
+                const std::size_t child = pack::size * n.position + i;
+                if (child >= first_child) open[opened++] = {n.level - 1, child};
+            });
+        }
+    }
+
+  private:
+    /// Eight to the power of 11 exceeds every number of indices.
+    static constexpr std::size_t most_levels = 11;
+    static constexpr std::size_t pack_bits = std::countr_zero(pack::size);
+
+    /// Sets the packs of a level to `count` boxes.
+    template <class BoxOf>
+    void fill(std::size_t level, std::size_t count, const BoxOf& box_of) {
+        const std::size_t start = level_start_[level];
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, level_start_[level + 1] - start, 128),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t p = range.begin(); p < range.end(); ++p)
+                                  for (std::size_t i = p * pack::size;
+                                       i < std::min(count, (p + 1) * pack::size); ++i)
+                                      packs_[start + p].set(i % pack::size, box_of(i));
+                          });
+    }
+
+    std::vector<pack> packs_;  ///< the leaves, the nodes above them, ..., the root
+    std::array<std::size_t, most_levels + 1> level_start_{};
+    std::size_t levels_ = 0;
+};
+
+/// Calls visit(local, i, j, certain) for all pairs of box i of `a` and box j of `b` that touch; if
+/// both are one tree, once for each pair of two of its boxes. `certain`: no end of one is at an end
+/// of the other. From several threads at once; `local` is local_of() of the thread that calls.
+template <class Real, class LocalOf, class Visit>
+void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const LocalOf& local_of,
+                       const Visit& visit) {
+    const bool within_one = &a == &b;
+    constexpr std::size_t size = box_pack<Real>::size;
+    constexpr std::uint64_t below_diagonal = [] {
+        std::uint64_t mask = 0;
+        for (std::size_t j = 0; j < size; ++j) mask |= ((std::uint64_t(1) << j) - 1) << (size * j);
+        return mask;
+    }();
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, a.leaves().size(), 16),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            auto& local = local_of();
+            for (std::size_t p = range.begin(); p < range.end(); ++p) {
+                const box_pack<Real>& group = a.leaves()[p];
+                b.find(group.hull(), within_one ? p : 0, [&](std::size_t q, pack_mask members) {
+                    // Bit size j + i: box i of the group and box j of leaf q.
+                    std::uint64_t touching = 0, certain = 0;
+                    for_each_bit(members, [&](std::size_t j) {
+                        const box<Real> member = b.leaves()[q][j];
+                        touching |= std::uint64_t(group.touching(member)) << (size * j);
+                        certain |= std::uint64_t(group.overlapping(member)) << (size * j);
+                    });
+                    if (within_one && p == q) touching &= below_diagonal;
+                    for_each_bit(touching, [&](std::size_t bit) {
+                        visit(local, size * p + bit % size, size * q + bit / size,
+                              (certain >> bit & 1) != 0);
+                    });
+                });
+            }
+        });
+}
+
+}  // namespace ccd

@@ -1,0 +1,20 @@
+// The reference: decisions in unbounded integers.
+//
+// Slow and simple, so that everything faster can be compared with it; the cascade of `exact`
+// comes here last. Decided in integers on a common exponent, so nothing is rounded. Time and memory
+// grow with the spread of the coordinates' exponents (about 100 bits in ordinary scenes, 2,100 at
+// most) and are bounded. Allocates; throws only std::bad_alloc. Coordinates must be finite:
+// otherwise the answer is `uncertain` with cause `range`, the only case in which it is not certain.
+#pragma once
+
+#include <ccd/query.hpp>
+#include <ccd/verdict.hpp>
+
+namespace ccd {
+
+verdict decide_reference(const vertex_face<double>& query);
+verdict decide_reference(const edge_edge<double>& query);
+verdict decide_reference(const vertex_edge<double>& query);
+verdict decide_reference(const vertex_vertex<double>& query);
+
+}  // namespace ccd

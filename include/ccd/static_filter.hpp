@@ -1,0 +1,282 @@
+// The floating-point stages of `exact`: tests whose errors are bounded in advance.
+//
+// One template for one query (S = double) and for a pack of queries (S a SIMD batch, masks instead
+// of bools): the pack's lanes compute what the scalar computes, bit for bit. Constants come from
+// errbound::error_count, run on the same forms.
+//
+// Sizes are measured after the subtraction of one point from the others, by axis: m_x, m_y, m_z
+// bound the computed differences. Every term of Y has one factor from each axis, so Y's errors are
+// in units of m_x·m_y·m_z; every term of a G_i has two factors from each of two axes, so theirs are
+// in units of the largest (m_i·m_j)².
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <ccd/forms.hpp>
+#include <cmath>
+#include <errbound/control_values.hpp>
+#include <errbound/error_count.hpp>
+#include <tuple>
+#include <utility>
+
+namespace ccd::static_filter {
+
+/// How often the subdivision may halve.
+inline constexpr int max_depth = 12;
+
+/// From this depth on, a part where Y is as small as its error goes to exact arithmetic: its halves
+/// would be no better. (Before it, halving may yet show that some G_i is negative everywhere.)
+inline constexpr int patient_depth = 3;
+
+/// Larger differences go to later stages: the forms of degree 4 stay far from overflow.
+inline constexpr double largest_difference = 0x1p200;
+
+/// What a comparison of two S gives: bool, or a SIMD mask.
+template <class S>
+using mask = decltype(S() < S());
+
+/// Constants of a form: |ĥ − h| <= relative·unit + absolute, for the control values of the form
+/// times multiple(N), and what each halving of them adds.
+struct constants {
+    double relative;  ///< times the unit
+    double absolute;  ///< underflow
+    double halvings;  ///< times the largest control value, for max_depth halvings
+};
+
+namespace detail {
+
+using errbound::bernstein;
+using errbound::control_values;
+using errbound::error_count;
+
+template <int N>
+constexpr error_count worst_of(const control_values<error_count, N>& c) {
+    error_count w = c[0];
+    for (int i = 1; i <= N; ++i) w = worst(w, c[i]);
+    return w;
+}
+
+template <int N>
+constexpr double halving_error() {
+    control_values<error_count, N> c;
+    c.b.fill(error_count::exact());
+    for (int d = 0; d < max_depth; ++d) c = halves(c).second;  // the largest of both is at the end
+    return worst_of(c).error;
+}
+
+/// The bounds are evaluated in a handful of rounded operations: one per cent is plenty.
+inline constexpr double slack = 1.01;
+
+/// Underflow happens in forms of at most degree `degree`, whose factors are at most
+/// largest_difference.
+template <int N>
+constexpr constants constants_of(error_count c, int degree) {
+    double absolute = c.underflow * errbound::number_traits<double>::underflow_unit();
+    for (int i = 1; i < degree; ++i) absolute *= largest_difference;
+    constexpr double epsilon = errbound::number_traits<double>::epsilon();
+    return {slack * c.error * epsilon, slack * (absolute + 0x1p-1000),
+            slack * halving_error<N>() * epsilon};
+}
+
+constexpr vector_form<error_count, 1> any_difference() {
+    constexpr auto d = error_count::difference();
+    return {{{d, d}}, {{d, d}}, {{d, d}}};
+}
+
+template <template <class> class Forms>
+constexpr constants constants_of_y() {
+    const Forms<error_count> forms(any_difference(), any_difference(), any_difference());
+    return constants_of<3>(worst_of(control_values_of(forms.y())), 3);
+}
+template <template <class> class Forms>
+constexpr constants constants_of_g() {
+    const Forms<error_count> forms(any_difference(), any_difference(), any_difference());
+    error_count w;
+    for (const auto& g : forms.inside()) w = worst(w, worst_of(control_values_of(g)));
+    return constants_of<4>(w, 4);
+}
+
+}  // namespace detail
+
+template <template <class> class Forms>
+inline constexpr constants y_constants = detail::constants_of_y<Forms>();
+template <template <class> class Forms>
+inline constexpr constants g_constants = detail::constants_of_g<Forms>();
+
+/// The sizes m_x, m_y, m_z of a query's differences, whose coordinates must be finite (differences
+/// that overflow are infinite; only those of infinities are NaN, which the maximum may overlook).
+template <class S>
+struct sizes {
+    S x, y, z;
+    /// False if a difference is too large: then no test may be believed.
+    mask<S> usable;
+
+    explicit sizes(const coplanarity_forms<S>& f) {
+        using std::abs, std::max;
+        const auto largest = [](const auto& b, const auto& c, const auto& p) {
+            S m = abs(b[0]);
+            for (const S& d : {b[1], c[0], c[1], p[0], p[1]}) m = max(m, S(abs(d)));
+            return m;
+        };
+        x = largest(f.b.x, f.c.x, f.p.x);
+        y = largest(f.b.y, f.c.y, f.p.y);
+        z = largest(f.b.z, f.c.z, f.p.z);
+        usable = max(max(x, y), z) <= S(largest_difference);
+    }
+
+    /// Bounds |ĥ − h| of the control values of Y, and of every G_i.
+    template <template <class> class Forms>
+    S error_of_y() const {
+        return x * y * z * S(y_constants<Forms>.relative) + S(y_constants<Forms>.absolute);
+    }
+    template <template <class> class Forms>
+    S error_of_g() const {
+        using std::max;
+        const S area = max(max(x * y, y * z), z * x);
+        return area * area * S(g_constants<Forms>.relative) + S(g_constants<Forms>.absolute);
+    }
+};
+
+namespace detail {
+
+/// Whether the projections part the features the same way at both ends of the step; `project`
+/// takes a difference and an end, and is off by at most margin/2.
+template <class S, class Project>
+mask<S> parted_along(const vertex_face_forms<S>& f, const S& margin, const Project& project) {
+    using std::max, std::min;
+    const auto at = [&](int end) {
+        const S b = project(f.b, end), c = project(f.c, end), v = project(f.p, end);
+        const S zero(0.0);
+        return std::pair<mask<S>, mask<S>>(v > max(max(b, c), zero) + margin,
+                                           v < min(min(b, c), zero) - margin);
+    };
+    const auto start = at(0), end = at(1);
+    return (start.first & end.first) | (start.second & end.second);
+}
+template <class S, class Project>
+mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin, const Project& project) {
+    using std::max, std::min;
+    const auto at = [&](int end) {
+        const S a1 = project(f.b, end), b0 = project(f.p, end), b1 = b0 + project(f.c, end);
+        const S zero(0.0);
+        return std::pair<mask<S>, mask<S>>(min(b0, b1) > max(a1, zero) + margin,
+                                           max(b0, b1) < min(a1, zero) - margin);
+    };
+    const auto start = at(0), end = at(1);
+    return (start.first & end.first) | (start.second & end.second);
+}
+
+}  // namespace detail
+
+/// Whether one of nine fixed axes (x, y, z, x ± y, y ± z, z ± x) parts the features the same way
+/// at both ends of the step. The motion is linear, so it then parts them throughout.
+///
+/// Margins: a difference d̂ is off by at most ε·m, a sum of two axes by 2ε(1 + ε)(m_x + m_y), so two
+/// compared projections together by 4ε(1 + ε)(m_x + m_y); an edge's far end is a sum of two such,
+/// rounded once more, of twice the size: 8ε(1 + ε)(m_x + m_y). The bound's own addition rounds too,
+/// by ε(m_x + m_y): 9.2ε serves all. Sums lose nothing to underflow.
+template <class S, class Forms>
+mask<S> parted(const Forms& f, const sizes<S>& m) {
+    constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon();
+    const auto x = [](const auto& d, int end) { return d.x[end]; };
+    const auto y = [](const auto& d, int end) { return d.y[end]; };
+    const auto z = [](const auto& d, int end) { return d.z[end]; };
+    mask<S> found = detail::parted_along<S>(f, m.x * S(margin), x);
+    found = found | detail::parted_along<S>(f, m.y * S(margin), y);
+    found = found | detail::parted_along<S>(f, m.z * S(margin), z);
+    const auto diagonals = [&](const auto& u, const auto& v, const S& size) {
+        const S e = size * S(margin);
+        found = found | detail::parted_along<S>(
+                            f, e, [&](const auto& d, int end) { return u(d, end) + v(d, end); });
+        found = found | detail::parted_along<S>(
+                            f, e, [&](const auto& d, int end) { return u(d, end) - v(d, end); });
+    };
+    diagonals(x, y, m.x + m.y);
+    diagonals(y, z, m.y + m.z);
+    diagonals(z, x, m.z + m.x);
+    return found;
+}
+
+/// All control values certainly positive (`above`), or negative (`below`).
+template <class S, int N>
+mask<S> above(const errbound::control_values<S, N>& c, const S& error) {
+    using std::min;
+    S least = c[0];
+    for (int i = 1; i <= N; ++i) least = min(least, c[i]);
+    return least > error;
+}
+template <class S, int N>
+mask<S> below(const errbound::control_values<S, N>& c, const S& error) {
+    using std::max;
+    S greatest = c[0];
+    for (int i = 1; i <= N; ++i) greatest = max(greatest, c[i]);
+    return greatest < -error;
+}
+
+/// The largest control value's size.
+template <class S, int N>
+S size_of(const errbound::control_values<S, N>& c) {
+    using std::abs, std::max;
+    S size = abs(c[0]);
+    for (int i = 1; i <= N; ++i) size = max(size, abs(c[i]));
+    return size;
+}
+
+/// The end values certainly differ in sign: a root is certain.
+template <class S, int N>
+mask<S> changes_sign(const errbound::control_values<S, N>& c, const S& error) {
+    return ((c[0] > error) & (c[N] < -error)) | ((c[0] < -error) & (c[N] > error));
+}
+
+/// No control value has a certain sign, nor will any of a part's.
+template <class S, int N>
+mask<S> within_error(const errbound::control_values<S, N>& c, const S& error) {
+    return size_of(c) <= error;
+}
+
+/// Y and G_i on a part of the step.
+template <class S, std::size_t Constraints>
+struct part_forms {
+    errbound::control_values<S, 3> y;
+    std::array<errbound::control_values<S, 4>, Constraints> g;
+};
+
+/// The errors of all control values after up to max_depth halvings.
+template <class S>
+struct form_errors {
+    S y, g;
+};
+
+/// The forms over the whole step, with the errors that all their parts share.
+template <class S, template <class> class Forms>
+struct whole_step {
+    static constexpr std::size_t constraints =
+        std::tuple_size_v<decltype(std::declval<Forms<S>>().inside())>;
+
+    part_forms<S, constraints> forms;
+    form_errors<S> errors;
+
+    whole_step(const Forms<S>& f, const sizes<S>& m) {
+        using std::max;
+        const S y_error = m.template error_of_y<Forms>();
+        const S g_error = m.template error_of_g<Forms>();
+        forms.y = errbound::control_values_of(f.y());
+        const auto g = f.inside();
+        S largest(0.0);
+        for (std::size_t i = 0; i < constraints; ++i) {
+            forms.g[i] = errbound::control_values_of(g[i]);
+            largest = max(largest, size_of(forms.g[i]));
+        }
+        errors = {y_error + size_of(forms.y) * S(y_constants<Forms>.halvings),
+                  g_error + largest * S(g_constants<Forms>.halvings)};
+    }
+
+    /// Some G_i is certainly negative throughout.
+    mask<S> outside() const {
+        mask<S> found = below(forms.g[0], errors.g);
+        for (std::size_t i = 1; i < constraints; ++i) found = found | below(forms.g[i], errors.g);
+        return found;
+    }
+};
+
+}  // namespace ccd::static_filter

@@ -1,0 +1,58 @@
+// Polynomials by their control values (plain Bernstein coefficients), for subdivision in floating
+// point: halving is a triangle of midpoints, and every coefficient has the same error bound.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <errbound/bernstein.hpp>
+#include <utility>
+
+namespace errbound {
+
+/// The control values b_0..b_N of a polynomial of degree N, times multiple(N).
+template <class S, int N>
+struct control_values {
+    std::array<S, N + 1> b;
+
+    constexpr const S& operator[](int i) const { return b[static_cast<std::size_t>(i)]; }
+    constexpr S& operator[](int i) { return b[static_cast<std::size_t>(i)]; }
+};
+
+/// The least common multiple of the binomials C(N, i): the control values times this are whole
+/// multiples of the scaled coefficients, so that no division is needed.
+constexpr int multiple(int degree) {
+    int m = 1;
+    for (int i = 0; i <= degree; ++i) {
+        const int b = binomial(degree, i);
+        int whole = m;
+        while (whole % b != 0) whole += m;
+        m = whole;
+    }
+    return m;
+}
+
+/// multiple(N)·b_i = h_i·multiple(N)/C(N, i).
+template <class S, int N>
+constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
+    control_values<S, N> c;
+    for (int i = 0; i <= N; ++i) {
+        const int factor = multiple(N) / binomial(N, i);
+        c[i] = factor == 1 ? p[i] : S(p[i] * S(factor));
+    }
+    return c;
+}
+
+/// The halves on [0, 1/2] and [1/2, 1] (de Casteljau).
+template <class S, int N>
+constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(
+    const control_values<S, N>& p) {
+    control_values<S, N> left = p, right = p;
+    left[0] = p[0];
+    for (int i = 1; i <= N; ++i) {
+        for (int j = 0; j <= N - i; ++j) right[j] = (right[j] + right[j + 1]) * S(0.5);
+        left[i] = right[0];
+    }
+    return {left, right};
+}
+
+}  // namespace errbound

@@ -1,0 +1,67 @@
+// The error-counting scalar: runs an algorithm once, on sizes instead of numbers, and so derives
+// the constant of a static filter from the very code that the filter will run.
+//
+// In notation: ε the largest relative error of one rounding in any direction, η the smallest
+// positive number, M a bound on the sizes of the inputs. A number x computed as x̂ is represented by
+//     |x̂| <= magnitude·M^k,   |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
+// where k is its degree in the inputs. Rounding, in any direction and fused or not, is paid for in
+// `error`; underflow of products in `underflow` (sums do not lose anything to underflow).
+//
+// Products whose factors have sizes of their own (M_x, M_y, ...) are served alike, if all terms of
+// every sum have the same factors or M^k is replaced by the largest of their products.
+#pragma once
+
+#include <errbound/number_traits.hpp>
+
+namespace errbound {
+
+struct error_count {
+    double magnitude = 0;
+    double error = 0;
+    double underflow = 0;
+
+    constexpr error_count() = default;
+    constexpr error_count(double m, double e, double u) : magnitude(m), error(e), underflow(u) {}
+    /// A constant, exactly known.
+    constexpr error_count(double constant) : magnitude(constant < 0 ? -constant : constant) {}
+
+    /// An input that is known exactly, of size at most M.
+    static constexpr error_count exact() { return {1, 0, 0}; }
+    /// The rounded difference of two exact numbers; M is a bound on the computed differences.
+    static constexpr error_count difference() { return {1, 1, 0}; }
+
+    friend constexpr error_count operator+(const error_count& a, const error_count& b) {
+        const double m = rounded(a.magnitude + b.magnitude);
+        return {m, rounded(a.error + b.error + m), rounded(a.underflow + b.underflow)};
+    }
+    friend constexpr error_count operator-(const error_count& a, const error_count& b) {
+        return a + b;
+    }
+    constexpr error_count operator-() const { return *this; }
+    /// |âb̂ − ab| <= |â|·|b̂ − b| + |â − a|·|b̂| + |â − a|·|b̂ − b|, and the product is rounded.
+    friend constexpr error_count operator*(const error_count& a, const error_count& b) {
+        constexpr double epsilon = number_traits<double>::epsilon();
+        const double m = rounded(a.magnitude * b.magnitude);
+        return {m,
+                rounded(a.magnitude * b.error + a.error * b.magnitude +
+                        a.error * b.error * epsilon + m),
+                // The last term is the product of two underflows: far less than one η.
+                rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
+                        (a.error * b.underflow + a.underflow * b.error) * epsilon + 2)};
+    }
+    /// The larger of each, for one constant that serves several results.
+    friend constexpr error_count worst(const error_count& a, const error_count& b) {
+        const auto larger = [](double x, double y) { return x < y ? y : x; };
+        return {larger(a.magnitude, b.magnitude), larger(a.error, b.error),
+                larger(a.underflow, b.underflow)};
+    }
+
+  private:
+    /// Pays for the rounding of the count itself and of the counted result's size: every count
+    /// stands for at most ten roundings, each a factor of at most 1 + ε.
+    static constexpr double rounded(double count) {
+        return count * (1 + 16 * number_traits<double>::epsilon());
+    }
+};
+
+}  // namespace errbound
