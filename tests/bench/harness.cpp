@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "ccd/table.hpp"
 
@@ -74,6 +75,7 @@ void report::table(std::string_view section, const nlohmann::json& about, const 
     for (const column& c : columns) text[0].push_back(c.heading);
     nlohmann::json values = nlohmann::json::array();
     for (const auto& row : rows) {
+        if (row.size() != columns.size()) throw std::logic_error("cells do not match columns");
         text.emplace_back();
         nlohmann::json entry = about;
         for (std::size_t i = 0; i < row.size(); ++i) {

@@ -1,3 +1,4 @@
+#include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/method.hpp>
 #include <numeric>
@@ -74,30 +75,15 @@ double slowest_seconds(const query_set<Query>& set, int repeats) {
     return slowest;
 }
 
-/// Positions in first..first + count of queries that enter `stage`, by halving.
-template <class Query>
-void find_entering(const query_set<Query>& set, ccd::stage stage, std::size_t first,
-                   std::size_t count, std::vector<Query>& found) {
-    std::vector<ccd::outcome> answers(count);
-    ccd::stage_report r;
-    set.decide_batch(first, answers, {.report = &r});
-    if (r[stage].entered == 0) return;
-    if (r[stage].entered == count) {
-        for (std::size_t i = first; i < first + count; ++i) found.push_back(set[i]);
-        return;
-    }
-    find_entering(set, stage, first, count / 2, found);
-    find_entering(set, stage, first + count / 2, count - count / 2, found);
-}
-
 template <class Query>
 void add_slow_row(const query_set<Query>& set, const options& o,
                   std::vector<std::vector<cell>>& rows) {
     if (set.size() == 0) return;
-    constexpr std::size_t chunk = 4096;
     std::vector<Query> last;
-    for (std::size_t first = 0; first < set.size(); first += chunk) {
-        find_entering(set, ccd::stage::integers, first, std::min(chunk, set.size() - first), last);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        ccd::stage_report r;
+        ccd::decide_exact(set[i], &r);
+        if (r[ccd::stage::integers].entered > 0) last.push_back(set[i]);
     }
     double sum = 0;
     for (const Query& q : last) sum += least_seconds_of(q, o.repeats());

@@ -39,8 +39,8 @@ struct decider {
 
 /// ccd::decide_reference.
 decider reference();
-/// All that promise the reference's answers: `exact` one by one, and batches on every instruction
-/// set of this machine, of stored queries and by index.
+/// All that promise the reference's answers: `exact` one by one, its last stages without the
+/// filters, and batches on every instruction set of this machine, of stored queries and by index.
 std::vector<decider> exact_deciders();
 
 /// The first index of `family` after that many blocks, of either kind: each block has 24 queries of
