@@ -78,11 +78,12 @@ template <class Indices>
 void decide_indexed(const vertex_rows& rows, std::span<const Indices> queries,
                     std::span<outcome> answers, const batch_options& options) {
     check_lengths(queries.size(), answers.size());
-    const bool finite =
-        all_finite(rows.before, 3 * rows.vertices) && all_finite(rows.after, 3 * rows.vertices);
-    // Rounding a vertex costs about what it saves in one query.
+    // Work on every vertex pays only where there are more queries than vertices.
+    const bool many = queries.size() > rows.vertices;
+    const bool finite = many && all_finite(rows.before, 3 * rows.vertices) &&
+                        all_finite(rows.after, 3 * rows.vertices);
     std::optional<rounded_positions> rounded;
-    if (finite && queries.size() > rows.vertices) rounded.emplace(rows);
+    if (finite) rounded.emplace(rows);
     const batch_positions positions{rows, rounded ? rounded->data() : nullptr};
     for_each_chunk(queries.size(), options,
                    [&](batch_worker& worker, std::size_t first, std::size_t count) {

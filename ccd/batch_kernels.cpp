@@ -278,7 +278,7 @@ class pipeline {
         stage_turn turn(report_, stage::subdivision);
         std::size_t collide = 0, uncertain = 0;
         const std::size_t entered = parts_[0].size;
-        for (int depth = 0; parts_[depth % 2].size > 0; ++depth) {
+        for (std::size_t depth = 0; parts_[depth % 2].size > 0; ++depth) {
             auto &whole = parts_[depth % 2], &halved = parts_[(depth + 1) % 2];
             for_each_pack(whole, whole.capacity, [&](std::size_t at, std::size_t count) {
                 const pack error_of_y = whole.load(error_columns, at);

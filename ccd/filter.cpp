@@ -16,7 +16,7 @@ template <std::size_t Constraints>
 struct waiting_parts {
     struct part {
         static_filter::part_forms<double, Constraints> forms;
-        int depth;
+        std::size_t depth;
     };
     // Every halving takes one part and leaves two.
     std::array<part, static_filter::max_depth + 2> parts;

@@ -203,7 +203,7 @@ TEST(batch, indices_give_the_same_answers_as_stored_queries) {
                                ccd::vertex_face_indices, ccd::edge_edge_indices>;
         const rows_of_queries<query_type> positions(set.queries);
         // Few queries a vertex, and so many that positions are rounded for the cull in float.
-        for (const std::size_t times : {1, 5}) {
+        for (const std::size_t times : {std::size_t(1), std::size_t(5)}) {
             std::vector<indices_type> indices;
             std::vector<ccd::outcome> truth;
             for (std::size_t k = 0; k < times; ++k) {

@@ -7,14 +7,14 @@ namespace ccd {
 template <class T = double>
 struct point {
     T x{}, y{}, z{};
-    friend constexpr bool operator==(const point&, const point&) = default;
+    friend bool operator==(const point&, const point&) = default;
 };
 
 /// A point that moves linearly over the step: x(t) = (1 − t)·t0 + t·t1 for t in [0, 1].
 template <class T = double>
 struct moving_point {
     point<T> t0{}, t1{};
-    friend constexpr bool operator==(const moving_point&, const moving_point&) = default;
+    friend bool operator==(const moving_point&, const moving_point&) = default;
 };
 
 /// Does vertex v touch the closed triangle f0 f1 f2 at some t in [0, 1]?

@@ -14,6 +14,7 @@
 #include <array>
 #include <ccd/forms.hpp>
 #include <cmath>
+#include <cstddef>
 #include <errbound/control_values.hpp>
 #include <errbound/error_count.hpp>
 #include <tuple>
@@ -22,11 +23,11 @@
 namespace ccd::static_filter {
 
 /// How often the subdivision may halve.
-inline constexpr int max_depth = 12;
+inline constexpr std::size_t max_depth = 12;
 
 /// From this depth on, a part where Y is as small as its error goes to exact arithmetic: its halves
 /// would be no better. (Before it, halving may yet show that some G_i is negative everywhere.)
-inline constexpr int patient_depth = 3;
+inline constexpr std::size_t patient_depth = 3;
 
 /// Larger differences go to later stages: the forms of degree 4 stay far from overflow.
 inline constexpr double largest_difference = 0x1p200;
@@ -60,7 +61,8 @@ template <int N>
 constexpr double halving_error() {
     control_values<error_count, N> c;
     c.b.fill(error_count::exact());
-    for (int d = 0; d < max_depth; ++d) c = halves(c).second;  // the largest of both is at the end
+    for (std::size_t d = 0; d < max_depth; ++d)
+        c = halves(c).second;  // the largest of both is at the end
     return worst_of(c).error;
 }
 
@@ -225,7 +227,11 @@ S size_of(const errbound::control_values<S, N>& c) {
 /// The end values certainly differ in sign: a root is certain.
 template <class S, int N>
 mask<S> changes_sign(const errbound::control_values<S, N>& c, const S& error) {
-    return ((c[0] > error) & (c[N] < -error)) | ((c[0] < -error) & (c[N] > error));
+    const S& start = c[0];
+    const S& end = c[N];
+    const mask<S> starts_above = start > error, starts_below = start < -error;
+    const mask<S> ends_above = end > error, ends_below = end < -error;
+    return (starts_above & ends_below) | (starts_below & ends_above);
 }
 
 /// No control value has a certain sign, nor will any of a part's.
