@@ -28,10 +28,9 @@ using word = std::uint64_t;
 __extension__ using double_word = unsigned __int128;
 __extension__ using signed_double_word = __int128;
 
-// Compilers that know how to keep a carry in the processor's flag offer it by a builtin; before
-// version 14 GCC does not find it in portable code. Device compilers take the portable code.
-#if defined(__CUDACC__) || defined(__HIPCC__)
-#elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// Clang keeps a carry in the processor's flag by itself. GCC needs to be told, by builtins that
+// device compilers lack.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
 #define ERRBOUND_X86_CARRY
 #endif
 
@@ -110,11 +109,12 @@ class fixed_integer {
     constexpr fixed_integer() = default;
     constexpr fixed_integer(std::int64_t value) {
         words_[0] = static_cast<word>(value);
-        for (int i = 1; i < Words; ++i) at(i) = sign_word(words_[0]);
+        for (int i = 1; i < Words; ++i) at(i) = words::sign_word(words_[0]);
     }
     template <int Narrower>
     requires(Narrower < Words) constexpr fixed_integer(const fixed_integer<Narrower>& x) {
-        for (int i = 0; i < Words; ++i) at(i) = i < Narrower ? x[i] : sign_word(x[Narrower - 1]);
+        for (int i = 0; i < Words; ++i)
+            at(i) = i < Narrower ? x[i] : words::sign_word(x[Narrower - 1]);
     }
     /// From words, the least significant first.
     static constexpr fixed_integer from_words(const std::array<word, Words>& w) {
@@ -180,7 +180,7 @@ class fixed_integer {
 
     /// The least n with −2^n <= x < 2^n.
     constexpr int bit_length() const {
-        const word invert = sign_word(words_[Words - 1]);
+        const word invert = words::sign_word(words_[Words - 1]);
         for (int i = Words - 1; i >= 0; --i) {
             const word w = (*this)[i] ^ invert;
             if (w != 0) return 64 * i + static_cast<int>(std::bit_width(w));
@@ -191,7 +191,7 @@ class fixed_integer {
     /// ⌊x/2^shift⌋ in Result words, modulo their width, for shift >= 0.
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
-        const word beyond = sign_word(words_[Words - 1]);
+        const word beyond = words::sign_word(words_[Words - 1]);
         const auto word_at = [&](int i) { return i < Words ? (*this)[i] : beyond; };
         const int whole = shift / 64, bits = shift % 64;
         fixed_integer<Result> r;
@@ -231,7 +231,6 @@ class fixed_integer {
     template <int>
     friend class fixed_integer;
 
-    static constexpr word sign_word(word w) { return words::sign_word(w); }
     constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
     static constexpr word& at(fixed_integer& x, int i) { return x.at(i); }
 
