@@ -23,6 +23,79 @@ constexpr std::size_t width = pack::size;
 constexpr std::size_t block = 64;
 static_assert(block % width == 0);
 
+// Two operations that xsimd 8 lacks, with what the instruction sets have for them.
+
+/// The lanes that are set, as bits.
+template <class T>
+std::uint32_t bits_of(const xsimd::batch_bool<T, xsimd::default_arch>& m) {
+#if defined __AVX512F__
+    return m.data;
+#elif defined __AVX__
+    if constexpr (sizeof(T) == sizeof(double))
+        return static_cast<std::uint32_t>(_mm256_movemask_pd(m));
+    else
+        return static_cast<std::uint32_t>(_mm256_movemask_ps(m));
+#elif defined __SSE2__
+    if constexpr (sizeof(T) == sizeof(double))
+        return static_cast<std::uint32_t>(_mm_movemask_pd(m));
+    else
+        return static_cast<std::uint32_t>(_mm_movemask_ps(m));
+#else
+    bool set[xsimd::batch_bool<T, xsimd::default_arch>::size];
+    m.store_unaligned(set);
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < std::size(set); ++i) bits |= std::uint32_t(set[i]) << i;
+    return bits;
+#endif
+}
+
+#if defined __AVX2__ && !defined __AVX512F__
+/// For every set of four lanes, the halves of those lanes in order.
+struct lane_orders {
+    alignas(32) std::int32_t halves[16][8];
+
+    constexpr lane_orders() : halves() {
+        for (int bits = 0; bits < 16; ++bits) {
+            int k = 0;
+            for (int lane = 0; lane < 4; ++lane) {
+                if ((bits >> lane & 1) == 0) continue;
+                halves[bits][k++] = 2 * lane;
+                halves[bits][k++] = 2 * lane + 1;
+            }
+        }
+    }
+};
+constexpr lane_orders orders;
+#endif
+
+/// Writes the lanes that are set in `bits` one after the other; may write up to a pack's width.
+inline void compress(const pack& values, std::uint32_t bits, double* to) {
+#if defined __AVX512F__
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), values));
+#elif defined __AVX2__
+    const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(orders.halves[bits]));
+    const __m256 packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(values), order);
+    _mm256_storeu_pd(to, _mm256_castps_pd(packed));
+#else
+    double lanes[width];
+    values.store_unaligned(lanes);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < width; ++i) {
+        to[k] = lanes[i];
+        k += bits >> i & 1;
+    }
+#endif
+}
+
+inline std::size_t count_of(std::uint32_t bits) {
+    return static_cast<std::size_t>(__builtin_popcount(bits));
+}
+
+/// The first `count` lanes.
+inline std::uint32_t first_lanes(std::size_t count) {
+    return (std::uint32_t(1) << count) - 1;
+}
+
 /// A queue of queries: `Columns` numbers each, and the query they belong to.
 template <std::size_t Columns, std::size_t Capacity>
 struct queue {
@@ -35,14 +108,13 @@ struct queue {
 
     pack load(std::size_t c, std::size_t at) const { return pack::load_unaligned(&column[c][at]); }
 
-    /// Appends those lanes of `values` that are set in `bits`.
-    void append(const double (&values)[Columns][width], const std::uint32_t* of,
-                std::uint32_t bits) {
-        for (std::size_t i = 0; bits != 0; ++i, bits >>= 1) {
-            if ((bits & 1) == 0) continue;
-            for (std::size_t c = 0; c < Columns; ++c) column[c][size] = values[c][i];
-            query[size++] = of[i];
-        }
+    /// Puts the lanes of one column that are set in `bits` behind the first size + offset.
+    void put(std::size_t c, const pack& values, std::uint32_t bits, std::size_t offset = 0) {
+        compress(values, bits, &column[c][size + offset]);
+    }
+    /// Takes in what was put, for the queries `of` that are set in `bits`.
+    void commit(const std::uint32_t* of, std::uint32_t bits) {
+        for (; bits != 0; bits &= bits - 1) query[size++] = of[__builtin_ctz(bits)];
     }
     /// Makes the last pack a whole one: its other lanes hold zeros and are never looked at.
     void pad() {
@@ -51,24 +123,11 @@ struct queue {
     }
 };
 
-/// The lanes that are set in a mask, as bits; of the first `count` lanes.
-inline std::uint32_t lanes_of(const pack_mask& m, std::size_t count) {
-    bool set[width];
-    m.store_unaligned(set);
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < width && i < count; ++i) bits |= std::uint32_t(set[i]) << i;
-    return bits;
-}
-
 constexpr index vertex_of(const vertex_face_indices& q, std::size_t point) {
     return point == 0 ? q.v : point == 1 ? q.f0 : point == 2 ? q.f1 : q.f2;
 }
 constexpr index vertex_of(const edge_edge_indices& q, std::size_t point) {
     return point == 0 ? q.a0 : point == 1 ? q.a1 : point == 2 ? q.b0 : q.b1;
-}
-
-inline std::size_t count_of(std::uint32_t bits) {
-    return static_cast<std::size_t>(__builtin_popcount(bits));
 }
 
 /// Whether a cull is to be asked now; it counts down its pause.
@@ -88,13 +147,16 @@ inline void judge(cull_state& state, std::size_t settled, std::size_t of) {
 
 /// The coordinates of the three differences b, c, p at both ends, in a fixed order.
 constexpr std::size_t difference_columns = 18;
-using difference_values = double[difference_columns][width];
 
-inline void store_differences(const coplanarity_forms<pack>& f, difference_values& to) {
+/// Appends the differences of the queries `of` that are set in `bits`.
+template <class Queue>
+void append(Queue& to, const coplanarity_forms<pack>& f, const std::uint32_t* of,
+            std::uint32_t bits) {
     std::size_t c = 0;
     for (const auto* v : {&f.b, &f.c, &f.p})
         for (const auto* axis : {&v->x, &v->y, &v->z})
-            for (const int end : {0, 1}) (*axis)[end].store_unaligned(to[c++]);
+            for (const int end : {0, 1}) to.put(c++, (*axis)[end], bits);
+    to.commit(of, bits);
 }
 
 template <template <class> class Query, template <class> class Forms>
@@ -126,7 +188,6 @@ class pipeline {
     /// A part's control values, of Y and of each G_i, and their two error bounds.
     static constexpr std::size_t error_columns = 4 + 5 * constraints;
     static constexpr std::size_t part_columns = error_columns + 2;
-    using part_values = double[part_columns][width];
 
     template <class Queue>
     static Forms<pack> forms_at(const Queue& from, std::size_t at) {
@@ -173,7 +234,7 @@ class pipeline {
             test(at, end - at < width ? end - at : width);
     }
 
-    void test_axes(const std::uint32_t* ids, std::size_t size, cull_state* axes) {
+    [[gnu::flatten]] void test_axes(const std::uint32_t* ids, std::size_t size, cull_state* axes) {
         stage_turn turn(axes != nullptr ? report_ : nullptr, stage::axes);
         for (std::size_t i = size; i % width != 0; ++i)
             for (auto& column : coordinates_) column[i] = 0;
@@ -182,18 +243,13 @@ class pipeline {
         for (std::size_t at = 0; at < size; at += width) {
             const Forms<pack> forms = forms_of_coordinates(at);
             const std::size_t count = size - at < width ? size - at : width;
-            std::uint32_t left = (std::uint32_t(1) << count) - 1;
+            std::uint32_t left = first_lanes(count);
             if (asked) {
                 const static_filter::sizes<pack> sizes(forms);
-                const std::uint32_t gone =
-                    lanes_of(static_filter::parted<pack>(forms, sizes) & sizes.usable, count);
-                separate += count_of(gone);
-                left &= ~gone;
+                left &= ~bits_of(static_filter::parted<pack>(forms, sizes) & sizes.usable);
+                separate += count - count_of(left);
             }
-            if (left == 0) continue;
-            difference_values values;
-            store_differences(forms, values);
-            to_coplanarity_.append(values, ids + at, left);
+            if (left != 0) append(to_coplanarity_, forms, ids + at, left);
         }
         if (asked) {
             turn.count(size, separate, 0);
@@ -203,44 +259,40 @@ class pipeline {
         }
     }
 
-    void test_coplanarity() {
+    [[gnu::flatten]] void test_coplanarity() {
         stage_turn turn(report_, stage::coplanarity);
         for_each_pack(to_coplanarity_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_coplanarity_, at);
             const static_filter::sizes<pack> sizes(forms);
             const auto y = errbound::control_values_of(forms.y());
             const pack error = sizes.template error_of_y<Forms>();
-            const std::uint32_t left = lanes_of(
-                !(sizes.usable & (static_filter::above(y, error) | static_filter::below(y, error))),
-                count);
+            const pack_mask rootless =
+                static_filter::above(y, error) | static_filter::below(y, error);
+            const std::uint32_t left = first_lanes(count) & ~bits_of(sizes.usable & rootless);
             turn.count(count, count - count_of(left), 0);
-            if (left == 0) return;
-            difference_values values;
-            store_differences(forms, values);
-            to_inside_.append(values, &to_coplanarity_.query[at], left);
+            if (left != 0) append(to_inside_, forms, &to_coplanarity_.query[at], left);
         });
     }
 
-    void test_inside() {
+    [[gnu::flatten]] void test_inside() {
         stage_turn turn(report_, stage::inside);
         for_each_pack(to_inside_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_inside_, at);
             const static_filter::sizes<pack> sizes(forms);
             const std::uint32_t* query = &to_inside_.query[at];
-            const std::uint32_t unusable = lanes_of(!sizes.usable, count);
+            const std::uint32_t usable = first_lanes(count) & bits_of(sizes.usable);
             for (std::size_t i = 0; i < count; ++i)
-                if ((unusable >> i & 1) != 0) answers_[query[i]] = outcome::uncertain;
+                if ((usable >> i & 1) == 0) answers_[query[i]] = outcome::uncertain;
             const static_filter::whole_step<pack, Forms> whole(forms, sizes);
-            const std::uint32_t left = lanes_of(!whole.outside(), count) & ~unusable;
-            turn.count(count, count - count_of(left | unusable), 0);
+            const std::uint32_t left = usable & ~bits_of(whole.outside());
+            turn.count(count, count_of(usable) - count_of(left), 0);
             if (left == 0) return;
-            part_values values;
-            store_form(whole.forms.y, values, 0);
+            put_form(parts_[0], whole.forms.y, 0, left);
             for (std::size_t i = 0; i < constraints; ++i)
-                store_form(whole.forms.g[i], values, 4 + 5 * i);
-            whole.errors.y.store_unaligned(values[error_columns]);
-            whole.errors.g.store_unaligned(values[error_columns + 1]);
-            parts_[0].append(values, query, left);
+                put_form(parts_[0], whole.forms.g[i], 4 + 5 * i, left);
+            parts_[0].put(error_columns, whole.errors.y, left);
+            parts_[0].put(error_columns + 1, whole.errors.g, left);
+            parts_[0].commit(query, left);
         });
     }
 
@@ -251,30 +303,25 @@ class pipeline {
         for (int i = 0; i <= N; ++i) c[i] = from.load(column + static_cast<std::size_t>(i), at);
         return c;
     }
-    template <int N>
-    static void store_form(const errbound::control_values<pack, N>& c, part_values& to,
-                           std::size_t column) {
-        for (int i = 0; i <= N; ++i) c[i].store_unaligned(to[column + static_cast<std::size_t>(i)]);
-    }
     template <int N, class Queue>
-    static void halve_form(const Queue& from, std::size_t column, std::size_t at, part_values& left,
-                           part_values& right) {
-        const auto halves = errbound::halves(load_form<N>(from, column, at));
-        store_form(halves.first, left, column);
-        store_form(halves.second, right, column);
+    static void put_form(Queue& to, const errbound::control_values<pack, N>& c, std::size_t column,
+                         std::uint32_t lanes, std::size_t offset = 0) {
+        for (int i = 0; i <= N; ++i)
+            to.put(column + static_cast<std::size_t>(i), c[i], lanes, offset);
     }
 
     void settle(const std::uint32_t* query, std::uint32_t lanes, outcome answer,
                 std::size_t& settled) {
-        for (std::size_t i = 0; lanes != 0; ++i, lanes >>= 1) {
-            if ((lanes & 1) == 0 || answers_[query[i]] != outcome::separate) continue;
-            answers_[query[i]] = answer;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            outcome& known = answers_[query[__builtin_ctz(lanes)]];
+            if (known != outcome::separate) continue;
+            known = answer;
             ++settled;
         }
     }
 
     /// All parts are halved alike, level by level.
-    void subdivide() {
+    [[gnu::flatten]] void subdivide() {
         stage_turn turn(report_, stage::subdivision);
         std::size_t collide = 0, uncertain = 0;
         const std::size_t entered = parts_[0].size;
@@ -293,11 +340,11 @@ class pipeline {
                     collides = collides & static_filter::above(g, error_of_g);
                 }
                 const std::uint32_t* query = &whole.query[at];
-                std::uint32_t open = lanes_of(!excluded, count);
+                std::uint32_t open = first_lanes(count) & ~bits_of(excluded);
                 for (std::size_t i = 0; i < count; ++i)
                     if (answers_[query[i]] != outcome::separate) open &= ~(std::uint32_t(1) << i);
                 if (open == 0) return;
-                const std::uint32_t hit = open & lanes_of(collides, count);
+                const std::uint32_t hit = open & bits_of(collides);
                 settle(query, hit, outcome::collides, collide);
                 open &= ~hit;
                 if (open == 0) return;
@@ -305,19 +352,25 @@ class pipeline {
                 if (depth == static_filter::max_depth || halved.size + 2 * width > halved.capacity)
                     hopeless = open;
                 else if (depth >= static_filter::patient_depth)
-                    hopeless = open & lanes_of(static_filter::within_error(y, error_of_y), count);
+                    hopeless = open & bits_of(static_filter::within_error(y, error_of_y));
                 settle(query, hopeless, outcome::uncertain, uncertain);
                 open &= ~hopeless;
                 if (open == 0) return;
-                part_values left, right;
-                halve_form<3>(whole, 0, at, left, right);
+                const std::size_t lefts = count_of(open);  // the right halves come behind them
+                const auto put_halves = [&](const auto& form, std::size_t column) {
+                    const auto halves = errbound::halves(form);
+                    put_form(halved, halves.first, column, open);
+                    put_form(halved, halves.second, column, open, lefts);
+                };
+                put_halves(y, 0);
                 for (std::size_t i = 0; i < constraints; ++i)
-                    halve_form<4>(whole, 4 + 5 * i, at, left, right);
-                for (part_values* half : {&left, &right}) {
-                    error_of_y.store_unaligned((*half)[error_columns]);
-                    error_of_g.store_unaligned((*half)[error_columns + 1]);
-                    halved.append(*half, query, open);
+                    put_halves(load_form<4>(whole, 4 + 5 * i, at), 4 + 5 * i);
+                for (const std::size_t offset : {std::size_t(0), lefts}) {
+                    halved.put(error_columns, error_of_y, open, offset);
+                    halved.put(error_columns + 1, error_of_g, open, offset);
                 }
+                halved.commit(query, open);
+                halved.commit(query, open);
             });
         }
         turn.count(entered, entered - collide - uncertain, collide);
@@ -411,8 +464,8 @@ xsimd::batch_bool<float, xsimd::default_arch> parted(const rounded_columns& colu
 /// Writes those of the queries first, first + 1, ... that no axis certainly parts to `left`;
 /// returns their number.
 template <class Indices>
-std::size_t cull(const float* rounded, const Indices* queries, std::uint32_t first,
-                 std::size_t count, std::uint32_t* left) {
+[[gnu::flatten]] std::size_t cull(const float* rounded, const Indices* queries, std::uint32_t first,
+                                  std::size_t count, std::uint32_t* left) {
     rounded_columns columns;
     for (std::size_t at = 0; at < count; at += 4)
         for (std::size_t p = 0; p < 4; ++p) {
@@ -426,12 +479,11 @@ std::size_t cull(const float* rounded, const Indices* queries, std::uint32_t fir
         }
     std::size_t size = 0;
     for (std::size_t at = 0; at < count; at += float_width) {
-        bool separate[float_width];
-        parted<Indices>(columns, at).store_unaligned(separate);
-        for (std::size_t i = 0; i < float_width && at + i < count; ++i) {
-            left[size] = first + static_cast<std::uint32_t>(at + i);
-            size += !separate[i];
-        }
+        const std::size_t lanes = count - at < float_width ? count - at : float_width;
+        std::uint32_t open = first_lanes(lanes) & ~bits_of(parted<Indices>(columns, at));
+        for (; open != 0; open &= open - 1)
+            left[size++] = first + static_cast<std::uint32_t>(at) +
+                           static_cast<std::uint32_t>(__builtin_ctz(open));
     }
     return size;
 }

@@ -29,7 +29,8 @@ TEST(BoundedInteger, ErrorsStayWithinTheirBounds) {
         std::array<std::int64_t, 4> real;
         std::array<ccd::bounded_integer<1>, 4> x;
         for (std::size_t i = 0; i < 4; ++i) {
-            const int size = static_cast<int>(random() % 28), error = static_cast<int>(random() % 12);
+            const int size = static_cast<int>(random() % 28),
+                      error = static_cast<int>(random() % 12);
             const std::int64_t value = between(random, -(1LL << size), 1LL << size);
             const std::int64_t off = (1LL << error) - 1;
             real[i] = value + between(random, -off, off);
@@ -70,8 +71,10 @@ TEST(CommonRoots, OfProductsOfLinearForms) {
         const ccd::common_roots<2> roots(f);
         ASSERT_NE(roots.kind, kind::none);
         if (roots.kind == kind::one) {
-            EXPECT_EQ(roots.squares[0] * fixed_integer<1>(t), roots.squares[1] * fixed_integer<1>(s));
-            EXPECT_EQ(roots.squares[1] * fixed_integer<1>(t), roots.squares[2] * fixed_integer<1>(s));
+            EXPECT_EQ(roots.squares[0] * fixed_integer<1>(t),
+                      roots.squares[1] * fixed_integer<1>(s));
+            EXPECT_EQ(roots.squares[1] * fixed_integer<1>(t),
+                      roots.squares[2] * fixed_integer<1>(s));
         }
         const fixed_integer<2> nothing(0);
         f[2] = f[0] + f[0], f[1] = {{nothing, nothing, nothing}};
@@ -88,7 +91,8 @@ TEST(CubicRoots, AreBracketedWithinAFewUnits) {
     for (int k = 0; k < 5000; ++k) {
         ccd::cubic_form<3> y;
         for (auto& h : y.h)
-            h = fixed_integer<3>(between(random, -(1LL << 60), 1LL << 60)) << static_cast<int>(random() % 60);
+            h = fixed_integer<3>(between(random, -(1LL << 60), 1LL << 60))
+                << static_cast<int>(random() % 60);
         const ccd::inner_sign_changes changes(y);
         if (changes.count != 1) continue;
         ccd::cubic_part<3> all{{}, changes, 0, 0};
