@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <ccd/batch.hpp>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "ccd/batch_worker.hpp"
+#include "ccd/finite.hpp"
 #include "ccd/rounded_positions.hpp"
 #include "ccd/threads.hpp"
 
@@ -20,13 +19,6 @@ namespace {
 /// Queries that a thread takes at a time: enough to make the call cheap, few enough for the second
 /// cache.
 constexpr std::size_t chunk = 4096;
-
-bool all_finite(const double* numbers, std::size_t count) {
-    bool finite = true;
-    for (std::size_t i = 0; i < count; ++i)
-        finite &= std::abs(numbers[i]) <= std::numeric_limits<double>::max();
-    return finite;
-}
 
 /// Calls decide(worker, first, count) for chunks of `count` queries.
 template <class Decide>

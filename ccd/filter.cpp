@@ -1,9 +1,8 @@
 #include <array>
 #include <ccd/static_filter.hpp>
-#include <ccd/transform.hpp>
-#include <cmath>
 
 #include "ccd/cascade.hpp"
+#include "ccd/finite.hpp"
 #include "ccd/stage_turn.hpp"
 
 namespace ccd {
@@ -60,15 +59,14 @@ outcome subdivide(const static_filter::whole_step<double, Forms>& whole) {
 
 template <template <class> class Forms, template <class> class Query>
 verdict run_stages(const Query<double>& query, stage_report* report) {
-    bool finite = true;
-    for_each_coordinate(query, [&finite](double x) { finite &= std::isfinite(x); });
-    if (!finite) return {outcome::uncertain, cause::range};
+    if (!is_finite(query)) return {outcome::uncertain, cause::range};
     const Forms<double> forms(query);
     const static_filter::sizes<double> sizes(forms);
     if (!sizes.usable) return {outcome::uncertain, cause::range};
     {
         stage_turn turn(report, stage::axes);
-        const bool parted = static_filter::parted<double>(forms, sizes);
+        const bool parted = static_filter::parted_by_coordinates<double>(forms, sizes) ||
+                            static_filter::parted_by_diagonals<double>(forms, sizes);
         turn.count(1, parted, 0);
         if (parted) return {outcome::separate, cause::none};
     }

@@ -22,6 +22,7 @@
 #include <limits>
 
 #include "ccd/features.hpp"
+#include "ccd/finite.hpp"
 #ifdef ERRBOUND_HAVE_GMP
 #include <boost/multiprecision/gmp.hpp>
 #else
@@ -81,13 +82,6 @@ Query<integer> to_integers(const Query<double>& query) {
         return point<integer>{to_integer(p.x, lowest.x), to_integer(p.y, lowest.y),
                               to_integer(p.z, lowest.z)};
     });
-}
-
-template <class Query>
-bool is_finite(const Query& query) {
-    bool finite = true;
-    for_each_coordinate(query, [&finite](double x) { finite = finite && std::isfinite(x); });
-    return finite;
 }
 
 /// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].

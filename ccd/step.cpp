@@ -6,7 +6,6 @@
 #include <ccd/batch.hpp>
 #include <ccd/step.hpp>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -17,6 +16,7 @@
 
 #include "ccd/batch_worker.hpp"
 #include "ccd/broad_phase.hpp"
+#include "ccd/finite.hpp"
 #include "ccd/rounded_positions.hpp"
 #include "ccd/step_frames.hpp"
 #include "ccd/threads.hpp"
@@ -35,9 +35,9 @@ void check(const mesh& before, const mesh& after) {
                 throw std::invalid_argument("ccd::step: a face names vertex " + std::to_string(v) +
                                             " of " + std::to_string(before.vertices.size()));
     for (const mesh* frame : {&before, &after})
-        for (const point<double>& p : frame->vertices)
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                throw std::invalid_argument("ccd::step: a coordinate is not finite");
+        if (!all_finite(reinterpret_cast<const double*>(frame->vertices.data()),
+                        3 * frame->vertices.size()))
+            throw std::invalid_argument("ccd::step: a coordinate is not finite");
 }
 
 /// Seconds since it was made or last read.

@@ -57,13 +57,18 @@ constexpr error_count worst_of(const control_values<error_count, N>& c) {
     return w;
 }
 
+/// The error that max_depth halvings of control values of size at most 1 add. Which half is taken
+/// each time is not known, so the worst error of a level is taken for all values of the next.
 template <int N>
 constexpr double halving_error() {
     control_values<error_count, N> c;
     c.b.fill(error_count::exact());
-    for (std::size_t d = 0; d < max_depth; ++d)
-        c = halves(c).second;  // the largest of both is at the end
-    return worst_of(c).error;
+    for (std::size_t d = 0; d < max_depth; ++d) {
+        const auto [left, right] = halves(c);
+        const double error = worst(worst_of(left), worst_of(right)).error;
+        c.b.fill({1, error, 0});
+    }
+    return c[0].error;
 }
 
 /// The bounds are evaluated in a handful of rounded operations: one per cent is plenty.
@@ -168,7 +173,48 @@ mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin, const Project
     return (start.first & end.first) | (start.second & end.second);
 }
 
+/// See `parted`.
+inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon();
+
 }  // namespace detail
+
+/// The first three axes of `parted`.
+template <class S, class Forms>
+mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
+    const auto along = [&](const S& size, const auto& project) {
+        return detail::parted_along<S>(f, size * S(detail::margin), project);
+    };
+    const mask<S> x = along(m.x, [](const auto& d, int end) { return d.x[end]; });
+    const mask<S> y = along(m.y, [](const auto& d, int end) { return d.y[end]; });
+    const mask<S> z = along(m.z, [](const auto& d, int end) { return d.z[end]; });
+    return x | y | z;
+}
+
+/// The other six.
+template <class S, class Forms>
+mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
+    const auto along = [&](const S& size, const auto& u, const auto& v) {
+        const S e = size * S(detail::margin);
+        const mask<S> sum = detail::parted_along<S>(
+            f, e, [&](const auto& d, int end) { return S(u(d)[end] + v(d)[end]); });
+        const mask<S> difference = detail::parted_along<S>(
+            f, e, [&](const auto& d, int end) { return S(u(d)[end] - v(d)[end]); });
+        return mask<S>(sum | difference);
+    };
+    const auto x = [](const auto& d) -> const auto& {
+        return d.x;
+    };
+    const auto y = [](const auto& d) -> const auto& {
+        return d.y;
+    };
+    const auto z = [](const auto& d) -> const auto& {
+        return d.z;
+    };
+    const mask<S> xy = along(m.x + m.y, x, y);
+    const mask<S> yz = along(m.y + m.z, y, z);
+    const mask<S> zx = along(m.z + m.x, z, x);
+    return xy | yz | zx;
+}
 
 /// Whether one of nine fixed axes (x, y, z, x ± y, y ± z, z ± x) parts the features the same way
 /// at both ends of the step. The motion is linear, so it then parts them throughout.
@@ -179,24 +225,7 @@ mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin, const Project
 /// by ε(m_x + m_y): 9.2ε serves all. Sums lose nothing to underflow.
 template <class S, class Forms>
 mask<S> parted(const Forms& f, const sizes<S>& m) {
-    constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon();
-    const auto x = [](const auto& d, int end) { return d.x[end]; };
-    const auto y = [](const auto& d, int end) { return d.y[end]; };
-    const auto z = [](const auto& d, int end) { return d.z[end]; };
-    mask<S> found = detail::parted_along<S>(f, m.x * S(margin), x);
-    found = found | detail::parted_along<S>(f, m.y * S(margin), y);
-    found = found | detail::parted_along<S>(f, m.z * S(margin), z);
-    const auto diagonals = [&](const auto& u, const auto& v, const S& size) {
-        const S e = size * S(margin);
-        found = found | detail::parted_along<S>(
-                            f, e, [&](const auto& d, int end) { return u(d, end) + v(d, end); });
-        found = found | detail::parted_along<S>(
-                            f, e, [&](const auto& d, int end) { return u(d, end) - v(d, end); });
-    };
-    diagonals(x, y, m.x + m.y);
-    diagonals(y, z, m.y + m.z);
-    diagonals(z, x, m.z + m.x);
-    return found;
+    return parted_by_coordinates<S>(f, m) | parted_by_diagonals<S>(f, m);
 }
 
 /// All control values certainly positive (`above`), or negative (`below`).
