@@ -1,5 +1,5 @@
-// The bounds of the static filters against rationals: no computed control value, of the whole step or
-// of any part, is further from the exact one than the filter allows for.
+// The bounds of the static filters against rationals: no computed control value, of the whole step
+// or of any part, is further from the exact one than the filter allows for.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace {
 
-using rational =
-    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
+using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
+                                               boost::multiprecision::et_off>;
 namespace filter = ccd::static_filter;
 using query_families::families;
 using query_families::kind;
@@ -55,10 +55,12 @@ void compare(const Query<double>& query, std::mt19937_64& random, const std::str
     auto y = errbound::control_values_of(exact.y());
     use(largest_error(whole.forms.y, y), sizes.template error_of_y<Forms>(), worst.y, "Y");
     const auto exact_inside = exact.inside();
-    std::array<errbound::control_values<rational, 4>, std::tuple_size_v<decltype(exact.inside())>> g;
+    std::array<errbound::control_values<rational, 4>, std::tuple_size_v<decltype(exact.inside())>>
+        g;
     for (std::size_t i = 0; i < g.size(); ++i) {
         g[i] = errbound::control_values_of(exact_inside[i]);
-        use(largest_error(whole.forms.g[i], g[i]), sizes.template error_of_g<Forms>(), worst.g, "G");
+        use(largest_error(whole.forms.g[i], g[i]), sizes.template error_of_g<Forms>(), worst.g,
+            "G");
     }
     for (std::size_t depth = 0; depth < filter::max_depth; ++depth) {
         const bool left = random() % 2 == 0;
@@ -70,7 +72,8 @@ void compare(const Query<double>& query, std::mt19937_64& random, const std::str
         use(largest_error(whole.forms.y, y), whole.errors.y, worst.y_parts, "Y of a part");
         for (std::size_t i = 0; i < g.size(); ++i) {
             half(whole.forms.g[i]), half(g[i]);
-            use(largest_error(whole.forms.g[i], g[i]), whole.errors.g, worst.g_parts, "G of a part");
+            use(largest_error(whole.forms.g[i], g[i]), whole.errors.g, worst.g_parts,
+                "G of a part");
         }
     }
 }
