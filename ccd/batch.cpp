@@ -70,8 +70,9 @@ template <class Indices>
 void decide_indexed(const vertex_rows& rows, std::span<const Indices> queries,
                     std::span<outcome> answers, const batch_options& options) {
     check_lengths(queries.size(), answers.size());
-    // Work on every vertex pays only where there are more queries than vertices.
-    const bool many = queries.size() > rows.vertices;
+    // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
+    // and saves some 10 ns a query.
+    const bool many = 2 * queries.size() > rows.vertices;
     const bool finite = many && all_finite(rows.before, 3 * rows.vertices) &&
                         all_finite(rows.after, 3 * rows.vertices);
     std::optional<rounded_positions> rounded;
