@@ -78,6 +78,23 @@ std::string fixed(double value, const char* format) {
     return text;
 }
 
+/// What the boxes left out, and what it cost to see it.
+std::string text_of_boxes(std::size_t vertices, std::size_t faces, std::size_t edges,
+                          const step_result& result) {
+    const auto row = [](const char* kind, double possible, std::size_t candidates) {
+        return std::vector<std::string>{kind, fixed(possible, "%.0f"),
+                                        fixed(possible - static_cast<double>(candidates), "%.0f"),
+                                        std::to_string(candidates)};
+    };
+    const auto v = static_cast<double>(vertices), f = static_cast<double>(faces),
+               e = static_cast<double>(edges);
+    const table rows = {{"pairs", "of the mesh", "left out", "candidates"},
+                        row("vertex-face", v * f, result.vertex_face_candidates),
+                        row("edge-edge", e * (e - 1) / 2, result.edge_edge_candidates)};
+    return text_of(rows, 1) + "left out: swept boxes apart, or a shared vertex; seen in " +
+           fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
+}
+
 /// What each stage settled, at what cost, and why some queries passed it by.
 std::string text_of_stages(const stage_report& report) {
     table rows = {{"stage", "queries", "separate", "collide", "left open", "ms", "ns/query", ""}};
@@ -98,8 +115,8 @@ std::string text_of_stages(const stage_report& report) {
     return text_of(rows, 1) + notes;
 }
 
-std::string text_of_step(const step_arguments& arguments, const step_result& result, double read,
-                         std::size_t memory) {
+std::string text_of_step(const step_arguments& arguments, const mesh& before,
+                         const step_result& result, double read, std::size_t memory) {
     const table pairs = {{std::string(info(arguments.method).name), "candidates", "collisions"},
                          {"vertex-face", std::to_string(result.vertex_face_candidates),
                           std::to_string(result.vertex_face.size())},
@@ -112,7 +129,11 @@ std::string text_of_step(const step_arguments& arguments, const step_result& res
          fixed(result.sort_seconds, "%.3f s"), std::to_string(result.threads),
          fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
-           (arguments.explain ? '\n' + text_of_stages(result.stages) : "");
+           (arguments.explain ? '\n' +
+                                    text_of_boxes(before.vertices.size(), before.faces.size(),
+                                                  unique_edges(before.faces).size(), result) +
+                                    '\n' + text_of_stages(result.stages)
+                              : "");
 }
 
 }  // namespace
@@ -135,7 +156,7 @@ void run_step(const step_arguments& arguments) {
     if (arguments.json) {
         io::write_whole(*arguments.json, json_of(arguments, result, read, memory));
     }
-    std::cout << text_of_step(arguments, result, read, memory);
+    std::cout << text_of_step(arguments, before, result, read, memory);
 }
 
 }  // namespace ccd::program

@@ -249,6 +249,44 @@ class Step(ProgramTest):
             expected = expected or pairs.read_text()
             self.assertEqual(pairs.read_text(), expected)
 
+    def test_instruction_sets_agree(self):
+        frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        refused = self.bad_usage("step", *frames, "--instruction-set", "none-such")
+        known = refused.split("expected one of ")[1].split(" (")[0].split(", ")
+        self.assertEqual(known[0], "baseline")
+        results = set()
+        for name in known:
+            pairs = self.directory / "pairs"
+            self.good("step", *frames, "--pairs", pairs, "--instruction-set", name)
+            results.add(pairs.read_text())
+        self.assertEqual(len(results), 1)
+        self.assertIn("vf,3,0,1,2", results.pop())
+
+    def test_explain(self):
+        frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        out = self.directory / "json"
+        text = self.good("step", *frames, "--explain", "--json", out)
+        result = json.loads(out.read_text())
+        stages = result["stages"]
+        self.assertEqual([s["stage"] for s in stages], ["axes", "coplanarity", "inside",
+                                                        "subdivision", "integers", "unbounded"])
+        candidates = sum(result["candidates"].values())
+        collisions = sum(result["collisions"].values())
+        self.assertEqual(sum(s["separate"] + s["collides"] for s in stages), candidates)
+        self.assertEqual(sum(s["collides"] for s in stages), collisions)
+        self.assertGreater(collisions, 0)
+        rows = {row.split()[0]: row.split() for row in text.splitlines() if row}
+        for s in stages:
+            self.assertEqual(rows[s["stage"]][1:4],
+                             [str(s[k]) for k in ("entered", "separate", "collides")])
+        # Six vertices and two faces, six edges: what the boxes left out.
+        self.assertIn("of the mesh  left out  candidates", text)
+        of_boxes = [row.split() for row in text.splitlines() if row.startswith("edge-edge")][1]
+        self.assertEqual(of_boxes[1:], ["15", str(15 - result["candidates"]["edge_edge"]),
+                                        str(result["candidates"]["edge_edge"])])
+        self.good("step", *frames, "--json", out)
+        self.assertNotIn("stages", json.loads(out.read_text()))
+
     def test_outputs_replace_neither_inputs_nor_each_other(self):
         frame = pathlib.Path(self.write("frame.ply", ply(BEFORE, FACES)))
         before = frame.read_bytes()
@@ -304,6 +342,9 @@ class Step(ProgramTest):
         self.bad_usage("step", frame, frame, "--method", "exact,float")
         self.bad_usage("step", frame, frame, "--threads", "-1")
         self.bad_usage("step", frame, frame, "--threads", "many")
+        for option in (["--explain"], ["--instruction-set", "baseline"]):
+            self.assertIn("expected exact",
+                          self.bad_usage("step", frame, frame, "--method", "tight", *option))
 
 
 class Methods(ProgramTest):
