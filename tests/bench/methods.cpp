@@ -58,6 +58,15 @@ void add_rows(const scene& s, const query_set<Query>& all, const options& o,
     const ccd::instruction_set best = ccd::instruction_sets().back();
     add_batch(best, 0, "batch on " + std::string(ccd::name(best)) + ", all threads");
 
+    // The same sample as one by one, stored: 192 bytes a query.
+    std::vector<ccd::outcome> of_sample(sample.size());
+    passes.push_back(
+        [&sample, &of_sample] { ccd::decide_batch(std::span<const Query>(sample), of_sample); });
+    passes.back()();
+    contestants.push_back(
+        {"exact, batch on " + std::string(ccd::name(best)) + ", stored queries", sample.size(),
+         static_cast<std::size_t>(std::ranges::count(of_sample, ccd::outcome::collides))});
+
     const std::vector<timing> timings = race(passes, o.repeats());
     const auto ns = [&](std::size_t i, double seconds) {
         return 1e9 * seconds / static_cast<double>(contestants[i].queries);
