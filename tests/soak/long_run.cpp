@@ -151,6 +151,8 @@ void save(const state& s, const fs::path& folder) {
 state run(state from, const run_options& options, const decider& truth,
           std::span<const decider> deciders, const std::atomic<bool>& stop,
           const std::function<void(const state&)>& progress) {
+    save(from,
+         options.folder);  // a folder that cannot be written to is refused now, not in an hour
     const clock::time_point start = clock::now();
     const std::uint64_t seed = from.seed;
     std::mutex mutex;  // of all that follows, but `next` and `failed`
@@ -193,7 +195,12 @@ state run(state from, const run_options& options, const decider& truth,
         const state current = now();
         lock.unlock();
         if (seconds_since(saved) >= options.seconds_between_saves) {
-            save(current, options.folder);
+            try {
+                save(current, options.folder);
+            } catch (...) {
+                failed = true;  // the workers, which must end before this does
+                throw;
+            }
             saved = clock::now();
         }
         progress(current);
