@@ -9,7 +9,7 @@ const stage_info& info(stage s) {
         {"inside", "the five coefficients of some G_i are negative: outside throughout"},
         {"subdivision", "Y and G_i on ever smaller parts of the step, under static bounds"},
         {"integers", "integers of fixed width: exact wherever the coordinates fit"},
-        {"unbounded", "integers of unbounded size: the reference"},
+        {"unbounded", "integers of unbounded size: slow, but always decides"},
     }};
     return table[static_cast<std::size_t>(s)];
 }

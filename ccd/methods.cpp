@@ -23,7 +23,7 @@ constexpr std::array<method_info, 4> table{{
      "TightCCD; Wang, Tang, Manocha, Tong 2015"},
     {method::exact, "exact", false, false,
      "no false negative, no false positive, on any finite input",
-     "static filters, then integers on a common exponent (ccd/explain.hpp)"},
+     "static error bounds, then integers of fixed and of unbounded width (ccd step --explain)"},
 }};
 
 template <class Query>

@@ -25,8 +25,12 @@ namespace ccd {
 namespace {
 
 void check(const mesh& before, const mesh& after) {
-    if (before.faces != after.faces || before.vertices.size() != after.vertices.size())
-        throw std::invalid_argument("ccd::step: the two frames differ in topology");
+    if (before.vertices.size() != after.vertices.size())
+        throw std::invalid_argument("ccd::step: " + std::to_string(before.vertices.size()) +
+                                    " vertices before, " + std::to_string(after.vertices.size()) +
+                                    " after");
+    if (before.faces != after.faces)
+        throw std::invalid_argument("ccd::step: the two frames differ in their faces");
     if (before.vertices.size() > std::numeric_limits<index>::max())
         throw std::invalid_argument("ccd::step: more vertices than an index can name");
     for (const face& f : before.faces)

@@ -88,31 +88,42 @@ std::string text_of_boxes(std::size_t vertices, std::size_t faces, std::size_t e
     };
     const auto v = static_cast<double>(vertices), f = static_cast<double>(faces),
                e = static_cast<double>(edges);
-    const table rows = {{"pairs", "of the mesh", "left out", "candidates"},
+    const table rows = {{"pairs", "of the mesh", "apart", "candidates"},
                         row("vertex-face", v * f, result.vertex_face_candidates),
                         row("edge-edge", e * (e - 1) / 2, result.edge_edge_candidates)};
-    return text_of(rows, 1) + "left out: swept boxes apart, or a shared vertex; seen in " +
+    return text_of(rows, 1) + "apart: swept boxes do not touch, or a vertex is shared; found in " +
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
 
 /// What each stage settled, at what cost, and why some queries passed it by.
-std::string text_of_stages(const stage_report& report) {
-    table rows = {{"stage", "queries", "separate", "collide", "left open", "ms", "ns/query", ""}};
+std::string text_of_stages(const step_result& result) {
+    table rows = {{"stage", "queries", "skipped", "separate", "collide", "left open", "thread ms",
+                   "ns/query"}};
     std::string notes;
+    double seconds = 0;
     for (std::size_t i = 0; i < stage_count; ++i) {
         const stage_info& stage = info(static_cast<ccd::stage>(i));
-        const stage_report::entry& entry = report.stages[i];
-        const double asked = static_cast<double>(std::max<std::uint64_t>(entry.entered, 1));
-        rows.push_back({std::string(stage.name), std::to_string(entry.entered),
-                        std::to_string(entry.separate), std::to_string(entry.collides),
-                        std::to_string(entry.entered - entry.separate - entry.collides),
-                        fixed(1e3 * entry.seconds, "%.2f"),
-                        fixed(1e9 * entry.seconds / asked, "%.1f"), std::string(stage.how)});
+        const stage_report::entry& entry = result.stages.stages[i];
+        rows.push_back(
+            {std::string(stage.name), std::to_string(entry.entered), std::to_string(entry.left_out),
+             std::to_string(entry.separate), std::to_string(entry.collides),
+             std::to_string(entry.entered - entry.separate - entry.collides),
+             fixed(1e3 * entry.seconds, "%.2f"),
+             entry.entered == 0
+                 ? "-"
+                 : fixed(1e9 * entry.seconds / static_cast<double>(entry.entered), "%.1f")});
+        notes += std::string(stage.name) + ": " + std::string(stage.how) + '\n';
         if (entry.left_out > 0)
-            notes += std::string(stage.name) + ": left out for " + std::to_string(entry.left_out) +
-                     " queries, since it settled fewer than a quarter of those before them\n";
+            notes += "    skipped where it settled fewer than a quarter of the queries before\n";
+        seconds += entry.seconds;
     }
-    return text_of(rows, 1) + notes;
+    const double rest = result.narrow_phase_seconds * result.threads - seconds;
+    return text_of(rows, 1) + "thread ms: of all threads together; reading positions and moving " +
+           "queries from stage to stage took " + fixed(1e3 * std::max(rest, 0.0), "%.2f") +
+           "\n\nY is zero where the four points are coplanar; no G_i is negative where that "
+           "happens\n"
+           "within both features. Queries left open, and skipped ones, go on to the next stage.\n" +
+           notes;
 }
 
 std::string text_of_step(const step_arguments& arguments, const mesh& before,
@@ -124,15 +135,16 @@ std::string text_of_step(const step_arguments& arguments, const mesh& before,
                           std::to_string(result.edge_edge.size())}};
     const table costs = {
         {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
-        {fixed(read, "%.3f s"), fixed(result.prepare_seconds, "%.3f s"),
-         fixed(result.broad_phase_seconds, "%.3f s"), fixed(result.narrow_phase_seconds, "%.3f s"),
-         fixed(result.sort_seconds, "%.3f s"), std::to_string(result.threads),
+        {fixed(1e3 * read, "%.1f ms"), fixed(1e3 * result.prepare_seconds, "%.1f ms"),
+         fixed(1e3 * result.broad_phase_seconds, "%.1f ms"),
+         fixed(1e3 * result.narrow_phase_seconds, "%.1f ms"),
+         fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
            (arguments.explain ? '\n' +
                                     text_of_boxes(before.vertices.size(), before.faces.size(),
                                                   unique_edges(before.faces).size(), result) +
-                                    '\n' + text_of_stages(result.stages)
+                                    '\n' + text_of_stages(result)
                               : "");
 }
 

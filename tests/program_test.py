@@ -277,10 +277,10 @@ class Step(ProgramTest):
         self.assertGreater(collisions, 0)
         rows = {row.split()[0]: row.split() for row in text.splitlines() if row}
         for s in stages:
-            self.assertEqual(rows[s["stage"]][1:4],
-                             [str(s[k]) for k in ("entered", "separate", "collides")])
+            self.assertEqual(rows[s["stage"]][1:5],
+                             [str(s[k]) for k in ("entered", "left_out", "separate", "collides")])
         # Six vertices and two faces, six edges: what the boxes left out.
-        self.assertIn("of the mesh  left out  candidates", text)
+        self.assertIn("of the mesh  apart  candidates", text)
         of_boxes = [row.split() for row in text.splitlines() if row.startswith("edge-edge")][1]
         self.assertEqual(of_boxes[1:], ["15", str(15 - result["candidates"]["edge_edge"]),
                                         str(result["candidates"]["edge_edge"])])

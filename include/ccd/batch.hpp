@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace ccd {
@@ -32,8 +34,12 @@ constexpr std::array<index, 4> vertices_of(const edge_edge_indices& q) {
     return {q.a0, q.a1, q.b0, q.b1};
 }
 
-/// Positions of the same vertices at t = 0 and t = 1: `vertices` rows of x y z each, contiguous
-/// (a row-major Eigen matrix's data(), a vector of point<double>). Not owned.
+/// Positions of the same vertices at t = 0 and t = 1: `vertices` rows of x y z each, contiguous.
+/// Not owned.
+///
+/// Of Eigen matrices, pass data() of a row-major one, which is not Eigen's default: declare it
+/// Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>. (errbound/eigen.hpp is about
+/// scalars.)
 struct vertex_rows {
     static_assert(sizeof(point<double>) == 3 * sizeof(double));
     const double* before = nullptr;
@@ -43,11 +49,20 @@ struct vertex_rows {
     constexpr vertex_rows() = default;
     constexpr vertex_rows(const double* at_start, const double* at_end, std::size_t count)
         : before(at_start), after(at_end), vertices(count) {}
+    /// Throws std::invalid_argument if the two lengths differ.
+    vertex_rows(std::span<const point<double>> at_start, std::span<const point<double>> at_end)
+        : before(reinterpret_cast<const double*>(at_start.data())),
+          after(reinterpret_cast<const double*>(at_end.data())),
+          vertices(at_start.size()) {
+        if (at_start.size() != at_end.size())
+            throw std::invalid_argument("ccd::vertex_rows: " + std::to_string(at_start.size()) +
+                                        " vertices at t = 0, " + std::to_string(at_end.size()) +
+                                        " at t = 1");
+    }
     /// Of two frames of one mesh.
     vertex_rows(const mesh& at_start, const mesh& at_end)
-        : before(&at_start.vertices.data()->x),
-          after(&at_end.vertices.data()->x),
-          vertices(at_start.vertices.size()) {}
+        : vertex_rows(std::span<const point<double>>(at_start.vertices),
+                      std::span<const point<double>>(at_end.vertices)) {}
 
     moving_point<double> operator[](index vertex) const {
         const auto at = [vertex](const double* frame) {
@@ -83,9 +98,9 @@ struct batch_options {
     stage_report* report = nullptr;           ///< added to, if given: costs a few per cent
 };
 
-/// Decides queries[i] by `exact` into answers[i]. Coordinates that are not finite give `uncertain`.
-/// Throws std::invalid_argument if the two lengths differ, an index is out of range or the
-/// instruction set is not of instruction_sets(). Cost: see `./run bench`; memory: some 100 KB a
+/// Decides queries[i] by `exact` into answers[i], contiguous. Coordinates that are not finite give
+/// `uncertain`. Throws std::invalid_argument if the two lengths differ, an index is out of range or
+/// the instruction set is not of instruction_sets(). Cost: see `./run bench`; memory: some 100 KB a
 /// thread.
 void decide_batch(const vertex_rows& positions, std::span<const vertex_face_indices> queries,
                   std::span<outcome> answers, const batch_options& options = {});

@@ -13,6 +13,7 @@
 // thousand times as long, bounded in time and memory, allocates, and throws only std::bad_alloc.
 // Coordinates must be finite: otherwise the answer is `uncertain` with cause `range`, the only case
 // in which it is not certain.
+// Promised in a sound environment (errbound/environment.hpp): no flush-to-zero.
 #pragma once
 
 #include <ccd/explain.hpp>

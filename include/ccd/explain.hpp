@@ -14,8 +14,8 @@ enum class stage : std::uint8_t {
     coplanarity,  ///< the coefficients of Y have one sign: the points are never coplanar
     inside,       ///< the coefficients of some G_i are negative: outside throughout
     subdivision,  ///< Y and G_i on ever smaller parts of the step, under static bounds
-    integers,     ///< integers of fixed size: exact wherever the coordinates fit
-    unbounded,    ///< integers of unbounded size: the reference
+    integers,     ///< integers of fixed width: exact wherever the coordinates fit
+    unbounded,    ///< integers of unbounded width: the reference
 };
 inline constexpr std::size_t stage_count = 6;
 

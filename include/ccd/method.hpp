@@ -1,8 +1,8 @@
 // The methods by name: what each promises, its source, and one call to decide a query with it.
 //
-// decide() allocates only inside `exact` (big integers), throws only std::bad_alloc there, and may
-// be called from any thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with
-// cause `range`.
+// decide() allocates only inside `exact` (unbounded integers, seldom), throws only std::bad_alloc
+// there, and may be called from any thread. Coordinates must be finite: an infinity or NaN gives
+// `uncertain` with cause `range`.
 #pragma once
 
 #include <ccd/query.hpp>
@@ -33,6 +33,8 @@ std::optional<method> find_method(std::string_view name);
 /// The entry of `methods()` for m.
 const method_info& info(method m);
 
+/// By any method. (Programs that need `exact` alone call decide_exact of ccd/exact.hpp, which links
+/// no other method and can report its stages.)
 verdict decide(method m, const vertex_face<double>& query);
 verdict decide(method m, const edge_edge<double>& query);
 

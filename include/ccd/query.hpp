@@ -1,6 +1,8 @@
 // The four kinds of query: named points, each moving on a straight line over one step.
 #pragma once
 
+#include <errbound/environment.hpp>  // refuses compilers' options that void every promise
+
 namespace ccd {
 
 /// A position (any one length unit, the same for all points of a query).

@@ -5,6 +5,7 @@
 // grow with the spread of the coordinates' exponents (about 100 bits in ordinary scenes, 2,100 at
 // most) and are bounded. Allocates; throws only std::bad_alloc. Coordinates must be finite:
 // otherwise the answer is `uncertain` with cause `range`, the only case in which it is not certain.
+// Promised in a sound environment (errbound/environment.hpp): no flush-to-zero.
 #pragma once
 
 #include <ccd/query.hpp>

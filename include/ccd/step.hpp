@@ -26,9 +26,9 @@ struct edge_edge_pair {
 
 struct step_options {
     ccd::method method = ccd::method::exact;
-    int threads = 0;  ///< at most; 0, or more than the machine has cores: one per core
+    int threads = 0;  ///< at most; 0 or less, or more than the machine has cores: one per core
     std::optional<instruction_set> set = {};  ///< for `exact`; by default the strongest
-    bool explain = false;                     ///< fill step_result::stages (method `exact`)
+    bool explain = false;                     ///< fill step_result::stages; other methods have none
 };
 
 struct step_result {

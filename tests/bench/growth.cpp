@@ -44,7 +44,7 @@ void growth_with_queries(const scene& s, const options& o, report& out) {
                {"ns_min", "min, 1 thread"},
                {"ns_median", "median, 1 thread"},
                {"ns_min_all_threads", "min, all threads"},
-               {"speedup", "all to 1"}},
+               {"speedup", "speed-up, all threads"}},
               rows);
 }
 

@@ -37,8 +37,8 @@ void add_stage_rows(const query_set<Query>& set, const options& o,
         const auto& e = r[stage];
         const auto entered = static_cast<double>(e.entered);
         rows.push_back({word(kind_of<Query>::name), word(ccd::info(stage).name), count(e.entered),
-                        percent(entered / all), count(e.separate), count(e.collides),
-                        percent(e.seconds / total_seconds(r)),
+                        count(e.left_out), percent(entered / all), count(e.separate),
+                        count(e.collides), percent(e.seconds / total_seconds(r)),
                         e.entered > 0 ? number(1e9 * e.seconds / entered, 1) : none(),
                         number(1e9 * e.seconds / all, 2)});
     }
@@ -107,10 +107,11 @@ void stages(const scene& s, const options& o, report& out) {
               {{"kind", "kind", true},
                {"stage", "stage", true},
                {"entered", "entered"},
+               {"skipped", "skipped"},
                {"entered_share", "of all"},
                {"separate", "separate"},
                {"collides", "collide"},
-               {"time_share", "of the time"},
+               {"time_share", "share of time"},
                {"ns_per_entered", "ns per entered"},
                {"ns_per_query", "ns per query"}},
               rows);
