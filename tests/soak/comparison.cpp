@@ -170,10 +170,12 @@ std::vector<decider> exact_deciders() {
     return all;
 }
 
+unsigned thinning(const query_families::family& family) {
+    return family.thinning > 1 ? 50 * family.thinning : 1;
+}
+
 std::uint64_t family_end(const query_families::family& family, std::uint64_t blocks) {
-    // What is thinned costs tens of milliseconds by the reference, which several deciders ask too.
-    const unsigned thinning = family.thinning > 1 ? 5 * family.thinning : 1;
-    return blocks * queries_per_block / thinning;
+    return blocks * queries_per_block / thinning(family);
 }
 
 std::uint64_t query_count(std::uint64_t blocks) {

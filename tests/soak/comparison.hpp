@@ -43,6 +43,10 @@ decider reference();
 /// filters, and batches on every instruction set of this machine, of stored queries and by index.
 std::vector<decider> exact_deciders();
 
+/// The soak takes one query in this many of a family: 1, but for those that cost the reference
+/// tenths of a second, and as much again whoever resorts to it.
+unsigned thinning(const query_families::family& family);
+
 /// The first index of `family` after that many blocks, of either kind: each block has 24 queries of
 /// a family and kind, fewer of one that is thinned.
 std::uint64_t family_end(const query_families::family& family, std::uint64_t blocks);

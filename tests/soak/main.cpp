@@ -104,14 +104,17 @@ void report(const soak::state& s, const fs::path& folder) {
             sum[k].queries += s.found.families[k][f].queries;
             sum[k].collisions += s.found.families[k][f].collisions;
         }
-        row(std::string(query_families::families[f].name), s.found.families[0][f],
-            s.found.families[1][f]);
+        const auto& family = query_families::families[f];
+        const unsigned thinning = soak::thinning(family);
+        row(std::string(family.name) + (thinning > 1 ? ", 1 in " + std::to_string(thinning) : ""),
+            s.found.families[0][f], s.found.families[1][f]);
     }
     row("all", sum[0], sum[1]);
     ccd::program::table deciders{{"against the reference", "compared", "differences"}};
     for (const auto& d : s.found.deciders) {
         deciders.push_back({d.name, grouped(d.compared), grouped(d.differences)});
     }
+    std::puts("\nfamilies: tests/query_generators.hpp; 1 in N: a query takes tenths of a second");
     std::printf("\n%s\n%s\n", ccd::program::text_of(families, 1).c_str(),
                 ccd::program::text_of(deciders, 1).c_str());
     std::printf("seed %ju: %s queries in %s, %s differ\n", std::uintmax_t{s.seed},
