@@ -50,7 +50,8 @@ std::span<const instruction_set> instruction_sets() {
 
 std::string_view name(instruction_set set) {
     constexpr std::string_view names[] = {"baseline", "avx2", "avx512"};
-    return names[static_cast<std::size_t>(set)];
+    const auto i = static_cast<std::size_t>(set);
+    return i < std::size(names) ? names[i] : "unknown";
 }
 
 std::optional<instruction_set> find_instruction_set(std::string_view wanted) {

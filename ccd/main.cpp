@@ -151,7 +151,8 @@ struct command_line {
             run_query(query);
         } else if (step_command->parsed()) {
             step.method = method_named(step_method);
-            if (!step_set.empty()) step.set = instruction_set_named(step_set);
+            if (step_command->count("--instruction-set") > 0)
+                step.set = instruction_set_named(step_set);
             if (step.method != method::exact && (step.explain || step.set))
                 throw usage_error("--explain and --instruction-set: found --method " + step_method +
                                   ", expected exact, which alone has stages");

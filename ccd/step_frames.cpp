@@ -106,11 +106,11 @@ void for_each_run(std::span<curve_key> keys, unsigned lower_bits, const Visit& v
 /// in each leaf boxes that are near each other.
 ///
 /// Cells of the curve are as many times longer on one axis than on another as the boxes are: an
-/// axis on which boxes are long tells few of them apart. Boxes that are long beside the whole (and
-/// not of `one_kind`) come after all others, by the axis on which they are longest, each kind along
-/// a curve of its own: one long box, or two that cross, would make a leaf of everything. What
-/// shares a cell in the end is sorted again by finer cells, so that nothing remote leaves the
-/// others in disorder.
+/// axis on which boxes are long tells few of them apart. Boxes of no length get cubes. Boxes that
+/// are long beside the whole (and not of `one_kind`) come after all others, by the axis on which
+/// they are longest, each kind along a curve of its own: one long box, or two that cross, would
+/// make a leaf of everything. What shares a cell in the end is sorted again by finer cells, so that
+/// nothing remote leaves the others in disorder.
 template <class BoxOf>
 void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of, bool one_kind) {
     const box<double> middles = box_of_middles(std::span<const curve_key>(keys), box_of);
@@ -128,10 +128,14 @@ void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of, bool one_k
         const auto b = box_of(element_of(keys[i]));
         for (std::size_t k = 0; k < 3; ++k) half_cells[k] += length(b, k);
     }
+    std::array<double, 3> half_spread;  // halved, so that it does not overflow
+    for (std::size_t k = 0; k < 3; ++k)
+        half_spread[k] = 0.5 * middles.high[k] - 0.5 * middles.low[k];
+    const double cube = *std::ranges::max_element(half_spread) / cells;
     for (std::size_t k = 0; k < 3; ++k) {
         const double mean =
             half_cells[k] * static_cast<double>(stride) / static_cast<double>(keys.size());
-        half_cells[k] = middles.low[k] < middles.high[k] ? 1 / std::max(mean, 1.0 / cells) : 0;
+        half_cells[k] = half_spread[k] > 0 ? 1 / std::max(mean, cube / half_spread[k]) : 0;
     }
     const double most = *std::ranges::max_element(half_cells);
     for (double& half : half_cells) half *= 0.5 * (cells - 1) / most;

@@ -19,10 +19,11 @@ class unit_axis {
   public:
     unit_axis() = default;
     unit_axis(double low, double high) {
-        // Halved before adding, and the inverse bounded: neither may overflow.
+        // Halved before adding, and the inverse bounded: neither may overflow. A flat axis keeps
+        // its unit (its radius is −0 where rounding is downward).
         middle_ = low / 2 + high / 2;
         const double radius = std::max(high - middle_, middle_ - low);
-        scale_ = std::min(1 / radius, std::numeric_limits<double>::max());
+        if (radius > 0) scale_ = std::min(1 / radius, std::numeric_limits<double>::max());
     }
     double operator()(double x) const { return (x - middle_) * scale_; }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
+#include <cfenv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -285,6 +286,36 @@ TEST(Step, TakesOneFaceAndNone) {
     expect_as_by_brute_force(points, points, ccd::method::exact);
     const ccd::mesh point{{{0, 0, 0}}, {{0, 0, 0}}};
     expect_as_by_brute_force(point, point, ccd::method::exact);
+}
+
+// Flat on one axis, and not: no rounding direction may lose a candidate.
+TEST(Step, HoldsInEveryRoundingDirection) {
+    ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0.25, 0}, {4, 0, 0}, {4, 1, 0}},
+                     {{0, 1, 2}, {3, 4, 5}}};
+    ccd::mesh after = before;
+    for (std::size_t i = 3; i < 6; ++i) after.vertices[i].x -= 2.75;
+    const auto soup = random_soup(7, 60, 50);
+    const auto flat_expected = brute_force(before, after, ccd::method::exact);
+    const auto soup_expected = brute_force(soup.first, soup.second, ccd::method::exact);
+    EXPECT_FALSE(flat_expected.vertex_face.empty());
+    for (const int mode : {FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+        std::fesetround(mode);
+        const auto flat = ccd::step(before, after);
+        const auto deep = ccd::step(soup.first, soup.second);
+        std::fesetround(FE_TONEAREST);
+        EXPECT_EQ(flat.vertex_face_candidates, flat_expected.vertex_face_candidates);
+        EXPECT_EQ(flat.edge_edge_candidates, flat_expected.edge_edge_candidates);
+        EXPECT_EQ(flat.vertex_face, flat_expected.vertex_face);
+        EXPECT_EQ(flat.edge_edge, flat_expected.edge_edge);
+        EXPECT_EQ(deep.vertex_face, soup_expected.vertex_face);
+        EXPECT_EQ(deep.edge_edge, soup_expected.edge_edge);
+    }
+}
+
+TEST(Step, TakesAnEmptyMeshAndRefusesAnUnknownInstructionSet) {
+    const auto nothing = ccd::step({}, {});
+    EXPECT_EQ(nothing.vertex_face_candidates + nothing.edge_edge_candidates, 0U);
+    EXPECT_THROW(ccd::step({}, {}, {.set = ccd::instruction_set(7)}), std::invalid_argument);
 }
 
 TEST(Mesh, UniqueEdgesAreThoseOfAllFaces) {

@@ -100,8 +100,8 @@ struct batch_options {
 
 /// Decides queries[i] by `exact` into answers[i], contiguous. Coordinates that are not finite give
 /// `uncertain`. Throws std::invalid_argument if the two lengths differ, an index is out of range or
-/// the instruction set is not of instruction_sets(). Cost: see `./run bench`; memory: some 100 KB a
-/// thread.
+/// the instruction set is not of instruction_sets(). Cost: see `./run bench`; memory: some
+/// 300 KB of stack a thread, and 32 bytes a vertex if there are queries for half the vertices.
 void decide_batch(const vertex_rows& positions, std::span<const vertex_face_indices> queries,
                   std::span<outcome> answers, const batch_options& options = {});
 void decide_batch(const vertex_rows& positions, std::span<const edge_edge_indices> queries,

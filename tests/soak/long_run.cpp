@@ -35,6 +35,14 @@ json json_of(const difference& d) {
             {"wrong", d.wrong}};
 }
 
+/// Refuses what is not a whole number or is too large to have been counted.
+std::uint64_t whole(const json& j) {
+    if (!j.is_number_unsigned() || j.get<std::uint64_t>() >> 48 != 0)
+        throw std::runtime_error("not the state of a run: found " + j.dump() +
+                                 ", expected a count");
+    return j.get<std::uint64_t>();
+}
+
 difference difference_of(const json& j) {
     difference d;
     const auto family = j.at("family").get<std::string>();
@@ -42,7 +50,7 @@ difference difference_of(const json& j) {
     if (found == std::end(families)) throw std::runtime_error("no family \"" + family + "\"");
     d.family = static_cast<std::size_t>(found - std::begin(families));
     d.which = j.at("kind").get<std::string>() == "vf" ? kind::vertex_face : kind::edge_edge;
-    d.index = j.at("index").get<std::uint64_t>();
+    d.index = whole(j.at("index"));
     d.collides = j.at("collides").get<bool>();
     d.wrong = j.at("wrong").get<std::vector<std::string>>();
     return d;
@@ -101,8 +109,8 @@ state from_json(const std::string& text) {
         state s;
         s.seed = all.at("seed").get<std::uint64_t>();
         s.seconds = all.at("seconds").get<double>();
-        s.found.blocks = all.at("blocks").get<std::uint64_t>();
-        s.found.differing_queries = all.at("differing_queries").get<std::uint64_t>();
+        s.found.blocks = whole(all.at("blocks"));
+        s.found.differing_queries = whole(all.at("differing_queries"));
         const json& listed = all.at("families");
         for (std::size_t f = 0; f < family_count; ++f) {
             if (listed.size() != family_count || listed.at(f).at("name") != families[f].name ||
@@ -111,14 +119,13 @@ state from_json(const std::string& text) {
             }
             for (std::size_t k = 0; k < std::size(kinds); ++k) {
                 const json& counts = listed.at(f).at(std::string(short_name(kinds[k])));
-                s.found.families[k][f] = {counts.at("queries").get<std::uint64_t>(),
-                                          counts.at("collisions").get<std::uint64_t>()};
+                s.found.families[k][f] = {whole(counts.at("queries")),
+                                          whole(counts.at("collisions"))};
             }
         }
         for (const json& d : all.at("deciders")) {
-            s.found.deciders.push_back({d.at("name").get<std::string>(),
-                                        d.at("compared").get<std::uint64_t>(),
-                                        d.at("differences").get<std::uint64_t>()});
+            s.found.deciders.push_back({d.at("name").get<std::string>(), whole(d.at("compared")),
+                                        whole(d.at("differences"))});
         }
         for (const json& d : all.at("differences")) s.found.differences.push_back(difference_of(d));
         return s;
