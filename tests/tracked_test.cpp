@@ -26,10 +26,12 @@ rational exactly(T x) {
     int e = 0;
     const T m = std::ldexp(std::frexp(x, &e), std::numeric_limits<T>::digits);
     e -= std::numeric_limits<T>::digits;
-    rational r(static_cast<std::int64_t>(m));
+    rational r;
     if constexpr (std::numeric_limits<T>::digits > 63) {
         r = rational(static_cast<std::int64_t>(m / 2)) * 2 +
             rational(static_cast<int>(m - 2 * std::trunc(m / 2)));
+    } else {
+        r = rational(static_cast<std::int64_t>(m));
     }
     boost::multiprecision::mpz_int power = 1;
     power <<= std::abs(e);
