@@ -2,7 +2,7 @@
 //
 // Queries flow through stages; what a stage cannot settle is compacted into the next one's input,
 // so that every stage works on full packs. Buffers hold one column per number (structure of
-// arrays) and some hundred queries: they stay in the first cache.
+// arrays) and some hundred queries: about 200 KB in all, which stay in the second cache.
 #include "ccd/batch_kernels.hpp"
 
 #include <ccd/static_filter.hpp>
