@@ -4,6 +4,7 @@
 #include <ccd/bsc.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/safeccd.hpp>
 #include <errbound/rules/none.hpp>
 #include <errbound/rules/safe.hpp>
 #include <errbound/rules/tight.hpp>
@@ -11,7 +12,7 @@
 namespace ccd {
 namespace {
 
-constexpr std::array<method_info, 4> table{{
+constexpr std::array<method_info, 6> table{{
     {method::float_, "float", true, true,
      "no promise: plain double arithmetic, may be wrong either way",
      "BSC-float; Tang, Tong, Wang, Manocha 2014"},
@@ -21,6 +22,12 @@ constexpr std::array<method_info, 4> table{{
     {method::tight, "tight", false, true,
      "never loses a collision; false positives where TightBound cannot tell",
      "TightCCD; Wang, Tang, Manocha, Tong 2015"},
+    {method::safeccd, "safeccd", false, true,
+     "never loses a collision; many false positives, from one uniform bound",
+     "SafeCCD; Wang 2014, mended as ccd/safeccd.hpp tells"},
+    {method::safeccd_tight, "safeccd-tight", false, true,
+     "never loses a collision; false positives where TightBound cannot tell",
+     "SafeCCD with TightBound; Wang, Tang, Manocha, Tong 2015, Section 6"},
     {method::exact, "exact", false, false,
      "no false negative, no false positive, on any finite input",
      "static error bounds, then integers of fixed and of unbounded width (ccd step --explain)"},
@@ -35,6 +42,10 @@ verdict decide_any(method m, const Query& query) {
             return decide_bsc<errbound::safe>(query);
         case method::tight:
             return decide_bsc<errbound::tight>(query);
+        case method::safeccd:
+            return decide_safeccd<errbound::safe>(query);
+        case method::safeccd_tight:
+            return decide_safeccd<errbound::tight>(query);
         case method::exact:
             return decide_exact(query);
     }

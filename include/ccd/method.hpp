@@ -13,7 +13,7 @@
 
 namespace ccd {
 
-enum class method { float_, safe, tight, exact };
+enum class method { float_, safe, tight, safeccd, safeccd_tight, exact };
 
 struct method_info {
     ccd::method method;
