@@ -1,21 +1,23 @@
 // Proximity of a moving vertex and a moving edge: certainly never within reach, or perhaps.
 //
-// After the vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), whose thresholds are derived
-// here from any reach. Let E(t) be the edge's vector and W(t) the vertex's place relative to its
-// first end, both linear, and let the vertex be within `reach` of the segment at some t°.
+// After the vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), whose thresholds are
+// derived here from any reach. Let E(t) be the edge's vector and W(t) the vertex's place relative
+// to its first end, both linear, and let the vertex be within `reach` of the segment at some t°.
 //  1. There |E × W|₂ <= reach·|E|₂, so with |x|₁ <= √3·|x|₂ <= 3·|x|∞
 //         h(t) = |E × W|₁ − 3·reach·|E|∞ <= 0.
-//  2. h is a sum of sizes of quadratics, less a convex function. So its least value on the component
+//  2. h is a sum of sizes of quadratics, less a convex function. So its least value on the
+//  component
 //     of {h <= 0} that holds t° is at 0 or 1, at a root of a component of E × W, or where a signed
 //     sum ±q_x ± q_y ± q_z ∓ 3·reach·E_j has its minimum: the CANDIDATES. Rounded ones are exact
 //     for quadratics that are off by a few ε times their coefficients (floating_roots.hpp), so
-//     that h <= τ at one of those computed, with τ as in off_line_error() below. (A rounded minimum
+//     that h <= τ at one of those computed, with the τ below. (A rounded minimum
 //     of a signed sum may lie beyond a root of one of its terms; by convexity that root will do.)
 //  3. If, at that candidate, the edge is longer than λ and the foot of W is on it: proximity.
 //  4. Else, between t° and the candidate, either the foot left the edge while the vertex was within
-//     d = 3·reach + τ/λ of its line, so that it was within d of an end; or the edge shrank to λ with
-//     the foot on it, and the vertex was within √(d² + λ²/4) =: D of an end. The least distances from
-//     both ends are compared with D. Smallest about λ² = 3·τ.
+//     d = 3·reach + τ/λ of its line, so that it was within d of an end; or the edge shrank to λ
+//     with the foot on it, and the vertex was within √(d² + λ²/4) =: D of an end. The least
+//     distances from both ends are compared with D, which is smallest about λ² = 3·τ; λ² is at
+//     least four times what its comparison may be off by, and a quarter more in D pays for that.
 #pragma once
 
 #include <array>
@@ -55,7 +57,8 @@ auto least_distance(const vector_form<Scalar, 1>& w) {
     }
     const T distance = std::sqrt(square);
     // The last term is above whatever squares lose to underflow.
-    const T doubt = error + 32 * traits::epsilon() * size + std::sqrt(traits::smallest_normal()) * 256;
+    const T doubt =
+        error + 32 * traits::epsilon() * size + std::sqrt(traits::smallest_normal()) * 256;
     return distance_bounds<T>{distance - doubt, distance + doubt};
 }
 
@@ -112,10 +115,13 @@ bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scalar, 1>& w0
     const T tau = traits::max(off_line, error + slope * edge_error +
                                             512 * traits::epsilon() * (sizes + slope * edge_size));
     if (!traits::is_finite(tau)) return true;
-    const T lambda_squared = 3 * tau;
-    const T line_distance = slope + std::sqrt(tau / 3);
+    const T doubt = 8 * (edge_error * (edge_size + place_size) + place_error * edge_size) +
+                    16 * traits::epsilon() * edge_size * (edge_size + place_size);
+    const T lambda_squared = traits::max(3 * tau, 4 * doubt);
+    const T line_distance = slope + (tau > 0 ? tau / std::sqrt(lambda_squared) : T(0));
     const T end_distance =
-        std::sqrt(line_distance * line_distance + lambda_squared / 4) * (1 + T(0x1p-10)) + reach;
+        std::sqrt(line_distance * line_distance + lambda_squared * T(0.3125)) * (1 + T(0x1p-10)) +
+        reach;
     if (!(least_distance(w0).low > end_distance && least_distance(w1).low > end_distance))
         return true;
 
@@ -131,10 +137,7 @@ bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scalar, 1>& w0
             foot += at_e[i] * at_w[i];
         }
         if (off > slope * longest + tau) return false;
-        const T doubt = 8 * (edge_error * (edge_size + place_size) + place_error * edge_size) +
-                        16 * traits::epsilon() * edge_size * (edge_size + place_size);
-        return length_squared + doubt > lambda_squared && foot >= -doubt &&
-               foot <= length_squared + doubt;
+        return length_squared > lambda_squared && foot >= -doubt && foot <= length_squared + doubt;
     };
     if (touches(T(0)) || touches(T(1))) return true;
     for (const quadratic& f : q)

@@ -12,21 +12,23 @@
 //
 // Why no contact is lost. Let the features be in contact at t*; then f(t*) = 0.
 //  1. Pieces. The critical points that part [0, 1] are only approximate, so a piece [p, q] rises or
-//     falls but for `slack`: the length of the piece times the most that f' goes the wrong way, from
-//     its certified values at p, q and the vertex. A piece is passed over only if f is certainly
-//     beyond slack (and beyond the published threshold μ) at the end nearer to zero. So t* lies in
-//     a piece where a root t̂ is looked for, and between t* and t̂ |f| is at most
-//     |f̂(t̂)| + its error + slack =: μ.
+//     falls but for `slack`: the length of the piece times the most that f' goes the wrong way,
+//     from its certified values at p, q and the vertex. A piece is passed over only if f is
+//     certainly beyond slack (and beyond the published threshold μ) at the end nearer to zero. So
+//     t* lies in a piece where a root t̂ is looked for, and between t* and t̂ |f| is at most |f̂(t̂)| +
+//     its error + slack =: μ.
 //  2. Window. If f is certainly beyond slack and of opposite signs at t̂ ± w, or the piece ends
-//     before, t* lies within the window. If some inside form G_i is certainly negative in all of it,
-//     t* is no contact: at a contact all G_i >= 0, and all are zero where the normal N vanishes.
+//     before, t* lies within the window. If some inside form G_i is certainly negative in all of
+//     it, t* is no contact: at a contact all G_i >= 0, and all are zero where the normal N
+//     vanishes.
 //  3. Else t̂ is reported if |N(t̂)|∞ >= ν for a chosen ν and no G_i(t̂) is certainly negative.
 //  4. Else go from t* to t̂. At t* the features touch; if |N(t*)|∞ <= ν, the touching point is
 //     within r of an edge (VF) or of an end of the other edge (EE), measured in the plane, where r
 //     is derived below. Otherwise the projection is inside, and leaves the inside through the
 //     border, or |N|∞ falls to ν with the projection inside, or t̂ is reached with both right, which
 //     step 3 would have reported. In each case the height over the plane is at most μ/|N| <= μ/ν.
-//     So at some time a vertex is within reach = μ/ν + r of an edge, and the proximity tests find it.
+//     So at some time a vertex is within reach = μ/ν + r of an edge, and the proximity tests find
+//     it.
 //  r: the inradius of a triangle with |N|₂ = 2·area is at most |N|₂/(2L) and 0.31·√|N|₂, L its
 //     longest edge. For edges a, b that cross at the angle θ, the end nearest to the crossing is at
 //     most min(|a|, |b|)/2 from it, so within sin θ times that of the other edge: at most
@@ -200,8 +202,8 @@ class solver {
         // Ends of the pieces: 0, the approximate critical points inside, 1.
         std::array<T, 4> ends{0, 1, 1, 1};
         std::size_t pieces = 1;
-        auto critical = errbound::quadratic_roots(slope[0].value(), slope[1].value(),
-                                                  slope[2].value());
+        auto critical =
+            errbound::quadratic_roots(slope[0].value(), slope[1].value(), slope[2].value());
         if (critical[1] < critical[0]) std::swap(critical[0], critical[1]);
         for (const T t : {critical[0], critical[1]})
             if (t > ends[pieces - 1] && t < 1) ends[pieces++] = t;
@@ -286,8 +288,7 @@ class solver {
         }
         if (within) {
             const T w = traits::max(right - root, root - left) * (1 + traits::epsilon());
-            const auto g =
-                forms_at(forms_, scalar(T(1)), limits_.time(root, w)).inside();
+            const auto g = forms_at(forms_, scalar(T(1)), limits_.time(root, w)).inside();
             bool positive = true;
             for (const auto& form : g) {
                 const sign_type s = sign_within(form[0], limits_.drift(w));
@@ -351,8 +352,8 @@ class solver {
 
     Query<scalar> query_;
     limits limits_;
-    decltype(power_forms(std::declval<const Query<scalar>&>(), std::declval<const limits&>()))
-        forms_;
+    decltype(power_forms(std::declval<const Query<scalar>&>(),
+                         std::declval<const limits&>())) forms_;
     bool doubt_ = false;
     T reach_ = 0;
 };
