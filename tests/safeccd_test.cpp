@@ -41,8 +41,8 @@ TEST(quadratic_roots, are_those_of_a_nearby_quadratic) {
         for (const double t : {roots[0], roots[1]}) {
             if (!(std::abs(t) < 1e150)) continue;
             const mpq_rational x(t);
-            const mpq_rational value = mpq_rational(c[0]) + mpq_rational(c[1]) * x +
-                                       mpq_rational(c[2]) * x * x;
+            const mpq_rational value =
+                mpq_rational(c[0]) + mpq_rational(c[1]) * x + mpq_rational(c[2]) * x * x;
             const mpq_rational size = 1 + abs(x) + x * x;
             // At t the smallest change of coefficients, the same for all, that makes it a root.
             EXPECT_LE(abs(value), size * m * 16 * mpq_rational(0x1p-52))
@@ -51,14 +51,13 @@ TEST(quadratic_roots, are_those_of_a_nearby_quadratic) {
     }
 }
 
-TEST(bracketed_root, is_found_to_the_last_places) {
+TEST(guarded_newton, is_found_to_the_last_places) {
     source random(2);
     for (int i = 0; i < 20000; ++i) {
         const double r = random.unit(), k = std::ldexp(random.unit(), -random.between(0, 40));
         // (t − r)(k + (t − r)²): one real root.
-        const errbound::bernstein<double, 3> p{
-            {-r * (k + r * r), k + 3 * r * r, -3 * r, 1}};
-        const double t = errbound::bracketed_root(p, 0.0, 1.0);
+        const errbound::bernstein<double, 3> p{{-r * (k + r * r), k + 3 * r * r, -3 * r, 1}};
+        const double t = errbound::guarded_newton(p, 0.0, 1.0);
         EXPECT_LE(std::abs(value_at(p, 1.0, t)), 4e-15) << r << ' ' << k;
         EXPECT_TRUE(t >= 0 && t <= 1);
     }
@@ -132,8 +131,9 @@ TEST(safeccd, loses_nothing_in_single_precision) {
         for (const kind which : {kind::vertex_face, kind::edge_edge}) {
             for (std::uint64_t i = 0; i * family.thinning < 400; ++i) {
                 const points p = query_families::detail::map(
-                    query_families::make(family, which, 1, i),
-                    [](double x, auto...) { return double{static_cast<float>(std::clamp(x, -3e38, 3e38))}; });
+                    query_families::make(family, which, 1, i), [](double x, auto...) {
+                        return double{static_cast<float>(std::clamp(x, -3e38, 3e38))};
+                    });
                 const auto check = [&](const auto& query) {
                     const auto narrow =
                         transformed(query, [](double x) { return static_cast<float>(x); });
@@ -143,7 +143,8 @@ TEST(safeccd, loses_nothing_in_single_precision) {
                         if (truth == ccd::outcome::uncertain)
                             EXPECT_EQ(said.outcome, truth);
                         else
-                            lost += said.outcome != ccd::outcome::uncertain && said.outcome != truth;
+                            lost +=
+                                said.outcome != ccd::outcome::uncertain && said.outcome != truth;
                     }
                 };
                 if (which == kind::vertex_face)

@@ -199,17 +199,11 @@ class solver {
             plain[i] = f[i].value();
         }
         const auto slope = errbound::power_derivative(f);
-        // Ends of the pieces: 0, the approximate critical points inside, 1.
-        std::array<T, 4> ends{0, 1, 1, 1};
-        std::size_t pieces = 1;
-        auto critical =
-            errbound::quadratic_roots(slope[0].value(), slope[1].value(), slope[2].value());
-        if (critical[1] < critical[0]) std::swap(critical[0], critical[1]);
-        for (const T t : {critical[0], critical[1]})
-            if (t > ends[pieces - 1] && t < 1) ends[pieces++] = t;
-        ends[pieces] = 1;
-        for (std::size_t i = 0; i < pieces; ++i) {
-            const verdict found = on_piece(f, plain, slope, critical[2], ends[i], ends[i + 1]);
+        const T vertex =
+            errbound::quadratic_roots(slope[0].value(), slope[1].value(), slope[2].value())[2];
+        const auto pieces = errbound::monotone_pieces(plain);
+        for (std::size_t i = 1; i < pieces.count; ++i) {
+            const verdict found = on_piece(f, plain, slope, vertex, pieces.at[i - 1], pieces.at[i]);
             if (found.outcome != outcome::separate) return found;
         }
         if (!doubt_) return {outcome::separate, cause::none};
@@ -274,7 +268,7 @@ class solver {
         if (low > tolerance(at_p) || high < -tolerance(at_q)) return none;
 
         T root = p;
-        if (low < 0) root = high > 0 ? errbound::bracketed_root(plain, p, q) : q;
+        if (low < 0) root = high > 0 ? errbound::guarded_newton(plain, p, q) : q;
         // f rises (times direction) through the window, if its ends tell.
         bool before = false, after = false, within = false;
         T left = p, right = q;

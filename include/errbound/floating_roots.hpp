@@ -8,8 +8,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <errbound/bernstein.hpp>
 #include <errbound/number_traits.hpp>
+#include <limits>
+#include <utility>
 
 namespace errbound {
 
@@ -40,28 +43,44 @@ std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     return {q / c2, c0 / q, -c1 / (2 * c2)};
 }
 
-/// A point of [low, high] near a root of p, whose values at the two ends have opposite signs:
-/// Newton's method, guarded by bisection. Cost: at most 64 evaluations, about five where p is
-/// monotone and its slope not small.
+/// The first `count` of `at`, in ascending order: 0, the computed roots of f' in (0, 1), 1.
+template <class T>
+struct piece_ends {
+    std::array<T, 4> at{};
+    std::size_t count = 0;
+};
+
+/// The ends of the pieces of [0, 1] on which f rises or falls, but for rounding.
+template <class T>
+piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
+    const auto slope = power_derivative(f);
+    std::array<T, 3> turns = quadratic_roots(slope[0], slope[1], slope[2]);
+    if (turns[1] < turns[0]) std::swap(turns[0], turns[1]);
+    piece_ends<T> ends;
+    ends.at[ends.count++] = T(0);
+    for (const T t : {turns[0], turns[1]})
+        if (t > ends.at[ends.count - 1] && t < 1) ends.at[ends.count++] = t;
+    ends.at[ends.count++] = T(1);
+    return ends;
+}
+
+/// A point of [low, high] near a root of p, whose values at the two ends have opposite signs. A
+/// Newton step that leaves the bracket, or is more than half as long as the one before, becomes a
+/// halving of the bracket: so every two steps halve one of them, and 2·digits of them are enough.
 template <class T, int N>
-T bracketed_root(const bernstein<T, N>& p, T low, T high) {
-    using traits = number_traits<T>;
+T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     const bernstein<T, N - 1> slope = power_derivative(p);
-    const bool falling = value_at(p, T(1), low) > 0;
-    T t = low + (high - low) / 2, previous_step = high - low;
-    for (int i = 0; i < 64; ++i) {
-        const T value = value_at(p, T(1), t);
-        if (value == 0) return t;
-        ((value > 0) == falling ? low : high) = t;
-        const T step = value / value_at(slope, T(1), t);
-        const T newton = t - step;
-        // A step that leaves the bracket, or does not halve the one before, gives way to bisection.
-        const bool good =
-            newton > low && newton < high && 2 * traits::abs(step) <= traits::abs(previous_step);
-        const T next = good ? newton : low + (high - low) / 2;
-        previous_step = good ? step : (high - low) / 2;
-        if (next == t || high - low <= traits::epsilon() * traits::abs(t)) return next;
-        if (good && traits::abs(step) <= traits::epsilon() * traits::abs(t)) return next;
+    const bool rising = value_at(p, T(1), low) < 0;
+    T t = low + (high - low) / 2, last_step = high - low;
+    for (int i = 0; i < 2 * std::numeric_limits<T>::digits; ++i) {
+        const T y = value_at(p, T(1), t);
+        if (y == 0) return t;
+        ((y < 0) == rising ? low : high) = t;
+        T next = t - y / value_at(slope, T(1), t);
+        if (!(low < next && next < high && 2 * std::abs(next - t) <= last_step))
+            next = low + (high - low) / 2;
+        if (next == t) return t;
+        last_step = std::abs(next - t);
         t = next;
     }
     return t;
