@@ -1,11 +1,11 @@
 // `root-parity`: the parity of a ray's crossings with the image of the domain's boundary.
 //
 // THE MAP. VF: F(t, x) = v(t) − x(t), x a point of the triangle, from a prism; EE: F(t, a, b) =
-// a(t) − b(t), a and b points of the edges, from a cube. A contact is a root of F. The images of the
-// domain's corners are differences of the vertices at t = 0 or 1; between them F is linear along
-// each side. The boundary's image is made of triangles (the faces t = 0 and t = 1: F is affine
-// there; EE's parallelograms are two triangles each) and of bilinear patches (a vertex against an
-// edge, over the step).
+// a(t) − b(t), a and b points of the edges, from a cube. A contact is a root of F. The images of
+// the domain's corners are differences of the vertices at t = 0 or 1; between them F is linear
+// along each side. The boundary's image is made of triangles (the faces t = 0 and t = 1: F is
+// affine there; EE's parallelograms are two triangles each) and of bilinear patches (a vertex
+// against an edge, over the step).
 //
 // THE PARITY. If the origin does not lie on the boundary's image, the number of roots inside, with
 // multiplicities, is odd exactly if a ray from the origin crosses that image an odd number of times
@@ -14,9 +14,9 @@
 //
 // A PATCH, with corners c0 c1 c2 c3 in turn. In the tetrahedron of its corners, with barycentric
 // coordinates w0..w3, the patch is the set w0·w2 = w1·w3 (at parameters (p, q) they are (1 − p)(1 −
-// q), p(1 − q), pq, (1 − p)q; conversely p = w1 + w2, q = w2 + w3). The triangles c0 c1 c2 and c0 c2
-// c3 have w3 = 0 or w1 = 0, so that w0·w2 − w1·w3 >= 0 on them; on the other pair, c1 c2 c3 and c1
-// c3 c0, it is <= 0. Patch and pair together bound the part of the tetrahedron between them, so
+// q), p(1 − q), pq, (1 − p)q; conversely p = w1 + w2, q = w2 + w3). The triangles c0 c1 c2 and c0
+// c2 c3 have w3 = 0 or w1 = 0, so that w0·w2 − w1·w3 >= 0 on them; on the other pair, c1 c2 c3 and
+// c1 c3 c0, it is <= 0. Patch and pair together bound the part of the tetrahedron between them, so
 // that a ray from any other place crosses both equally often, modulo 2. Hence the second pair
 // stands for the patch where the origin lies in the closed tetrahedron and w0·w2 > w1·w3, the first
 // pair otherwise; the origin then lies on neither triangle of the pair.

@@ -46,9 +46,9 @@ struct decomposed {
     }
 };
 
-/// The query, of finite coordinates, in integers: each axis times a power of two of its own. Contact does not
-/// depend on the axes' units: they scale all three kinds of equation at a contact by positive
-/// factors, and integers stay short when one axis is much smaller than the others.
+/// The query, of finite coordinates, in integers: each axis times a power of two of its own.
+/// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
+/// by positive factors, and integers stay short when one axis is much smaller than the others.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
     constexpr int none = std::numeric_limits<int>::max();
@@ -101,7 +101,8 @@ inline bool contact(const vertex_edge<integer>& query) {
     if (on_line.size() < 2) return false;
     errbound::real_roots<integer> roots(on_line);
     for (std::size_t k = 0; k < roots.size(); ++k)
-        if (roots.sign_at_root(errbound::without_end_roots(beyond), k) != errbound::sign_type::positive)
+        if (roots.sign_at_root(errbound::without_end_roots(beyond), k) !=
+            errbound::sign_type::positive)
             return true;
     return false;
 }

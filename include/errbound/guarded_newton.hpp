@@ -33,11 +33,13 @@ struct piece_ends {
     std::size_t count = 0;
 };
 
-/// The ends of f's monotone pieces: 0, the roots of f' in (0, 1), 1. Overflows where (Σ|a_i|)² does.
+/// The ends of f's monotone pieces: 0, the roots of f' in (0, 1), 1. Overflows where (Σ|a_i|)²
+/// does.
 ///
-/// The derivative 3·a3·t² + 2·a2·t + a1 has the roots w/(3·a3) and a1/w with w = −(a2 ± √(a2² − 3·a1·a3)),
-/// the sign being that of a2, so that nothing cancels. Leading coefficients that are zero divide to
-/// ±∞ or NaN, which do not lie in (0, 1); the other quotient is then the lower degree's root.
+/// The derivative 3·a3·t² + 2·a2·t + a1 has the roots w/(3·a3) and a1/w with w = −(a2 ± √(a2² −
+/// 3·a1·a3)), the sign being that of a2, so that nothing cancels. Leading coefficients that are
+/// zero divide to ±∞ or NaN, which do not lie in (0, 1); the other quotient is then the lower
+/// degree's root.
 template <class T>
 piece_ends<T> monotone_pieces(const power_cubic<T>& f) {
     piece_ends<T> ends;
