@@ -74,8 +74,8 @@ TYPED_TEST(guarded_newton, degrees_below_three) {
     EXPECT_EQ(count({T(-1), T(4), 0, 0}), 2U);
     EXPECT_EQ(count({T(1), 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, 0}), 2U);
-    EXPECT_EQ(count({0, 0, 0, T(1)}), 2U);            // t³ turns at 0, which is an end
-    EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);        // t³ − t² at 2/3 too
+    EXPECT_EQ(count({0, 0, 0, T(1)}), 2U);           // t³ turns at 0, which is an end
+    EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);       // t³ − t² at 2/3 too
     EXPECT_EQ(count({0, T(3), T(-7.5), T(5)}), 4U);  // 15t² − 15t + 3 at 0.28 and 0.72
     EXPECT_EQ(errbound::guarded_newton(errbound::power_cubic<T>{T(-1), T(4), 0, 0}, T(0), T(1)),
               T(0.25));
@@ -190,7 +190,8 @@ TEST(methods, overflow_is_no_answer) {
             const auto large = ccd::transformed(query, [&](double x) { return x * factor; });
             const outcome right = decide(method::exact, query).outcome;
             EXPECT_EQ(decide(method::exact, large).outcome, right);
-            for (const method m : {method::provot, method::bsc_exact, method::safe, method::tight}) {
+            for (const method m :
+                 {method::provot, method::bsc_exact, method::safe, method::tight}) {
                 const outcome said = decide(m, large).outcome;
                 EXPECT_TRUE(said == right || said == outcome::uncertain) << ccd::info(m).name;
             }
