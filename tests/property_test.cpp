@@ -7,13 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <ccd/exact.hpp>
+#include <ccd/forms.hpp>
 #include <ccd/method.hpp>
 #include <ccd/reference.hpp>
+#include <ccd/tracked_query.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <errbound/rules/tight.hpp>
 #include <functional>
 #include <iostream>
 #include <iterator>
@@ -123,12 +126,14 @@ struct errors {
 struct tally {
     std::uint64_t queries = 0;
     std::uint64_t collisions = 0;
+    std::uint64_t crossed_once = 0;
     std::vector<errors> by_method = std::vector<errors>(ccd::methods().size());
     std::uint64_t out_of_range = 0, unsettled = 0;  // integers of fixed width: uncertain
 
     void add(const tally& other) {
         queries += other.queries;
         collisions += other.collisions;
+        crossed_once += other.crossed_once;
         for (std::size_t i = 0; i < by_method.size(); ++i) {
             by_method[i].false_positives += other.by_method[i].false_positives;
             by_method[i].false_negatives += other.by_method[i].false_negatives;
@@ -184,6 +189,23 @@ std::string describe(std::size_t family, kind which, std::uint64_t index, const 
            ", index " + std::to_string(index) + "\n" + csv(p);
 }
 
+// Whether Y certainly has one root, a simple one, between t = 0 and t = 1: then a contact is there
+// and nowhere else.
+template <class Query>
+bool crosses_once(const Query& query) {
+    const auto [tracked, finite] = ccd::tracked_query<errbound::tight>(query);
+    const auto y = ccd::forms_of(tracked).y();
+    const auto monotone = errbound::sign_inside(errbound::derivative(y));
+    return finite &&
+           (monotone == errbound::sign_type::positive ||
+            monotone == errbound::sign_type::negative) &&
+           sign_of(y[0]) * sign_of(y[3]) == errbound::sign_type::negative;
+}
+bool crosses_once(kind which, const points& p) {
+    return which == kind::vertex_face ? crosses_once(query_families::as_vertex_face(p))
+                                      : crosses_once(query_families::as_edge_edge(p));
+}
+
 void check_methods(kind which, std::size_t family, std::uint64_t index, report& out) {
     const points p = query_families::make(families[family], which, seed(), index);
     const bool truth = oracle_collides(which, p);
@@ -207,6 +229,10 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
         ++(integers.cause == ccd::cause::range ? count.out_of_range : count.unsettled);
     else
         require_right("decide_integers", integers);
+    if (crosses_once(which, p)) {
+        ++count.crossed_once;
+        require_right("root-parity, of one root,", decide(ccd::method::root_parity, which, p));
+    }
 
     for (std::size_t m = 0; m < ccd::methods().size(); ++m) {
         const ccd::method_info& method = ccd::methods()[m];
@@ -235,7 +261,8 @@ void print(kind which, const report& r) {
         std::function<std::uint64_t(const tally&)> value;
     };
     std::vector<column> columns{{"queries", [](const tally& t) { return t.queries; }},
-                                {"collisions", [](const tally& t) { return t.collisions; }}};
+                                {"collisions", [](const tally& t) { return t.collisions; }},
+                                {"one root", [](const tally& t) { return t.crossed_once; }}};
     for (std::size_t m = 0; m < ccd::methods().size(); ++m) {
         if (ccd::methods()[m].may_report_false_collisions)
             columns.push_back({std::string(ccd::methods()[m].name) + " FP",
