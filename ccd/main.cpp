@@ -103,6 +103,8 @@ struct command_line {
     stress_arguments stress;
     std::string query_methods, query_kind, step_method = "exact", step_set;
     std::string stress_methods, stress_families;
+    bool stress_quick = false;
+    std::size_t stress_queries = 400;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
     CLI::App* stress_command = nullptr;
@@ -162,21 +164,21 @@ struct command_line {
                                "Every method on stiff and extreme queries, family by family, each "
                                "with a knob that is\n"
                                "swept over its whole range; truth by unbounded integers");
-        stress_command->add_flag("--quick", stress.quick, "About a minute instead of ten");
+        stress_command->add_flag("--quick", stress_quick, "About a minute instead of ten");
         stress_command->add_option("--method", stress_methods, "Methods M[,M...], else all")
             ->type_name("M[,M...]");
         stress_command->add_option("--family", stress_families, "Families F[,F...], else all")
             ->type_name("F[,F...]");
         stress_command
             ->add_option(
-                "--queries", stress.queries,
+                "--queries", stress_queries,
                 "So many of each family, kind and value of the knob; fewer where the truth\n"
                 "takes tenths of a second")
             ->check(CLI::Range(1, 1000000));
-        stress_command->add_option("--seed", stress.seed, "Same seed, same queries")
+        stress_command->add_option("--seed", stress.plan.seed, "Same seed, same queries")
             ->capture_default_str();
         stress_command
-            ->add_option("--threads", stress.threads,
+            ->add_option("--threads", stress.plan.threads,
                          "Threads that find the truth; 0: one per core. Methods are timed on one")
             ->check(CLI::Range(0, 4096));
         stress_command
@@ -216,9 +218,14 @@ struct command_line {
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
         } else if (stress_command->parsed()) {
-            stress.methods = methods_named(stress_methods, stress_command->count("--method") == 0);
-            stress.families =
+            for (const ccd::method m :
+                 methods_named(stress_methods, stress_command->count("--method") == 0))
+                stress.plan.subjects.push_back(stress::subject_of(info(m)));
+            stress.plan.families =
                 families_named(stress_families, stress_command->count("--family") == 0);
+            const bool few = stress_quick && stress_command->count("--queries") == 0;
+            stress.plan.queries = few ? 40 : stress_queries;
+            stress.plan.seconds = stress_quick ? 0.002 : 0.02;
             if (stress.json && stress.out)
                 require_separate({stress.json},
                                  {*stress.out / "stress.csv", *stress.out / "stress.md"});
