@@ -171,6 +171,7 @@ crossing at_face(const part_corners<S, 3>& c) {
     if (ray_misses<S>(c)) return crossing::none;
     const std::array turns{cross(*c[0], *c[1]), cross(*c[1], *c[2]), cross(*c[2], *c[0])};
     const sign_type determinant = sign_of(dot(turns[0], *c[2])[0]);
+    if (!certain(determinant)) return crossing::uncertain;
     if (determinant != sign_type::zero) return at_triangle<S>(c, determinant);
     bool holds_origin = false;
     for (std::size_t i = 0; i < 3; ++i) {
