@@ -13,7 +13,18 @@
 
 namespace ccd {
 
-enum class method { float_, safe, tight, bsc_exact, provot, root_parity, exact };
+enum class method {
+    float_,
+    safe,
+    tight,
+    sharp,
+    interval,
+    residual,
+    bsc_exact,
+    provot,
+    root_parity,
+    exact
+};
 
 struct method_info {
     ccd::method method;
