@@ -18,10 +18,10 @@ namespace ccd {
 
 /// The query over tracked numbers, times the power of two that brings its largest coordinate near
 /// 1. A coordinate that underflows when scaled carries that loss as its bound. False in `second` if
-/// a coordinate is not finite.
-template <class Rule, class T, template <class> class Query>
-std::pair<Query<errbound::tracked<T, Rule>>, bool> tracked_query(const Query<T>& query) {
-    using scalar = errbound::tracked<T, Rule>;
+/// a coordinate is not finite. `scalar` is the tracked number, or what stands for one.
+template <class Rule, class T, template <class> class Query,
+          class scalar = errbound::tracked<T, Rule>>
+std::pair<Query<scalar>, bool> tracked_query(const Query<T>& query) {
     using traits = errbound::number_traits<T>;
     T largest = 0;
     bool finite = true;

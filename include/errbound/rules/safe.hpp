@@ -18,6 +18,8 @@ namespace errbound {
 
 struct safe {
     static constexpr const char* name = "safe";
+    /// `divide` is there to tell why.
+    static constexpr bool has_division = false;
 
     template <class T>
     struct bound {
