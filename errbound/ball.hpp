@@ -137,7 +137,7 @@ class ball {
         MPFR_DECL_INIT(size, radius_precision);
         const int off = mpfr_div(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
         mpfr_abs(size, middle_.get(), MPFR_RNDU);
-        mpfr_nextabove(size);  // at least |a/b| itself
+        if (off != 0) mpfr_nextabove(size);  // at least |a/b| itself
         mpfr_mul(size, size, b.radius(), MPFR_RNDU);
         mpfr_add(size, size, a.radius(), MPFR_RNDU);
         mpfr_div(radius_.get(), size, distance, MPFR_RNDU);

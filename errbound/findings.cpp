@@ -1,6 +1,7 @@
 // What comparing one value with its reference finds, in words.
 #include "errbound/findings.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace errbound::validation {
@@ -41,7 +42,8 @@ void add_ratio(distribution& to, bool promises, const claim& c, const ball& x,
     } else if (off.is_negligible()) {
         to.add_exact();
     } else if (promises) {
-        to.add(std::log10(c.error) - off.log10());
+        // A bound that holds is no less than the error: logarithms are rounded.
+        to.add(std::max(0.0, std::log10(c.error) - off.log10()));
     } else if (mpfr_regular_p(x.middle())) {
         to.add(off.log10() - deviation::log10_of(x.middle()));
     } else {

@@ -14,7 +14,7 @@ enum class finding {
     holds,
     bound_broken,   ///< |value − exact value| > error()
     sign_wrong,     ///< a certain sign that is not the exact one
-    sign_baseless,  ///< a certain sign, or a finite bound, of no finite value
+    baseless,       ///< a certain sign, or a finite bound, of no finite value
     undetermined,   ///< the enclosure is too wide to tell
 };
 
@@ -24,10 +24,8 @@ constexpr bool is_violation(finding f) {
 
 /// Compares; `off` must be the claim's deviation from x wherever both are finite.
 inline finding compare(const claim& c, const ball& x, const deviation& off) {
-    const bool nothing_to_know = !std::isfinite(c.value) || !x.is_defined();
-    if (nothing_to_know) {
-        return certain(c.sign) || std::isfinite(c.error) ? finding::sign_baseless : finding::holds;
-    }
+    if (!certain(c.sign) && !std::isfinite(c.error)) return finding::holds;  // nothing is claimed
+    if (!std::isfinite(c.value) || !x.is_defined()) return finding::baseless;
     if (x.is_unknown()) return finding::undetermined;
     if (certain(c.sign)) {
         const sign_type exact = x.sign();

@@ -44,6 +44,7 @@ std::vector<double> tiny_values(int precision, int exponent_bits);
 /// The code of a value, rounded to nearest even.
 std::uint8_t tiny_code(double value, int precision, int exponent_bits);
 
+/// Needs a tiny_rounding on the thread.
 template <int P, int E>
 class tiny_float {
     static_assert(P >= 2 && E >= 2 && P + E <= 8);
@@ -53,17 +54,16 @@ class tiny_float {
 
     constexpr tiny_float() = default;
     tiny_float(double value) : code_(tiny_code(value, P, E)) {}
-    tiny_float(int value) : code_(code_of_int(value)) {}
+    tiny_float(int value)
+        : code_(value >= -16 && value <= 16 ? integers_[static_cast<std::size_t>(value + 16)]
+                                            : tiny_code(value, P, E)) {}
     static tiny_float from_code(int code) {
         tiny_float x;
         x.code_ = static_cast<std::uint8_t>(code);
         return x;
     }
     int code() const { return code_; }
-    explicit operator double() const {
-        static const std::vector<double> values = tiny_values(P, E);
-        return values[code_];
-    }
+    explicit operator double() const { return values_[code_]; }
     explicit operator long long() const { return static_cast<long long>(double(*this)); }
 
     friend tiny_float operator+(tiny_float a, tiny_float b) {
@@ -94,28 +94,25 @@ class tiny_float {
     template <class>
     friend class tiny_rounding;
 
-    static const tiny_tables* tables_of(mpfr_rnd_t direction) {
-        static const std::array<tiny_tables, 4> all{
-            tiny_tables(P, E, MPFR_RNDN), tiny_tables(P, E, MPFR_RNDZ),
-            tiny_tables(P, E, MPFR_RNDU), tiny_tables(P, E, MPFR_RNDD)};
-        return &all[static_cast<std::size_t>(direction)];
-    }
     static tiny_float looked_up(std::uint16_t result) {
         if ((result & unnoticed_overflow) != 0) overflowed_ = true;
         return from_code(result & 0xff);
     }
-    static std::uint8_t code_of_int(int value) {
-        static const std::array<std::uint8_t, 33> small = [] {
-            std::array<std::uint8_t, 33> r{};
-            for (int i = 0; i < 33; ++i) r[static_cast<std::size_t>(i)] = tiny_code(i - 16, P, E);
-            return r;
-        }();
-        return value >= -16 && value <= 16 ? small[static_cast<std::size_t>(value + 16)]
-                                           : tiny_code(value, P, E);
+    static const tiny_tables& tables_of(mpfr_rnd_t direction) {
+        static const std::array<tiny_tables, 4> all{
+            tiny_tables(P, E, MPFR_RNDN), tiny_tables(P, E, MPFR_RNDZ),
+            tiny_tables(P, E, MPFR_RNDU), tiny_tables(P, E, MPFR_RNDD)};
+        return all[static_cast<std::size_t>(direction)];
     }
 
-    inline static thread_local const tiny_tables* tables_ = tables_of(MPFR_RNDN);
-    inline static thread_local bool overflowed_ = false;
+    inline static const std::vector<double> values_ = tiny_values(P, E);
+    inline static const std::array<std::uint8_t, 33> integers_ = [] {
+        std::array<std::uint8_t, 33> codes{};  // of -16 to 16
+        for (int i = 0; i < 33; ++i) codes[static_cast<std::size_t>(i)] = tiny_code(i - 16, P, E);
+        return codes;
+    }();
+    inline static constinit thread_local const tiny_tables* tables_ = nullptr;
+    inline static constinit thread_local bool overflowed_ = false;
     std::uint8_t code_ = 0;
 };
 
@@ -125,7 +122,7 @@ template <class Tiny>
 class tiny_rounding {
   public:
     explicit tiny_rounding(mpfr_rnd_t direction) : before_(Tiny::tables_) {
-        Tiny::tables_ = Tiny::tables_of(direction);
+        Tiny::tables_ = &Tiny::tables_of(direction);
     }
     ~tiny_rounding() { Tiny::tables_ = before_; }
     tiny_rounding(const tiny_rounding&) = delete;
