@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
+#include "ccd/stress/stress.hpp"
 
 namespace ccd::program {
 
@@ -36,6 +37,16 @@ struct step_arguments {
 
 /// One step of a mesh, from two frames to the colliding pairs.
 void run_step(const step_arguments& arguments);
+
+struct stress_arguments {
+    stress::plan plan;
+    std::optional<std::filesystem::path> out;  ///< folder for stress.csv and stress.md
+    std::optional<std::filesystem::path> json;
+};
+
+/// Every method on stiff and extreme queries. Returns whether all promises were kept; else it says
+/// which not and writes a query for each, to `out` or the current folder.
+bool run_stress(const stress_arguments& arguments);
 
 /// Prints what methods there are.
 void run_methods();

@@ -1,9 +1,11 @@
-// The program `ccd`: reads the command line. Exit status 0 done, 1 bad input, 2 bad usage.
+// The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
+// broke its promise, in `ccd stress`), 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
 #include <string>
 
+#include "ccd/command_line.hpp"
 #include "ccd/commands.hpp"
 #include "ccd/io/error.hpp"
 #include "ccd/table.hpp"
@@ -11,12 +13,7 @@
 namespace ccd::program {
 namespace {
 
-enum exit_status { done = 0, bad_input = 1, bad_usage = 2 };
-
-/// A command line that CLI11 lets through but that makes no sense.
-struct usage_error : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
+enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2 };
 
 ccd::method method_named(const std::string& name) {
     if (const std::optional<ccd::method> method = find_method(name)) return *method;
@@ -37,49 +34,46 @@ ccd::instruction_set instruction_set_named(const std::string& name) {
                       " (what this build holds and this machine runs)");
 }
 
+const stress::family* family_named(const std::string& name) {
+    std::string known;
+    for (const stress::family& entry : stress::families()) {
+        if (entry.name == name) return &entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw usage_error("--family: found '" + name + "', expected one of " + known);
+}
+
 /// The methods of a list M[,M...], or all.
 std::vector<ccd::method> methods_named(const std::string& list, bool all) {
+    if (!all) return all_named(list, method_named);
     std::vector<ccd::method> result;
-    if (all) {
-        for (const method_info& entry : methods()) result.push_back(entry.method);
-        return result;
-    }
-    std::size_t begin = 0;
-    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-        comma = list.find(',', begin);
-        result.push_back(method_named(list.substr(begin, comma - begin)));
-    }
+    for (const method_info& entry : methods()) result.push_back(entry.method);
     return result;
 }
 
-/// An output must be neither an input nor another output: nothing is lost.
-void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
-                      std::vector<std::filesystem::path> taken) {
-    for (const auto& output : outputs) {
-        if (!output) continue;
-        for (const std::filesystem::path& other : taken) {
-            std::error_code ignored;
-            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
-                              output->lexically_normal() == other.lexically_normal();
-            if (same && std::filesystem::status(*output, ignored).type() !=
-                            std::filesystem::file_type::character)
-                throw usage_error("found the output '" + output->string() +
-                                  "' among the inputs or twice, expected a file of its own");
-        }
-        taken.push_back(*output);
-    }
+/// The families of a list F[,F...], or all.
+std::vector<const stress::family*> families_named(const std::string& list, bool all) {
+    if (!all) return all_named(list, family_named);
+    std::vector<const stress::family*> result;
+    for (const stress::family& entry : stress::families()) result.push_back(&entry);
+    return result;
 }
 
 struct command_line {
     CLI::App app{
         "Exact continuous collision detection.\n"
-        "Exit status: 0 done, 1 bad input, 2 bad usage.",
+        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress also 1: a promise was broken.",
         "ccd"};
     query_arguments query;
     step_arguments step;
+    stress_arguments stress;
     std::string query_methods, query_kind, step_method = "exact", step_set;
+    std::string stress_methods, stress_families;
+    bool stress_quick = false;
+    std::size_t stress_queries = 400;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
+    CLI::App* stress_command = nullptr;
     CLI::App* methods_command = nullptr;
 
     command_line() {
@@ -131,11 +125,42 @@ struct command_line {
         step_command->add_option("--json", step.json, "Write counts and seconds as JSON")
             ->type_name("OUT");
 
+        stress_command =
+            app.add_subcommand("stress",
+                               "Every method on stiff and extreme queries, family by family, each "
+                               "with a knob that is\n"
+                               "swept over its whole range; truth by unbounded integers");
+        stress_command->add_flag("--quick", stress_quick, "About a minute instead of ten");
+        stress_command->add_option("--method", stress_methods, "Methods M[,M...], else all")
+            ->type_name("M[,M...]");
+        stress_command->add_option("--family", stress_families, "Families F[,F...], else all")
+            ->type_name("F[,F...]");
+        stress_command
+            ->add_option(
+                "--queries", stress_queries,
+                "So many of each family, kind and value of the knob; fewer where the truth\n"
+                "takes tenths of a second")
+            ->check(CLI::Range(1, 1000000));
+        stress_command->add_option("--seed", stress.plan.seed, "Same seed, same queries")
+            ->capture_default_str();
+        stress_command
+            ->add_option("--threads", stress.plan.threads,
+                         "Threads that find the truth; 0: one per core. Methods are timed on one")
+            ->check(CLI::Range(0, 4096));
+        stress_command
+            ->add_option("--out", stress.out,
+                         "Write DIR/stress.csv, a row per cell, and DIR/stress.md, the table")
+            ->type_name("DIR");
+        stress_command
+            ->add_option("--json", stress.json,
+                         "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
+            ->type_name("OUT");
+
         methods_command =
             app.add_subcommand("methods", "What methods there are and what each promises");
     }
 
-    void run() {
+    exit_status run() {
         if (query_command->parsed()) {
             query.methods = methods_named(query_methods, query_command->count("--method") == 0);
             if (!query_kind.empty()) {
@@ -158,17 +183,32 @@ struct command_line {
                                   ", expected exact, which alone has stages");
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
+        } else if (stress_command->parsed()) {
+            for (const ccd::method m :
+                 methods_named(stress_methods, stress_command->count("--method") == 0))
+                stress.plan.subjects.push_back(stress::subject_of(info(m)));
+            stress.plan.families =
+                families_named(stress_families, stress_command->count("--family") == 0);
+            const bool few = stress_quick && stress_command->count("--queries") == 0;
+            stress.plan.queries = few ? 40 : stress_queries;
+            stress.plan.seconds = stress_quick ? 0.002 : 0.02;
+            if (stress.json && stress.out)
+                require_separate({stress.json},
+                                 {*stress.out / "stress.csv", *stress.out / "stress.md"});
+            if (!run_stress(stress)) return broken_promise;
         } else if (methods_command->parsed()) {
             run_methods();
         }
+        return done;
     }
 };
 
 int main_with_status(int argc, char** argv) {
     command_line line;
+    exit_status status = done;
     try {
         line.app.parse(argc, argv);
-        line.run();
+        status = line.run();
     } catch (const CLI::ParseError& error) {
         if (line.app.exit(error) != 0) return bad_usage;
     } catch (const usage_error& error) {
@@ -185,7 +225,7 @@ int main_with_status(int argc, char** argv) {
         std::cerr << "ccd: standard output cannot be written\n";
         return bad_input;
     }
-    return done;
+    return status;
 }
 
 }  // namespace

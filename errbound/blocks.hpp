@@ -37,7 +37,7 @@ std::vector<std::unique_ptr<State>> in_blocks(int threads, std::uint64_t blocks,
     for (auto& one : running) one = std::async(std::launch::async, run);
     for (auto& one : running)
         while (one.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout)
-            if (show) show(done, blocks);
+            if (show && blocks > 0) show(done, blocks);
     std::vector<std::unique_ptr<State>> states;
     for (auto& one : running) states.push_back(one.get());
     return states;

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string>
 
+#include "ccd/command_line.hpp"
 #include "ccd/io/error.hpp"
 #include "errbound/validate_command.hpp"
 
@@ -13,29 +14,13 @@ namespace {
 
 enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2 };
 
-/// A command line that CLI11 lets through but that makes no sense.
-struct usage_error : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 rule rule_named(const std::string& name) {
     std::string known;
     for (const rule& r : rules()) {
         if (r.name == name) return r;
         known += (known.empty() ? "" : ", ") + std::string(r.name);
     }
-    throw usage_error("--rules: found '" + name + "', expected one of " + known);
-}
-
-/// The rules of a list R[,R...].
-std::vector<rule> rules_named(const std::string& list) {
-    std::vector<rule> result;
-    std::size_t begin = 0;
-    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-        comma = list.find(',', begin);
-        result.push_back(rule_named(list.substr(begin, comma - begin)));
-    }
-    return result;
+    throw ccd::program::usage_error("--rules: found '" + name + "', expected one of " + known);
 }
 
 struct command_line {
@@ -91,12 +76,13 @@ struct command_line {
         if (validate->count("--rules") == 0)
             arguments.rules.assign(rules().begin(), rules().end());
         else
-            arguments.rules = rules_named(rule_list);
+            arguments.rules = ccd::program::all_named(rule_list, rule_named);
         if (!kind.empty())
             arguments.kind =
                 kind == "vf" ? ccd::io::query_kind::vertex_face : ccd::io::query_kind::edge_edge;
         arguments.expressions = validate->count("--expressions") > 0 ||
                                 (!arguments.tiny && arguments.queries.empty());
+        ccd::program::require_separate({arguments.json, arguments.csv}, arguments.queries);
         return run_validate(arguments) ? done : violations_found;
     }
 };
@@ -109,7 +95,7 @@ int main_with_status(int argc, char** argv) {
         status = line.run();
     } catch (const CLI::ParseError& error) {
         if (line.app.exit(error) != 0) return bad_usage;
-    } catch (const usage_error& error) {
+    } catch (const ccd::program::usage_error& error) {
         std::cerr << "errbound: " << error.what() << '\n';
         return bad_usage;
     } catch (const ccd::io::file_error& error) {

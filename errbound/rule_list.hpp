@@ -10,7 +10,7 @@ namespace errbound {
 template <class... Rules>
 struct rule_types {};
 
-using all_rules = rule_types<none, safe, tight>;
+using all_rules = rule_types<none, safe, tight, sharp, interval, residual>;
 
 template <class... Rules, class F>
 constexpr void for_each_rule(rule_types<Rules...>, const F& f) {

@@ -1,15 +1,13 @@
 // `errbound validate`: runs what was asked for, and tells it as tables, JSON and CSV.
 #include "errbound/validate_command.hpp"
 
-#include <unistd.h>
-
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "ccd/io/output_file.hpp"
+#include "ccd/progress_line.hpp"
 #include "ccd/table.hpp"
 
 namespace errbound::validation {
@@ -17,37 +15,6 @@ namespace {
 
 using ccd::program::table;
 using nlohmann::ordered_json;
-using std::chrono::steady_clock;
-
-/// A bar on a terminal's standard error, once the work takes a second.
-class progress_bar {
-  public:
-    explicit progress_bar(std::string what) : what_(std::move(what)) {}
-    progress_bar(const progress_bar&) = delete;
-    progress_bar& operator=(const progress_bar&) = delete;
-    ~progress_bar() {
-        if (shown_) std::fputs("\r\x1b[K", stderr);
-    }
-
-    void show(std::uint64_t done, std::uint64_t all) {
-        const double seconds =
-            std::chrono::duration<double>(steady_clock::now() - start_).count();
-        if (!is_terminal_ || seconds < 1 || all == 0) return;
-        shown_ = true;
-        const double share = static_cast<double>(done) / static_cast<double>(all);
-        std::string bar(static_cast<std::size_t>(30 * share), '#');
-        bar.resize(30, '.');
-        std::fprintf(stderr, "\r\x1b[K[%s] %5.1f %%  %s", bar.c_str(), 100 * share, what_.c_str());
-        if (share > 0) std::fprintf(stderr, ", %.0f s left", seconds / share - seconds);
-        std::fflush(stderr);
-    }
-
-  private:
-    std::string what_;
-    bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-    bool shown_ = false;
-    steady_clock::time_point start_ = steady_clock::now();
-};
 
 /// What was found by one part of the run.
 struct part {
@@ -174,9 +141,9 @@ std::string csv_of(const std::vector<part>& parts) {
 bool run_validate(const validate_arguments& arguments) {
     std::vector<part> parts;
     const auto run = [&parts](const std::string& name, const auto& validate) {
-        progress_bar bar(name);
-        parts.push_back({name, validate([&bar](std::uint64_t done, std::uint64_t all) {
-                             bar.show(done, all);
+        ccd::program::progress_line progress;
+        parts.push_back({name, validate([&](std::uint64_t done, std::uint64_t all) {
+                             progress.show(done, all, "parts: " + name);
                          })});
     };
     const int threads = arguments.options.threads;

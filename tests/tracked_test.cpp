@@ -156,13 +156,17 @@ void run_programs(int programs, std::uint64_t seed) {
 
 constexpr int programs = 20000;
 
-TEST(Tracked, BoundsHoldInRandomPrograms) {
-    run_programs<double, errbound::tight, true>(programs, 1);
-    run_programs<double, errbound::safe, false>(programs, 2);
-    run_programs<float, errbound::tight, true>(programs, 3);
-    run_programs<float, errbound::safe, false>(programs, 4);
-    run_programs<long double, errbound::tight, true>(programs / 10, 5);
-    run_programs<long double, errbound::safe, false>(programs / 10, 6);
+template <class Rule>
+class TrackedBy : public testing::Test {};
+using rules = testing::Types<errbound::tight, errbound::safe, errbound::sharp, errbound::interval,
+                             errbound::residual>;
+TYPED_TEST_SUITE(TrackedBy, rules);
+
+TYPED_TEST(TrackedBy, BoundsHoldInRandomPrograms) {
+    constexpr bool with_division = !std::same_as<TypeParam, errbound::safe>;
+    run_programs<double, TypeParam, with_division>(programs, 1);
+    run_programs<float, TypeParam, with_division>(programs, 3);
+    run_programs<long double, TypeParam, with_division>(programs / 10, 5);
 }
 
 TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
@@ -220,6 +224,9 @@ void check_range() {
 TEST(Tracked, OverflowAndUnderflowEndUncertain) {
     check_range<errbound::tight>();
     check_range<errbound::safe>();
+    check_range<errbound::sharp>();
+    check_range<errbound::interval>();
+    check_range<errbound::residual>();
     check_range<errbound::none>();
 }
 
