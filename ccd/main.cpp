@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string>
 
+#include "ccd/command_line.hpp"
 #include "ccd/commands.hpp"
 #include "ccd/io/error.hpp"
 #include "ccd/table.hpp"
@@ -13,11 +14,6 @@ namespace ccd::program {
 namespace {
 
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2 };
-
-/// A command line that CLI11 lets through but that makes no sense.
-struct usage_error : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 ccd::method method_named(const std::string& name) {
     if (const std::optional<ccd::method> method = find_method(name)) return *method;
@@ -47,18 +43,6 @@ const stress::family* family_named(const std::string& name) {
     throw usage_error("--family: found '" + name + "', expected one of " + known);
 }
 
-/// What `named` makes of the names of a list N[,N...].
-template <class Named>
-auto all_named(const std::string& list, const Named& named) {
-    std::vector<decltype(named(list))> result;
-    std::size_t begin = 0;
-    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-        comma = list.find(',', begin);
-        result.push_back(named(list.substr(begin, comma - begin)));
-    }
-    return result;
-}
-
 /// The methods of a list M[,M...], or all.
 std::vector<ccd::method> methods_named(const std::string& list, bool all) {
     if (!all) return all_named(list, method_named);
@@ -73,24 +57,6 @@ std::vector<const stress::family*> families_named(const std::string& list, bool 
     std::vector<const stress::family*> result;
     for (const stress::family& entry : stress::families()) result.push_back(&entry);
     return result;
-}
-
-/// An output must be neither an input nor another output: nothing is lost.
-void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
-                      std::vector<std::filesystem::path> taken) {
-    for (const auto& output : outputs) {
-        if (!output) continue;
-        for (const std::filesystem::path& other : taken) {
-            std::error_code ignored;
-            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
-                              output->lexically_normal() == other.lexically_normal();
-            if (same && std::filesystem::status(*output, ignored).type() !=
-                            std::filesystem::file_type::character)
-                throw usage_error("found the output '" + output->string() +
-                                  "' among the inputs or twice, expected a file of its own");
-        }
-        taken.push_back(*output);
-    }
 }
 
 struct command_line {
