@@ -70,7 +70,7 @@ struct command_line {
     std::string query_methods, query_kind, step_method = "exact", step_set;
     std::string stress_methods, stress_families;
     bool stress_quick = false;
-    std::size_t stress_queries = 400;
+    std::size_t stress_queries = 1000;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
     CLI::App* stress_command = nullptr;
@@ -190,7 +190,7 @@ struct command_line {
             stress.plan.families =
                 families_named(stress_families, stress_command->count("--family") == 0);
             const bool few = stress_quick && stress_command->count("--queries") == 0;
-            stress.plan.queries = few ? 40 : stress_queries;
+            stress.plan.queries = few ? 100 : stress_queries;
             stress.plan.seconds = stress_quick ? 0.002 : 0.02;
             if (stress.json && stress.out)
                 require_separate({stress.json},
