@@ -6,6 +6,7 @@
 #include <ccd/method.hpp>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
@@ -36,6 +37,19 @@ struct step_arguments {
 
 /// One step of a mesh, from two frames to the colliding pairs.
 void run_step(const step_arguments& arguments);
+
+struct report_arguments {
+    std::vector<std::filesystem::path> data;  ///< folders; none: the bundled scenes
+    std::filesystem::path out = "out/report";
+    std::vector<ccd::method> methods;
+    bool quick = false;
+    int threads = 0;  ///< that count errors; 0: as many as the machine has cores
+    std::optional<std::string> commit;
+};
+
+/// Measures methods and bound rules on data sets and writes a report. False if a method broke its
+/// promise.
+bool run_report(const report_arguments& arguments);
 
 /// Prints what methods there are.
 void run_methods();

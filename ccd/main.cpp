@@ -11,7 +11,7 @@
 namespace ccd::program {
 namespace {
 
-enum exit_status { done = 0, bad_input = 1, bad_usage = 2 };
+enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2 };
 
 /// A command line that CLI11 lets through but that makes no sense.
 struct usage_error : std::runtime_error {
@@ -77,9 +77,11 @@ struct command_line {
         "ccd"};
     query_arguments query;
     step_arguments step;
-    std::string query_methods, query_kind, step_method = "exact", step_set;
+    report_arguments report;
+    std::string query_methods, query_kind, step_method = "exact", step_set, report_methods;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
+    CLI::App* report_command = nullptr;
     CLI::App* methods_command = nullptr;
 
     command_line() {
@@ -131,11 +133,35 @@ struct command_line {
         step_command->add_option("--json", step.json, "Write counts and seconds as JSON")
             ->type_name("OUT");
 
+        report_command = app.add_subcommand(
+            "report",
+            "Error against run time: tables and pictures of all methods and bound rules.\n"
+            "A stopped report goes on where it was. Exit status 1 also if a method breaks its\n"
+            "promise");
+        report_command->add_option(
+            "DATA", report.data,
+            "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
+            "meshes), looked through with all they hold; else the bundled scene");
+        report_command->add_option("--out", report.out, "The report's folder, else out/report")
+            ->type_name("DIR");
+        report_command->add_flag("--quick", report.quick, "Fewer queries are timed");
+        report_command->add_option("--method", report_methods, "Methods M[,M...], else all")
+            ->type_name("M[,M...]");
+        report_command
+            ->add_option("--threads", report.threads,
+                         "Threads that count errors; 0: one per core (times are taken on one)")
+            ->check(CLI::Range(0, 4096));
+        report_command
+            ->add_option("--commit", report.commit,
+                         "To be told in the report, else that of the configured build")
+            ->type_name("TEXT");
+
         methods_command =
             app.add_subcommand("methods", "What methods there are and what each promises");
     }
 
-    void run() {
+    /// The exit status.
+    int run() {
         if (query_command->parsed()) {
             query.methods = methods_named(query_methods, query_command->count("--method") == 0);
             if (!query_kind.empty()) {
@@ -158,17 +184,22 @@ struct command_line {
                                   ", expected exact, which alone has stages");
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
+        } else if (report_command->parsed()) {
+            report.methods = methods_named(report_methods, report_command->count("--method") == 0);
+            return run_report(report) ? done : broken_promise;
         } else if (methods_command->parsed()) {
             run_methods();
         }
+        return done;
     }
 };
 
 int main_with_status(int argc, char** argv) {
     command_line line;
+    int status = done;
     try {
         line.app.parse(argc, argv);
-        line.run();
+        status = line.run();
     } catch (const CLI::ParseError& error) {
         if (line.app.exit(error) != 0) return bad_usage;
     } catch (const usage_error& error) {
@@ -185,7 +216,7 @@ int main_with_status(int argc, char** argv) {
         std::cerr << "ccd: standard output cannot be written\n";
         return bad_input;
     }
-    return done;
+    return status;
 }
 
 }  // namespace

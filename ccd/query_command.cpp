@@ -1,6 +1,4 @@
 // `ccd query`: decides stored queries with some methods, compares with the truth, times them.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -11,6 +9,7 @@
 
 #include "ccd/commands.hpp"
 #include "ccd/io/output_file.hpp"
+#include "ccd/progress_line.hpp"
 #include "ccd/table.hpp"
 
 namespace ccd::program {
@@ -21,29 +20,6 @@ using std::chrono::steady_clock;
 double seconds_since(steady_clock::time_point start) {
     return std::chrono::duration<double>(steady_clock::now() - start).count();
 }
-
-/// A line on a terminal's standard error that says how far the work is, once it takes a second.
-class progress_line {
-  public:
-    progress_line() = default;
-    progress_line(const progress_line&) = delete;
-    progress_line& operator=(const progress_line&) = delete;
-    ~progress_line() {
-        if (shown_) std::fputs("\r\x1b[K", stderr);
-    }
-
-    void show(std::size_t done, std::size_t total, const std::string& what) {
-        if (!is_terminal_ || seconds_since(start_) < 1) return;
-        shown_ = true;
-        std::fprintf(stderr, "\r\x1b[K%zu/%zu %s", done, total, what.c_str());
-        std::fflush(stderr);
-    }
-
-  private:
-    bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-    bool shown_ = false;
-    steady_clock::time_point start_ = steady_clock::now();
-};
 
 /// One row of the table.
 struct result {
@@ -144,7 +120,8 @@ void run_query(const query_arguments& arguments) {
         progress_line progress;
         for (std::size_t i = 0; i < arguments.files.size(); ++i) {
             const std::string file = arguments.files[i].string();
-            progress.show(i, arguments.files.size(), file);
+            progress.show(static_cast<double>(i) / static_cast<double>(arguments.files.size()),
+                          file);
             const io::query_file queries =
                 io::read_queries(arguments.files[i], arguments.kind, arguments.round);
             for (const ccd::method method : arguments.methods) {

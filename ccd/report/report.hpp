@@ -1,0 +1,71 @@
+// A report: error against run time, measured part by part into a folder.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ccd/report/data_set.hpp"
+#include "ccd/report/machine.hpp"
+#include "ccd/report/parts.hpp"
+#include "ccd/report/sections.hpp"
+
+namespace ccd::report {
+
+struct options {
+    std::vector<std::filesystem::path> data;  ///< folders
+    std::filesystem::path out;
+    bool quick = false;
+    std::vector<std::string> methods;  ///< names of ccd::methods(), and batch_name
+    int threads = 0;                   ///< that count errors; 0: one per core
+    std::string commit;
+};
+
+/// What a data set held, for a person.
+struct data_summary {
+    std::string name;
+    bool is_scene = false;
+    struct kind {
+        std::size_t queries = 0, colliding = 0, stored_truths = 0, contradictions = 0;
+    } vertex_face, edge_edge;
+};
+
+struct picture {
+    std::string file;     ///< of the PNG, in the report's folder
+    std::string caption;  ///< what it shows, and how to read it
+};
+
+/// All that report.md tells.
+struct summary {
+    options settings;
+    machine here;
+    std::string date;
+    std::vector<data_summary> data;
+    std::vector<omission> left_out;
+    std::size_t parts = 0, resumed = 0;  ///< of the parts, those found from an earlier run
+    rows methods, times, bounds;         ///< of the CSV files of these names
+    std::vector<picture> pictures;
+    std::vector<std::string> failures;  ///< broken promises and contradictions, a sentence each
+};
+
+/// A method over all data sets.
+struct method_total {
+    std::string method;
+    std::size_t queries = 0, colliding = 0, false_positives = 0, false_negatives = 0, uncertain = 0;
+    double ns = 0;  ///< per query, mean over all queries: of the least of several timings
+};
+/// One for each method of the rows of methods.csv that `counts` picks, in order of appearance.
+std::vector<method_total> totals(const rows& methods,
+                                 const std::function<bool(const row&)>& counts);
+
+/// Measures what the folder does not hold yet and writes the CSV files, plot.py and what it draws,
+/// and report.md. `show` is told the share that is done and what comes next; `say` gets lines for a
+/// person. Throws io::file_error: no data, a folder that cannot be read or written.
+summary make(const options& settings, const std::function<void(double, const std::string&)>& show,
+             const std::function<void(const std::string&)>& say);
+
+/// The text of report.md.
+std::string markdown_of(const summary& report);
+
+}  // namespace ccd::report
