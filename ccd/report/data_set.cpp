@@ -114,8 +114,11 @@ std::array<index, 4> key(const vertex_face_indices& q) {
     return k;
 }
 std::array<index, 4> key(const edge_edge_indices& q) {
-    const auto [a, b] = std::minmax(std::minmax(q.a0, q.a1), std::minmax(q.b0, q.b1));
-    return {a.first, a.second, b.first, b.second};
+    edge a{q.a0, q.a1}, b{q.b0, q.b1};
+    std::ranges::sort(a);
+    std::ranges::sort(b);
+    if (b < a) std::swap(a, b);
+    return {a[0], a[1], b[0], b[1]};
 }
 
 /// Collects the blocks that a broad phase hands out from its threads, sorted.
