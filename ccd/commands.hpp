@@ -4,12 +4,15 @@
 
 #include <ccd/batch.hpp>
 #include <ccd/method.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
+#include "ccd/stress/families.hpp"
 
 namespace ccd::program {
 
@@ -37,6 +40,21 @@ struct step_arguments {
 
 /// One step of a mesh, from two frames to the colliding pairs.
 void run_step(const step_arguments& arguments);
+
+struct stress_arguments {
+    std::vector<ccd::method> methods;
+    std::vector<const stress::family*> families;
+    bool quick = false;
+    std::optional<std::size_t> queries;  ///< of a cell; none: as many as minutes allow
+    std::uint64_t seed = 1;
+    int threads = 0;                           ///< for the truth; 0: one per core
+    std::optional<std::filesystem::path> out;  ///< folder for stress.csv and stress.md
+    std::optional<std::filesystem::path> json;
+};
+
+/// Every method on stiff and extreme queries. Returns whether all promises were kept; else it says
+/// which not and writes a query for each, to `out` or the current folder.
+bool run_stress(const stress_arguments& arguments);
 
 struct report_arguments {
     std::vector<std::filesystem::path> data;  ///< folders; none: the bundled scenes

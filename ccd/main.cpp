@@ -1,4 +1,5 @@
-// The program `ccd`: reads the command line. Exit status 0 done, 1 bad input, 2 bad usage.
+// The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
+// broke its promise, in `ccd stress` and `ccd report`), 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -37,18 +38,40 @@ ccd::instruction_set instruction_set_named(const std::string& name) {
                       " (what this build holds and this machine runs)");
 }
 
-/// The methods of a list M[,M...], or all.
-std::vector<ccd::method> methods_named(const std::string& list, bool all) {
-    std::vector<ccd::method> result;
-    if (all) {
-        for (const method_info& entry : methods()) result.push_back(entry.method);
-        return result;
+const stress::family* family_named(const std::string& name) {
+    std::string known;
+    for (const stress::family& entry : stress::families()) {
+        if (entry.name == name) return &entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
     }
+    throw usage_error("--family: found '" + name + "', expected one of " + known);
+}
+
+/// What `named` makes of the names of a list N[,N...].
+template <class Named>
+auto all_named(const std::string& list, const Named& named) {
+    std::vector<decltype(named(list))> result;
     std::size_t begin = 0;
     for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
         comma = list.find(',', begin);
-        result.push_back(method_named(list.substr(begin, comma - begin)));
+        result.push_back(named(list.substr(begin, comma - begin)));
     }
+    return result;
+}
+
+/// The methods of a list M[,M...], or all.
+std::vector<ccd::method> methods_named(const std::string& list, bool all) {
+    if (!all) return all_named(list, method_named);
+    std::vector<ccd::method> result;
+    for (const method_info& entry : methods()) result.push_back(entry.method);
+    return result;
+}
+
+/// The families of a list F[,F...], or all.
+std::vector<const stress::family*> families_named(const std::string& list, bool all) {
+    if (!all) return all_named(list, family_named);
+    std::vector<const stress::family*> result;
+    for (const stress::family& entry : stress::families()) result.push_back(&entry);
     return result;
 }
 
@@ -73,14 +96,18 @@ void require_separate(const std::vector<std::optional<std::filesystem::path>>& o
 struct command_line {
     CLI::App app{
         "Exact continuous collision detection.\n"
-        "Exit status: 0 done, 1 bad input, 2 bad usage.",
+        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress and report also 1: a promise was "
+        "broken.",
         "ccd"};
     query_arguments query;
     step_arguments step;
+    stress_arguments stress;
     report_arguments report;
-    std::string query_methods, query_kind, step_method = "exact", step_set, report_methods;
+    std::string query_methods, query_kind, step_method = "exact", step_set;
+    std::string stress_methods, stress_families, report_methods;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
+    CLI::App* stress_command = nullptr;
     CLI::App* report_command = nullptr;
     CLI::App* methods_command = nullptr;
 
@@ -133,11 +160,41 @@ struct command_line {
         step_command->add_option("--json", step.json, "Write counts and seconds as JSON")
             ->type_name("OUT");
 
+        stress_command =
+            app.add_subcommand("stress",
+                               "Every method on stiff and extreme queries, family by family, each "
+                               "with a knob that is\n"
+                               "swept over its whole range; truth by unbounded integers");
+        stress_command->add_flag("--quick", stress.quick, "About a minute instead of ten");
+        stress_command->add_option("--method", stress_methods, "Methods M[,M...], else all")
+            ->type_name("M[,M...]");
+        stress_command->add_option("--family", stress_families, "Families F[,F...], else all")
+            ->type_name("F[,F...]");
+        stress_command
+            ->add_option(
+                "--queries", stress.queries,
+                "So many of each family, kind and value of the knob; fewer where the truth\n"
+                "takes tenths of a second")
+            ->check(CLI::Range(1, 1000000));
+        stress_command->add_option("--seed", stress.seed, "Same seed, same queries")
+            ->capture_default_str();
+        stress_command
+            ->add_option("--threads", stress.threads,
+                         "Threads that find the truth; 0: one per core. Methods are timed on one")
+            ->check(CLI::Range(0, 4096));
+        stress_command
+            ->add_option("--out", stress.out,
+                         "Write DIR/stress.csv, a row per cell, and DIR/stress.md, the table")
+            ->type_name("DIR");
+        stress_command
+            ->add_option("--json", stress.json,
+                         "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
+            ->type_name("OUT");
+
         report_command = app.add_subcommand(
             "report",
             "Error against run time: tables and pictures of all methods and bound rules.\n"
-            "A stopped report goes on where it was. Exit status 1 also if a method breaks its\n"
-            "promise");
+            "A stopped report goes on where it was");
         report_command->add_option(
             "DATA", report.data,
             "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
@@ -160,8 +217,7 @@ struct command_line {
             app.add_subcommand("methods", "What methods there are and what each promises");
     }
 
-    /// The exit status.
-    int run() {
+    exit_status run() {
         if (query_command->parsed()) {
             query.methods = methods_named(query_methods, query_command->count("--method") == 0);
             if (!query_kind.empty()) {
@@ -184,9 +240,17 @@ struct command_line {
                                   ", expected exact, which alone has stages");
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
+        } else if (stress_command->parsed()) {
+            stress.methods = methods_named(stress_methods, stress_command->count("--method") == 0);
+            stress.families =
+                families_named(stress_families, stress_command->count("--family") == 0);
+            if (stress.json && stress.out)
+                require_separate({stress.json},
+                                 {*stress.out / "stress.csv", *stress.out / "stress.md"});
+            if (!run_stress(stress)) return broken_promise;
         } else if (report_command->parsed()) {
             report.methods = methods_named(report_methods, report_command->count("--method") == 0);
-            return run_report(report) ? done : broken_promise;
+            if (!run_report(report)) return broken_promise;
         } else if (methods_command->parsed()) {
             run_methods();
         }
@@ -196,7 +260,7 @@ struct command_line {
 
 int main_with_status(int argc, char** argv) {
     command_line line;
-    int status = done;
+    exit_status status = done;
     try {
         line.app.parse(argc, argv);
         status = line.run();

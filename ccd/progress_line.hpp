@@ -1,16 +1,16 @@
-// Progress, for a person at a terminal.
+// How far the work is, for people at a terminal.
 #pragma once
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
 namespace ccd::program {
 
-/// A line on a terminal's standard error that says how far the work is, once it takes a second.
+/// A bar on a terminal's standard error, once the work takes a second; gone at the end.
 class progress_line {
   public:
     progress_line() = default;
@@ -18,28 +18,36 @@ class progress_line {
     progress_line& operator=(const progress_line&) = delete;
     ~progress_line() { clear(); }
 
-    /// `share` of the work is done, from 0 to 1; `what` comes next.
-    void show(double share, const std::string& what) {
-        const auto now = std::chrono::steady_clock::now();
-        if (!is_terminal_ || now - last_ < (shown_ ? 100 : 1000) * std::chrono::milliseconds(1))
-            return;
-        shown_ = true;
-        last_ = now;
-        constexpr int width = 24;
-        const int filled = static_cast<int>(std::clamp(share, 0.0, 1.0) * width);
-        std::fprintf(stderr, "\r\x1b[K[%s%s] %3.0f %%  %.100s", std::string(filled, '#').c_str(),
-                     std::string(width - filled, '.').c_str(), 100 * share, what.c_str());
-        std::fflush(stderr);
+    /// Of `total` > 0 parts `done` are done, and `what` is under way.
+    void show(std::size_t done, std::size_t total, const std::string& what) {
+        draw(static_cast<double>(done) / static_cast<double>(total),
+             std::to_string(done) + '/' + std::to_string(total) + ' ' + what);
     }
+    /// A share of the work, from 0 to 1, is done, and `what` is under way.
+    void show(double share, const std::string& what) {
+        draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
+    }
+    /// Makes room for a line of output.
     void clear() {
         if (shown_) std::fputs("\r\x1b[K", stderr);
         shown_ = false;
     }
 
   private:
+    void draw(double share, const std::string& text) {
+        using std::chrono::steady_clock;
+        if (!is_terminal_ || steady_clock::now() - start_ < std::chrono::seconds(1)) return;
+        shown_ = true;
+        constexpr std::size_t width = 30;
+        std::string bar(static_cast<std::size_t>(share * width), '#');
+        bar.resize(width, '.');
+        std::fprintf(stderr, "\r\x1b[K[%s] %s", bar.c_str(), text.c_str());
+        std::fflush(stderr);
+    }
+
     bool is_terminal_ = isatty(STDERR_FILENO) != 0;
     bool shown_ = false;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace ccd::program

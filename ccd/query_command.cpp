@@ -120,8 +120,7 @@ void run_query(const query_arguments& arguments) {
         progress_line progress;
         for (std::size_t i = 0; i < arguments.files.size(); ++i) {
             const std::string file = arguments.files[i].string();
-            progress.show(static_cast<double>(i) / static_cast<double>(arguments.files.size()),
-                          file);
+            progress.show(i, arguments.files.size(), file);
             const io::query_file queries =
                 io::read_queries(arguments.files[i], arguments.kind, arguments.round);
             for (const ccd::method method : arguments.methods) {

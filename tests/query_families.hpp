@@ -1,15 +1,11 @@
 // Seeded families of random queries, from plain to hostile, the same on every standard library.
 #pragma once
 
-#include <array>
-#include <ccd/query.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <string>
 #include <string_view>
 
-#include "query_generators.hpp"
+#include "ccd/stress/query_generators.hpp"
 
 namespace query_families {
 
@@ -21,6 +17,8 @@ struct family {
 };
 
 namespace detail {
+
+using namespace generators;
 
 inline constexpr family list[] = {
     {"uniform", [](source& r, kind) { return uniform(r); }},
@@ -107,44 +105,10 @@ inline constexpr family list[] = {
 
 inline constexpr auto& families = detail::list;
 
-/// Query `index` of a family: its own generator, so one can be made again without the others, and
-/// new families leave the old ones as they were.
+/// Query `index` of a family; new families leave the old ones as they were.
 inline points make(const family& f, kind which, std::uint64_t seed, std::uint64_t index) {
-    std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-    const auto stir = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };
-    for (const char c : f.name) stir(static_cast<unsigned char>(c));
-    stir(static_cast<std::uint64_t>(which));
-    stir(seed);
-    stir(index);
-    source random(hash);
+    source random = source_of(f.name, {static_cast<std::uint64_t>(which), seed, index});
     return f.make(random, which);
-}
-
-/// Eight rows in the order of the benchmark's files, exact as hexadecimal floats: all points at
-/// t = 0, then all at t = 1. `last_column` ends each row.
-inline std::string csv(const points& p, std::string_view last_column = {}) {
-    std::string rows;
-    const auto row = [&](const ccd::point<double>& at) {
-        std::array<char, 128> text;  // three numbers of at most 24 characters
-        std::snprintf(text.data(), text.size(), "%a,%a,%a", at.x, at.y, at.z);
-        rows.append(text.data()).append(last_column).append("\n");
-    };
-    for (const auto& m : p) row(m.t0);
-    for (const auto& m : p) row(m.t1);
-    return rows;
-}
-
-inline ccd::vertex_face<double> as_vertex_face(const points& p) {
-    return {p[0], p[1], p[2], p[3]};
-}
-inline ccd::edge_edge<double> as_edge_edge(const points& p) {
-    return {p[0], p[1], p[2], p[3]};
-}
-inline ccd::vertex_edge<double> as_vertex_edge(const points& p) {
-    return {p[0], p[1], p[2]};
-}
-inline ccd::vertex_vertex<double> as_vertex_vertex(const points& p) {
-    return {p[0], p[1]};
 }
 
 }  // namespace query_families

@@ -1,5 +1,6 @@
-// What makes the queries of tests/query_families.hpp: random numbers, and a function per kind of
-// difficulty.
+// What families of queries are made of: random numbers, a function per kind of difficulty, and what
+// turns points into queries and files. Shared by ccd/stress/families.cpp and
+// tests/query_families.hpp.
 #pragma once
 
 #include <array>
@@ -8,9 +9,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <random>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace query_families {
@@ -40,7 +45,16 @@ class source {
     std::mt19937_64 bits_;
 };
 
-namespace detail {
+/// The source of one query: its own, so that one can be made again without the others.
+inline source source_of(std::string_view family, std::initializer_list<std::uint64_t> words) {
+    std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+    const auto stir = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3; };
+    for (const char c : family) stir(static_cast<unsigned char>(c));
+    for (const std::uint64_t word : words) stir(word);
+    return source(hash);
+}
+
+namespace generators {
 
 using position = std::array<double, 3>;  // also a displacement
 
@@ -518,6 +532,33 @@ inline points sheets(source& random, kind which) {
             at(k + right, l + 1, false)};
 }
 
-}  // namespace detail
+}  // namespace generators
+
+/// Eight rows in the order of the benchmark's files, exact as hexadecimal floats: all points at
+/// t = 0, then all at t = 1. `last_column` ends each row.
+inline std::string csv(const points& p, std::string_view last_column = {}) {
+    std::string rows;
+    const auto row = [&](const ccd::point<double>& at) {
+        std::array<char, 128> text;  // three numbers of at most 24 characters
+        std::snprintf(text.data(), text.size(), "%a,%a,%a", at.x, at.y, at.z);
+        rows.append(text.data()).append(last_column).append("\n");
+    };
+    for (const auto& m : p) row(m.t0);
+    for (const auto& m : p) row(m.t1);
+    return rows;
+}
+
+inline ccd::vertex_face<double> as_vertex_face(const points& p) {
+    return {p[0], p[1], p[2], p[3]};
+}
+inline ccd::edge_edge<double> as_edge_edge(const points& p) {
+    return {p[0], p[1], p[2], p[3]};
+}
+inline ccd::vertex_edge<double> as_vertex_edge(const points& p) {
+    return {p[0], p[1], p[2]};
+}
+inline ccd::vertex_vertex<double> as_vertex_vertex(const points& p) {
+    return {p[0], p[1]};
+}
 
 }  // namespace query_families

@@ -1,0 +1,44 @@
+// The families of `ccd stress`: stiff, degenerate and badly scaled queries, each with a knob that
+// is swept over its whole range.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "ccd/stress/query_generators.hpp"
+
+namespace ccd::stress {
+
+using query_families::kind;
+using query_families::points;
+using query_families::source;
+
+/// The kinds that every family makes, in the order in which tables show them.
+inline constexpr kind kinds[] = {kind::vertex_face, kind::edge_edge};
+
+/// The value of a logarithmic knob that stands for exactly zero.
+inline constexpr double exact_zero = -std::numeric_limits<double>::infinity();
+
+struct family {
+    std::string_view name;
+    std::string_view description;  ///< one sentence
+    std::string_view knob_name;    ///< what the numbers mean; no comma, for CSV
+    std::vector<double> knobs;     ///< ascending: whole numbers, and exact_zero where it has sense
+    /// Queries on both sides of the decision where the knob leaves any on both.
+    points (*make)(source& random, kind which, double knob);
+    /// One in this many queries is enough: where the truth costs up to tenths of a second.
+    unsigned (*thinning)(double knob) = [](double) { return 1u; };
+    /// If not, every query has a coordinate that is NaN or infinite, and no truth.
+    bool finite = true;
+};
+
+std::span<const family> families();
+
+/// Query `index` of a family at one value of its knob: the same on every machine, and made without
+/// the others.
+points make(const family& f, double knob, kind which, std::uint64_t seed, std::uint64_t index);
+
+}  // namespace ccd::stress
