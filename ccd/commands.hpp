@@ -57,9 +57,11 @@ struct stress_arguments {
 bool run_stress(const stress_arguments& arguments);
 
 struct report_arguments {
-    std::vector<std::filesystem::path> data;  ///< folders; none: the bundled scenes
+    std::vector<std::filesystem::path>
+        data;  ///< folders; none: the bundled scenes and made queries
     std::filesystem::path out = "out/report";
     std::vector<ccd::method> methods;
+    std::vector<std::string> sections;  ///< of report::section_names; none: all
     bool quick = false;
     int threads = 0;  ///< that count errors; 0: as many as the machine has cores
     std::optional<std::string> commit;

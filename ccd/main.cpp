@@ -7,6 +7,7 @@
 
 #include "ccd/commands.hpp"
 #include "ccd/io/error.hpp"
+#include "ccd/report/report.hpp"
 #include "ccd/table.hpp"
 
 namespace ccd::program {
@@ -198,12 +199,20 @@ struct command_line {
         report_command->add_option(
             "DATA", report.data,
             "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
-            "meshes), looked through with all they hold; else the bundled scene");
+            "meshes), looked through with all they hold; else the bundled scene and queries that\n"
+            "the program makes itself");
         report_command->add_option("--out", report.out, "The report's folder, else out/report")
             ->type_name("DIR");
         report_command->add_flag("--quick", report.quick, "Fewer queries are timed");
         report_command->add_option("--method", report_methods, "Methods M[,M...], else all")
             ->type_name("M[,M...]");
+        report_command
+            ->add_option("--sections", report.sections,
+                         "Only these: methods, times, bounds, stress")
+            ->type_name("S[,S...]")
+            ->delimiter(',')
+            ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),
+                                                           std::end(report::section_names))));
         report_command
             ->add_option("--threads", report.threads,
                          "Threads that count errors; 0: one per core (times are taken on one)")

@@ -1,4 +1,5 @@
 // `ccd report`: error against run time, into a folder.
+#include <algorithm>
 #include <iostream>
 #include <system_error>
 
@@ -31,14 +32,20 @@ std::string fixed(double x) {
 }  // namespace
 
 bool run_report(const report_arguments& arguments) {
-    report::options settings{.data = arguments.data,
-                             .out = arguments.out,
-                             .quick = arguments.quick,
-                             .methods = {},
-                             .threads = arguments.threads,
-                             .commit = arguments.commit.value_or(report::configured_commit())};
-    if (settings.data.empty()) settings.data.push_back(bundled_scenes());
+    report::options settings;
+    settings.data = arguments.data;
+    settings.out = arguments.out;
+    settings.sections = arguments.sections;
+    settings.quick = arguments.quick;
+    settings.threads = arguments.threads;
+    settings.commit = arguments.commit.value_or(report::configured_commit());
+    if (settings.data.empty()) {
+        settings.data.push_back(bundled_scenes());
+        settings.made = true;
+    }
     for (const ccd::method method : arguments.methods) {
+        if (std::ranges::find(settings.methods, info(method).name) != settings.methods.end())
+            continue;
         settings.methods.emplace_back(info(method).name);
         if (method == method::exact) settings.methods.emplace_back(report::batch_name);
     }

@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::array variable_names{"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"};
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// Bounds of one variable over the queries; the relative ones where the query has a k that is not
 /// zero.
 struct bound_sample {
@@ -28,19 +30,22 @@ void add_bounds(const Query& query, bound_samples& samples) {
     for (int i = 0; i <= 3; ++i) {
         largest = std::max(largest, std::abs(y[i].value()) / errbound::binomial(3, i));
     }
-    const std::array errors{y[0].error(),     y[3].error(),    slope[0].error(),
+    const std::array bounds{y[0].error(),     y[3].error(),    slope[0].error(),
                             slope[2].error(), bend[0].error(), bend[1].error()};
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-        samples[i].absolute.push_back(errors[i]);
-        if (largest > 0) samples[i].relative.push_back(errors[i] / largest);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        // NaN, too, says that nothing is known.
+        const double known = std::isfinite(bounds[i]) ? bounds[i] : infinity;
+        samples[i].absolute.push_back(known);
+        if (largest > 0) samples[i].relative.push_back(known / largest);
     }
 }
 
-/// q1, q25, ... of the numbers, which are sorted for it.
+/// q0, q1, q25, ... of the numbers, which are sorted for it.
 void add_quantiles(std::vector<double>& numbers, const std::string& prefix, row& into) {
     std::ranges::sort(numbers);
     for (const int percent : {0, 1, 25, 50, 75, 99, 100}) {
-        into[prefix + "q" + std::to_string(percent)] = quantile(numbers, percent / 100.0);
+        const double q = quantile(numbers, percent / 100.0);
+        into[prefix + "q" + std::to_string(percent)] = q < infinity ? row(q) : row("inf");
     }
 }
 
@@ -56,8 +61,7 @@ rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
             std::vector<double>& absolute = samples[i].absolute;
             const auto exact = std::ranges::count(absolute, 0.0);
-            const auto unknown =
-                std::ranges::count_if(absolute, [](double e) { return !std::isfinite(e); });
+            const auto unknown = std::ranges::count(absolute, infinity);
             row r = {{"rule", Rule::name},
                      {"variable", variable_names[i]},
                      {"count", absolute.size()},

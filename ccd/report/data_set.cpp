@@ -58,29 +58,27 @@ void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
     const auto options = fs::directory_options::skip_permission_denied;
     for (auto entry = fs::recursive_directory_iterator(fs::canonical(folder), options);
          entry != fs::recursive_directory_iterator(); ++entry) {
-        if (entry->is_directory() && entry->path().filename() == "parts")
-            entry.disable_recursion_pending();
         if (entry->is_regular_file()) files.insert(entry->path());
     }
 }
 
 // ---- Truth ----
 
-/// The truth of all queries by `exact`, in batches.
 template <class Query>
-void decide_truth(judged_queries<Query>& into, int threads) {
+void count_colliding(judged_queries<Query>& into) {
+    into.colliding =
+        static_cast<std::size_t>(std::count(into.collides.begin(), into.collides.end(), 1));
+}
+
+template <class Query>
+void decide_by_exact(judged_queries<Query>& into, int threads) {
     std::vector<outcome> answers(into.queries.size());
     into.queries.decide_batch(0, answers, {.threads = threads});
     into.collides.resize(answers.size());
     std::ranges::transform(answers, into.collides.begin(), [](outcome said) {
         return static_cast<unsigned char>(said == outcome::collides);
     });
-}
-
-template <class Query>
-void count_colliding(judged_queries<Query>& into) {
-    into.colliding =
-        static_cast<std::size_t>(std::count(into.collides.begin(), into.collides.end(), 1));
+    count_colliding(into);
 }
 
 /// Appends a file's queries; their truth where it has one, else -1.
@@ -96,7 +94,7 @@ void append(const std::vector<Query>& queries, const std::optional<std::vector<b
 template <class Query>
 void settle_truth(const std::vector<signed char>& truths, judged_queries<Query>& into,
                   int threads) {
-    decide_truth(into, threads);
+    decide_by_exact(into, threads);
     for (std::size_t i = 0; i < truths.size(); ++i) {
         if (truths[i] < 0) continue;
         into.collides[i] = static_cast<unsigned char>(truths[i]);
@@ -243,6 +241,11 @@ void compare_stored(const fs::path& frame, data_set& data, std::string& contents
 
 }  // namespace
 
+void decide_truth(data_set& data, int threads) {
+    decide_by_exact(data.vertex_face_queries, threads);
+    decide_by_exact(data.edge_edge_queries, threads);
+}
+
 found_data find_data(const std::vector<fs::path>& folders) {
     std::set<fs::path> files;
     for (const fs::path& folder : folders) add_files_below(folder, files);
@@ -288,11 +291,8 @@ std::unique_ptr<data_set> load(const data_source& source, int threads) {
                                   source.frames[1].string());
         for (const fs::path& path : source.frames) contents += io::read_whole(path);
         find_candidates(*data, threads);
-        decide_truth(data->vertex_face_queries, threads);
-        decide_truth(data->edge_edge_queries, threads);
+        decide_truth(*data, threads);
         compare_stored(source.frames[0], *data, contents);
-        count_colliding(data->vertex_face_queries);
-        count_colliding(data->edge_edge_queries);
     } else {
         std::vector<signed char> vertex_face_truths, edge_edge_truths;
         for (const fs::path& path : source.queries) {

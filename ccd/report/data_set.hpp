@@ -34,9 +34,8 @@ struct found_data {
 ///
 /// Stored queries are CSV files whose path names their kind; those of one folder, and of its
 /// folders edge-edge, vertex-face, ee and vf, are one data set. A folder with exactly two meshes
-/// (PLY or OBJ) is a scene, the one with the shorter, then lesser name its first frame. Folders
-/// that end in `parts`, where a report keeps its own, are passed by. Throws io::file_error if a
-/// folder is not there.
+/// (PLY or OBJ) is a scene, the one with the shorter, then lesser name its first frame. Throws
+/// io::file_error if a folder is not there.
 found_data find_data(const std::vector<std::filesystem::path>& folders);
 
 /// Queries of one kind with their truth.
@@ -73,5 +72,12 @@ struct data_set {
 /// compared with it. Memory: some 20 bytes a query of a scene, 200 of a stored one.
 /// Throws io::file_error.
 std::unique_ptr<data_set> load(const data_source& source, int threads);
+
+/// Queries that the program makes itself, the same everywhere: contacts, and their neighbours
+/// within a few units in the last place; small integers, most of them degenerate.
+std::vector<std::unique_ptr<data_set>> made_data(int threads);
+
+/// The truth of all queries by `exact`, in batches.
+void decide_truth(data_set& data, int threads);
 
 }  // namespace ccd::report

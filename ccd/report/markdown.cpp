@@ -3,6 +3,7 @@
 #include <set>
 
 #include "ccd/report/report.hpp"
+#include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
 
 namespace ccd::report {
@@ -18,11 +19,13 @@ std::string grouped(std::size_t n) {
     return text;
 }
 
-/// Three digits that count: 1234567 as 1230000, 12.3, 0.0123, 1.23e-20.
+/// Three digits that count: 1,234,567 (or more of them), 12.3, 0.012, 1.23e-20. Not negative.
 std::string digits(double x) {
     char text[48];
     const double size = std::abs(x);
-    if (x != 0 && (size < 1e-3 || size >= 1e7)) {
+    if (x == 0) return "0";
+    if (size >= 1000 && size < 1e9) return grouped(static_cast<std::size_t>(std::round(x)));
+    if (size < 1e-3 || size >= 1e9) {
         std::snprintf(text, sizeof text, "%.2e", x);
     } else {
         const int after = size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3;
@@ -78,8 +81,9 @@ std::string head(const summary& report) {
     const machine& here = report.here;
     std::string text = "# Collision detection: error against run time\n\n";
     text += "* Machine: " + here.processor + ", " + std::to_string(here.cores) + " cores, " +
-            digits(here.memory_gib) + " GiB memory; load " + digits(here.load) +
-            " at the start; instruction sets: " + here.instruction_sets + "\n";
+            digits(here.memory_gib) + " GiB memory; load " + digits(here.load) + " at the start, " +
+            digits(report.load_at_end) + " at the end; instruction sets: " + here.instruction_sets +
+            "\n";
     text += "* Program: commit " + report.settings.commit + ", " + here.compiler +
             ", flags: " + here.flags + "\n";
     text += "* " + report.date + (report.settings.quick ? ", quick" : "") + "; " +

@@ -2,6 +2,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
 #include "ccd/threads.hpp"
@@ -75,7 +76,7 @@ rows count_errors(const judged_queries<Query>& data, std::string_view method, in
 
 template <class Query>
 rows race_methods(const judged_queries<Query>& data, const std::vector<std::string>& methods,
-                  const sample_sizes& size) {
+                  const sample_sizes& size, const progress& show) {
     const query_set<Query> sample = data.queries.at_most(size.speed);
     const std::vector<Query> queries = sample.all_stored();
     std::vector<outcome> answers(sample.size());
@@ -89,7 +90,7 @@ rows race_methods(const judged_queries<Query>& data, const std::vector<std::stri
             });
         }
     }
-    const std::vector<timing> timings = race(passes, size.repeats);
+    const std::vector<timing> timings = race(passes, size.repeats, show);
     rows result;
     for (std::size_t i = 0; i < methods.size(); ++i) {
         const auto ns = [&](double seconds) {
@@ -146,9 +147,9 @@ template rows count_errors(const judged_queries<vertex_face<double>>&, std::stri
 template rows count_errors(const judged_queries<edge_edge<double>>&, std::string_view, int,
                            const progress&);
 template rows race_methods(const judged_queries<vertex_face<double>>&,
-                           const std::vector<std::string>&, const sample_sizes&);
+                           const std::vector<std::string>&, const sample_sizes&, const progress&);
 template rows race_methods(const judged_queries<edge_edge<double>>&,
-                           const std::vector<std::string>&, const sample_sizes&);
+                           const std::vector<std::string>&, const sample_sizes&, const progress&);
 template rows time_queries(const judged_queries<vertex_face<double>>&,
                            const std::vector<std::string>&, const sample_sizes&, const progress&);
 template rows time_queries(const judged_queries<edge_edge<double>>&,

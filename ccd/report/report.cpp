@@ -8,6 +8,7 @@
 
 #include "ccd/io/error.hpp"
 #include "ccd/io/output_file.hpp"
+#include "ccd/report/tasks.hpp"
 
 namespace ccd::report {
 
@@ -17,98 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A part to be measured. `share` is told while it is.
-struct task {
-    part_key key;
-    double cost;  ///< in some unit that all tasks share
-    row about;    ///< columns that its rows begin with
-    std::function<rows(const progress& share)> measure;
-    rows* into;
-};
-
 std::string now() {
     const std::time_t seconds = std::time(nullptr);
     char text[32] = "";
     std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", std::gmtime(&seconds));
     return text;
 }
-
-/// The tasks of all data sets, in the order in which they are done.
-class task_list {
-  public:
-    task_list(const options& settings, const machine& here)
-        : settings_(settings),
-          size_(sizes(settings.quick)),
-          program_({{"program", program_fingerprint()},
-                    {"commit", settings.commit},
-                    {"processor", here.processor}}) {
-        for (const std::string& name : settings.methods) {
-            if (name != batch_name) singly_.push_back(name);
-        }
-    }
-
-    void add(const data_set& data) {
-        add(data, data.vertex_face_queries);
-        add(data, data.edge_edge_queries);
-    }
-
-    std::vector<task> tasks;
-    rows errors, speeds, times, bounds;
-
-  private:
-    template <class Query>
-    void add(const data_set& data, const judged_queries<Query>& judged) {
-        const std::size_t n = judged.queries.size();
-        if (n == 0) return;
-        const row about = {{"data_set", data.name}, {"kind", kind_of<Query>::name}};
-        const auto add_task = [&](const std::string& section, row depends_on, double cost,
-                                  std::function<rows(const progress&)> measure, rows& into) {
-            row all = program_;
-            all["data"] = data.fingerprint;
-            all.update(depends_on);
-            tasks.push_back({{data.name + " " + std::string(kind_of<Query>::name) + ": " + section,
-                              std::move(all)},
-                             cost,
-                             about,
-                             std::move(measure),
-                             &into});
-        };
-        const auto drawn = [n](std::size_t most) { return static_cast<double>(std::min(n, most)); };
-        for (const std::string& method : settings_.methods) {
-            add_task(
-                "errors of " + method, {{"method", method}}, static_cast<double>(n) / 2,
-                [&judged, method, threads = settings_.threads](const progress& share) {
-                    return count_errors(judged, method, threads, share);
-                },
-                errors);
-        }
-        const auto methods = static_cast<double>(settings_.methods.size());
-        add_task(
-            "ns per query",
-            {{"methods", settings_.methods}, {"at_most", size_.speed}, {"repeats", size_.repeats}},
-            drawn(size_.speed) * methods * (1 + size_.repeats),
-            [&judged, this](const progress&) {
-                return race_methods(judged, settings_.methods, size_);
-            },
-            speeds);
-        add_task(
-            "times of single queries",
-            {{"methods", singly_}, {"at_most", size_.times}, {"repeats", size_.repeats}},
-            drawn(size_.times) * methods * size_.repeats,
-            [&judged, this](const progress& share) {
-                return time_queries(judged, singly_, size_, share);
-            },
-            times);
-        add_task(
-            "bounds", {{"at_most", size_.bounds}}, drawn(size_.bounds),
-            [&judged, this](const progress&) { return take_bounds(judged, size_); }, bounds);
-    }
-
-    options settings_;
-    sample_sizes size_;
-    row program_;
-    std::vector<std::string> singly_;
-};
 
 /// The rows of `errors`, each with what `speeds` tells of the same data set, kind and method.
 rows joined(rows errors, const rows& speeds) {
@@ -142,7 +57,17 @@ std::vector<std::string> failures_of(const summary& report) {
                                    r["kind"].get<std::string>() + ", against its promise");
         };
         if (!promised.may_lose_collisions) fail("false_negatives", "collisions lost");
-        if (!promised.may_report_false_collisions) fail("false_positives", "false collisions");
+        if (!promised.may_report_false_collisions) {
+            fail("false_positives", "false collisions");
+            fail("uncertain", "queries left uncertain");
+        }
+    }
+    for (const row& r : report.stress) {
+        if (!r.contains("broken")) continue;
+        failures.push_back(r["method"].get<std::string>() + ": " + r["broken"].get<std::string>() +
+                           "; stress family " + r["family"].get<std::string>() + ", knob " +
+                           r["knob"].dump() + ", " + r["kind"].get<std::string>() + ", query " +
+                           r["query"].dump());
     }
     for (const data_summary& data : report.data) {
         for (const auto* kind : {&data.vertex_face, &data.edge_edge}) {
@@ -195,66 +120,59 @@ const std::vector<std::string> method_columns{
     "uncertain", "timed",      "ns_min",          "ns_median"};
 const std::vector<std::string> time_columns{"data_set", "kind",  "method",  "timed",    "ns_median",
                                             "ns_90",    "ns_99", "ns_99_9", "ns_worst", "clock_ns"};
+const std::vector<std::string> stress_columns{"family",     "knob_name",       "knob",
+                                              "kind",       "method",          "queries",
+                                              "collisions", "false_positives", "false_negatives",
+                                              "uncertain",  "ns_per_query"};
 const std::vector<std::string> bound_columns{
     "data_set",     "kind",         "rule",         "variable",    "count",        "exact",
     "unknown",      "q0",           "q1",           "q25",         "q50",          "q75",
     "q99",          "q100",         "relative_q0",  "relative_q1", "relative_q25", "relative_q50",
     "relative_q75", "relative_q99", "relative_q100"};
 
-}  // namespace
+using show_progress = std::function<void(double, const std::string&)>;
+using say_line = std::function<void(const std::string&)>;
 
-std::vector<method_total> totals(const rows& methods,
-                                 const std::function<bool(const row&)>& counts) {
-    std::vector<method_total> all;
-    for (const row& r : methods) {
-        if (!counts(r)) continue;
-        auto total = std::ranges::find(all, r["method"].get<std::string>(), &method_total::method);
-        if (total == all.end()) total = all.insert(all.end(), method_total{r["method"]});
-        const std::size_t queries = r["queries"];
-        total->queries += queries;
-        total->colliding += r["colliding"].get<std::size_t>();
-        total->false_positives += r["false_positives"].get<std::size_t>();
-        total->false_negatives += r["false_negatives"].get<std::size_t>();
-        total->uncertain += r["uncertain"].get<std::size_t>();
-        total->ns += r["ns_min"].get<double>() * static_cast<double>(queries);
-    }
-    for (method_total& total : all) total.ns /= static_cast<double>(total.queries);
-    return all;
-}
-
-summary make(const options& settings, const std::function<void(double, const std::string&)>& show,
-             const std::function<void(const std::string&)>& say) {
-    const part_store store(settings.out / "parts");
-    summary report;
-    report.settings = settings;
-    report.here = this_machine();
-    report.date = now();
+/// Reads the data; what cannot be read is left out and told.
+std::vector<std::unique_ptr<data_set>> collect_data(const options& settings, summary& report,
+                                                    const show_progress& show) {
     const found_data found = find_data(settings.data);
     report.left_out = found.left_out;
-
-    task_list list(settings, report.here);
-    std::vector<std::unique_ptr<data_set>> data;
+    std::vector<std::unique_ptr<data_set>> all;
     for (const data_source& source : found.sources) {
         show(0, "reading " + source.name);
         try {
-            data.push_back(load(source, settings.threads));
+            all.push_back(load(source, settings.threads));
         } catch (const io::file_error& error) {
             report.left_out.push_back({source.name, error.what()});
             continue;
         }
-        report.data.push_back(summary_of(*data.back()));
-        list.add(*data.back());
+        if (all.back()->vertex_face_queries.queries.size() +
+                all.back()->edge_edge_queries.queries.size() ==
+            0) {
+            report.left_out.push_back({source.name, "it holds no queries"});
+            all.pop_back();
+        }
     }
-    for (const omission& without : report.left_out) {
-        say("left out: " + without.path.string() + ": " + without.why);
-    }
-    if (list.tasks.empty()) {
+    if (all.empty()) {
         std::string folders;
         for (const fs::path& folder : settings.data) folders.append(" ").append(folder.string());
+        std::string why;
+        for (const omission& without : report.left_out)
+            why.append("; left out: ").append(without.path.string() + ": " + without.why);
         throw io::file_error("found no stored queries and no scene in" + folders +
-                             ", expected a data set");
+                             ", expected a data set" + why);
     }
+    if (settings.made) {
+        for (auto& data : made_data(settings.threads)) all.push_back(std::move(data));
+    }
+    return all;
+}
 
+/// Does the tasks whose parts are not in the report's folder yet, and collects all rows.
+void measure(const task_list& list, const options& settings, summary& report,
+             const show_progress& show, const say_line& say) {
+    const part_store store(settings.out / "parts");
     report.parts = list.tasks.size();
     double all_costs = 0, done = 0;
     std::vector<rows> results(list.tasks.size());
@@ -285,26 +203,91 @@ summary make(const options& settings, const std::function<void(double, const std
             t.into->push_back(std::move(whole));
         }
     }
+}
+
+/// Writes the tables that were asked for; others, of an earlier run, must not pose as these.
+void write_tables(const summary& report) {
+    const struct {
+        std::string_view section;
+        const std::vector<std::string>& columns;
+        const rows& table;
+    } tables[] = {{"methods", method_columns, report.methods},
+                  {"times", time_columns, report.times},
+                  {"bounds", bound_columns, report.bounds},
+                  {"stress", stress_columns, report.stress}};
+    for (const auto& t : tables) {
+        const fs::path path = report.settings.out / (std::string(t.section) + ".csv");
+        std::error_code ignored;
+        fs::remove(path, ignored);
+        if (report.settings.wants(t.section)) io::write_whole(path, csv_of(t.columns, t.table));
+    }
+}
+
+/// Writes plot.py and runs it. Returns the pictures that it made.
+std::vector<picture> draw_pictures(const fs::path& folder, const say_line& say) {
+    io::write_whole(folder / "plot.py", plot_script);
+    for (const picture& p : possible_pictures()) {  // of earlier data
+        std::error_code ignored;
+        fs::remove(folder / p.file, ignored);
+        fs::remove((folder / p.file).replace_extension(".svg"), ignored);
+    }
+    if (!draw(folder)) say("the pictures are left out; all else is written");
+    std::vector<picture> drawn;
+    for (const picture& p : possible_pictures()) {
+        if (fs::exists(folder / p.file)) drawn.push_back(p);
+    }
+    return drawn;
+}
+
+}  // namespace
+
+std::vector<method_total> totals(const rows& methods,
+                                 const std::function<bool(const row&)>& counts) {
+    std::vector<method_total> all;
+    for (const row& r : methods) {
+        if (!counts(r)) continue;
+        auto total = std::ranges::find(all, r["method"].get<std::string>(), &method_total::method);
+        if (total == all.end()) total = all.insert(all.end(), method_total{r["method"]});
+        const std::size_t queries = r["queries"];
+        total->queries += queries;
+        total->colliding += r["colliding"].get<std::size_t>();
+        total->false_positives += r["false_positives"].get<std::size_t>();
+        total->false_negatives += r["false_negatives"].get<std::size_t>();
+        total->uncertain += r["uncertain"].get<std::size_t>();
+        total->ns += r["ns_min"].get<double>() * static_cast<double>(queries);
+    }
+    for (method_total& total : all) total.ns /= static_cast<double>(total.queries);
+    return all;
+}
+
+summary make(const options& settings, const std::function<void(double, const std::string&)>& show,
+             const std::function<void(const std::string&)>& say) {
+    summary report;
+    report.settings = settings;
+    report.here = this_machine();
+    report.date = now();
+    task_list list(settings, report.here);
+    const auto data = collect_data(settings, report, show);
+    for (const omission& without : report.left_out) {
+        say("left out: " + without.path.string() + ": " + without.why);
+    }
+    for (const auto& set : data) {
+        report.data.push_back(summary_of(*set));
+        list.add(*set);
+    }
+    list.add_others();
+    measure(list, settings, report, show, say);
+
     report.methods = joined(list.errors, list.speeds);
     report.times = list.times;
     report.bounds = list.bounds;
+    report.stress = list.stress;
     report.failures = failures_of(report);
+    report.load_at_end = this_machine().load;
 
-    io::write_whole(settings.out / "methods.csv", csv_of(method_columns, report.methods));
-    io::write_whole(settings.out / "times.csv", csv_of(time_columns, report.times));
-    io::write_whole(settings.out / "bounds.csv", csv_of(bound_columns, report.bounds));
-    io::write_whole(settings.out / "plot.py", plot_script);
-    // Pictures of earlier data must not pose as these.
-    for (const picture& p : possible_pictures()) {
-        std::error_code ignored;
-        fs::remove(settings.out / p.file, ignored);
-        fs::remove((settings.out / p.file).replace_extension(".svg"), ignored);
-    }
+    write_tables(report);
     show(1, "pictures");
-    if (!draw(settings.out)) say("the pictures are left out; all else is written");
-    for (const picture& p : possible_pictures()) {
-        if (fs::exists(settings.out / p.file)) report.pictures.push_back(p);
-    }
+    report.pictures = draw_pictures(settings.out, say);
     io::write_whole(settings.out / "report.md", markdown_of(report));
     return report;
 }

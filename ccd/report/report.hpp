@@ -1,25 +1,38 @@
 // A report: error against run time, measured part by part into a folder.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ccd/report/data_set.hpp"
 #include "ccd/report/machine.hpp"
 #include "ccd/report/parts.hpp"
-#include "ccd/report/sections.hpp"
 
 namespace ccd::report {
 
+/// `exact` in batches, as a method of its own.
+inline constexpr std::string_view batch_name = "exact, batch";
+
+/// What can be asked for, by the name of its CSV file.
+inline constexpr std::string_view section_names[] = {"methods", "times", "bounds", "stress"};
+
 struct options {
     std::vector<std::filesystem::path> data;  ///< folders
+    bool made = false;                        ///< with queries that the program makes itself
+    std::vector<std::string> sections = {};   ///< of section_names; empty: all
     std::filesystem::path out;
     bool quick = false;
     std::vector<std::string> methods;  ///< names of ccd::methods(), and batch_name
     int threads = 0;                   ///< that count errors; 0: one per core
     std::string commit;
+
+    bool wants(std::string_view section) const {
+        return sections.empty() || std::ranges::find(sections, section) != sections.end();
+    }
 };
 
 /// What a data set held, for a person.
@@ -39,12 +52,13 @@ struct picture {
 /// All that report.md tells.
 struct summary {
     options settings;
-    machine here;
+    machine here;  ///< at the start
+    double load_at_end = 0;
     std::string date;
     std::vector<data_summary> data;
     std::vector<omission> left_out;
-    std::size_t parts = 0, resumed = 0;  ///< of the parts, those found from an earlier run
-    rows methods, times, bounds;         ///< of the CSV files of these names
+    std::size_t parts = 0, resumed = 0;   ///< of the parts, those found from an earlier run
+    rows methods, times, bounds, stress;  ///< of the CSV files of these names
     std::vector<picture> pictures;
     std::vector<std::string> failures;  ///< broken promises and contradictions, a sentence each
 };

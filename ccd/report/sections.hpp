@@ -16,22 +16,22 @@
 #include "ccd/report/data_set.hpp"
 #include "ccd/report/parts.hpp"
 #include "ccd/report/timing.hpp"
+#include "ccd/stress/families.hpp"
 
 namespace ccd::report {
 
-/// `exact` in batches, as a method of its own.
-inline constexpr std::string_view batch_name = "exact, batch";
-
 /// Queries that are measured, drawn evenly where there are more.
 struct sample_sizes {
-    std::size_t speed;   ///< for ns per query
-    std::size_t times;   ///< timed one by one
-    std::size_t bounds;  ///< whose bounds are taken
-    int repeats;         ///< of each timing
+    std::size_t speed;           ///< for ns per query
+    std::size_t times;           ///< timed one by one
+    std::size_t bounds;          ///< whose bounds are taken
+    int repeats;                 ///< of each timing
+    std::size_t stress_queries;  ///< of each family, kind and value of the knob
+    double stress_seconds;       ///< that a method is timed on these
 };
 constexpr sample_sizes sizes(bool quick) {
-    return quick ? sample_sizes{20'000, 5'000, 20'000, 5}
-                 : sample_sizes{200'000, 100'000, 200'000, 7};
+    return quick ? sample_sizes{20'000, 5'000, 20'000, 5, 40, 0.002}
+                 : sample_sizes{200'000, 100'000, 200'000, 7, 400, 0.02};
 }
 
 /// Called now and then with the share of a part that is done.
@@ -45,7 +45,7 @@ rows count_errors(const judged_queries<Query>& data, std::string_view method, in
 /// ns per query of the methods in turn, on one thread: a row for each.
 template <class Query>
 rows race_methods(const judged_queries<Query>& data, const std::vector<std::string>& methods,
-                  const sample_sizes& size);
+                  const sample_sizes& size, const progress& show);
 
 /// How the times of single queries are distributed, on one thread: a row for each method.
 template <class Query>
@@ -56,5 +56,10 @@ rows time_queries(const judged_queries<Query>& data, const std::vector<std::stri
 /// and variable.
 template <class Query>
 rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size);
+
+/// Methods on one family of stiff and extreme queries: a row for each value of the knob, kind and
+/// method. A broken promise is told in the columns `broken` (how) and `query` (which).
+rows stress_methods(const stress::family& family, const std::vector<std::string>& methods,
+                    const sample_sizes& size, int threads, const progress& show);
 
 }  // namespace ccd::report

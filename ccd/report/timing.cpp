@@ -5,7 +5,8 @@
 
 namespace ccd::report {
 
-std::vector<timing> race(const std::vector<std::function<void()>>& passes, int repeats) {
+std::vector<timing> race(const std::vector<std::function<void()>>& passes, int repeats,
+                         const std::function<void(double)>& show) {
     constexpr double least_seconds = 2e-3;
     std::vector<int> runs;  // of each pass per measurement
     for (const auto& pass : passes) {
@@ -26,6 +27,7 @@ std::vector<timing> race(const std::vector<std::function<void()>>& passes, int r
             const clock::time_point start = clock::now();
             for (int run = 0; run < runs[which]; ++run) passes[which]();
             seconds[which].push_back(seconds_since(start) / runs[which]);
+            show((repeat + static_cast<double>(i) / static_cast<double>(passes.size())) / repeats);
         }
     }
     std::vector<timing> timings;
