@@ -241,6 +241,18 @@ void compare_stored(const fs::path& frame, data_set& data, std::string& contents
 
 }  // namespace
 
+std::string_view name(origin from) {
+    switch (from) {
+        case origin::scene:
+            return "scene";
+        case origin::stored:
+            return "stored";
+        case origin::made:
+            return "made";
+    }
+    return {};
+}
+
 void decide_truth(data_set& data, int threads) {
     decide_by_exact(data.vertex_face_queries, threads);
     decide_by_exact(data.edge_edge_queries, threads);
@@ -282,9 +294,9 @@ found_data find_data(const std::vector<fs::path>& folders) {
 std::unique_ptr<data_set> load(const data_source& source, int threads) {
     auto data = std::make_unique<data_set>();
     data->name = source.name;
-    data->is_scene = !source.frames.empty();
     std::string contents;
-    if (data->is_scene) {
+    if (!source.frames.empty()) {
+        data->origin = origin::scene;
         data->before = io::read_mesh(source.frames[0]);
         data->after = io::read_mesh(source.frames[1]);
         io::require_same_topology(data->before, source.frames[0].string(), data->after,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ccd/report/query_set.hpp"
@@ -49,11 +50,19 @@ struct judged_queries {
     std::size_t contradictions = 0;
 };
 
+/// Where queries come from.
+enum class origin {
+    scene,   ///< all candidates of a step of a mesh
+    stored,  ///< files
+    made,    ///< the program itself
+};
+std::string_view name(origin from);
+
 /// A loaded data set. Its queries refer to its frames: it must stay where it is.
 struct data_set {
     std::string name;
     std::string fingerprint;  ///< of its files' contents
-    bool is_scene = false;
+    report::origin origin = origin::stored;
     mesh before, after;
     judged_queries<vertex_face<double>> vertex_face_queries;
     judged_queries<edge_edge<double>> edge_edge_queries;

@@ -16,11 +16,11 @@ struct recipe {
     points (*make)(source& random, kind which);
 };
 constexpr recipe recipes[] = {
-    {"made: near contact",
+    {"near contact",
      [](source& random, kind which) {
          return generators::jitter(random, generators::near_contact(random, which, 1), 3);
      }},
-    {"made: small integers", [](source& random, kind) { return generators::grid(random, 1); }},
+    {"small integers", [](source& random, kind) { return generators::grid(random, 1); }},
 };
 constexpr std::uint64_t of_each_kind = 5000;
 
@@ -31,6 +31,7 @@ std::vector<std::unique_ptr<data_set>> made_data(int threads) {
     for (const recipe& r : recipes) {
         auto data = std::make_unique<data_set>();
         data->name = r.name;
+        data->origin = origin::made;
         data->fingerprint = fingerprint_of(r.name);  // the program's own stands for the rest
         const auto made = [&r](kind which, std::uint64_t i) {
             source random = query_families::source_of(r.name, {std::uint64_t(which), i});

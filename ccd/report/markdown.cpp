@@ -105,15 +105,15 @@ std::string data(const summary& report) {
         const auto add = [&](const char* kind, const data_summary::kind& k) {
             if (k.queries == 0) return;
             std::string truth = "exact, in batches";
-            if (k.stored_truths > 0 && !set.is_scene)
+            if (k.stored_truths > 0 && set.origin != origin::scene)
                 truth = grouped(k.stored_truths) + " stored" +
                         (k.stored_truths < k.queries ? ", else exact" : "");
-            if (k.stored_truths > 0 && set.is_scene)
+            if (k.stored_truths > 0 && set.origin == origin::scene)
                 truth +=
                     "; of " + grouped(k.stored_truths) + " stored ones " +
                     (k.contradictions == 0 ? "all agree" : grouped(k.contradictions) + " differ");
-            lines.push_back({set.name, kind, set.is_scene ? "all candidates of a step" : "stored",
-                             grouped(k.queries), grouped(k.colliding), truth});
+            lines.push_back({set.name, kind, std::string(name(set.origin)), grouped(k.queries),
+                             grouped(k.colliding), truth});
         };
         add("vf", set.vertex_face);
         add("ee", set.edge_edge);
@@ -139,8 +139,8 @@ std::string ratio(const std::vector<method_total>& all, const std::string& of,
            " % of the false positives of `" + to + "`\n";
 }
 
-std::string all_data(const summary& report) {
-    const auto all = totals(report.methods, [](const row&) { return true; });
+/// A row for each method.
+std::string table(const std::vector<method_total>& all) {
     std::vector<std::vector<std::string>> lines;
     for (const method_total& m : all) {
         const std::size_t separate = m.queries - m.colliding;
@@ -148,19 +148,34 @@ std::string all_data(const summary& report) {
                          grouped(m.uncertain), digits(per_million(m.false_positives, separate)),
                          digits(per_million(m.false_negatives, m.colliding)), digits(m.ns)});
     }
-    std::string text = "## All data\n\n";
-    if (!all.empty())
-        text += grouped(all[0].queries) + " queries, of which " + grouped(all[0].colliding) +
-                " collide. Uncertain answers count as collisions.\n\n";
-    text += table({"method", "false positives", "false negatives", "uncertain",
-                   "FP per million separate", "FN per million colliding", "ns per query"},
-                  1, lines);
+    return table({"method", "false positives", "false negatives", "uncertain",
+                  "FP per million separate", "FN per million colliding", "ns per query"},
+                 1, lines);
+}
+
+/// All queries that `counts` picks, under a heading.
+std::string all_of(const summary& report, const std::string& heading,
+                   const std::function<bool(const row&)>& counts) {
+    const auto all = totals(report.methods, counts);
+    if (all.empty()) return "";
     const std::string ratios = ratio(all, "tight", "safe") + ratio(all, "safeccd-tight", "safeccd");
-    return text + ratios + (ratios.empty() ? "" : "\n") +
-           "Errors are counted on all queries. ns per query: one thread; the least of several "
-           "passes over the queries, methods in turn, drawn evenly where there are very many; the "
-           "mean over all queries of all data sets. `" +
-           std::string(batch_name) + "` is `exact` over SIMD packs (ccd/batch.hpp).\n\n";
+    return heading + "\n\n" + grouped(all[0].queries) + " queries, of which " +
+           grouped(all[0].colliding) + " collide.\n\n" + table(all) + ratios +
+           (ratios.empty() ? "" : "\n");
+}
+
+std::string all_data(const summary& report) {
+    const auto from_scenes = [](const row& r) { return r["origin"] == name(origin::scene); };
+    return all_of(report, "## All data", [](const row&) { return true; }) +
+           "Errors are counted on all queries; uncertain answers count as collisions. ns per "
+           "query: "
+           "one thread; the least of several passes over the queries, methods in turn, drawn "
+           "evenly "
+           "where there are very many; the mean over all queries. `" +
+           std::string(batch_name) + "` is `exact` over SIMD packs (ccd/batch.hpp).\n\n" +
+           all_of(report, "### Scenes alone: all candidate pairs of their steps", from_scenes) +
+           all_of(report, "### Stored and made queries alone, which are picked to be hard",
+                  [&](const row& r) { return !from_scenes(r); });
 }
 
 /// The paper's Figure 11: its benchmarks are our data sets, its columns our methods.

@@ -22,7 +22,7 @@ except ImportError:
 matplotlib.use("Agg")
 import matplotlib.colors
 import matplotlib.pyplot as plt
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 INK, PALE, BAND = "#333333", "#d9d9d9", "#f2f2f2"
@@ -75,7 +75,7 @@ def colours(names):
 
 def short(number):
     """0.001, 12, 3k, 2M."""
-    if number == 0:
+    if number == 0 or math.isinf(number):  # a logarithmic knob of -inf stands for 0
         return "0"
     for size, letter in ((1e6, "M"), (1e3, "k")):
         if abs(number) >= size:
@@ -94,7 +94,44 @@ NANOSECONDS = FuncFormatter(lambda ns, _: nanoseconds(ns))
 SHORT = FuncFormatter(lambda number, _: short(number))
 
 
-# ---- Labels beside points, without overlap ----
+# ---- Error against run time ----
+
+def rate_axis(axes, rates):
+    """A logarithmic axis of rates with a band below it for exact zero, and the band's ends."""
+    positive = [rate for rate in rates if rate > 0]
+    low = 10.0 ** math.floor(math.log10(min(positive)) - 0.1) if positive else 1.0
+    high = 10.0 ** math.ceil(math.log10(max(positive)) + 0.1) if positive else 10.0
+    share = 0.2 + 0.3 * sum(rate == 0 for rate in rates) / len(rates)
+    bottom = low / (high / low) ** (share / (1 - share))
+    axes.set_yscale("log")
+    axes.set_ylim(bottom, high)
+    axes.axhspan(bottom, low, color=BAND, lw=0, zorder=0)
+    axes.axhline(low, color=INK, lw=0.7)
+    first, last = round(math.log10(low)), round(math.log10(high))
+    ticks = [10.0 ** e for e in range(first, last + 1, max(1, round((last - first) / 6)))]
+    axes.set_yticks(ticks)
+    axes.set_yticklabels([short(tick) for tick in ticks])
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.text(-0.012, share / 2, "exactly 0", ha="right", va="center", transform=axes.transAxes)
+    return bottom, low
+
+
+def place_in_band(axes, names, ns, band):
+    """Heights in the band of the points there, so that no label meets another point or label."""
+    left, right = (math.log10(x) for x in axes.get_xlim())
+    width = axes.get_window_extent().width / axes.figure.dpi * 72
+    lanes, lane_of = [], {}  # how far each lane is taken, in points
+    for name in sorted(names, key=lambda name: ns[name]):
+        at = (math.log10(ns[name]) - left) / (right - left) * width
+        free = [i for i, taken in enumerate(lanes) if taken < at - 8]
+        if not free:
+            lanes.append(0)
+        lane_of[name] = free[0] if free else len(lanes) - 1
+        lanes[lane_of[name]] = at + 14 + 6 * len(name)
+    bottom, top = (math.log10(y) for y in band)
+    step = (top - bottom) / (len(lanes) + 1)
+    return {name: 10 ** (top - step * (lane + 1)) for name, lane in lane_of.items()}
+
 
 def label_points(axes, points):
     """Writes each (x, y, text, colour) beside its point, where it meets neither point nor label."""
@@ -109,93 +146,35 @@ def label_points(axes, points):
         taken.append(matplotlib.transforms.Bbox.from_extents(px - 5 * pixel, py - 5 * pixel,
                                                              px + 5 * pixel, py + 5 * pixel))
     # Right, left, above and below the point, then further and further off.
-    offsets = [(8, 0), (-8, 0), (0, 10), (0, -10)]
+    offsets = [(8, 0), (-8, 0), (0, 11), (0, -11)]
     for distance in range(14, 140, 6):
         for angle in range(0, 360, 30):
             offsets.append((distance * math.cos(math.radians(angle)),
                             distance * math.sin(math.radians(angle))))
-    for i, (x, y, text, colour) in sorted(enumerate(points), key=lambda p: (p[1][1], p[1][0])):
+    for x, y, text, colour in sorted(points, key=lambda point: point[:2]):
         for dx, dy in offsets:
             side = "left" if dx > 1 else "right" if dx < -1 else "center"
-            near = math.hypot(dx, dy) < 12
-            label = axes.annotate(
-                text, (x, y), xytext=(dx, dy), textcoords="offset points", ha=side, va="center",
-                color=INK, fontsize=9,
-                arrowprops=None if near else dict(arrowstyle="-", color=colour, lw=0.7,
-                                                  shrinkA=0, shrinkB=4))
-            box = label.get_window_extent(renderer).expanded(1.04, 1.1)
-            text_box = matplotlib.text.Text.get_window_extent(label, renderer)
-            inside = (frame.x0 <= text_box.x0 and text_box.x1 <= frame.x1 + 30 * pixel and
-                      frame.y0 <= text_box.y0 and text_box.y1 <= frame.y1)
-            if inside and not any(text_box.overlaps(other) for other in taken):
-                taken.append(text_box)
+            line = None if math.hypot(dx, dy) < 12 else dict(
+                arrowstyle="-", color=colour, lw=0.7, shrinkA=0, shrinkB=4)
+            label = axes.annotate(text, (x, y), xytext=(dx, dy), textcoords="offset points",
+                                  ha=side, va="center", arrowprops=line)
+            label.update_positions(renderer)
+            box = matplotlib.text.Text.get_window_extent(label, renderer)  # without the line
+            inside = (frame.x0 <= box.x0 and box.x1 <= frame.x1 and
+                      frame.y0 <= box.y0 and box.y1 <= frame.y1)
+            if inside and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
                 break
             label.remove()
-        else:
-            axes.annotate(text, (x, y), xytext=(8, 0), textcoords="offset points", fontsize=9)
-
-
-# ---- Error against run time ----
-
-def rate_axis(axes, rates):
-    """A logarithmic axis of rates with a band below it for exact zero; returns where zero is."""
-    positive = [rate for rate in rates if rate > 0]
-    low = 10.0 ** math.floor(math.log10(min(positive))) if positive else 1.0
-    high = 10.0 ** math.ceil(math.log10(max(positive)) + 0.15) if positive else 10.0
-    decades = max(math.log10(high / low), 1)
-    share = 0.35 if any(rate == 0 for rate in rates) else 0.1
-    bottom = low / 10 ** (decades * share / (1 - share))
-    axes.set_yscale("log")
-    axes.set_ylim(bottom, high)
-    axes.axhspan(bottom, low, color=BAND, lw=0, zorder=0)
-    axes.axhline(low, color=INK, lw=0.7)
-    zero = math.sqrt(bottom * low)
-    step = max(1, round(decades / 6))
-    ticks = [10.0 ** e for e in range(round(math.log10(low)), round(math.log10(high)) + 1, step)]
-    axes.set_yticks([zero] + ticks)
-    axes.set_yticklabels(["exactly 0"] + [short(tick) for tick in ticks])
-    axes.yaxis.set_minor_locator(NullLocator())
-    return zero
-
-
-def pareto():
-    methods = totals(table("methods.csv"))
-    if not methods:
-        return
-    colour = colours(methods)
-    figure, panels = plt.subplots(2, 1, figsize=(9, 8.6), sharex=True)
-    for axes, of, title in (
-            (panels[0], ("false_positives", "separate"),
-             "False positives per million queries that do not collide"),
-            (panels[1], ("false_negatives", "colliding"),
-             "False negatives per million queries that collide")):
-        rates = {name: 1e6 * m[of[0]] / m[of[1]] if m[of[1]] else 0 for name, m in methods.items()}
-        axes.set_xscale("log")
-        zero = rate_axis(axes, rates.values())
-        axes.set_title(title)
-        points = [(m["ns"], rates[name] or zero, name, colour[name])
-                  for name, m in methods.items()]
-        for x, y, _, c in points:
-            axes.plot(x, y, "o", ms=7, mfc=c, mec="white", mew=0.8, zorder=3)
-        axes.xaxis.set_major_formatter(NANOSECONDS)
-        axes.tick_params(labelbottom=True)
-        axes.xaxis.set_minor_locator(LogLocator(subs=range(2, 10)))
-        axes.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
-        all_ns = [m["ns"] for m in methods.values()]
-        axes.set_xlim(min(all_ns) / 1.6, max(all_ns) * 2.2)
-        axes.points = points
-    panels[1].set_xlabel("time per query, one thread (mean over all queries of all data sets)")
-    figure.tight_layout(h_pad=2)
-    for axes in panels:
-        label_points(axes, axes.points)
-    save(figure, "pareto")
+        else:  # a crowd: better over another label than nowhere
+            axes.annotate(text, (x, y), xytext=(8, 0), textcoords="offset points", va="center")
 
 
 def totals(rows):
     """Per method: sums over data sets and kinds, and the mean of ns weighted by queries."""
     methods = {}
     for row in rows:
-        m = methods.setdefault(str(row["method"]), dict.fromkeys(
+        m = methods.setdefault(row["method"], dict.fromkeys(
             ("queries", "colliding", "false_positives", "false_negatives", "ns"), 0))
         for key in ("queries", "colliding", "false_positives", "false_negatives"):
             m[key] += row[key]
@@ -204,6 +183,45 @@ def totals(rows):
         m["ns"] /= m["queries"]
         m["separate"] = m["queries"] - m["colliding"]
     return methods
+
+
+def pareto(rows, name, of_what):
+    if not rows:
+        return
+    methods = totals(rows)
+    colour = colours(methods)
+    ns = {name: m["ns"] for name, m in methods.items()}
+    figure, panels = plt.subplots(2, 1, figsize=(9, 8.6), sharex=True)
+    panels[0].set_xscale("log")
+    panels[0].set_xlim(min(ns.values()) / 1.6, max(ns.values()) * 2.6)
+    panels[1].set_xlabel("time per query, one thread, mean over all")
+    any_method = next(iter(methods.values()))
+    judged = ((panels[0], "false_positives", "separate", "False positives", "do not collide"),
+              (panels[1], "false_negatives", "colliding", "False negatives", "collide"))
+    for axes, _, among, what, do in judged:
+        axes.set_title(f"{what} per million, of the {any_method[among]:,.0f} {of_what} that {do}")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(NANOSECONDS)
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.tick_params(labelbottom=True)
+    figure.tight_layout(h_pad=2)
+    for axes, errors, among, _, _ in judged:
+        rates = {name: 1e6 * m[errors] / max(m[among], 1) for name, m in methods.items()}
+        band = rate_axis(axes, rates.values())
+        heights = place_in_band(axes, [name for name in rates if rates[name] == 0], ns, band)
+        points = [(ns[name], heights.get(name, rates[name]), name, colour[name])
+                  for name in methods]
+        for x, y, _, c in points:
+            axes.plot(x, y, "o", ms=7, mfc=c, mec="white", mew=0.8, zorder=3, clip_on=False)
+        label_points(axes, points)
+    save(figure, name)
+
+
+def paretos():
+    rows = table("methods.csv")
+    pareto([r for r in rows if r["origin"] == "scene"], "pareto", "candidate pairs of steps")
+    pareto([r for r in rows if r["origin"] != "scene"], "pareto-queries",
+           "queries picked to be hard")
 
 
 # ---- Distributions: a line from 1 % to 99 %, thick over the middle half, a dot at the median ----
@@ -219,14 +237,18 @@ def spread(axes, at, row, prefix, colour, vertical):
               mec=colour, mew=1.2)
 
 
-def rule_legend(figure, colour, note):
-    handles = [plt.Line2D([], [], color=c, lw=4, label=rule) for rule, c in colour.items()]
+def legend(figure, handles, note):
+    """A line above the figure, and one with the note above that."""
     figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.01, 1.0),
                   ncol=len(handles), frameon=False, borderaxespad=0)
-    figure.text(0.99, 1.005, note, ha="right", va="bottom", fontsize=8)
+    figure.text(0.012, 1 + 0.3 / figure.get_figheight(), note, va="bottom")
 
 
-SPREAD_NOTE = "dot: median; thick: middle half; thin: 1 % to 99 %"
+def rule_legend(figure, colour, note):
+    legend(figure, [plt.Line2D([], [], color=c, lw=4, label=r) for r, c in colour.items()], note)
+
+
+SPREAD_NOTE = "Dot: median; thick: middle half; thin: 1 % to 99 %"
 
 
 def grid(rows, height):
@@ -254,20 +276,25 @@ def bounds():
     rules = in_order(r["rule"] for r in rows)
     colour = colours(rules)
     variables = in_order(r["variable"] for r in rows)
-    figure, cells = grid(rows, 2.5)
+    # Beyond these nothing is known, or nothing need be: a query's k may all be rounding errors.
+    low, high = 1e-18, 1e3
+    figure, cells = grid(rows, 2.1)
     for axes, here in cells:
         axes.set_yscale("log")
+        axes.set_ylim(low, high)
+        axes.set_yticks([10.0 ** e for e in range(-18, 4, 3)])
         for r in here:
             at = variables.index(r["variable"]) + \
                 (rules.index(r["rule"]) - (len(rules) - 1) / 2) * 0.7 / len(rules)
-            spread(axes, at, {k: v if v != 0 else math.nan for k, v in r.items()}, "relative_",
-                   colour[r["rule"]], True)
+            inside = {key: min(max(value, low), high) if isinstance(value, float) else value
+                      for key, value in r.items()}
+            spread(axes, at, inside, "relative_", colour[r["rule"]], True)
         axes.set_xticks(range(len(variables)))
         axes.set_xticklabels(variables)
         axes.grid(axis="x", visible=False)
         axes.set_ylabel("bound / largest |k|")
     figure.tight_layout()
-    rule_legend(figure, colour, SPREAD_NOTE)
+    rule_legend(figure, colour, SPREAD_NOTE + "; cut off at 1e-18 and 1000")
     save(figure, "bounds")
 
 
@@ -286,8 +313,8 @@ def tightness():
     axes.set_yticklabels(quantities)
     axes.set_ylim(len(quantities) - 0.4, -0.6)
     axes.grid(axis="y", visible=False)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: short(10.0 ** x) if abs(x) < 9
-                                                 else f"1e{x:.0f}"))
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
     axes.set_xlim(left=min(0, axes.get_xlim()[0]))
     axes.axvline(0, color=INK, lw=0.7)
     axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails)")
@@ -319,14 +346,13 @@ def times():
         axes.set_ylim(len(methods) - 0.5, -0.5)
         axes.set_xlim(least / 1.5, most * 1.5)
         axes.grid(axis="y", visible=False)
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if most < 300 * least else (1,)))
         axes.xaxis.set_major_formatter(NANOSECONDS)
         axes.xaxis.set_minor_locator(NullLocator())
     figure.tight_layout()
     handles = [plt.Line2D([], [], color=COLOURS[0], marker=mark, ls="", label=label, mew=1.4,
                           mfc="white" if mark == "o" else COLOURS[0]) for _, mark, label in marks]
-    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.01, 1.0),
-                  ncol=len(handles), frameon=False, borderaxespad=0)
-    figure.text(0.99, 1.005, "time of single queries", ha="right", va="bottom", fontsize=8)
+    legend(figure, handles, "Time of single queries")
     save(figure, "times")
 
 
@@ -388,5 +414,5 @@ def heat_map(value, families, methods, knob_names, name, title, is_time):
     save(figure, name)
 
 
-for draw in (pareto, bounds, tightness, times, stress):
+for draw in (paretos, bounds, tightness, times, stress):
     draw()

@@ -42,7 +42,7 @@ data_summary summary_of(const data_set& data) {
         return data_summary::kind{judged.queries.size(), judged.colliding, judged.stored_truths,
                                   judged.contradictions};
     };
-    return {data.name, data.is_scene, of(data.vertex_face_queries), of(data.edge_edge_queries)};
+    return {data.name, data.origin, of(data.vertex_face_queries), of(data.edge_edge_queries)};
 }
 
 std::vector<std::string> failures_of(const summary& report) {
@@ -80,8 +80,8 @@ std::vector<std::string> failures_of(const summary& report) {
     return failures;
 }
 
-/// Runs plot.py in the folder. False if nothing could be drawn; the script has then said why.
-bool draw(const fs::path& folder) {
+/// Runs plot.py in the folder. Its exit status; 127 if there is no Python, or it did not end well.
+int draw(const fs::path& folder) {
     const std::string script = (folder / "plot.py").string();
     const pid_t child = fork();
     if (child == 0) {
@@ -93,15 +93,17 @@ bool draw(const fs::path& folder) {
         _exit(127);
     }
     int status = 0;
-    return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-           WEXITSTATUS(status) == 0;
+    const bool ended = child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
+    return ended ? WEXITSTATUS(status) : 127;
 }
 
 const std::vector<picture>& possible_pictures() {
     static const std::vector<picture> all{
         {"pareto.png",
-         "Error against run time. Each method over all data sets; the band holds those without an "
-         "error."},
+         "Error against run time on all candidate pairs of the scenes' steps. The band holds the "
+         "methods without an error; height within it means nothing."},
+        {"pareto-queries.png",
+         "Error against run time on stored and made queries, which are picked to be hard."},
         {"bounds.png",
          "Bounds on the rounding error of the six critical variables of BSC under each rule, "
          "relative to the query's largest control value |k| of Y (the paper's Figure 8)."},
@@ -114,10 +116,11 @@ const std::vector<picture>& possible_pictures() {
     return all;
 }
 
-const std::vector<std::string> method_columns{
-    "data_set",  "kind",       "method",          "queries",
-    "colliding", "collisions", "false_positives", "false_negatives",
-    "uncertain", "timed",      "ns_min",          "ns_median"};
+const std::vector<std::string> method_columns{"data_set",   "origin",          "kind",
+                                              "method",     "queries",         "colliding",
+                                              "collisions", "false_positives", "false_negatives",
+                                              "uncertain",  "timed",           "ns_min",
+                                              "ns_median"};
 const std::vector<std::string> time_columns{"data_set", "kind",  "method",  "timed",    "ns_median",
                                             "ns_90",    "ns_99", "ns_99_9", "ns_worst", "clock_ns"};
 const std::vector<std::string> stress_columns{"family",     "knob_name",       "knob",
@@ -223,20 +226,26 @@ void write_tables(const summary& report) {
     }
 }
 
-/// Writes plot.py and runs it. Returns the pictures that it made.
-std::vector<picture> draw_pictures(const fs::path& folder, const say_line& say) {
+/// Writes plot.py and runs it. Pictures that it could not make are left out, and that is told.
+void draw_pictures(summary& report, const say_line& say) {
+    const fs::path& folder = report.settings.out;
     io::write_whole(folder / "plot.py", plot_script);
     for (const picture& p : possible_pictures()) {  // of earlier data
         std::error_code ignored;
         fs::remove(folder / p.file, ignored);
         fs::remove((folder / p.file).replace_extension(".svg"), ignored);
     }
-    if (!draw(folder)) say("the pictures are left out; all else is written");
-    std::vector<picture> drawn;
-    for (const picture& p : possible_pictures()) {
-        if (fs::exists(folder / p.file)) drawn.push_back(p);
+    constexpr int no_matplotlib = 3, no_python = 127;
+    const int status = draw(folder);
+    if (status == no_python) say("no pictures: Python (python3) cannot be run");
+    if (status == no_matplotlib || status == no_python) {
+        report.left_out.push_back({"pictures", "no Python with matplotlib"});
+    } else if (status != 0) {
+        report.failures.push_back("plot.py ended with status " + std::to_string(status));
     }
-    return drawn;
+    for (const picture& p : possible_pictures()) {
+        if (fs::exists(folder / p.file)) report.pictures.push_back(p);
+    }
 }
 
 }  // namespace
@@ -287,7 +296,7 @@ summary make(const options& settings, const std::function<void(double, const std
 
     write_tables(report);
     show(1, "pictures");
-    report.pictures = draw_pictures(settings.out, say);
+    draw_pictures(report, say);
     io::write_whole(settings.out / "report.md", markdown_of(report));
     return report;
 }

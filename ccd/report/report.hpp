@@ -38,7 +38,7 @@ struct options {
 /// What a data set held, for a person.
 struct data_summary {
     std::string name;
-    bool is_scene = false;
+    report::origin origin = origin::stored;
     struct kind {
         std::size_t queries = 0, colliding = 0, stored_truths = 0, contradictions = 0;
     } vertex_face, edge_edge;
