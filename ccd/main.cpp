@@ -1,5 +1,5 @@
 // The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
-// broke its promise, in `ccd stress`), 2 bad usage.
+// broke its promise, in `ccd stress` and `ccd report`), 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -8,6 +8,7 @@
 #include "ccd/command_line.hpp"
 #include "ccd/commands.hpp"
 #include "ccd/io/error.hpp"
+#include "ccd/report/report.hpp"
 #include "ccd/table.hpp"
 
 namespace ccd::program {
@@ -62,18 +63,21 @@ std::vector<const stress::family*> families_named(const std::string& list, bool 
 struct command_line {
     CLI::App app{
         "Exact continuous collision detection.\n"
-        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress also 1: a promise was broken.",
+        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress and report also 1: a promise was "
+        "broken.",
         "ccd"};
     query_arguments query;
     step_arguments step;
     stress_arguments stress;
+    report_arguments report;
     std::string query_methods, query_kind, step_method = "exact", step_set;
-    std::string stress_methods, stress_families;
+    std::string stress_methods, stress_families, report_methods;
     bool stress_quick = false;
     std::size_t stress_queries = 1000;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
     CLI::App* stress_command = nullptr;
+    CLI::App* report_command = nullptr;
     CLI::App* methods_command = nullptr;
 
     command_line() {
@@ -156,6 +160,36 @@ struct command_line {
                          "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
             ->type_name("OUT");
 
+        report_command = app.add_subcommand(
+            "report",
+            "Error against run time: tables and pictures of all methods and bound rules.\n"
+            "A stopped report goes on where it was");
+        report_command->add_option(
+            "DATA", report.data,
+            "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
+            "meshes), looked through with all they hold; else the bundled scene and queries that\n"
+            "the program makes itself");
+        report_command->add_option("--out", report.out, "The report's folder, else out/report")
+            ->type_name("DIR");
+        report_command->add_flag("--quick", report.quick, "Fewer queries are timed");
+        report_command->add_option("--method", report_methods, "Methods M[,M...], else all")
+            ->type_name("M[,M...]");
+        report_command
+            ->add_option("--sections", report.sections,
+                         "Only these: methods, times, bounds, stress")
+            ->type_name("S[,S...]")
+            ->delimiter(',')
+            ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),
+                                                           std::end(report::section_names))));
+        report_command
+            ->add_option("--threads", report.threads,
+                         "Threads that count errors; 0: one per core (times are taken on one)")
+            ->check(CLI::Range(0, 4096));
+        report_command
+            ->add_option("--commit", report.commit,
+                         "To be told in the report, else that of the configured build")
+            ->type_name("TEXT");
+
         methods_command =
             app.add_subcommand("methods", "What methods there are and what each promises");
     }
@@ -196,6 +230,9 @@ struct command_line {
                 require_separate({stress.json},
                                  {*stress.out / "stress.csv", *stress.out / "stress.md"});
             if (!run_stress(stress)) return broken_promise;
+        } else if (report_command->parsed()) {
+            report.methods = methods_named(report_methods, report_command->count("--method") == 0);
+            if (!run_report(report)) return broken_promise;
         } else if (methods_command->parsed()) {
             run_methods();
         }

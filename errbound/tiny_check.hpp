@@ -168,7 +168,8 @@ class tiny_checker {
     void check_one(const operand_range& a) {
         using fraction = std::pair<double, double>;
         const auto code = [&](const std::string& operation) {
-            return [&a, operation] { return text("a", a) + "const number c = " + operation + ";\n"; };
+            return
+                [&a, operation] { return text("a", a) + "const number c = " + operation + ";\n"; };
         };
         Tiny::clear_flag();
         check(a.x, std::array{fraction(a.low, 1), fraction(a.high, 1)}, code("a"));
