@@ -20,8 +20,10 @@ struct running {
         return {value - value};  // 0, or NaN if the value is not finite
     }
     template <class T>
-    static constexpr bound<T> within(const T&, const T& error) {
-        return {inflated(error / errbound::number_traits<T>::unit_roundoff())};
+    static constexpr bound<T> within(const T& value, const T& error) {
+        using traits = errbound::number_traits<T>;
+        if (!(error >= 0)) return {traits::infinity()};
+        return {inflated(error / traits::unit_roundoff()) + (value - value)};
     }
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {

@@ -14,8 +14,8 @@
 //   negate(bound)                                the bound of −value; default: the same bound
 //   sign(value, bound)                           the certain sign, for a rule that knows more than
 //                                                |value − true value| <= error; default: what value
-//                                                and error tell. Uncertain where value is not
-//                                                finite; zero only if the true value is zero
+//                                                and error tell. Uncertain where value or error is
+//                                                not finite; zero only if the true value is zero
 //   minimal_precision                            the number of bits of T that the proof needs
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
 #pragma once

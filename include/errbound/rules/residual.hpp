@@ -57,7 +57,8 @@ struct residual {
         using traits = number_traits<T>;
         const T corrected = value + b.correction;
         if (corrected == 0 && b.remainder == 0) return sign_type::zero;
-        if (!(traits::abs(corrected) > inflated<T>(b.remainder)) || !traits::is_finite(corrected))
+        if (!(traits::abs(corrected) > inflated<T>(b.remainder)) ||
+            !traits::is_finite(error<T>(value, b)))
             return sign_type::uncertain;
         return corrected > 0 ? sign_type::positive : sign_type::negative;
     }
