@@ -164,7 +164,8 @@ class ball {
     sign_type sign() const {
         if (!is_defined()) return sign_type::uncertain;
         if (mpfr_cmpabs(middle_.get(), radius_.get()) <= 0)
-            return is_exact() && mpfr_zero_p(middle_.get()) ? sign_type::zero : sign_type::uncertain;
+            return is_exact() && mpfr_zero_p(middle_.get()) ? sign_type::zero
+                                                            : sign_type::uncertain;
         return mpfr_sgn(middle_.get()) > 0 ? sign_type::positive : sign_type::negative;
     }
 
@@ -175,7 +176,8 @@ class ball {
     void rounded(int off) {
         if (off == 0 || mpfr_regular_p(middle_.get()) == 0) return;
         MPFR_DECL_INIT(half, radius_precision);
-        mpfr_set_ui_2exp(half, 1, mpfr_get_exp(middle_.get()) - mpfr_get_prec(middle_.get()) - 1, MPFR_RNDU);
+        mpfr_set_ui_2exp(half, 1, mpfr_get_exp(middle_.get()) - mpfr_get_prec(middle_.get()) - 1,
+                         MPFR_RNDU);
         mpfr_add(radius_.get(), radius_.get(), half, MPFR_RNDU);
     }
 
@@ -202,8 +204,7 @@ class deviation {
     }
     judgement at_most(double bound) const {
         if (mpfr_cmp_d(upper_.get(), bound) <= 0) return judgement::holds;
-        return mpfr_cmp_d(lower_.get(), bound) > 0 ? judgement::violated
-                                                   : judgement::undetermined;
+        return mpfr_cmp_d(lower_.get(), bound) > 0 ? judgement::violated : judgement::undetermined;
     }
     bool is_zero() const { return mpfr_zero_p(upper_.get()) != 0; }
     /// Zero, or too small for the enclosure to tell its size.

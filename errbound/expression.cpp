@@ -105,8 +105,8 @@ class input_maker {
     /// Between 2^(e−1) and 2^e, of few bits or of all.
     double of_exponent(int e) {
         const int bits = random_.one_in(3) ? random_.between(2, 6) : limits::digits;
-        const double mantissa = static_cast<double>(random_.bits() >> (65 - bits)) +
-                                std::ldexp(1.0, bits - 1);
+        const double mantissa =
+            static_cast<double>(random_.bits() >> (65 - bits)) + std::ldexp(1.0, bits - 1);
         return std::copysign(rounded(std::ldexp(mantissa, e - bits)), sign());
     }
 
@@ -154,8 +154,8 @@ expression made(random_source& random, bool may_divide, int longest) {
         const int values = static_cast<int>(e.input_count + i);
         expression_operation& o = e.operations[i];
         o.kind = kind_from(mix, random);
-        const int recent = deep && i > 0 ? values - 1 - random.below(std::min(values, 2))
-                                         : random.below(values);
+        const int recent =
+            deep && i > 0 ? values - 1 - random.below(std::min(values, 2)) : random.below(values);
         const int other = random.below(values);
         const bool exchanged = random.one_in(2);
         o.left = static_cast<std::uint8_t>(exchanged ? other : recent);
@@ -234,8 +234,8 @@ std::string hexadecimal(double x, number_type type) {
 
 std::string cpp_text(const expression& e, number_type type, std::string_view rule) {
     const std::string names(name_of(type));
-    std::string text = "using number = errbound::tracked<" + names + ", errbound::" +
-                       std::string(rule) + ">;\n";
+    std::string text =
+        "using number = errbound::tracked<" + names + ", errbound::" + std::string(rule) + ">;\n";
     for (std::size_t i = 0; i < e.input_count; ++i) {
         const expression_input& in = e.inputs[i];
         text += "const number " + name_of_value(i) + " = ";

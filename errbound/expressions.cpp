@@ -62,7 +62,6 @@ class reference {
     std::vector<deviation> off_;
 };
 
-
 /// What is counted under one rule and number type.
 struct tally {
     std::uint64_t expressions = 0, values = 0, violations = 0, undetermined = 0;
@@ -193,8 +192,8 @@ report validate_expressions(std::span<const rule> rules, const expression_option
                 if (const auto found = w->tallies.find(type); found != w->tallies.end())
                     sum.merge(found->second[k]);
             const std::string name(rules[k].name), number(name_of(type));
-            result.counts.push_back({name, number, sum.expressions, sum.values, sum.violations,
-                                     sum.undetermined});
+            result.counts.push_back(
+                {name, number, sum.expressions, sum.values, sum.violations, sum.undetermined});
             for (std::size_t i = 0; i < operation_kinds; ++i)
                 if (sum.log10[i].count() > 0)
                     result.distributions.push_back(

@@ -12,10 +12,10 @@ namespace errbound::validation {
 
 enum class finding {
     holds,
-    bound_broken,   ///< |value − exact value| > error()
-    sign_wrong,     ///< a certain sign that is not the exact one
-    baseless,       ///< a certain sign, or a finite bound, of no finite value
-    undetermined,   ///< the enclosure is too wide to tell
+    bound_broken,  ///< |value − exact value| > error()
+    sign_wrong,    ///< a certain sign that is not the exact one
+    baseless,      ///< a certain sign, or a finite bound, of no finite value
+    undetermined,  ///< the enclosure is too wide to tell
 };
 
 constexpr bool is_violation(finding f) {

@@ -60,8 +60,7 @@ struct command_line {
             ->check(CLI::IsMember({"vf", "ee"}));
         validate->add_flag("--round", arguments.round,
                            "Round rationals that no double equals, instead of refusing them");
-        validate->add_flag("--tiny", arguments.tiny,
-                           "Every case of number formats of 6 to 8 bits");
+        validate->add_flag("--tiny", arguments.tiny, "Every case of number formats of 6 to 8 bits");
         validate->add_option("--rules", rule_list, "Rules R[,R...], else all")
             ->type_name("R[,R...]");
         validate->add_option("--threads", arguments.options.threads, "Threads; 0: one per core")
@@ -80,8 +79,8 @@ struct command_line {
         if (!kind.empty())
             arguments.kind =
                 kind == "vf" ? ccd::io::query_kind::vertex_face : ccd::io::query_kind::edge_edge;
-        arguments.expressions = validate->count("--expressions") > 0 ||
-                                (!arguments.tiny && arguments.queries.empty());
+        arguments.expressions =
+            validate->count("--expressions") > 0 || (!arguments.tiny && arguments.queries.empty());
         ccd::program::require_separate({arguments.json, arguments.csv}, arguments.queries);
         return run_validate(arguments) ? done : violations_found;
     }

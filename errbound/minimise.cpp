@@ -47,8 +47,8 @@ double size_of(double x) {
 
 /// Falls with every accepted step: operations first, then inputs, then their digits.
 double size_of(const expression& e) {
-    double size = 1e6 * static_cast<double>(e.operation_count) +
-                  1e4 * static_cast<double>(e.input_count);
+    double size =
+        1e6 * static_cast<double>(e.operation_count) + 1e4 * static_cast<double>(e.input_count);
     for (std::size_t i = 0; i < e.operation_count; ++i)
         if (e.operations[i].kind == operation_kind::scale)
             size += std::abs(e.operations[i].exponent);

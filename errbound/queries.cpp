@@ -1,18 +1,16 @@
 // Stored queries in shadowed arithmetic, every rule.
 #include <algorithm>
 #include <array>
+#include <ccd/transform.hpp>
 #include <map>
 #include <utility>
-
-#include <ccd/transform.hpp>
 
 #include "errbound/blocks.hpp"
 #include "errbound/validation.hpp"
 
 namespace errbound::validation {
 
-void shadow_session::note(std::string_view quantity, const claim& c, const ball& x,
-                          bool promises) {
+void shadow_session::note(std::string_view quantity, const claim& c, const ball& x, bool promises) {
     auto found = quantities_.find(quantity);
     if (found == quantities_.end())
         found = quantities_.emplace(std::string(quantity), distribution()).first;

@@ -45,8 +45,7 @@ void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const ber
 template <class Rule, template <class> class Query>
 void check_query(const Query<double>& query, shadow_session& session) {
     using scalar = shadowed<Rule>;
-    const auto [scaled, finite] =
-        ccd::tracked_query<Rule, double, Query, scalar>(query);
+    const auto [scaled, finite] = ccd::tracked_query<Rule, double, Query, scalar>(query);
     if (!finite) return;
     const auto forms = ccd::forms_of(scaled);
     const bernstein<scalar, 3> y = normalized(forms.y());

@@ -14,7 +14,7 @@ namespace errbound::validation {
 /// Made by rule_of; a rule that is not in errbound/rule_list.hpp can be validated as well.
 struct rule {
     std::string_view name;
-    bool promises = false;      ///< a bound at all
+    bool promises = false;  ///< a bound at all
     bool has_division = false;
     void (*evaluate_double)(const expression&, claim*) = nullptr;
     void (*evaluate_float)(const expression&, claim*) = nullptr;

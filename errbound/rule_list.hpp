@@ -24,7 +24,9 @@ inline constexpr bool has_division = [] {
     if constexpr (requires { Rule::has_division; })
         return Rule::has_division;
     else
-        return requires { &Rule::template divide<double>; };
+        return requires {
+            &Rule::template divide<double>;
+        };
 }();
 
 /// Whether the rule promises a bound at all; `none` says that it does not.

@@ -42,8 +42,7 @@ std::uint8_t tiny_code(double value, int precision, int exponent_bits) {
         // should.
         const int e = std::max(std::ilogb(size), least);
         const double units = std::nearbyint(std::ldexp(size, precision - 1 - e));
-        code = static_cast<int>(
-            std::min<double>((e - least) * fractions + units, infinity));
+        code = static_cast<int>(std::min<double>((e - least) * fractions + units, infinity));
     }
     return static_cast<std::uint8_t>(sign + code);
 }

@@ -30,9 +30,7 @@ struct tiny_tables {
     std::vector<std::uint16_t> sum, difference, product, quotient, scaled;
 
     tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction);
-    std::size_t pair(std::uint8_t a, std::uint8_t b) const {
-        return (std::size_t{a} << bits) | b;
-    }
+    std::size_t pair(std::uint8_t a, std::uint8_t b) const { return (std::size_t{a} << bits) | b; }
     std::size_t scale(std::uint8_t a, int e) const {
         e = e < -most_scale ? -most_scale : e > most_scale ? most_scale : e;
         return std::size_t{a} * (2 * most_scale + 1) + static_cast<std::size_t>(e + most_scale);

@@ -26,8 +26,8 @@ struct named_quantile {
     const char* name;
     double share;
 };
-constexpr named_quantile quantiles[] = {{"min", 0},       {"q01", 0.01}, {"q25", 0.25},
-                                        {"median", 0.5},  {"q75", 0.75}, {"q99", 0.99},
+constexpr named_quantile quantiles[] = {{"min", 0},      {"q01", 0.01}, {"q25", 0.25},
+                                        {"median", 0.5}, {"q75", 0.75}, {"q99", 0.99},
                                         {"max", 1}};
 
 std::string text_of_counts(const std::vector<part>& parts) {
@@ -91,14 +91,10 @@ std::string json_of(const std::vector<part>& parts) {
                                          {"what", v.what},
                                          {"code", v.code}});
         for (const tightness& t : p.found.distributions) {
-            ordered_json entry{{"part", p.name},
-                               {"rule", t.rule},
-                               {"number", t.number},
-                               {"quantity", t.quantity},
-                               {"measure", t.measure},
-                               {"ratios", t.log10.ratios()},
-                               {"exact", t.log10.exact()},
-                               {"unknown", t.log10.unknown()}};
+            ordered_json entry{{"part", p.name},           {"rule", t.rule},
+                               {"number", t.number},       {"quantity", t.quantity},
+                               {"measure", t.measure},     {"ratios", t.log10.ratios()},
+                               {"exact", t.log10.exact()}, {"unknown", t.log10.unknown()}};
             for (const named_quantile& q : quantiles)
                 entry[q.name] = number_or_null(t.log10.quantile(q.share));
             all["tightness"].push_back(std::move(entry));
@@ -152,9 +148,8 @@ bool run_validate(const validate_arguments& arguments) {
         files.push_back(ccd::io::read_queries(path, arguments.kind, arguments.round));
 
     if (arguments.tiny)
-        run("tiny", [&](const progress& show) {
-            return validate_tiny(arguments.rules, threads, show);
-        });
+        run("tiny",
+            [&](const progress& show) { return validate_tiny(arguments.rules, threads, show); });
     for (std::size_t i = 0; i < files.size(); ++i)
         run(arguments.queries[i].string(), [&](const progress& show) {
             return files[i].kind == ccd::io::query_kind::vertex_face

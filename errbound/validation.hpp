@@ -41,10 +41,10 @@ struct tightness {
 /// What was done under one rule and number type.
 struct rule_counts {
     std::string rule, number;
-    std::uint64_t cases = 0;        ///< expressions, queries, or operations of tiny formats
-    std::uint64_t values = 0;       ///< that were compared with the reference
+    std::uint64_t cases = 0;   ///< expressions, queries, or operations of tiny formats
+    std::uint64_t values = 0;  ///< that were compared with the reference
     std::uint64_t violations = 0;
-    std::uint64_t undetermined = 0; ///< where even the largest precision did not tell
+    std::uint64_t undetermined = 0;  ///< where even the largest precision did not tell
 };
 
 struct report {

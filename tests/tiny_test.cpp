@@ -25,7 +25,7 @@ TEST(TinyFloat, IsAFormatAsIeee754DefinesIt) {
     EXPECT_EQ(double(traits::underflow_unit()), 0x1p-16);
     EXPECT_EQ(double(traits::epsilon()), 0.25);
     EXPECT_EQ(double(traits::infinity()), std::numeric_limits<double>::infinity());
-    EXPECT_EQ(double(tiny(1) + tiny(0.125)), 1);      // a tie, to even
+    EXPECT_EQ(double(tiny(1) + tiny(0.125)), 1);       // a tie, to even
     EXPECT_EQ(double(tiny(1.25) + tiny(0.125)), 1.5);  // likewise
     EXPECT_EQ(double(tiny(0x1p-8) * tiny(0x1.8p-8)), 0x1p-15);
     EXPECT_EQ(double(tiny(0x1p-8) * tiny(0x1p-9)), 0);

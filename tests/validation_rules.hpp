@@ -108,7 +108,8 @@ struct too_small {
 
 inline std::string all_violations(const validation::report& r) {
     std::string text;
-    for (const auto& v : r.violations) text += v.rule + " " + v.number + ": " + v.what + "\n" + v.code;
+    for (const auto& v : r.violations)
+        text += v.rule + " " + v.number + ": " + v.what + "\n" + v.code;
     return text;
 }
 
