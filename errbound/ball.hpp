@@ -206,9 +206,10 @@ class deviation {
         if (mpfr_cmp_d(upper_.get(), bound) <= 0) return judgement::holds;
         return mpfr_cmp_d(lower_.get(), bound) > 0 ? judgement::violated : judgement::undetermined;
     }
+    bool is_zero() const { return mpfr_zero_p(upper_.get()) != 0; }
     /// Zero, or too small for the enclosure to tell its size.
     bool is_negligible() const {
-        return mpfr_zero_p(upper_.get()) != 0 || mpfr_sgn(lower_.get()) <= 0 ||
+        return is_zero() || mpfr_sgn(lower_.get()) <= 0 ||
                mpfr_get_exp(upper_.get()) > mpfr_get_exp(lower_.get()) + 1;
     }
     /// Unless it is negligible.

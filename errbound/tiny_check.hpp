@@ -1,10 +1,13 @@
 // A bound rule in every case of tiny formats.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <errbound/tracked.hpp>
+#include <iterator>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -83,46 +86,80 @@ class tiny_checker {
         Tiny error;
     };
 
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr std::uint64_t most_described = 5;
+
+    static bool is_finite(const operand_range& a, const operand_range& b) {
+        return std::isfinite(a.low) && std::isfinite(b.low);
+    }
     static operand_range exactly(Tiny x) { return {number(x), double(x), double(x), Tiny(0)}; }
     static operand_range within(Tiny x, Tiny error) {
         return {error == 0 ? number(x) : number::within(x, error), double(x) - double(error),
                 double(x) + double(error), error};
     }
 
-    /// Holds a result to what it may be the result of: the numerators at the corners of the
-    /// operands' ranges, over denominators of one sign.
-    template <std::size_t N, class Code>
-    void check(const number& r, const std::array<std::pair<double, double>, N>& corners,
-               const Code& code) {
+    /// Where the exact result may lie; ends that are not finite: there is none.
+    struct exact_range {
+        double low, high;
+        bool defined() const { return std::isfinite(low) && std::isfinite(high); }
+    };
+
+    /// Holds a result to what it may be the result of.
+    template <class Code>
+    void check(const number& r, const exact_range& exact, const Code& code) {
         if (Tiny::overflowed_unnoticed()) return;  // the one thing that a rule may miss
         ++found_.values;
         const double value = double(r.value()), error = double(r.error());
         const sign_type sign = sign_of(r);
-        const char* broken = nullptr;
-        bool defined = std::isfinite(value);
-        for (const auto& [n, d] : corners)
-            if (!std::isfinite(n) || !std::isfinite(d) || d == 0 ||
-                std::signbit(d) != std::signbit(corners[0].second))
-                defined = false;
-        if (!defined) {
+        if (!std::isfinite(value) || !exact.defined()) {
             if (certain(sign) || std::isfinite(error))
-                broken = "certain about what has no finite value";
-        } else {
-            for (const auto& [n, d] : corners) {
-                if (!std::isnan(error) && !(std::abs(value * d - n) <= error * std::abs(d)))
-                    broken = "the bound is too small";
-                const double size = d < 0 ? -n : n;
-                const sign_type exact = size > 0   ? sign_type::positive
-                                        : size < 0 ? sign_type::negative
-                                                   : sign_type::zero;
-                if (certain(sign) && sign != exact) broken = "the sign is wrong";
-            }
+                add(r, "certain about what has no finite value", code);
+            return;
         }
-        if (!broken) return;
-        if (++found_.violations > 5) return;
+        if (!std::isnan(error) && !(value - exact.low <= error && exact.high - value <= error))
+            add(r, "the bound is too small", code);
+        check_sign(r, exact.low, exact.high, code);
+    }
+    /// A quotient of what lies in these ranges: compared multiplied by the divisor, at the corners,
+    /// among which are the extremes if the divisor cannot be zero.
+    template <class Code>
+    void check_quotient(const number& r, const exact_range& n, const exact_range& d,
+                        const Code& code) {
+        if (!n.defined() || !d.defined() || !(d.low > 0 || d.high < 0) ||
+            !number_traits<Tiny>::is_finite(r.value())) {
+            check(r, {-infinity, infinity}, code);
+            return;
+        }
+        if (Tiny::overflowed_unnoticed()) return;
+        ++found_.values;
+        const double value = double(r.value()), error = double(r.error());
+        for (const double divisor : {d.low, d.high})
+            for (const double dividend : {n.low, n.high})
+                if (!std::isnan(error) &&
+                    !(std::abs(value * divisor - dividend) <= error * std::abs(divisor))) {
+                    add(r, "the bound is too small", code);
+                    return;
+                }
+        if (d.low > 0)
+            check_sign(r, n.low, n.high, code);
+        else
+            check_sign(r, -n.high, -n.low, code);
+    }
+    /// A certain sign must be that of all numbers from low to high.
+    template <class Code>
+    void check_sign(const number& r, double low, double high, const Code& code) {
+        const sign_type sign = sign_of(r);
+        if ((sign == sign_type::positive && !(low > 0)) ||
+            (sign == sign_type::negative && !(high < 0)) ||
+            (sign == sign_type::zero && !(low == 0 && high == 0)))
+            add(r, "the sign is wrong", code);
+    }
+    template <class Code>
+    void add(const number& r, const char* broken, const Code& code) {
+        if (++found_.violations > most_described) return;
         found_.first.push_back({std::string(broken) + " (rounding " + std::string(direction_) +
-                                    "): value " + hexadecimal(value) + ", bound " +
-                                    hexadecimal(error),
+                                    "): value " + hexadecimal(double(r.value())) + ", bound " +
+                                    hexadecimal(double(r.error())),
                                 "using format = errbound::validation::" + found_.format +
                                     ";\nusing number = errbound::tracked<format, errbound::" +
                                     std::string(Rule::name) + ">;\n" + code()});
@@ -144,42 +181,35 @@ class tiny_checker {
                 return text("a", a) + text("b", b) + "const number c = " + operation + ";\n";
             };
         };
-        const auto corners = [&](const auto& f) {
-            return std::array{f(a.low, b.low), f(a.low, b.high), f(a.high, b.low),
-                              f(a.high, b.high)};
-        };
-        using fraction = std::pair<double, double>;
         Tiny::clear_flag();
-        check(a.x + b.x, corners([](double x, double y) { return fraction(x + y, 1); }),
-              code("a + b"));
+        check(a.x + b.x, {a.low + b.low, a.high + b.high}, code("a + b"));
         Tiny::clear_flag();
-        check(a.x - b.x, corners([](double x, double y) { return fraction(x - y, 1); }),
-              code("a - b"));
+        check(a.x - b.x, {a.low - b.high, a.high - b.low}, code("a - b"));
         Tiny::clear_flag();
-        check(a.x * b.x, corners([](double x, double y) { return fraction(x * y, 1); }),
+        const double products[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+        const auto [low, high] = std::minmax_element(std::begin(products), std::end(products));
+        check(a.x * b.x,
+              is_finite(a, b) ? exact_range{*low, *high} : exact_range{-infinity, infinity},
               code("a * b"));
         if constexpr (has_division<Rule>) {
             Tiny::clear_flag();
-            check(a.x / b.x, corners([](double x, double y) { return fraction(x, y); }),
-                  code("a / b"));
+            check_quotient(a.x / b.x, {a.low, a.high}, {b.low, b.high}, code("a / b"));
         }
     }
     /// The operand itself, −x, and x·2^e for every e that leaves something.
     void check_one(const operand_range& a) {
-        using fraction = std::pair<double, double>;
         const auto code = [&](const std::string& operation) {
             return
                 [&a, operation] { return text("a", a) + "const number c = " + operation + ";\n"; };
         };
         Tiny::clear_flag();
-        check(a.x, std::array{fraction(a.low, 1), fraction(a.high, 1)}, code("a"));
+        check(a.x, {a.low, a.high}, code("a"));
         Tiny::clear_flag();
-        check(-a.x, std::array{fraction(-a.low, 1), fraction(-a.high, 1)}, code("-a"));
+        check(-a.x, {-a.high, -a.low}, code("-a"));
         constexpr int reach = (1 << Tiny::exponent_bits) + Tiny::precision;
         for (int e = -reach; e <= reach; ++e) {
             Tiny::clear_flag();
-            check(scale(a.x, e),
-                  std::array{fraction(std::ldexp(a.low, e), 1), fraction(std::ldexp(a.high, e), 1)},
+            check(scale(a.x, e), {std::ldexp(a.low, e), std::ldexp(a.high, e)},
                   code("scale(a, " + std::to_string(e) + ")"));
         }
     }
@@ -217,7 +247,6 @@ class tiny_checker {
     }
     void check_with_third(const number& inner, double exact, Tiny a, Tiny b, const char* how) {
         if (Tiny::overflowed_unnoticed()) return;
-        using fraction = std::pair<double, double>;
         for (const Tiny c : finite_) {
             const auto code = [&](const char* operation) {
                 return [=] {
@@ -227,20 +256,19 @@ class tiny_checker {
             };
             const number outer(c);
             const double z = double(c);
-            const auto one = [](double n, double d) { return std::array{fraction(n, d)}; };
             Tiny::clear_flag();
-            check(inner + outer, one(exact + z, 1), code("d + c"));
+            check(inner + outer, {exact + z, exact + z}, code("d + c"));
             Tiny::clear_flag();
-            check(inner - outer, one(exact - z, 1), code("d - c"));
+            check(inner - outer, {exact - z, exact - z}, code("d - c"));
             Tiny::clear_flag();
-            check(outer - inner, one(z - exact, 1), code("c - d"));
+            check(outer - inner, {z - exact, z - exact}, code("c - d"));
             Tiny::clear_flag();
-            check(inner * outer, one(exact * z, 1), code("d * c"));
+            check(inner * outer, {exact * z, exact * z}, code("d * c"));
             if constexpr (has_division<Rule>) {
                 Tiny::clear_flag();
-                check(inner / outer, one(exact, z), code("d / c"));
+                check_quotient(inner / outer, {exact, exact}, {z, z}, code("d / c"));
                 Tiny::clear_flag();
-                check(outer / inner, one(z, exact), code("c / d"));
+                check_quotient(outer / inner, {z, z}, {exact, exact}, code("c / d"));
             }
         }
     }
