@@ -29,6 +29,7 @@ std::vector<std::unique_ptr<State>> in_blocks(int threads, std::uint64_t blocks,
             work(*state, block);
             ++done;
         }
+        mpfr_free_cache();  // what MPFR keeps for this thread
         return state;
     };
     const unsigned count =
