@@ -1,5 +1,5 @@
-// What SafeCCD stands on: roots of quadratics, proximity of vertices and edges, and its promise in
-// single precision. (Its promise in double is held by property_test.)
+// What SafeCCD stands on: roots of quadratics (cubics: methods_test), proximity of vertices and
+// edges, and its promise in single precision. (Its promise in double is held by property_test.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,18 +48,6 @@ TEST(quadratic_roots, are_those_of_a_nearby_quadratic) {
             EXPECT_LE(abs(value), size * m * 16 * mpq_rational(0x1p-52))
                 << std::hexfloat << c[0] << ' ' << c[1] << ' ' << c[2] << " at " << t;
         }
-    }
-}
-
-TEST(guarded_newton, is_found_to_the_last_places) {
-    source random(2);
-    for (int i = 0; i < 20000; ++i) {
-        const double r = random.unit(), k = std::ldexp(random.unit(), -random.between(0, 40));
-        // (t − r)(k + (t − r)²): one real root.
-        const errbound::bernstein<double, 3> p{{-r * (k + r * r), k + 3 * r * r, -3 * r, 1}};
-        const double t = errbound::guarded_newton(p, 0.0, 1.0);
-        EXPECT_LE(std::abs(value_at(p, 1.0, t)), 4e-15) << r << ' ' << k;
-        EXPECT_TRUE(t >= 0 && t <= 1);
     }
 }
 
