@@ -4,15 +4,13 @@
 
 #include <ccd/batch.hpp>
 #include <ccd/method.hpp>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
-#include "ccd/stress/families.hpp"
+#include "ccd/stress/stress.hpp"
 
 namespace ccd::program {
 
@@ -42,12 +40,7 @@ struct step_arguments {
 void run_step(const step_arguments& arguments);
 
 struct stress_arguments {
-    std::vector<ccd::method> methods;
-    std::vector<const stress::family*> families;
-    bool quick = false;
-    std::optional<std::size_t> queries;  ///< of a cell; none: as many as minutes allow
-    std::uint64_t seed = 1;
-    int threads = 0;                           ///< for the truth; 0: one per core
+    stress::plan plan;
     std::optional<std::filesystem::path> out;  ///< folder for stress.csv and stress.md
     std::optional<std::filesystem::path> json;
 };

@@ -1,24 +1,12 @@
-// What the exact decisions share, over any exact scalar: the vertex/edge queries that bound a
-// query, a cheap rejection of them, and the contact of two vertices.
+// What the exact decisions share: a cheap rejection of vertex/edge queries, and the contact of two
+// vertices over any exact scalar.
 #pragma once
 
-#include <array>
 #include <ccd/forms.hpp>
 #include <ccd/query.hpp>
-#include <cstddef>
+#include <ccd/transform.hpp>
 
 namespace ccd {
-
-/// The contacts of a vertex with an edge on the border of the face.
-template <class T>
-constexpr std::array<vertex_edge<T>, 3> vertex_edge_queries(const vertex_face<T>& q) {
-    return {{{q.v, q.f0, q.f1}, {q.v, q.f1, q.f2}, {q.v, q.f2, q.f0}}};
-}
-/// The contacts of an end of one edge with the other edge.
-template <class T>
-constexpr std::array<vertex_edge<T>, 4> vertex_edge_queries(const edge_edge<T>& q) {
-    return {{{q.a0, q.b0, q.b1}, {q.a1, q.b0, q.b1}, {q.b0, q.a0, q.a1}, {q.b1, q.a0, q.a1}}};
-}
 
 /// True if some coordinate axis parts v from the edge the same way at t = 0 and at t = 1, and
 /// therefore, the motion being linear, throughout.

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string>
 
+#include "ccd/command_line.hpp"
 #include "ccd/commands.hpp"
 #include "ccd/io/error.hpp"
 #include "ccd/report/report.hpp"
@@ -14,11 +15,6 @@ namespace ccd::program {
 namespace {
 
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2 };
-
-/// A command line that CLI11 lets through but that makes no sense.
-struct usage_error : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 ccd::method method_named(const std::string& name) {
     if (const std::optional<ccd::method> method = find_method(name)) return *method;
@@ -48,18 +44,6 @@ const stress::family* family_named(const std::string& name) {
     throw usage_error("--family: found '" + name + "', expected one of " + known);
 }
 
-/// What `named` makes of the names of a list N[,N...].
-template <class Named>
-auto all_named(const std::string& list, const Named& named) {
-    std::vector<decltype(named(list))> result;
-    std::size_t begin = 0;
-    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-        comma = list.find(',', begin);
-        result.push_back(named(list.substr(begin, comma - begin)));
-    }
-    return result;
-}
-
 /// The methods of a list M[,M...], or all.
 std::vector<ccd::method> methods_named(const std::string& list, bool all) {
     if (!all) return all_named(list, method_named);
@@ -76,24 +60,6 @@ std::vector<const stress::family*> families_named(const std::string& list, bool 
     return result;
 }
 
-/// An output must be neither an input nor another output: nothing is lost.
-void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
-                      std::vector<std::filesystem::path> taken) {
-    for (const auto& output : outputs) {
-        if (!output) continue;
-        for (const std::filesystem::path& other : taken) {
-            std::error_code ignored;
-            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
-                              output->lexically_normal() == other.lexically_normal();
-            if (same && std::filesystem::status(*output, ignored).type() !=
-                            std::filesystem::file_type::character)
-                throw usage_error("found the output '" + output->string() +
-                                  "' among the inputs or twice, expected a file of its own");
-        }
-        taken.push_back(*output);
-    }
-}
-
 struct command_line {
     CLI::App app{
         "Exact continuous collision detection.\n"
@@ -106,6 +72,8 @@ struct command_line {
     report_arguments report;
     std::string query_methods, query_kind, step_method = "exact", step_set;
     std::string stress_methods, stress_families, report_methods;
+    bool stress_quick = false;
+    std::size_t stress_queries = 400;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
     CLI::App* stress_command = nullptr;
@@ -166,21 +134,21 @@ struct command_line {
                                "Every method on stiff and extreme queries, family by family, each "
                                "with a knob that is\n"
                                "swept over its whole range; truth by unbounded integers");
-        stress_command->add_flag("--quick", stress.quick, "About a minute instead of ten");
+        stress_command->add_flag("--quick", stress_quick, "About a minute instead of ten");
         stress_command->add_option("--method", stress_methods, "Methods M[,M...], else all")
             ->type_name("M[,M...]");
         stress_command->add_option("--family", stress_families, "Families F[,F...], else all")
             ->type_name("F[,F...]");
         stress_command
             ->add_option(
-                "--queries", stress.queries,
+                "--queries", stress_queries,
                 "So many of each family, kind and value of the knob; fewer where the truth\n"
                 "takes tenths of a second")
             ->check(CLI::Range(1, 1000000));
-        stress_command->add_option("--seed", stress.seed, "Same seed, same queries")
+        stress_command->add_option("--seed", stress.plan.seed, "Same seed, same queries")
             ->capture_default_str();
         stress_command
-            ->add_option("--threads", stress.threads,
+            ->add_option("--threads", stress.plan.threads,
                          "Threads that find the truth; 0: one per core. Methods are timed on one")
             ->check(CLI::Range(0, 4096));
         stress_command
@@ -208,7 +176,8 @@ struct command_line {
             ->type_name("M[,M...]");
         report_command
             ->add_option("--sections", report.sections,
-                         "Only these: methods, times, bounds, stress")
+                         "Only these: methods, times, bounds, tightness (needs a build with\n"
+                         "MPFR), stress")
             ->type_name("S[,S...]")
             ->delimiter(',')
             ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),
@@ -250,9 +219,14 @@ struct command_line {
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
         } else if (stress_command->parsed()) {
-            stress.methods = methods_named(stress_methods, stress_command->count("--method") == 0);
-            stress.families =
+            for (const ccd::method m :
+                 methods_named(stress_methods, stress_command->count("--method") == 0))
+                stress.plan.subjects.push_back(stress::subject_of(info(m)));
+            stress.plan.families =
                 families_named(stress_families, stress_command->count("--family") == 0);
+            const bool few = stress_quick && stress_command->count("--queries") == 0;
+            stress.plan.queries = few ? 40 : stress_queries;
+            stress.plan.seconds = stress_quick ? 0.002 : 0.02;
             if (stress.json && stress.out)
                 require_separate({stress.json},
                                  {*stress.out / "stress.csv", *stress.out / "stress.md"});

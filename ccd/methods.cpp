@@ -1,17 +1,24 @@
 // The table of methods and the dispatch by method.
 #include <algorithm>
-#include <array>
 #include <ccd/bsc.hpp>
+#include <ccd/bsc_exact.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/provot.hpp>
+#include <ccd/root_parity.hpp>
+#include <ccd/safeccd.hpp>
+#include <errbound/rules/interval.hpp>
 #include <errbound/rules/none.hpp>
+#include <errbound/rules/residual.hpp>
 #include <errbound/rules/safe.hpp>
+#include <errbound/rules/sharp.hpp>
 #include <errbound/rules/tight.hpp>
+#include <iterator>
 
 namespace ccd {
 namespace {
 
-constexpr std::array<method_info, 4> table{{
+constexpr method_info table[] = {
     {method::float_, "float", true, true,
      "no promise: plain double arithmetic, may be wrong either way",
      "BSC-float; Tang, Tong, Wang, Manocha 2014"},
@@ -21,10 +28,34 @@ constexpr std::array<method_info, 4> table{{
     {method::tight, "tight", false, true,
      "never loses a collision; false positives where TightBound cannot tell",
      "TightCCD; Wang, Tang, Manocha, Tong 2015"},
+    {method::sharp, "sharp", false, true,
+     "never loses a collision, rounding to nearest; false positives where the bound cannot tell",
+     "BSC with TightBound's rules at half their unit roundoff (errbound/rules/sharp.hpp)"},
+    {method::interval, "interval", false, true,
+     "never loses a collision, rounding to nearest; false positives where intervals hold zero",
+     "BSC in interval arithmetic, rounded outwards (errbound/rules/interval.hpp)"},
+    {method::residual, "residual", false, true,
+     "never loses a collision, rounding to nearest; few false positives",
+     "BSC with each operation's own rounding error (errbound/rules/residual.hpp)"},
+    {method::bsc_exact, "bsc-exact", false, false,
+     "no false negative, no false positive, on any finite input",
+     "BSC in interval arithmetic, then in unbounded integers; Tang, Tong, Wang, Manocha 2014"},
+    {method::safeccd, "safeccd", false, true,
+     "never loses a collision; many false positives, from one uniform bound",
+     "SafeCCD; Wang 2014, mended as ccd/safeccd.hpp tells"},
+    {method::safeccd_tight, "safeccd-tight", false, true,
+     "never loses a collision; false positives where TightBound cannot tell",
+     "SafeCCD with TightBound; Wang, Tang, Manocha, Tong 2015, Section 6"},
+    {method::provot, "provot", true, true,
+     "no promise: cubic roots and inside tests in plain double, degenerate contacts lost",
+     "Provot 1997"},
+    {method::root_parity, "root-parity", true, false,
+     "no false positive; loses contacts that come in even numbers within a step",
+     "Brochu, Edwards, Bridson 2012; in interval arithmetic, then in unbounded integers"},
     {method::exact, "exact", false, false,
      "no false negative, no false positive, on any finite input",
      "static error bounds, then integers of fixed and of unbounded width (ccd step --explain)"},
-}};
+};
 
 template <class Query>
 verdict decide_any(method m, const Query& query) {
@@ -35,6 +66,22 @@ verdict decide_any(method m, const Query& query) {
             return decide_bsc<errbound::safe>(query);
         case method::tight:
             return decide_bsc<errbound::tight>(query);
+        case method::sharp:
+            return decide_bsc<errbound::sharp>(query);
+        case method::interval:
+            return decide_bsc<errbound::interval>(query);
+        case method::residual:
+            return decide_bsc<errbound::residual>(query);
+        case method::bsc_exact:
+            return decide_bsc_exact(query);
+        case method::safeccd:
+            return decide_safeccd<errbound::safe>(query);
+        case method::safeccd_tight:
+            return decide_safeccd<errbound::tight>(query);
+        case method::provot:
+            return decide_provot(query);
+        case method::root_parity:
+            return decide_root_parity(query);
         case method::exact:
             return decide_exact(query);
     }
@@ -49,7 +96,7 @@ std::span<const method_info> methods() {
 
 std::optional<method> find_method(std::string_view name) {
     const auto found = std::ranges::find(table, name, &method_info::name);
-    if (found == table.end()) return std::nullopt;
+    if (found == std::end(table)) return std::nullopt;
     return found->method;
 }
 

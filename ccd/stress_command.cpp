@@ -151,12 +151,12 @@ std::string report_broken(const std::vector<const cell*>& broken, const stress::
         lines += "broken by " + method + ": " + std::string(c->broken->what) + "; family " +
                  std::string(c->family->name) + ", knob " + knob_of(*c) + ", " + name_of(c->kind) +
                  ", query " + std::to_string(c->broken->index);
-        const query_families::points p =
-            stress::make(*c->family, c->knob, c->kind, plan.seed, c->broken->index);
         if (c->family->finite) {
             const fs::path path =
                 folder / ("stress-" + method + "-" + std::string(c->family->name) + "-" +
                           name_of(c->kind) + ".csv");
+            const stress::points p =
+                stress::make(*c->family, c->knob, c->kind, plan.seed, c->broken->index);
             io::write_whole(path, query_families::csv(p, c->broken->collides ? ",1" : ",0"));
             lines += "; replay: ccd query " + path.string() + " --method " + method;
         }
@@ -239,15 +239,7 @@ void prepare(const fs::path& folder) {
 
 bool run_stress(const stress_arguments& arguments) {
     if (arguments.out) prepare(*arguments.out);
-    stress::plan plan{.families = arguments.families,
-                      .subjects = {},
-                      .seed = arguments.seed,
-                      .queries = arguments.queries.value_or(arguments.quick ? 40 : 400),
-                      .threads = arguments.threads,
-                      .seconds = arguments.quick ? 0.002 : 0.02};
-    for (const ccd::method m : arguments.methods)
-        plan.subjects.push_back(stress::subject_of(info(m)));
-
+    const stress::plan& plan = arguments.plan;
     std::vector<cell> cells;
     {
         progress_line progress;

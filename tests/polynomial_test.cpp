@@ -119,31 +119,40 @@ struct tally {
     int yes = 0, no = 0, maybe = 0;
 };
 
+struct question {
+    bernstein<integer, 3> y;
+    std::array<bernstein<integer, 4>, 2> g;
+};
+
+question random_question(std::mt19937_64& random, const std::array<int, 4>& y_bounds, int g_bound) {
+    question q;
+    for (int i = 0; i <= 3; ++i) q.y[i] = small(random, y_bounds[static_cast<std::size_t>(i)]);
+    for (auto& form : q.g)
+        for (int i = 0; i <= 4; ++i) form[i] = small(random, g_bound);
+    return q;
+}
+
+bool is_zero(const bernstein<integer, 3>& y) {
+    return y[0] == 0 && y[1] == 0 && y[2] == 0 && y[3] == 0;
+}
+
 /// BSC over Scalar never contradicts the exact answer on integer forms times `factor`.
 template <class Scalar>
 tally check_bsc(std::uint64_t seed, int queries, const std::array<int, 4>& y_bounds, int g_bound,
                 typename Scalar::value_type factor) {
     using T = typename Scalar::value_type;
+    const auto tracked_form = [factor]<int N>(const bernstein<integer, N>& p) {
+        bernstein<Scalar, N> r;
+        for (int i = 0; i <= N; ++i) r[i] = Scalar(T(static_cast<int>(p[i])) * factor);
+        return r;
+    };
     std::mt19937_64 random(seed);
     tally counts;
     for (int k = 0; k < queries; ++k) {
-        bernstein<integer, 3> y;
-        bernstein<Scalar, 3> y_tracked;
-        for (int i = 0; i <= 3; ++i) {
-            const int c = small(random, y_bounds[static_cast<std::size_t>(i)]);
-            y[i] = c;
-            y_tracked[i] = Scalar(T(c) * factor);
-        }
-        std::array<bernstein<integer, 4>, 2> g;
-        std::array<bernstein<Scalar, 4>, 2> g_tracked;
-        for (std::size_t m = 0; m < 2; ++m)
-            for (int i = 0; i <= 4; ++i) {
-                const int c = small(random, g_bound);
-                g[m][i] = c;
-                g_tracked[m][i] = Scalar(T(c) * factor);
-            }
-        if (y[0] == 0 && y[1] == 0 && y[2] == 0 && y[3] == 0) continue;
-        const existence found = root_with_nonnegative(y_tracked, [&] { return g_tracked; });
+        const auto [y, g] = random_question(random, y_bounds, g_bound);
+        if (is_zero(y)) continue;
+        const std::array g_tracked{tracked_form(g[0]), tracked_form(g[1])};
+        const existence found = root_with_nonnegative(tracked_form(y), [&] { return g_tracked; });
         if (found == existence::no) {
             ++counts.no;
             EXPECT_FALSE(exists(y, g, false)) << "lost: query " << k << " of seed " << seed;
@@ -157,24 +166,25 @@ tally check_bsc(std::uint64_t seed, int queries, const std::array<int, 4>& y_bou
     return counts;
 }
 
+// Small coefficients are full of zeros, double roots and roots at ends; coefficients far apart give
+// inflections and extrema near the ends.
+constexpr std::array<std::array<int, 4>, 5> bounds_of_y{
+    {{2, 4, 4, 2}, {9, 30, 30, 9}, {1, 1000, 1000, 1}, {1000, 3, 1000, 3}, {100, 100, 100, 1}}};
+
 TEST(Bsc, NeverContradictsTheExactAnswer) {
-    // Small coefficients are full of zeros, double roots and roots at ends; coefficients far apart
-    // give inflections and extrema near the ends.
-    const std::array<std::array<int, 4>, 5> bounds{
-        {{2, 4, 4, 2}, {9, 30, 30, 9}, {1, 1000, 1000, 1}, {1000, 3, 1000, 3}, {100, 100, 100, 1}}};
     tally all;
-    for (std::size_t i = 0; i < bounds.size(); ++i)
+    for (std::size_t i = 0; i < bounds_of_y.size(); ++i)
         for (const int g_bound : {2, 100}) {
             const auto add = [&all](const tally& t) {
                 all.yes += t.yes;
                 all.no += t.no;
                 all.maybe += t.maybe;
             };
-            add(check_bsc<tracked<double, tight>>(10 + i, 3000, bounds[i], g_bound, 1));
-            add(check_bsc<tracked<double, tight>>(20 + i, 1000, bounds[i], g_bound, 0x1p-900));
-            add(check_bsc<tracked<double, tight>>(30 + i, 1000, bounds[i], g_bound, 0x1p+900));
-            add(check_bsc<tracked<double, safe>>(40 + i, 2000, bounds[i], g_bound, 1));
-            add(check_bsc<tracked<float, tight>>(50 + i, 2000, bounds[i], g_bound, 1.0F));
+            add(check_bsc<tracked<double, tight>>(10 + i, 3000, bounds_of_y[i], g_bound, 1));
+            add(check_bsc<tracked<double, tight>>(20 + i, 1000, bounds_of_y[i], g_bound, 0x1p-900));
+            add(check_bsc<tracked<double, tight>>(30 + i, 1000, bounds_of_y[i], g_bound, 0x1p+900));
+            add(check_bsc<tracked<double, safe>>(40 + i, 2000, bounds_of_y[i], g_bound, 1));
+            add(check_bsc<tracked<float, tight>>(50 + i, 2000, bounds_of_y[i], g_bound, 1.0F));
         }
     // The answer is of use: most are certain, and both certain answers occur.
     EXPECT_GT(all.yes, 1000);
@@ -182,6 +192,33 @@ TEST(Bsc, NeverContradictsTheExactAnswer) {
     EXPECT_LT(all.maybe, all.yes + all.no);
     RecordProperty("certain", all.yes + all.no);
     RecordProperty("uncertain", all.maybe);
+}
+
+// Over exact numbers only two things are left open: a root at which some G is exactly zero and none
+// negative, and Y ≡ 0.
+TEST(Bsc, DecidesExactNumbersButForZeros) {
+    int yes = 0, no = 0, open = 0;
+    for (const auto& y_bounds : bounds_of_y)
+        for (const int g_bound : {2, 100}) {
+            std::mt19937_64 random(60);
+            for (int k = 0; k < 3000; ++k) {
+                const auto [y, g] = random_question(random, y_bounds, g_bound);
+                const existence found = root_with_nonnegative(y, [&g = g] { return g; });
+                if (is_zero(y)) {
+                    EXPECT_TRUE(found == existence::no || found == existence::maybe_root);
+                    continue;
+                }
+                const bool strict = exists(y, g, true), closed = exists(y, g, false);
+                EXPECT_EQ(found, strict   ? existence::yes
+                                 : closed ? existence::maybe_inside
+                                          : existence::no)
+                    << "query " << k << " of bounds " << y_bounds[0] << ", " << g_bound;
+                ++(strict ? yes : closed ? open : no);
+            }
+        }
+    EXPECT_GT(yes, 1000);
+    EXPECT_GT(no, 10000);
+    EXPECT_GT(open, 100);
 }
 
 // On well-separated data BSC must decide: an answer of "maybe" everywhere would pass the test

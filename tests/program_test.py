@@ -1,5 +1,6 @@
 # Tests of the program `ccd` as a user runs it: exit statuses, messages, files it writes.
 # The path to the program is in the environment variable CCD_PROGRAM.
+import csv
 import json
 import os
 import pathlib
@@ -347,16 +348,74 @@ class Step(ProgramTest):
                           self.bad_usage("step", frame, frame, "--method", "tight", *option))
 
 
+class Stress(ProgramTest):
+    def test_table_csv_markdown_and_json_agree(self):
+        folder, out = self.directory / "new" / "stress", self.directory / "out.json"
+        text = self.good("stress", "--quick", "--queries", 3, "--method", "float,exact",
+                         "--family", "double-root,not-finite", "--out", folder, "--json", out)
+        rows = list(csv.DictReader((folder / "stress.csv").read_text().splitlines()))
+        self.assertEqual(list(rows[0]), [
+            "family", "knob_name", "knob", "kind", "method", "queries", "collisions",
+            "false_positives", "false_negatives", "uncertain", "ns_per_query"])
+        results = json.loads(out.read_text())
+        self.assertEqual(len(rows), len(results))
+        for row, result in zip(rows, results):
+            self.assertEqual(row["knob"], "-inf" if result["knob"] is None else str(result["knob"])
+                             .removesuffix(".0"))
+            for key in ("family", "knob_name", "kind", "method", "queries", "collisions",
+                        "false_positives", "false_negatives", "uncertain"):
+                self.assertEqual(row[key], str(result[key]))
+            self.assertGreater(float(row["ns_per_query"]), 0)
+        self.assertEqual({r["kind"] for r in rows}, {"vf", "ee"})
+        self.assertIn("-inf", [r["knob"] for r in rows if r["family"] == "double-root"])
+        table = [line.split() for line in text.splitlines() if line.startswith("double-root")]
+        markdown = [line.split("|") for line in (folder / "stress.md").read_text().splitlines()
+                    if line.startswith("| double-root | ")]
+        for line, method in zip(table, ("float", "exact")):
+            of_method = [r for r in rows if (r["family"], r["method"]) == ("double-root", method)]
+            sums = [str(sum(int(r[key]) for r in of_method)) for key in
+                    ("queries", "collisions", "false_positives", "false_negatives", "uncertain")]
+            self.assertEqual(line[1:7], [method, *sums])
+            self.assertIn([method, *sums], [[e.strip() for e in m[2:8]] for m in markdown])
+        self.assertEqual(text.splitlines()[-1],
+                         "promised: no false negative by exact; no false positive by exact; "
+                         "no answer from NaN or infinity by all: kept")
+
+    def test_same_seed_same_counts(self):
+        def counts(*options):
+            out = self.directory / "out.json"
+            self.good("stress", "--quick", "--queries", 8, "--method", "float,tight", "--family",
+                      "offset", "--json", out, *options)
+            return [{k: v for k, v in r.items() if k != "ns_per_query"}
+                    for r in json.loads(out.read_text())]
+        self.assertEqual(counts("--threads", 1), counts("--seed", 1))
+        self.assertNotEqual(counts(), counts("--seed", 2))
+
+    def test_bad_input_and_usage(self):
+        self.assertIn("found 'none', expected one of scale,",
+                      self.bad_usage("stress", "--family", "scale,none"))
+        self.bad_usage("stress", "--method", "magic")
+        self.bad_usage("stress", "--queries", 0)
+        self.bad_usage("stress", "--threads", -1)
+        self.bad_usage("stress", "--out", self.directory / "o", "--json",
+                       self.directory / "o" / "stress.csv")
+        self.assertEqual(os.listdir(self.directory), [])
+        file = self.write("file", "old")
+        self.bad_input("file: cannot be made", "stress", "--out", file)
+        self.assertEqual(pathlib.Path(file).read_text(), "old")
+
+
 class Methods(ProgramTest):
     def test_methods(self):
         text = self.good("methods")
-        for name in ("float", "safe", "tight", "exact"):
+        for name in ("float", "safe", "tight", "sharp", "interval", "residual", "bsc-exact",
+                     "provot", "root-parity", "exact"):
             self.assertRegex(text, rf"(?m)^{name} ")
         self.bad_usage("methods", "more")
 
     def test_help(self):
         self.assertIn("query", self.good("--help"))
-        for command in ("query", "step", "methods"):
+        for command in ("query", "step", "stress", "methods"):
             self.good(command, "--help")
 
 

@@ -62,6 +62,11 @@ double lattice(source& random) {
     return std::ldexp(static_cast<double>(random.bits() >> 16), -48);
 }
 
+/// [0, 1), a multiple of 64 units.
+double coarse(source& random) {
+    return std::ldexp(static_cast<double>(random.bits() >> 20), -44);
+}
+
 /// [1/2, 1), a multiple of 4 units.
 double length(source& random) {
     return 0.5 + std::ldexp(static_cast<double>(random.bits() >> 17), -48);
@@ -125,17 +130,18 @@ void set_triangle(local_points& p, double l, double c, double h) {
 // ---- Near the decision, whatever is done to it next ----
 
 points near_decision(source& random, kind which) {
+    const int exponent = -random.between(36, 56);
     switch (random.between(0, 6)) {
         case 0:
             return near_contact(random, which, 1);
         case 1:
             return border_contact(random, which);
         case 2:
-            return shifted(random, which, near_contact(random, which, 1), -random.between(36, 56));
+            return shifted(random, which, near_contact(random, which, 1), exponent);
         case 3:
             return resting(random, which);
         case 4:
-            return shifted(random, which, resting(random, which), -random.between(36, 56));
+            return shifted(random, which, resting(random, which), exponent);
         case 5:
             return chosen_roots(random, which, root_triple(random, 2));
         default:
@@ -232,8 +238,8 @@ points of_resting_gap(source& random, kind which, double knob) {
     return relabelled(random, which, placed(random, p));
 }
 
-/// From the gap to nothing, to one unit less or more than that, or half way: from above, or within
-/// the plane of the other feature.
+/// From the gap to nothing, to one unit less or more than that, or half way (a single unit stays):
+/// from above, or within the plane of the other feature.
 points of_approached_gap(source& random, kind which, double knob) {
     const double gap = power_of_two(knob);
     const double l = length(random), h = length(random);
@@ -241,7 +247,8 @@ points of_approached_gap(source& random, kind which, double knob) {
     const double left = which_end == 0   ? 0
                         : which_end == 1 ? unit
                         : which_end == 2 ? -unit
-                                         : gap / 2;
+                        : gap > unit     ? gap / 2
+                                         : gap;
     const bool in_plane = random.one_in(3);
     const double slide = lattice(random) / 4;
     local_points p{};
@@ -267,7 +274,8 @@ double border_weight(source& random) {
     const int pick = random.between(0, 5);
     if (pick < 2) return random.between(1, 7) / 8.0;
     if (pick == 2) return random.between(0, 1);
-    return std::ldexp(random.one_in(2) ? 1 : -1, -random.between(3, 40));
+    const int exponent = -random.between(3, 40);
+    return std::ldexp(random.one_in(2) ? 1 : -1, exponent);
 }
 
 /// A vertex that passes a triangle of the given heights over its base, or an edge that passes one
@@ -327,7 +335,8 @@ points of_angle(source& random, kind which, double knob) {
         return relabelled(random, which, placed(random, p, 2));
     }
     const double w = border_weight(random);
-    const double m = eighths(2, 8) * (random.one_in(2) ? 1 : -1);
+    const double turned = random.one_in(2) ? 1 : -1;
+    const double m = turned * eighths(2, 8);
     const double u = border_weight(random);  // where on the first edge
     const double z0 = eighths(0, 8), z1 = eighths(-8, 1);
     const double l = eighths(4, 8);
@@ -392,8 +401,8 @@ std::array<double, 2> through(double x, int eighth, double slope) {
 points of_touch_at_border(source& random, kind which, double inside, bool at_vertex) {
     const int eighth = random.between(1, 7);
     const double l = length(random), h = length(random);
-    const double fall = 0x1p-4 + lattice(random) / 16;
-    const double slide_x = (2 * lattice(random) - 1) / 32, slide_y = (2 * lattice(random) - 1) / 32;
+    const double fall = 0x1p-4 + coarse(random) / 16;
+    const double slide_x = (2 * coarse(random) - 1) / 32, slide_y = (2 * coarse(random) - 1) / 32;
     const std::array<double, 2> z = through(0, eighth, fall);
     const std::array<double, 2> x = through(0, eighth, slide_x);
     const std::array<double, 2> y = through(0, eighth, slide_y);

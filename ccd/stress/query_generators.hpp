@@ -404,7 +404,8 @@ inline points mixed_scales(source& random, int range) {
 
 // Weights of a point of contact within 2^-30 to 2^-58 of a border, inside or outside.
 inline position border_weights(source& random, std::size_t corners) {
-    const double beyond = std::ldexp(random.one_in(2) ? 1 : -1, -random.between(30, 58));
+    const int exponent = -random.between(30, 58);
+    const double beyond = std::ldexp(random.one_in(2) ? 1 : -1, exponent);
     if (corners == 1) return {1, 0, 0};
     if (corners == 2) {
         return random.one_in(2) ? position{beyond, 1 - beyond, 0} : position{1 - beyond, beyond, 0};
@@ -495,7 +496,8 @@ inline points few_values(source& random) {
 // bend, and one passes towards or through the other. Now and then both are of one sheet.
 inline points sheets(source& random, kind which) {
     constexpr double cell = 0.0625;
-    const double gap = std::ldexp(random.unit(), -random.between(4, 12));
+    const int exponent = -random.between(4, 12);
+    const double gap = std::ldexp(random.unit(), exponent);
     const double advance = 2 * random.unit() * gap;
     const bool same_sheet = random.one_in(4);
     const position curve{random.symmetric(), random.symmetric(), random.symmetric()};

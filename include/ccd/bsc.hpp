@@ -3,39 +3,18 @@
 //   decide_bsc<none>    `float`: plain arithmetic; may be wrong either way
 //   decide_bsc<safe>    `safe`:  BSC with SafeBound; `separate` and `collides` are certain
 //   decide_bsc<tight>   `tight`: TightCCD; `separate` and `collides` are certain
+//   decide_bsc<sharp>, <interval>, <residual>   the methods of those names: certain likewise
 //
 // Sources: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp tells how
 // the branches differ from the printed ones and why.
 #pragma once
 
 #include <ccd/forms.hpp>
-#include <ccd/transform.hpp>
+#include <ccd/tracked_query.hpp>
 #include <ccd/verdict.hpp>
 #include <errbound/bsc.hpp>
-#include <utility>
 
 namespace ccd {
-
-/// The query over tracked numbers, times the power of two that brings its largest coordinate near
-/// 1. A coordinate that underflows when scaled carries that loss as its bound. False in `second` if
-/// a coordinate is not finite.
-template <class Rule, class T, template <class> class Query>
-std::pair<Query<errbound::tracked<T, Rule>>, bool> tracked_query(const Query<T>& query) {
-    using scalar = errbound::tracked<T, Rule>;
-    using traits = errbound::number_traits<T>;
-    T largest = 0;
-    bool finite = true;
-    for_each_coordinate(query, [&](const T& x) {
-        finite = finite && traits::is_finite(x);
-        largest = traits::max(largest, traits::abs(x));
-    });
-    // Moderate sizes are left alone; the room is that of errbound::normalized.
-    constexpr int room = traits::max_exponent / 32;
-    const int e = finite && largest > 0 ? traits::exponent(largest) : 0;
-    if (e >= -room && e <= room)
-        return {transformed(query, [](const T& x) { return scalar(x); }), finite};
-    return {transformed(query, [e](const T& x) { return scale(scalar(x), -e); }), finite};
-}
 
 /// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
 /// `collides` too: then some root of Y has all weights strictly positive, so that the normal does

@@ -1,8 +1,8 @@
 // The methods by name: what each promises, its source, and one call to decide a query with it.
 //
-// decide() allocates only inside `exact` (unbounded integers, seldom), throws only std::bad_alloc
-// there, and may be called from any thread. Coordinates must be finite: an infinity or NaN gives
-// `uncertain` with cause `range`.
+// decide() allocates only inside `exact`, `bsc-exact` and `root-parity` (unbounded integers, in
+// `exact` seldom), throws only std::bad_alloc there, and may be called from any thread. Coordinates
+// must be finite: an infinity or NaN gives `uncertain` with cause `range`.
 #pragma once
 
 #include <ccd/query.hpp>
@@ -13,11 +13,24 @@
 
 namespace ccd {
 
-enum class method { float_, safe, tight, exact };
+enum class method {
+    float_,
+    safe,
+    tight,
+    sharp,
+    interval,
+    residual,
+    bsc_exact,
+    safeccd,
+    safeccd_tight,
+    provot,
+    root_parity,
+    exact
+};
 
 struct method_info {
     ccd::method method;
-    std::string_view name;  ///< as on the command line: "float", "safe", "tight", "exact"
+    std::string_view name;  ///< as on the command line: "float", "bsc-exact", "exact"
     bool may_lose_collisions;
     bool may_report_false_collisions;
     std::string_view promise;  ///< one sentence

@@ -1,4 +1,5 @@
-// Queries as lists of their moving points: conversion of every position or coordinate.
+// Queries as lists of their moving points, conversion of every position or coordinate, and the
+// vertex/edge queries that bound a query.
 #pragma once
 
 #include <array>
@@ -66,6 +67,17 @@ constexpr void for_each_coordinate(const Query& q, const F& f) {
             f(x.y);
             f(x.z);
         }
+}
+
+/// The contacts of a vertex with an edge on the border of the face.
+template <class T>
+constexpr std::array<vertex_edge<T>, 3> vertex_edge_queries(const vertex_face<T>& q) {
+    return {{{q.v, q.f0, q.f1}, {q.v, q.f1, q.f2}, {q.v, q.f2, q.f0}}};
+}
+/// The contacts of an end of one edge with the other edge.
+template <class T>
+constexpr std::array<vertex_edge<T>, 4> vertex_edge_queries(const edge_edge<T>& q) {
+    return {{{q.a0, q.b0, q.b1}, {q.a1, q.b0, q.b1}, {q.b0, q.a0, q.a1}, {q.b1, q.a0, q.a1}}};
 }
 
 }  // namespace ccd

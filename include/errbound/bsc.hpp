@@ -142,7 +142,7 @@ sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const berns
 
 /// The quadratic J with y0·y3·G = s·t·J modulo Y: cancel s⁴ by y0·G − g0·s·Y = t·E, then t³ of
 /// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J.
-/// (A world may count an end value of exactly zero as negative. J then vanishes at the root, so
+/// (A world may count an end value as strict that is zero in truth. J then vanishes at the root, so
 /// that no certain sign of J but zero can come out and nothing is concluded wrongly.)
 template <class S>
 bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
@@ -294,17 +294,28 @@ existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
-    // An end value of exactly zero leaves the inner roots that a negative one would: a convex Y
-    // with Y(0) = 0 and an inner root is negative before it.
-    if (possibly_negative(y0) || y0 == sign_type::zero) {
-        if (possibly_positive(y3))
-            found = either(found, at_crossing(y, sign_type::negative,
-                                              ends_are_certain && y0 == sign_type::negative, g));
+    // Where Y(0) is exactly zero, Y is t times a quadratic; that times s + t is a cubic with the
+    // same inner roots and without the one at 0. There is one if Y falls at 0, and none else.
+    // Likewise where Y(1) is.
+    if (y0 == sign_type::zero) {
+        const sign_type slope = sign_of(y[1]);
+        if (possibly_negative(slope) && possibly_positive(y3))
+            found = either(found,
+                           at_crossing(elevated(bernstein<S, 2>{{y[1], y[2], y[3]}}),
+                                       sign_type::negative, ends_are_certain && certain(slope), g));
+    } else if (possibly_negative(y0) && possibly_positive(y3)) {
+        found = either(found, at_crossing(y, sign_type::negative, ends_are_certain, g));
     }
     if (possibly_positive(y0)) {
-        if (possibly_negative(y3) || y3 == sign_type::zero)
-            found = either(found, at_crossing(y, sign_type::positive,
-                                              ends_are_certain && y3 == sign_type::negative, g));
+        if (y3 == sign_type::zero) {
+            const sign_type slope = -sign_of(y[2]);
+            if (possibly_positive(slope))
+                found = either(
+                    found, at_crossing(elevated(bernstein<S, 2>{{y[0], y[1], y[2]}}),
+                                       sign_type::positive, ends_are_certain && certain(slope), g));
+        } else if (possibly_negative(y3)) {
+            found = either(found, at_crossing(y, sign_type::positive, ends_are_certain, g));
+        }
         if (possibly_positive(y3)) found = either(found, at_pair(y, d, ends_are_certain, g));
     }
     return found;

@@ -25,6 +25,8 @@ struct number_traits {
     static constexpr T largest() { return std::numeric_limits<T>::max(); }
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
+    /// The precision p: bits of a normal number's significand, ε = 2^(1−p).
+    static constexpr int digits = std::numeric_limits<T>::digits;
 
     static constexpr T abs(const T& x) { return x < 0 ? -x : x; }
     static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }

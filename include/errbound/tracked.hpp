@@ -12,8 +12,12 @@
 
 #include <concepts>
 #include <errbound/number_traits.hpp>
+#include <errbound/rounded.hpp>
+#include <errbound/rules/interval.hpp>
 #include <errbound/rules/none.hpp>
+#include <errbound/rules/residual.hpp>
 #include <errbound/rules/safe.hpp>
+#include <errbound/rules/sharp.hpp>
 #include <errbound/rules/tight.hpp>
 #include <errbound/sign.hpp>
 
@@ -31,13 +35,14 @@ class tracked {
     /// Exactly zero.
     constexpr tracked() : tracked(T(0)) {}
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
-    constexpr tracked(const T& value) : value_(value), bound_(Rule::exact(value)) {}
+    constexpr tracked(const T& value) : tracked(exactly(rounded(value))) {}
     /// `value`, for literals such as 2: exact if T holds it (every int in double, up to 2^24 in
     /// float), else within the rounding error of its conversion.
     constexpr tracked(int value) requires(!std::same_as<T, int>) : tracked(from_int(value)) {}
     /// A number that is known to lie within `error` of `value`; unknown unless error >= 0.
     static constexpr tracked within(const T& value, const T& error) {
-        return {value, Rule::within(value, error)};
+        const T v = rounded(value);
+        return {v, Rule::within(v, error)};
     }
 
     /// The value that plain arithmetic would have computed.
@@ -56,7 +61,7 @@ class tracked {
         return {v, Rule::template subtract<T>(v, a.as_operand(), b.as_operand())};
     }
     friend constexpr tracked operator*(const tracked& a, const tracked& b) {
-        const T v = a.value_ * b.value_;
+        const T v = rounded(T(a.value_ * b.value_));
         return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
     }
     /// Does not compile for a rule without division. Unknown where b may be zero.
@@ -64,7 +69,12 @@ class tracked {
         const T v = a.value_ / b.value_;
         return {v, Rule::template divide<T>(v, a.as_operand(), b.as_operand())};
     }
-    constexpr tracked operator-() const { return {-value_, bound_}; }
+    constexpr tracked operator-() const {
+        if constexpr (requires { Rule::negate(bound_); })
+            return {-value_, Rule::negate(bound_)};
+        else
+            return {-value_, bound_};
+    }
     constexpr tracked operator+() const { return *this; }
     constexpr tracked& operator+=(const tracked& b) { return *this = *this + b; }
     constexpr tracked& operator-=(const tracked& b) { return *this = *this - b; }
@@ -77,8 +87,11 @@ class tracked {
         return {v, Rule::template scale<T>(v, x.as_operand(), e)};
     }
 
-    /// The certain sign. Strict: a value that equals its bound may belong to zero.
+    /// The certain sign; the rule's own where it has one. Strict: a value that equals its bound may
+    /// belong to zero.
     friend constexpr sign_type sign_of(const tracked& x) {
+        if constexpr (requires { Rule::sign(x.value_, x.bound_); })
+            return Rule::sign(x.value_, x.bound_);
         const T e = x.error();
         if (x.value_ > e) return sign_type::positive;
         if (x.value_ < -e) return sign_type::negative;
@@ -90,6 +103,7 @@ class tracked {
     }
 
   private:
+    static constexpr tracked exactly(const T& value) { return {value, Rule::exact(value)}; }
     static constexpr tracked from_int(int value) {
         using traits = number_traits<T>;
         const T converted = static_cast<T>(value);
@@ -105,6 +119,8 @@ class tracked {
     [[no_unique_address]] bound_type bound_;
 };
 
+/// Whether generic code may treat it as a tracked number: it has value_type, value(), sign_of and
+/// scale. Specialise for a type that wraps one.
 template <class>
 inline constexpr bool is_tracked = false;
 template <class T, class Rule>

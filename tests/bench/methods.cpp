@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/method.hpp>
+#include <deque>
 #include <stdexcept>
 
 #include "sections.hpp"
@@ -13,6 +15,20 @@ struct contestant {
     std::size_t collisions;  ///< or uncertain
 };
 
+// How many of the sample's queries one pass of a method takes on: a pass is to last some half a
+// second at most, as a first look at a few tells.
+template <class Query>
+std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
+    const std::size_t few = std::min<std::size_t>(1000, sample.size());
+    const clock::time_point start = clock::now();
+    for (std::size_t i = 0; i < few; ++i)
+        keep(ccd::decide(method, sample[i * sample.size() / few]));
+    const double in_time = 0.5 / seconds_since(start) * static_cast<double>(few);
+    return in_time < static_cast<double>(sample.size())
+               ? std::max(few, static_cast<std::size_t>(in_time))
+               : sample.size();
+}
+
 template <class Query>
 void add_rows(const scene& s, const query_set<Query>& all, const options& o,
               std::vector<std::vector<cell>>& rows) {
@@ -23,15 +39,19 @@ void add_rows(const scene& s, const query_set<Query>& all, const options& o,
 
     std::vector<contestant> contestants;
     std::vector<std::function<void()>> passes;
+    std::deque<std::vector<Query>> parts;  // of the sample, for slow methods
     std::size_t tight = 0;
     for (const ccd::method_info& m : ccd::methods()) {
         if (m.method == ccd::method::tight) tight = contestants.size();
+        const std::size_t size = affordable(m.method, sample);
+        const std::vector<Query>& queries =
+            size == sample.size() ? sample : parts.emplace_back(all.resized(size).all_stored());
         const auto collisions = std::ranges::count_if(
-            sample, [&m](const Query& q) { return ccd::may_collide(ccd::decide(m.method, q)); });
+            queries, [&m](const Query& q) { return ccd::may_collide(ccd::decide(m.method, q)); });
         contestants.push_back(
-            {std::string(m.name), sample.size(), static_cast<std::size_t>(collisions)});
-        passes.push_back([&sample, method = m.method] {
-            for (const Query& q : sample) keep(ccd::decide(method, q));
+            {std::string(m.name), queries.size(), static_cast<std::size_t>(collisions)});
+        passes.push_back([&queries, method = m.method] {
+            for (const Query& q : queries) keep(ccd::decide(method, q));
         });
     }
     const auto add_batch = [&](ccd::instruction_set set, int threads, const std::string& how) {

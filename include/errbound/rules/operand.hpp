@@ -10,6 +10,13 @@
 //   divide(result, a, b)                         likewise; leave it out if the rule has none
 //   scale(result, a, e)                          the bound of result = a·2^e, rounded once; asked
 //                                                for by polynomials and BSC only
+// and, only where the defaults do not serve,
+//   negate(bound)                                the bound of −value; default: the same bound
+//   sign(value, bound)                           the certain sign, for a rule that knows more than
+//                                                |value − true value| <= error; default: what value
+//                                                and error tell. Uncertain where value is not
+//                                                finite; zero only if the true value is zero
+//   minimal_precision                            the number of bits of T that the proof needs
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
 #pragma once
 

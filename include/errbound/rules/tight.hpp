@@ -20,6 +20,8 @@ namespace errbound {
 
 struct tight {
     static constexpr const char* name = "tight";
+    /// But for the overflow that is named above.
+    static constexpr bool holds_in_directed_rounding = true;
 
     /// |value − true value| <= error.
     template <class T>

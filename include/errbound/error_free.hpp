@@ -1,0 +1,135 @@
+// Error-free transformations: the rounded result of an operation and its exact rounding error, both
+// as floating-point numbers.
+//
+// For binary formats with gradual underflow, rounded to nearest. p is the precision, η the smallest
+// positive number, u = 2^-p, ulp(x) the unit in the last place of x (at least η).
+#pragma once
+
+#include <errbound/number_traits.hpp>
+#include <errbound/rounded.hpp>
+#include <type_traits>
+
+namespace errbound {
+
+/// A rounded result and what was rounded away: the exact result is value + error.
+template <class T>
+struct with_error {
+    T value, error;
+};
+
+/// a + b = value + error exactly, value = a ⊕ b.
+/// Precondition: no overflow, of the sum or on the way to the error (an operand of the largest size
+/// only); else value or error is infinite or NaN. Underflow does no harm: sums that underflow are
+/// exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B
+/// (TwoSum); any precision >= 2.
+template <class T>
+constexpr with_error<T> two_sum(const T& a, const T& b) {
+    const T x = rounded(a), y = rounded(b);
+    const T sum = x + y;
+    const T y_in_sum = sum - x;
+    return {sum, (x - (sum - y_in_sum)) + (y - y_in_sum)};
+}
+
+/// a + b = value + error exactly, for |a| >= |b| or a = 0.
+/// Precondition: that, and no overflow. Cost: 3 operations. Source: Dekker 1971 (Fast2Sum).
+template <class T>
+constexpr with_error<T> fast_two_sum(const T& a, const T& b) {
+    const T x = rounded(a), y = rounded(b);
+    const T sum = x + y;
+    return {sum, y - (sum - x)};
+}
+
+/// True where fma(a, b, c) is one instruction.
+template <class T>
+inline constexpr bool has_fast_fma = false;
+#if defined(__FP_FAST_FMA) || defined(__FMA__)
+template <>
+inline constexpr bool has_fast_fma<double> = true;
+#endif
+#if defined(__FP_FAST_FMAF) || defined(__FMA__)
+template <>
+inline constexpr bool has_fast_fma<float> = true;
+#endif
+
+/// The least precision for which Dekker's product (below) is error-free: with s = ⌈p/2⌉ the parts
+/// need 2 <= s <= p − 2.
+inline constexpr int least_precision_for_split = 4;
+
+/// x = value + error exactly, value of at most p − s bits, error of at most s − 1 bits and a sign,
+/// s = ⌈p/2⌉: products of such parts are exact.
+/// Precondition: p >= least_precision_for_split, and (2^s + 1)x does not overflow (|x| < 2^996 for
+/// double, 2^115 for float); else value and error are infinite or NaN. Underflow does no harm.
+/// Cost: 4 operations. Source: Veltkamp; Dekker 1971; proof for radix 2 in Boldo 2006 (Pitfalls of
+/// a full floating-point proof).
+template <class T>
+constexpr with_error<T> split(const T& x) {
+    constexpr int s = (number_traits<T>::digits + 1) / 2;
+    constexpr double power = [] {
+        double two_to_s = 1;
+        for (int i = 0; i < s; ++i) two_to_s *= 2;
+        return two_to_s;
+    }();
+    const T c = rounded(T((T(power) + 1) * x));
+    const T high = c - (c - x);
+    return {high, x - high};
+}
+
+/// a·b = value + error exactly, value = a ⊙ b, where product_error_is_exact(a, b, result) holds;
+/// elsewhere error is unreliable, infinite or NaN.
+/// Cost: 2 operations with hardware FMA, else 17. Source: Dekker 1971 (TwoProduct).
+template <class T>
+constexpr with_error<T> two_product(const T& a, const T& b) {
+    const T v = rounded(T(a * b));
+    if constexpr (has_fast_fma<T>) {
+        if (!std::is_constant_evaluated()) {
+            if constexpr (sizeof(T) == sizeof(float))
+                return {v, __builtin_fmaf(a, b, -v)};
+            else
+                return {v, __builtin_fma(a, b, -v)};
+        }
+    }
+    const auto [a_high, a_low] = split(a);
+    const auto [b_high, b_low] = split(b);
+    const T first = rounded(T(a_high * b_high)) - v;
+    const T middle = (first + rounded(T(a_high * b_low))) + rounded(T(a_low * b_high));
+    return {v, middle + rounded(T(a_low * b_low))};
+}
+
+/// Whether two_product(a, b)'s result is known to be exact: an operand is zero, or the product is
+/// far enough from underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and
+/// nothing overflowed. Derivation: the error, and each number on Dekker's way to it, is a multiple
+/// of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since |a| < 2^p·ulp(a),
+/// |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and |ab| >= |value|/(1 + u), so it is
+/// larger than η/2.
+template <class T>
+constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
+    using traits = number_traits<T>;
+    if (!traits::is_finite(product.value) || !traits::is_finite(product.error)) return false;
+    if (a == 0 || b == 0) return true;
+    if (!has_fast_fma<T> && traits::digits < least_precision_for_split) return false;
+    return traits::abs(product.value) >=
+           traits::underflow_unit() / traits::unit_roundoff() / traits::unit_roundoff();
+}
+
+/// The remainder a − q·b of a rounded quotient q = a ⊘ b, b not zero.
+template <class T>
+struct division_remainder {
+    T value;
+    bool exact;  ///< value is the remainder; else it is unreliable, infinite or NaN
+};
+
+/// Derivation, where two_product(q, b) = (v, e) is exact: q ≠ 0 is within half of itself of a/b, so
+/// v is between a/2 and 2a and a − v is exact (Sterbenz). The remainder (a − v) − e is a multiple
+/// of ulp(q)·ulp(b), which is at least η, and at most |b|·ulp(q)/2: fewer than p bits, so exact
+/// too. Cost: a two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup,
+/// Matula 1991.
+template <class T>
+constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
+    using traits = number_traits<T>;
+    if (a == 0) return {T(0), traits::is_finite(q)};
+    const with_error<T> product = two_product(q, b);
+    const bool exact = q != 0 && product_error_is_exact(q, b, product);
+    return {(a - product.value) - product.error, exact};
+}
+
+}  // namespace errbound

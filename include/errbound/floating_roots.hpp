@@ -1,0 +1,89 @@
+// Roots of quadratics and cubics in plain floating point: approximations, which their callers guard
+// by bounds of their own or do without.
+//
+// Polynomials are in the power basis here: a bernstein<S, N> whose coefficient i belongs to t^i.
+// That is the form of errbound/bernstein.hpp at s = 1: products are the same convolutions, and
+// value_at(p, S(1), t) is the value at t.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <errbound/bernstein.hpp>
+#include <errbound/number_traits.hpp>
+#include <limits>
+#include <utility>
+
+namespace errbound {
+
+/// dp/dt for p in the power basis.
+template <class S, int N>
+requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<S, N>& p) {
+    bernstein<S, N - 1> r;
+    r[0] = p[1];
+    for (int i = 1; i < N; ++i) r[i] = p[i + 1] * S(i + 1);
+    return r;
+}
+
+/// The two roots of c0 + c1·t + c2·t² in no order, then its vertex. Complex roots are replaced by
+/// the vertex; what does not exist is infinite or NaN. With m the largest of |c0|, |c1|, |c2|: each
+/// root is one of a quadratic whose coefficients differ by at most 16·ε·m, the same for both.
+/// Proof: the discriminant is off by at most δ = 4ε(c1² + 4|c0·c2|), and what is computed are, but
+/// for the last divisions, q/c2 and c0/q with q² + c1·q + c0·c2 = δ/4; their sum is off from
+/// −c1/c2 by |δ/(4·c2·q)| and q is at least |c1|/2, and at least √|c0·c2| where that is larger and
+/// the roots are real.
+template <class T>
+std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
+    using traits = number_traits<T>;
+    const T m = traits::max(traits::abs(c0), traits::max(traits::abs(c1), traits::abs(c2)));
+    c0 /= m, c1 /= m, c2 /= m;  // 0/0 = NaN if all are zero
+    const T discriminant = c1 * c1 - 4 * c0 * c2;
+    const T root = discriminant > 0 ? std::sqrt(discriminant) : T(0);
+    const T q = -(c1 + std::copysign(root, c1)) / 2;
+    return {q / c2, c0 / q, -c1 / (2 * c2)};
+}
+
+/// The first `count` of `at`, in ascending order: 0, the computed roots of f' in (0, 1), 1.
+template <class T>
+struct piece_ends {
+    std::array<T, 4> at{};
+    std::size_t count = 0;
+};
+
+/// The ends of the pieces of [0, 1] on which f rises or falls, but for rounding.
+template <class T>
+piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
+    const auto slope = power_derivative(f);
+    std::array<T, 3> turns = quadratic_roots(slope[0], slope[1], slope[2]);
+    if (turns[1] < turns[0]) std::swap(turns[0], turns[1]);
+    piece_ends<T> ends;
+    ends.at[ends.count++] = T(0);
+    for (const T t : {turns[0], turns[1]})
+        if (t > ends.at[ends.count - 1] && t < 1) ends.at[ends.count++] = t;
+    ends.at[ends.count++] = T(1);
+    return ends;
+}
+
+/// A point of [low, high] near a root of p, whose values at the two ends have opposite signs. A
+/// Newton step that leaves the bracket, or is more than half as long as the one before, becomes a
+/// halving of the bracket: so every two steps halve one of them, and 2·digits of them are enough.
+template <class T, int N>
+T guarded_newton(const bernstein<T, N>& p, T low, T high) {
+    const bernstein<T, N - 1> slope = power_derivative(p);
+    const bool rising = value_at(p, T(1), low) < 0;
+    T t = low + (high - low) / 2, last_step = high - low;
+    for (int i = 0; i < 2 * std::numeric_limits<T>::digits; ++i) {
+        const T y = value_at(p, T(1), t);
+        if (y == 0) return t;
+        ((y < 0) == rising ? low : high) = t;
+        T next = t - y / value_at(slope, T(1), t);
+        if (!(low < next && next < high && 2 * std::abs(next - t) <= last_step))
+            next = low + (high - low) / 2;
+        if (next == t) return t;
+        last_step = std::abs(next - t);
+        t = next;
+    }
+    return t;
+}
+
+}  // namespace errbound

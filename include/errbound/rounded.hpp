@@ -1,0 +1,42 @@
+// A product that is rounded by itself, whatever the compiler's contraction default.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+namespace errbound {
+
+/// x as a number of its own: a product in it is not fused into the sum that uses it
+/// (-ffp-contract=fast, GCC's default, does so across statements and inlined calls, and
+/// fma(a, b, c) is not the sum of the rounded product). Identity in value; no instruction is made
+/// for it.
+///
+/// Where the target has no fused multiply-add (x86-64 by default), it is nothing at all. Elsewhere
+/// it is an empty asm statement through a register, which also keeps the product out of the
+/// compiler's vectorised loops. (__builtin_assoc_barrier is no substitute: g++ 12 forgets it when
+/// it vectorises, and fuses.) Types of one's own are left alone: what they are made of (SIMD packs)
+/// must be built with -ffp-contract=off; library types (Boost.Multiprecision) never fuse.
+template <class T>
+constexpr T rounded(const T& x) {
+    return x;
+}
+
+#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+#if !defined(__x86_64__) || defined(__FMA__) || defined(__FMA4__) || defined(__AVX512F__)
+template <std::floating_point T>
+constexpr T rounded(const T& x) {
+    if (std::is_constant_evaluated() || sizeof(T) > sizeof(double)) return x;
+    T y = x;
+#if defined(__x86_64__)
+    asm("" : "+x"(y));
+#elif defined(__aarch64__)
+    asm("" : "+w"(y));
+#else
+    asm("" : "+m"(y));
+#endif
+    return y;
+}
+#endif
+#endif
+
+}  // namespace errbound

@@ -1,0 +1,171 @@
+// Bound rule `interval`: interval arithmetic, rounded outwards without touching the rounding mode,
+// which must be to nearest.
+//
+// The true value lies in [lower, upper], and so does the computed value: operations and rounding
+// are monotone. Ends are finite, but an unknown number has [−∞, ∞]: one whose value or an end of
+// which overflowed or is NaN. Notation: p the precision, u = 2^-p, η the smallest positive number.
+//  * below(c) < c is the predecessor of c (or, near underflow, less): with e = 1.25·u|c| + η more
+//  than
+//    half an ulp(c), c ⊖ e <= pred(c); likewise above(c). After Rump, Zimmermann, Boldo,
+//    Melquiond 2009 (BIT 49), with 1.25 for their 1 + 2u, which serves three bits and formats whose
+//    range ends near u. Proof that e > ulp(c)/2: u|c| >= ulp(c)/2, and its rounded value is no
+//    less where ulp(c)/2 is representable; 1.25 times that is exact from 4η on, and below it, as in
+//    the range where ulp(c)/2 is not representable, η is more than what rounding took.
+//  * sums: the exact sign of two_sum's error says on which side of the rounded sum the true one
+//    lies, so ends are rounded correctly, and exact sums stay points;
+//  * products and quotients of points likewise, where the error is known exactly; those of wider
+//    intervals take one step outwards always.
+#pragma once
+
+#include <errbound/error_free.hpp>
+#include <errbound/rules/operand.hpp>
+#include <errbound/sign.hpp>
+
+namespace errbound {
+
+struct interval {
+    static constexpr const char* name = "interval";
+    static constexpr int minimal_precision = 3;
+
+    template <class T>
+    struct bound {
+        T lower, upper;
+    };
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        return checked<T>(value, value, value);
+    }
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        if (error == 0) return exact(value);
+        if (!(error > 0)) return unknown<T>();
+        return checked<T>(value, below<T>(value - error), above<T>(value + error));
+    }
+    template <class T>
+    static constexpr T error(const T& value, const bound<T>& b) {
+        using traits = number_traits<T>;
+        const T off = traits::max(b.upper - value, value - b.lower);
+        if (off == 0) return off;
+        const T enough = above<T>(off);
+        // Ends of one sign are no further from each other than the largest number.
+        return certain(sign<T>(value, b)) && !(enough < traits::largest()) ? traits::largest()
+                                                                           : enough;
+    }
+    template <class T>
+    static constexpr sign_type sign(const T&, const bound<T>& b) {
+        if (b.lower > 0) return sign_type::positive;
+        if (b.upper < 0) return sign_type::negative;
+        return b.lower == 0 && b.upper == 0 ? sign_type::zero : sign_type::uncertain;
+    }
+    template <class T>
+    static constexpr bound<T> negate(const bound<T>& b) {
+        return {-b.upper, -b.lower};
+    }
+
+    template <class T>
+    static constexpr bound<T> add(const T& v, operand<T, interval> a, operand<T, interval> b) {
+        return sum<T>(v, a.bound, b.bound);
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, operand<T, interval> a, operand<T, interval> b) {
+        return sum<T>(v, a.bound, negate<T>(b.bound));
+    }
+    /// Both ends are among the four products of ends. A product 0·∞ stands for 0, which is then
+    /// among the others too: NaN may be passed over.
+    template <class T>
+    static constexpr bound<T> multiply(const T& v, operand<T, interval> a, operand<T, interval> b) {
+        if (is_zero(a.bound) || is_zero(b.bound)) return checked<T>(v, v, v);
+        if (is_point(a.bound) && is_point(b.bound)) {
+            const with_error<T> p = two_product<T>(a.value, b.value);
+            if (product_error_is_exact<T>(a.value, b.value, p)) return nearest<T>(v, p.error);
+            return checked<T>(v, below<T>(v), above<T>(v));
+        }
+        return hull<T>(
+            v, rounded(T(a.bound.lower * b.bound.lower)), rounded(T(a.bound.lower * b.bound.upper)),
+            rounded(T(a.bound.upper * b.bound.lower)), rounded(T(a.bound.upper * b.bound.upper)));
+    }
+    /// Unknown where b may be zero.
+    template <class T>
+    static constexpr bound<T> divide(const T& v, operand<T, interval> a, operand<T, interval> b) {
+        if (!(b.bound.lower > 0) && !(b.bound.upper < 0)) return unknown<T>();
+        if (is_point(a.bound) && is_point(b.bound)) {
+            const division_remainder<T> r = remainder_of_division<T>(a.value, b.value, v);
+            if (r.exact) return nearest<T>(v, b.value < 0 ? T(-r.value) : r.value);
+            return checked<T>(v, below<T>(v), above<T>(v));
+        }
+        return hull<T>(v, a.bound.lower / b.bound.lower, a.bound.lower / b.bound.upper,
+                       a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
+    }
+    /// Scaling by a power of two is exact unless it underflows.
+    template <class T>
+    static bound<T> scale(const T& v, operand<T, interval> a, int e) {
+        using traits = number_traits<T>;
+        const T lower = traits::scale(a.bound.lower, e), upper = traits::scale(a.bound.upper, e);
+        const bool lossless = e >= 0 || (traits::scale(lower, -e) == a.bound.lower &&
+                                         traits::scale(upper, -e) == a.bound.upper);
+        return lossless ? checked<T>(v, lower, upper)
+                        : checked<T>(v, below<T>(lower), above<T>(upper));
+    }
+
+  private:
+    template <class T>
+    static constexpr bound<T> unknown() {
+        return {-number_traits<T>::infinity(), number_traits<T>::infinity()};
+    }
+    /// [lower, upper] if all is finite.
+    template <class T>
+    static constexpr bound<T> checked(const T& value, const T& lower, const T& upper) {
+        const T infinity = number_traits<T>::infinity();
+        if (-infinity < lower && lower <= value && value <= upper && upper < infinity)
+            return {lower, upper};
+        return unknown<T>();
+    }
+    template <class T>
+    static constexpr bool is_point(const bound<T>& b) {
+        return b.lower == b.upper;
+    }
+    template <class T>
+    static constexpr bool is_zero(const bound<T>& b) {
+        return b.lower == 0 && b.upper == 0;
+    }
+
+    /// More than half an ulp of c.
+    template <class T>
+    static constexpr T step(const T& c) {
+        using traits = number_traits<T>;
+        return traits::abs(c) * traits::unit_roundoff() * T(1.25) + traits::underflow_unit();
+    }
+    template <class T>
+    static constexpr T below(const T& c) {
+        return c - step(c);
+    }
+    template <class T>
+    static constexpr T above(const T& c) {
+        return c + step(c);
+    }
+
+    /// The interval between v and its neighbour on the side of the exact v + error; v itself if
+    /// there is no error.
+    template <class T>
+    static constexpr bound<T> nearest(const T& v, const T& error) {
+        return checked<T>(v, error < 0 ? below<T>(v) : v, error > 0 ? above<T>(v) : v);
+    }
+    template <class T>
+    static constexpr bound<T> sum(const T& v, const bound<T>& a, const bound<T>& b) {
+        // An error that is NaN (overflow) steps outwards too.
+        const auto [lower, below_error] = two_sum<T>(a.lower, b.lower);
+        const auto [upper, above_error] = two_sum<T>(a.upper, b.upper);
+        return checked<T>(v, below_error >= 0 ? lower : below<T>(lower),
+                          above_error <= 0 ? upper : above<T>(upper));
+    }
+    template <class T>
+    static constexpr bound<T> hull(const T& v, const T& w, const T& x, const T& y, const T& z) {
+        const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
+        const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
+        return checked<T>(v, below<T>(least(least(w, x), least(y, z))),
+                          above<T>(most(most(w, x), most(y, z))));
+    }
+};
+
+}  // namespace errbound

@@ -1,0 +1,187 @@
+// Bound rule `residual`: the rounding error itself, to first order. Each operation's exact error
+// (error_free.hpp) is carried along beside the value and propagated in plain floating point; only
+// what that leaves out is bounded, and it is of second order. Rounding must be to nearest.
+//
+// Notation: v the computed value, c the correction, ρ the remainder, |v + c − true value| <= ρ;
+// u = 2^-p, η the smallest positive number, δ an operation's exact error. Before ρ stands what the
+// rule's own arithmetic needs:
+//  * every rounding of a correction is counted in ρ, as u times its result, or exactly where
+//  two_sum
+//    gives it; an underflow of a product on the way as η/2;
+//  * roundings of ρ: up to nine, paid for by the factor 1 + 8ε >= (1 + u)^9 (u <= 1/8);
+//  * where δ is not known exactly (near underflow; overflow inside Dekker's product), δ = 0 is
+//    taken and u|v| + η/2, which bounds it, goes into ρ;
+//  * exact numbers have c = ρ = 0; sums of numbers with ρ = 0 keep ρ = 0 as long as c holds their
+//    error exactly, and v + c = 0, ρ = 0 is a certain zero;
+//  * a value that is not finite has a correction or remainder that is not finite either, which no
+//    sign passes.
+// Source: error-free transformations as in Ogita, Rump, Oishi 2005 (Accurate sum and dot product),
+// propagated as in Langlois 2001 (Automatic linear correction of rounding errors).
+#pragma once
+
+#include <errbound/error_free.hpp>
+#include <errbound/rules/operand.hpp>
+#include <errbound/sign.hpp>
+
+namespace errbound {
+
+struct residual {
+    static constexpr const char* name = "residual";
+    static constexpr int minimal_precision = 3;
+
+    template <class T>
+    struct bound {
+        T correction, remainder;
+    };
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        return {T(0), value - value};  // NaN if the value is not finite
+    }
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
+    }
+    /// |c| + ρ.
+    template <class T>
+    static constexpr T error(const T&, const bound<T>& b) {
+        using traits = number_traits<T>;
+        if (b.remainder == 0) return traits::abs(b.correction);
+        return inflated<T>(traits::abs(b.correction) + b.remainder);
+    }
+    /// v + c is known to ρ, a bound of second order: that tells far more than error(). With
+    /// s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; where s is subnormal, it
+    /// is exact.
+    template <class T>
+    static constexpr sign_type sign(const T& value, const bound<T>& b) {
+        using traits = number_traits<T>;
+        const T corrected = value + b.correction;
+        if (corrected == 0 && b.remainder == 0) return sign_type::zero;
+        if (!(traits::abs(corrected) > inflated<T>(b.remainder)) || !traits::is_finite(corrected))
+            return sign_type::uncertain;
+        return corrected > 0 ? sign_type::positive : sign_type::negative;
+    }
+    template <class T>
+    static constexpr bound<T> negate(const bound<T>& b) {
+        return {-b.correction, b.remainder};
+    }
+
+    /// a + b = v + δ + (ca + cb) ± (ρa + ρb); the two sums that make c are error-free too.
+    template <class T>
+    static constexpr bound<T> add(const T& v, operand<T, residual> a, operand<T, residual> b) {
+        return sum<T>(v, a.value, a.bound, b.value, b.bound);
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, operand<T, residual> a, operand<T, residual> b) {
+        return sum<T>(v, a.value, a.bound, T(-b.value), negate<T>(b.bound));
+    }
+    /// ab = v + δ + (va·cb + ca·vb) + ca·cb, and with the remainders
+    /// (|va| + |ca|)ρb + (|vb| + |cb| + ρb)ρa.
+    template <class T>
+    static constexpr bound<T> multiply(const T& v, operand<T, residual> a, operand<T, residual> b) {
+        using traits = number_traits<T>;
+        if (is_zero(a) || is_zero(b)) return exact<T>(v);
+        const with_error<T> product = two_product<T>(a.value, b.value);
+        const bool known = product_error_is_exact<T>(a.value, b.value, product);
+        const T own = known ? product.error : T(0);
+        const T unknown = known ? T(0) : half_ulp<T>(v);
+        if (is_exact(a) && is_exact(b)) return {own, unknown};
+
+        const T ca = traits::abs(a.bound.correction), cb = traits::abs(b.bound.correction);
+        const T x = rounded(T(a.value * b.bound.correction));
+        const T y = rounded(T(a.bound.correction * b.value));
+        const T inherited = x + y;
+        const T correction = own + inherited;
+        const T remainder =
+            (traits::abs(a.value) + ca) * b.bound.remainder +
+            ((traits::abs(b.value) + cb + b.bound.remainder) * a.bound.remainder + ca * cb);
+        return {correction,
+                inflated<T>(remainder + roundings<T>(x, y, inherited, correction) + unknown)};
+    }
+    /// With q = v and the remainder of division r: a/b − q = N/b, N = r + ca − q·cb ± (ρa + |q|ρb),
+    /// and N/b − N/vb = N/vb·(vb − b)/b. So c = N/vb, and what is left is at most
+    /// (|N/vb|(|cb| + ρb) + ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). Unknown where b may be
+    /// zero.
+    template <class T>
+    static constexpr bound<T> divide(const T& v, operand<T, residual> a, operand<T, residual> b) {
+        using traits = number_traits<T>;
+        const T off = error<T>(b.value, b.bound);
+        const T distance = traits::abs(b.value) - off;  // of b from zero
+        if (!(distance > 0)) return {T(0), traits::infinity()};
+        if (is_zero(a)) return exact<T>(v);
+        const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
+        const bool known = division.exact;
+        const T own = known ? division.value : T(0);
+        const T unknown = known ? T(0) : half_ulp<T>(v);
+        if (own == 0 && is_exact(a) && is_exact(b)) return {T(0), unknown + (v - v)};
+
+        const T x = rounded(T(v * b.bound.correction));
+        const T inherited = a.bound.correction - x;
+        const T numerator = own + inherited;
+        const T correction = numerator / b.value;
+        // |N/vb| <= |c|(1 + u) + η/2. Inside and outside the inner factor 1 + 8ε there are eight
+        // and three roundings.
+        const T c = traits::abs(correction) + traits::underflow_unit(), q = traits::abs(v);
+        const T left = (c * off + (q * b.bound.remainder + a.bound.remainder)) +
+                       roundings<T>(x, T(0), inherited, numerator);
+        return {correction, inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) +
+                                        (unknown + traits::underflow_unit()))};
+    }
+    /// Scaling by a power of two is exact unless it underflows: then value, correction and
+    /// remainder are each off by at most η/2.
+    template <class T>
+    static bound<T> scale(const T& v, operand<T, residual> a, int e) {
+        using traits = number_traits<T>;
+        const T correction = traits::scale(a.bound.correction, e);
+        const T remainder = traits::scale(a.bound.remainder, e);
+        const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&
+                                         traits::scale(correction, -e) == a.bound.correction &&
+                                         traits::scale(remainder, -e) == a.bound.remainder);
+        return {correction, lossless ? remainder + (v - v)
+                                     : inflated<T>(remainder + 2 * traits::underflow_unit())};
+    }
+
+  private:
+    template <class T>
+    static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& a_bound, const T& b,
+                                  const bound<T>& b_bound) {
+        using traits = number_traits<T>;
+        const T own = two_sum<T>(a, b).error;
+        const with_error<T> inherited = two_sum<T>(a_bound.correction, b_bound.correction);
+        const with_error<T> correction = two_sum<T>(own, inherited.value);
+        return {
+            correction.value,
+            inflated<T>((a_bound.remainder + b_bound.remainder) +
+                        (traits::abs(inherited.error) + traits::abs(correction.error)) + (v - v))};
+    }
+
+    /// What the roundings of two products x and y and of two sums take at most, with 4η for these
+    /// products' underflows and those of four others.
+    template <class T>
+    static constexpr T roundings(const T& x, const T& y, const T& first, const T& second) {
+        using traits = number_traits<T>;
+        return ((traits::abs(x) + traits::abs(y)) + (traits::abs(first) + traits::abs(second))) *
+                   traits::unit_roundoff() +
+               4 * traits::underflow_unit();
+    }
+    /// At least the error of a result rounded to v, underflow included: u|v| + η.
+    template <class T>
+    static constexpr T half_ulp(const T& v) {
+        using traits = number_traits<T>;
+        return traits::abs(v) * traits::unit_roundoff() + traits::underflow_unit();
+    }
+    template <class T>
+    static constexpr T inflated(const T& bound) {
+        return bound * (1 + 8 * number_traits<T>::epsilon());
+    }
+    template <class T>
+    static constexpr bool is_exact(operand<T, residual> a) {
+        return a.bound.correction == 0 && a.bound.remainder == 0;
+    }
+    template <class T>
+    static constexpr bool is_zero(operand<T, residual> a) {
+        return a.value == 0 && is_exact(a);
+    }
+};
+
+}  // namespace errbound

@@ -1,0 +1,104 @@
+// Bound rule `sharp`: TightBound with the unit roundoff u in place of ε = 2u, for rounding to
+// nearest only. Its bounds are half of `tight`'s.
+//
+// Notation: η the smallest positive number, v the computed result, σ a bound. In rounding to
+// nearest an operation is off by at most max(u|v|, η/2), a sum by at most u|v| (Higham 2002,
+// Theorem 2.3). The rule's own arithmetic is paid for as follows:
+//  * roundings: each keeps at least 1/(1 + u) of a bound, or all of it where it is a sum that
+//    underflows (exact). A sum's bound has three on the way, (1 + u)³ <= 1 + 4u = 1 + 2ε; a
+//    product's has five, (1 + u)^5 <= 1 + 8u = 1 + 4ε; both for u <= 1/8. No factor with one bit
+//    less would do for the sum: 1 + ε < (1 + u)³;
+//  * underflow: u|v| is a power of two times v, and half an ulp of an inexact sum is at least η, so
+//    that u|v| rounds to no less than it. A product's value and the three products inside its bound
+//    are each off by at most η/2 where they underflow: 2η is added;
+//  * exact zero, and overflow, as for `tight`; nothing goes unnoticed in rounding to nearest.
+#pragma once
+
+#include <errbound/rules/operand.hpp>
+
+namespace errbound {
+
+struct sharp {
+    static constexpr const char* name = "sharp";
+    static constexpr int minimal_precision = 3;
+
+    /// |value − true value| <= error.
+    template <class T>
+    struct bound {
+        T error;
+    };
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        return {value - value};  // 0, or NaN if the value is not finite
+    }
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
+    }
+    template <class T>
+    static constexpr T error(const T&, const bound<T>& b) {
+        return b.error;
+    }
+
+    /// |v − (a + b)| <= u|v| + σa + σb.
+    template <class T>
+    static constexpr bound<T> add(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+        using traits = number_traits<T>;
+        return {(rounding(v) + (a.bound.error + b.bound.error)) * (1 + 2 * traits::epsilon())};
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+        return add(v, a, b);
+    }
+    /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb).
+    template <class T>
+    static constexpr bound<T> multiply(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+        using traits = number_traits<T>;
+        if (is_zero(a) || is_zero(b)) return {rounding(v)};  // 0, or NaN if the other is not finite
+        const T inherited = traits::abs(a.value) * b.bound.error +
+                            a.bound.error * (traits::abs(b.value) + b.bound.error);
+        return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inherited)};
+    }
+    /// Where |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb); see `tight`. Elsewhere
+    /// the result is unknown.
+    template <class T>
+    static constexpr bound<T> divide(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+        using traits = number_traits<T>;
+        const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
+        if (!(distance > 0)) return {traits::infinity()};
+        if (is_zero(a)) return {rounding(v)};
+        // |â/b̂| <= |v|(1 + u) + η/2. Where b is not exact, η pays for underflow in the numerator
+        // before the division enlarges it. Up to eight roundings, (1 + u)^8 <= (1 + 8u)².
+        const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
+        const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);
+        const T inherited = (a.bound.error + (quotient * b.bound.error + lost)) / distance;
+        return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
+    }
+    /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
+    /// by at most η/2.
+    template <class T>
+    static bound<T> scale(const T& v, operand<T, sharp> a, int e) {
+        using traits = number_traits<T>;
+        const T scaled = traits::scale(a.bound.error, e);
+        const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&
+                                         traits::scale(scaled, -e) == a.bound.error);
+        return {lossless ? scaled + (v - v) : inflated<T>(scaled + traits::underflow_unit())};
+    }
+
+  private:
+    template <class T>
+    static constexpr T rounding(const T& v) {
+        return number_traits<T>::abs(v) * number_traits<T>::unit_roundoff();
+    }
+    template <class T>
+    static constexpr T inflated(const T& bound) {
+        return bound * (1 + 4 * number_traits<T>::epsilon());
+    }
+    template <class T>
+    static constexpr bool is_zero(operand<T, sharp> a) {
+        return a.value == 0 && a.bound.error == 0;
+    }
+};
+
+}  // namespace errbound
