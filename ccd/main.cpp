@@ -176,7 +176,8 @@ struct command_line {
             ->type_name("M[,M...]");
         report_command
             ->add_option("--sections", report.sections,
-                         "Only these: methods, times, bounds, stress")
+                         "Only these: methods, times, bounds, tightness (needs a build with\n"
+                         "MPFR), stress")
             ->type_name("S[,S...]")
             ->delimiter(',')
             ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),

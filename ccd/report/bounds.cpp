@@ -1,7 +1,7 @@
 // How large each rule's bounds are: the six critical variables of BSC, the paper's Figure 8.
-#include "ccd/report/rules.hpp"
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
+#include "errbound/rule_list.hpp"
 
 namespace ccd::report {
 namespace {
@@ -55,7 +55,8 @@ template <class Query>
 rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size) {
     const std::vector<Query> queries = data.queries.at_most(size.bounds).all_stored();
     rows result;
-    for_each_rule([&]<class Rule>(std::type_identity<Rule>) {
+    errbound::for_each_rule(errbound::all_rules{}, [&]<class Rule>() {
+        if constexpr (!errbound::promises_bound<Rule>) return;
         bound_samples samples;
         for (const Query& q : queries) add_bounds<Rule>(q, samples);
         for (std::size_t i = 0; i < samples.size(); ++i) {

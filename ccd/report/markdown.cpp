@@ -238,6 +238,34 @@ std::string per_data_set(const summary& report) {
     return text;
 }
 
+/// Bound over true error, the median and 99 %, in double: a line for each quantity, a column for
+/// each rule.
+std::string tightness(const summary& report) {
+    std::vector<std::string> heading{"part", "quantity"};
+    std::vector<std::vector<std::string>> lines;
+    const auto text_of_log = [](const row& r, const char* q) {
+        return r.contains(q) ? digits(std::pow(10, r[q].get<double>())) : std::string("-");
+    };
+    for (const row& r : report.tightness) {
+        if (r["number"] != "double" || r["measure"] != "bound/error") continue;
+        const std::string part = r["part"], quantity = r["quantity"], rule = r["rule"];
+        auto column = std::ranges::find(heading, rule);
+        if (column == heading.end()) column = heading.insert(column, rule);
+        const auto at = static_cast<std::size_t>(column - heading.begin());
+        auto line = std::ranges::find_if(
+            lines, [&](const auto& cells) { return cells[0] == part && cells[1] == quantity; });
+        if (line == lines.end()) line = lines.insert(line, {part, quantity});
+        line->resize(std::max(line->size(), at + 1), "-");
+        (*line)[at] = text_of_log(r, "q50") + " (" + text_of_log(r, "q99") + ")";
+    }
+    if (lines.empty()) return "";
+    for (auto& line : lines) line.resize(heading.size(), "-");
+    return "## Tightness\n\nBound over true error, by MPFR: median (and 99 %), in double. The "
+           "true error is zero or the bound unknown in further cases; tightness.csv counts them."
+           "\n\n" +
+           table(heading, 2, lines);
+}
+
 std::string notes(const summary& report) {
     const std::string clock =
         report.times.empty() ? "0" : digits(report.times.front()["clock_ns"].get<double>());
@@ -250,7 +278,7 @@ std::string notes(const summary& report) {
            "* Bounds: those that decide_bsc meets (ccd/bsc.hpp), of queries drawn evenly where "
            "there are very many; queries whose coordinates are not of moderate size are first "
            "scaled by a power of two. Quantiles are by the nearest rank.\n"
-           "* methods.csv, times.csv and bounds.csv hold the figures; `python3 plot.py` draws the "
+           "* The CSV files hold the figures; `python3 plot.py` draws the "
            "pictures again.\n";
 }
 
@@ -261,7 +289,8 @@ std::string markdown_of(const summary& report) {
     for (const picture& p : report.pictures) {
         text += "![" + p.caption + "](" + p.file + ")\n\n" + p.caption + "\n\n";
     }
-    return text + figure_11(report) + data(report) + per_data_set(report) + notes(report);
+    return text + figure_11(report) + tightness(report) + data(report) + per_data_set(report) +
+           notes(report);
 }
 
 }  // namespace ccd::report

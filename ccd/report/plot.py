@@ -299,9 +299,12 @@ def bounds():
 
 
 def tightness():
-    rows = table("tightness.csv")
+    rows = [r for r in table("tightness.csv")
+            if r["number"] == "double" and r["measure"] == "bound/error"]
     if not rows:
         return
+    for r in rows:
+        r["quantity"] = f"{r['part']}: {r['quantity']}"
     rules, quantities = in_order(r["rule"] for r in rows), in_order(r["quantity"] for r in rows)
     colour = colours(rules)
     figure, axes = plt.subplots(figsize=(9, 0.9 + len(quantities) * (0.2 + 0.12 * len(rules))))
@@ -315,7 +318,8 @@ def tightness():
     axes.grid(axis="y", visible=False)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
-    axes.set_xlim(left=min(0, axes.get_xlim()[0]))
+    low, high = axes.get_xlim()
+    axes.set_xlim(min(0, low), min(high, 60))  # beyond that a bound is as good as none
     axes.axvline(0, color=INK, lw=0.7)
     axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails)")
     figure.tight_layout()

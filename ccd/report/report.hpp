@@ -18,7 +18,8 @@ namespace ccd::report {
 inline constexpr std::string_view batch_name = "exact, batch";
 
 /// What can be asked for, by the name of its CSV file.
-inline constexpr std::string_view section_names[] = {"methods", "times", "bounds", "stress"};
+inline constexpr std::string_view section_names[] = {"methods", "times", "bounds", "tightness",
+                                                     "stress"};
 
 struct options {
     std::vector<std::filesystem::path> data;  ///< folders
@@ -57,8 +58,8 @@ struct summary {
     std::string date;
     std::vector<data_summary> data;
     std::vector<omission> left_out;
-    std::size_t parts = 0, resumed = 0;   ///< of the parts, those found from an earlier run
-    rows methods, times, bounds, stress;  ///< of the CSV files of these names
+    std::size_t parts = 0, resumed = 0;  ///< of the parts, those found from an earlier run
+    rows methods, times, bounds, tightness, stress;  ///< of the CSV files of these names
     std::vector<picture> pictures;
     std::vector<std::string> failures;  ///< broken promises and contradictions, a sentence each
 };

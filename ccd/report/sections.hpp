@@ -28,10 +28,12 @@ struct sample_sizes {
     int repeats;                 ///< of each timing
     std::size_t stress_queries;  ///< of each family, kind and value of the knob
     double stress_seconds;       ///< that a method is timed on these
+    std::size_t expressions;     ///< random ones whose bounds are compared with true errors
+    std::size_t tightness;       ///< queries of each data set and kind for the same
 };
 constexpr sample_sizes sizes(bool quick) {
-    return quick ? sample_sizes{20'000, 5'000, 20'000, 5, 40, 0.002}
-                 : sample_sizes{200'000, 100'000, 200'000, 7, 400, 0.02};
+    return quick ? sample_sizes{20'000, 5'000, 20'000, 5, 40, 0.002, 20'000, 40}
+                 : sample_sizes{200'000, 100'000, 200'000, 7, 400, 0.02, 500'000, 200};
 }
 
 /// Called now and then with the share of a part that is done.
@@ -61,5 +63,12 @@ rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size);
 /// method. A broken promise is told in the columns `broken` (how) and `query` (which).
 rows stress_methods(const stress::family& family, const std::vector<std::string>& methods,
                     const sample_sizes& size, int threads, const progress& show);
+
+/// Bounds against true errors by MPFR, in random expressions and on queries of all data sets: rows
+/// by rule, number type and quantity, quantiles of log10 of the ratio. A broken promise is told in
+/// the column `broken`. Only in a build with MPFR.
+rows measure_expressions(const sample_sizes& size, int threads, const progress& show);
+rows measure_tightness(const std::vector<const data_set*>& data, const sample_sizes& size,
+                       int threads, const progress& show);
 
 }  // namespace ccd::report

@@ -24,6 +24,7 @@ void task_list::add(std::string name, row depends_on, double cost, row about,
 }
 
 void task_list::add(const data_set& data) {
+    data_.push_back(&data);
     add(data, data.vertex_face_queries);
     add(data, data.edge_edge_queries);
 }
@@ -79,6 +80,26 @@ void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
 }
 
 void task_list::add_others() {
+#ifdef ERRBOUND_HAVE_MPFR
+    if (settings_.wants("tightness")) {
+        add(
+            "tightness: expressions", {{"number", size_.expressions}},
+            20.0 * static_cast<double>(size_.expressions), {{"part", "expressions"}},
+            [this](const progress& show) {
+                return measure_expressions(size_, settings_.threads, show);
+            },
+            tightness);
+        row all = row::array();
+        for (const data_set* data : data_) all.push_back(data->fingerprint);
+        add(
+            "tightness: queries", {{"data", all}, {"at_most", size_.tightness}},
+            2000.0 * static_cast<double>(size_.tightness * data_.size()), {{"part", "queries"}},
+            [this](const progress& show) {
+                return measure_tightness(data_, size_, settings_.threads, show);
+            },
+            tightness);
+    }
+#endif
     if (settings_.wants("stress")) {
         for (const stress::family& family : stress::families()) {
             const auto knobs = static_cast<double>(family.knobs.size());

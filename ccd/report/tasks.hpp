@@ -31,11 +31,11 @@ class task_list {
 
     /// What is measured of each data set.
     void add(const data_set& data);
-    /// What is measured without data sets.
+    /// What is measured without data sets, or on all that were added.
     void add_others();
 
     std::vector<task> tasks;
-    rows errors, speeds, times, bounds, stress;
+    rows errors, speeds, times, bounds, tightness, stress;
 
   private:
     template <class Query>
@@ -43,6 +43,7 @@ class task_list {
     void add(std::string name, row depends_on, double cost, row about,
              std::function<rows(const progress&)> measure, rows& into);
 
+    std::vector<const data_set*> data_;
     const options settings_;
     const sample_sizes size_;
     const row program_;                ///< what all parts depend on
