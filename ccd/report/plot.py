@@ -22,7 +22,8 @@ except ImportError:
 matplotlib.use("Agg")
 import matplotlib.colors
 import matplotlib.pyplot as plt
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+import numpy
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 INK, PALE, BAND = "#333333", "#d9d9d9", "#f2f2f2"
@@ -151,8 +152,12 @@ def label_points(axes, points):
         for angle in range(0, 360, 30):
             offsets.append((distance * math.cos(math.radians(angle)),
                             distance * math.sin(math.radians(angle))))
+    at = axes.transData.transform([point[:2] for point in points])
     for x, y, text, colour in sorted(points, key=lambda point: point[:2]):
-        for dx, dy in offsets:
+        px, py = axes.transData.transform((x, y))
+        # Of two points that nearly coincide, the left one's label stands on the left.
+        neighbour = any(0 < qx - px < 14 * pixel and abs(qy - py) < 10 * pixel for qx, qy in at)
+        for dx, dy in [(-8, 0)] * neighbour + offsets:
             side = "left" if dx > 1 else "right" if dx < -1 else "center"
             line = None if math.hypot(dx, dy) < 12 else dict(
                 arrowstyle="-", color=colour, lw=0.7, shrinkA=0, shrinkB=4)
@@ -316,10 +321,15 @@ def tightness():
     axes.set_yticklabels(quantities)
     axes.set_ylim(len(quantities) - 0.4, -0.6)
     axes.grid(axis="y", visible=False)
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    # Most lies below 10^4, some far beyond: the exponent by its square root. Ends at 10^60.
+    high = axes.get_xlim()[1]
+    axes.set_xscale("function", functions=(lambda x: numpy.sign(x) * numpy.sqrt(numpy.abs(x)),
+                                           lambda x: numpy.sign(x) * x * x))
+    least = min(r["q1"] for r in rows if not math.isnan(r["q1"]))
+    axes.set_xlim(min(0, least) - 0.02, min(high, 60))
+    axes.set_xticks([e for e in (-4, -2, -1, 0, 1, 2, 4, 8, 16, 32, 60)
+                     if axes.get_xlim()[0] <= e <= axes.get_xlim()[1]])
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
-    low, high = axes.get_xlim()
-    axes.set_xlim(min(0, low), min(high, 60))  # beyond that a bound is as good as none
     axes.axvline(0, color=INK, lw=0.7)
     axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails)")
     figure.tight_layout()
@@ -414,6 +424,8 @@ def heat_map(value, families, methods, knob_names, name, title, is_time):
     figure.tight_layout()
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, palette), ax=panels, shrink=0.5,
                           aspect=30, pad=0.02, format=NANOSECONDS if is_time else SHORT)
+    ticks = [d * 10.0 ** e for e in range(-12, 12) for d in (1, 2, 5)]
+    bar.set_ticks([tick for tick in ticks if norm.vmin <= tick <= norm.vmax])
     bar.set_label(title if is_time else f"{title} (grey: none)")
     save(figure, name)
 

@@ -63,10 +63,11 @@ std::vector<std::string> failures_of(const summary& report) {
         }
     }
     for (const row& r : report.tightness) {
-        if (r.contains("broken"))
-            failures.push_back("rule " + r["rule"].get<std::string>() + " in " +
-                               r["part"].get<std::string>() + ": " +
-                               r["broken"].get<std::string>());
+        if (!r.contains("broken")) continue;
+        failures.push_back(std::string("rule ")
+                               .append(r["rule"].get<std::string>())
+                               .append(" in " + r["part"].get<std::string>())
+                               .append(": " + r["broken"].get<std::string>()));
     }
     for (const row& r : report.stress) {
         if (!r.contains("broken")) continue;
