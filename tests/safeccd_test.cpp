@@ -112,6 +112,30 @@ TEST(proximity, is_denied_at_ten_times_the_reach) {
     EXPECT_EQ(found, 0);
 }
 
+// f = h − s·t² + c·t³ with an exact zero of f' at t = 0, where the computed f' has no turn: s > 0
+// is lost to rounding in g·x − y. A vertex falls through a tilting triangle by less than that
+// hides.
+TEST(safeccd, sees_a_dip_that_rounding_hides) {
+    int collisions = 0;
+    for (int k = 0; k <= 52; ++k) {
+        for (int j = 26; j < 32; ++j) {
+            const double g = 1 + std::ldexp(1, -j), a = std::ldexp(1, -k);
+            const double x = g / 4, y = (1 + std::ldexp(1, 1 - j)) / 4;
+            const double s = std::ldexp(1, -2 * j - 2), c = a * (x + g * y);
+            const double h = std::exp2(std::floor(std::log2(4. / 27 * s * s * s / c / c)));
+            const ccd::vertex_face<double> query{.v = {{0, 0, h}, {x, y, h}},
+                                                 .f0 = {{0, 0, 0}, {0, 0, 0}},
+                                                 .f1 = {{1, 0, 0}, {1, -a, g}},
+                                                 .f2 = {{0, 1, 0}, {a, 1, -1}}};
+            if (ccd::decide_reference(query).outcome != ccd::outcome::collides) continue;
+            ++collisions;
+            EXPECT_TRUE(may_collide(ccd::decide_safeccd<errbound::safe>(query))) << k << ' ' << j;
+            EXPECT_TRUE(may_collide(ccd::decide_safeccd<errbound::tight>(query))) << k << ' ' << j;
+        }
+    }
+    EXPECT_GT(collisions, 100);
+}
+
 // In single precision, whose ε is 2^-23, on queries in single precision.
 TEST(safeccd, loses_nothing_in_single_precision) {
     for (const auto& family : query_families::families) {
