@@ -230,10 +230,11 @@ std::string per_data_set(const summary& report) {
             table({"kind", "method", "timed", "median", "90 %", "99 %", "99.9 %", "worst"}, 2,
                   {"kind", "method", "timed", "ns_median", "ns_90", "ns_99", "ns_99_9", "ns_worst"},
                   of_data_set(report.times, set.name));
-        text += "Bounds of the critical variables, and relative to the largest |k|:\n\n";
-        text += table({"kind", "rule", "variable", "median", "99 %", "median / |k|", "99 % / |k|"},
-                      3, {"kind", "rule", "variable", "q50", "q99", "relative_q50", "relative_q99"},
-                      of_data_set(report.bounds, set.name));
+        text += "Bounds of the critical variables, and relative to the largest k in size:\n\n";
+        text +=
+            table({"kind", "rule", "variable", "median", "99 %", "median / max k", "99 % / max k"},
+                  3, {"kind", "rule", "variable", "q50", "q99", "relative_q50", "relative_q99"},
+                  of_data_set(report.bounds, set.name));
     }
     return text;
 }

@@ -76,7 +76,9 @@ def colours(names):
 
 def short(number):
     """0.001, 12, 3k, 2M."""
-    if number == 0 or math.isinf(number):  # a logarithmic knob of -inf stands for 0
+    if math.isinf(number):  # a logarithmic knob of -inf
+        return "zero"
+    if number == 0:
         return "0"
     for size, letter in ((1e6, "M"), (1e3, "k")):
         if abs(number) >= size:
