@@ -141,7 +141,7 @@ TEST(safeccd, loses_nothing_in_single_precision) {
     for (const auto& family : query_families::families) {
         int lost = 0;
         for (const kind which : {kind::vertex_face, kind::edge_edge}) {
-            for (std::uint64_t i = 0; i * family.thinning < 400; ++i) {
+            for (std::uint64_t i = 0; i * family.thinning < 60; ++i) {
                 const points p = query_families::detail::map(
                     query_families::make(family, which, 1, i), [](double x, auto...) {
                         return double{static_cast<float>(std::clamp(x, -3e38, 3e38))};
