@@ -101,10 +101,11 @@ void compare(const Predicate& predicate, const Exact& exact, surface s) {
     std::uint64_t decided = 0;
     for (const std::uint64_t n : report.decided) decided += n;
     EXPECT_EQ(decided, all);
-    for (const auto stage : {predicate_stage::static_filter, predicate_stage::short_integers,
+    for (const auto stage : {predicate_stage::static_filter, predicate_stage::exact_doubles,
+                             predicate_stage::short_integers,
                              predicate_stage::two_word_integers, predicate_stage::long_integers})
         EXPECT_GT(report[stage], 0u);
-    if (Predicate::short_bits < 61) {
+    if (Predicate::coordinate_bits(127) < 61) {
         EXPECT_GT(report[predicate_stage::word_integers], 0u);
     }
 }

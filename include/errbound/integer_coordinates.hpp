@@ -25,6 +25,36 @@ constexpr bool is_finite_size(std::uint64_t size) {
     return size >> 52 < 2047;
 }
 
+/// 2^e for a normal number.
+constexpr double power_of_two(int e) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+}
+
+/// Coordinates that are whole numbers of few bits: x = value·2^unit, |value| < 2^Bits, Bits <= 50.
+template <std::size_t N, int Bits>
+struct short_coordinates {
+    std::array<double, N> value;
+    int unit;
+    bool fit = false;
+
+    /// `largest` is largest_size(coordinates), finite. A sum of x and 3·2^51 units is a whole number
+    /// of units, x's nearest; only multiples of the unit come back from it. Then, and only then, is
+    /// the product with a power of two known to be exact.
+    constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
+        const auto field = static_cast<int>(largest >> 52);
+        unit = field - 1022 - Bits;
+        if (unit < -1022 || unit > 970) return;  // not all powers of two below are normal numbers
+        const double shift = 3 * power_of_two(unit + 51), to_unit = power_of_two(-unit);
+        std::uint64_t lost = 0;
+        for (std::size_t i = 0; i < N; ++i) {
+            const double x = coordinates[i], multiple = (x + shift) - shift;
+            lost |= std::bit_cast<std::uint64_t>(x - multiple);
+            value[i] = x * to_unit;
+        }
+        fit = lost == 0;
+    }
+};
+
 /// Coordinates that fit one word: x = value·2^unit.
 template <std::size_t N>
 struct word_coordinates {
@@ -67,9 +97,6 @@ struct word_coordinates {
     constexpr int least_bits() const { return bits - trailing_zeros_; }
 
   private:
-    static constexpr double power_of_two(int e) {
-        return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
-    }
     int trailing_zeros_ = 0;
 };
 
@@ -100,7 +127,7 @@ struct common_unit {
         if (d.magnitude == 0) return {storage(0), unit};
         const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
         const auto magnitude = d.magnitude >> std::clamp(-shift, 0, 63);
-        if constexpr (Level::is_long) {
+        if constexpr (Level::kind == integer_kind::any_length) {
             return {storage(magnitude, std::max(shift, 0), d.negative), unit};
         } else {
             const auto size = static_cast<storage>(static_cast<storage>(magnitude)

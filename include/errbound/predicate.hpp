@@ -14,9 +14,10 @@
 //  * static_filter: in floating point, with a bound whose constant the types count while the
 //    expression is compiled (errbound/static_filter.hpp); no branch but the last;
 //  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
-//  * integers: exact, coordinates on a common exponent. As they need it: in numbers such that no
-//    result takes more than 128 bits, coordinates of one word, of two, or of up to the full range of
-//    exponents. Without allocation; or the options' own exact type takes the place of the last.
+//  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that doubles
+//    hold all results, or words of 128 bits do; coordinates of one word, of two, or of up to the
+//    full range of exponents. Without allocation; or the options' own exact type takes the place of
+//    the last.
 //
 // Promised, for finite coordinates, under rounding to nearest and gradual underflow
 // (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
@@ -61,12 +62,13 @@ struct points {
 enum class predicate_stage : std::uint8_t {
     static_filter,
     tracked,
-    short_integers,  ///< coordinates so short that no result takes more than 128 bits
+    exact_doubles,   ///< coordinates so short that no result takes more than 53 bits
+    short_integers,  ///< so short that none takes more than 128
     word_integers,
     two_word_integers,
     long_integers,  ///< any finite coordinates; or the options' exact type
 };
-inline constexpr std::size_t predicate_stage_count = 6;
+inline constexpr std::size_t predicate_stage_count = 7;
 
 /// How many inputs each stage decided; `undecided` had coordinates that were not finite.
 struct predicate_report {
@@ -192,17 +194,16 @@ class predicate_type {
     /// an expression that branches, the largest of all.
     template <class T>
     static constexpr T static_constant = filter_constant<T>(counts.roundings);
-    /// So many bits may coordinates have for no result to take more than 128.
-    static constexpr int short_bits = [] {
-        const int excess = counts.bits - 127;
-        return excess <= 0 ? word_coordinates<1>::most_bits
-                           : word_coordinates<1>::most_bits -
-                                 (excess + counts.degree - 1) / counts.degree;
-    }();
+    /// So many bits may coordinates have for no result to take more than `bits`.
+    static constexpr int coordinate_bits(int bits) {
+        const int excess = counts.bits - bits;
+        return word_coordinates<1>::most_bits -
+               (excess <= 0 ? 0 : (excess + counts.degree - 1) / counts.degree);
+    }
 
     /// The sign. Points: anything that coordinate_of takes, of float or double.
     template <class... Points>
-    constexpr sign_type operator()(const Points&... p) const {
+    [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         const sign_type s = filter(p...);
         if (certain(s)) [[likely]]
             return s;
@@ -227,6 +228,7 @@ class predicate_type {
         const std::uint64_t largest = largest_size(list);
         if (!is_finite_size(largest)) return sign_type::uncertain;
         if (stage == tracked) return by_tracked<number_of<Points...>>(list);
+        if (stage == exact_doubles) return by_doubles(list, largest);
         if (stage == two_word_integers) return by_two_words(list);
         if (stage == long_integers) return by_any(list);
         word_coordinates<listed_size> words(list, largest);
@@ -249,8 +251,11 @@ class predicate_type {
     template <class... Points>
     using number_of = typename number<Points...>::type;
 
+    // Each stage is one piece of code, with the expression and its scalars inlined (flatten): else
+    // every + would be a call.
+
     template <class... Points>
-    [[gnu::always_inline]] static constexpr sign_type filter(const Points&... p) {
+    static constexpr sign_type filter(const Points&... p) {
         using scalars = detail::filtered_scalars<number_of<Points...>, Points...>;
         return detail::conclude(detail::evaluate<Shape>(F(), scalars{{p...}}));
     }
@@ -286,6 +291,11 @@ class predicate_type {
             const sign_type s = by_tracked<T>(list);
             if (certain(s)) return counted(s, tracked);
         }
+        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
+        if constexpr (short_bits < word_coordinates<1>::most_bits) {
+            const sign_type s = by_doubles(list, largest);
+            if (certain(s)) return counted(s, exact_doubles);
+        }
         word_coordinates<listed_size> words(list, largest);
         if (words.fit) {
             if (words.least_bits() <= short_bits) return counted(by_short(words), short_integers);
@@ -297,43 +307,54 @@ class predicate_type {
     }
 
     template <class T>
-    static constexpr sign_type by_tracked(const coordinate_list& list) {
+    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_tracked(const coordinate_list& list) {
         using rule = std::conditional_t<std::is_void_v<typename Options::tracked_rule>, tight,
                                         typename Options::tracked_rule>;
         return detail::sign_over<Shape>(
             F(), list, [](double x) { return errbound::tracked<T, rule>(static_cast<T>(x)); });
     }
 
-    template <int Bits>
-    static constexpr sign_type by_values(const word_coordinates<listed_size>& words) {
-        using scalar = sized_integer<integer_level<Bits, mixed>, Bits, 1>;
+    template <integer_kind Kind, int Bits, class Coordinates>
+    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_values(const Coordinates& c) {
+        using scalar = sized_integer<integer_level<Kind, Bits, mixed>, Bits, 1>;
         return detail::sign_over<Shape>(
-            F(), words.value, [&](std::int64_t v) { return scalar{v, words.unit}; });
+            F(), c.value, [&](const auto& v) { return scalar{v, c.unit}; });
     }
+    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_doubles(const coordinate_list& list,
+                                                                              std::uint64_t largest) {
+        constexpr int bits = coordinate_bits(53);
+        if constexpr (bits < 1) {
+            return sign_type::uncertain;
+        } else {
+            const short_coordinates<listed_size, bits> c(list, largest);
+            return c.fit ? by_values<integer_kind::floating, bits>(c) : sign_type::uncertain;
+        }
+    }
+    static constexpr int short_bits = coordinate_bits(127);
     static constexpr sign_type by_short(word_coordinates<listed_size> words) {
         if (words.least_bits() > short_bits) return sign_type::uncertain;
         if constexpr (short_bits < words.most_bits) words.shorten();
-        return by_values<short_bits>(words);
+        return by_values<integer_kind::words, short_bits>(words);
     }
     static constexpr sign_type by_words(const word_coordinates<listed_size>& words) {
-        return by_values<words.most_bits>(words);
+        return by_values<integer_kind::words, words.most_bits>(words);
     }
 
     /// Coordinates of two words: their differences' products end before a word's end.
     static constexpr int two_word_bits = 124;
-    static constexpr sign_type by_two_words(const coordinate_list& list) {
+    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_two_words(const coordinate_list& list) {
         const common_unit unit(list);
         if (unit.bits > two_word_bits) return sign_type::uncertain;
         return detail::sign_over<Shape>(F(), list, [&](double x) {
-            return unit.template converted<integer_level<two_word_bits, mixed>>(x);
+            return unit.template converted<integer_level<integer_kind::words, two_word_bits, mixed>>(x);
         });
     }
 
-    static constexpr sign_type by_any(const coordinate_list& list) {
+    [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
             const common_unit unit(list);
             return detail::sign_over<Shape>(F(), list, [&](double x) {
-                return unit.template converted<integer_level<full_range_bits, mixed>>(x);
+                return unit.template converted<integer_level<integer_kind::any_length, full_range_bits, mixed>>(x);
             });
         } else {
             return detail::sign_over<Shape>(

@@ -111,29 +111,36 @@ class long_integer {
     std::array<word, Words> words_;
 };
 
+/// What numbers are made of: doubles that hold whole numbers, words, or as many words as it takes.
+enum class integer_kind : std::uint8_t { floating, words, any_length };
+
 /// Coordinates lie strictly between −2^CoordinateBits and 2^CoordinateBits. Mixed: terms of
 /// different degree may be added.
-template <int CoordinateBits, bool Mixed>
+template <integer_kind Kind, int CoordinateBits, bool Mixed>
 struct integer_level {
+    static constexpr integer_kind kind = Kind;
     static constexpr int coordinate_bits = CoordinateBits;
     static constexpr bool mixed = Mixed;
-    static constexpr bool is_long = CoordinateBits > 128;
 };
 
 namespace detail {
 
-template <int Words, bool Long>
-struct integer_of_words {
-    using type = std::conditional_t<Long, long_integer<Words>, fixed_integer<Words>>;
-};
-template <>
-struct integer_of_words<1, false> {
-    using type = std::int64_t;
-};
-template <>
-struct integer_of_words<2, false> {
-    using type = words::signed_double_word;
-};
+template <integer_kind Kind, int Bits>
+constexpr auto integer_of() {
+    constexpr int word_count = Bits / 64 + 1;
+    if constexpr (Kind == integer_kind::floating) {
+        static_assert(Bits <= 53, "errbound: the number of bits is not what was counted");
+        return double();
+    } else if constexpr (Kind == integer_kind::any_length) {
+        return long_integer<word_count>(0);
+    } else if constexpr (word_count == 1) {
+        return std::int64_t();
+    } else if constexpr (word_count == 2) {
+        return words::signed_double_word();
+    } else {
+        return fixed_integer<word_count>();
+    }
+}
 
 constexpr fixed_integer<1> as_fixed(std::int64_t x) {
     return x;
@@ -160,10 +167,11 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
 template <class Level, int Bits, int Degree>
 struct sized_integer {
     static constexpr int bits = Bits, degree = Degree;
-    static constexpr int word_count = Bits / 64 + 1;
-    static constexpr bool is_native = !Level::is_long && word_count <= 2;
     using level = Level;
-    using storage = typename detail::integer_of_words<word_count, Level::is_long>::type;
+    using storage = decltype(detail::integer_of<Level::kind, Bits>());
+    static constexpr bool is_native =
+        Level::kind == integer_kind::floating ||
+        (Level::kind == integer_kind::words && sizeof(storage) <= sizeof(words::double_word));
 
     storage value;
     int unit;  ///< the coordinates': 2^unit
@@ -201,12 +209,12 @@ template <sized_operand X, sized_operand Y>
 constexpr auto operator*(const X& x, const Y& y) {
     using result = sized_integer<typename X::level, X::bits + Y::bits, X::degree + Y::degree>;
     using storage = typename result::storage;
-    if constexpr (X::level::is_long) {
+    if constexpr (X::level::kind == integer_kind::any_length) {
         return result{storage::product(x.value, y.value), x.unit};
     } else if constexpr (result::is_native) {
         return result{static_cast<storage>(x.value) * static_cast<storage>(y.value), x.unit};
     } else {
-        return result{detail::narrowed<result::word_count>(detail::as_fixed(x.value) *
+        return result{detail::narrowed<storage::width / 64>(detail::as_fixed(x.value) *
                                                            detail::as_fixed(y.value)),
                       x.unit};
     }
@@ -224,10 +232,11 @@ constexpr auto raised(const X& x) {
         static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
         using one_type = sized_integer<level, level::coordinate_bits, 1>;
         using storage = typename one_type::storage;
-        if constexpr (level::is_long)
+        if constexpr (level::kind == integer_kind::any_length)
             return raised<Degree>(x * one_type{storage(1, -x.unit, false), x.unit});
         else
-            return raised<Degree>(x * one_type{static_cast<storage>(storage(1) << -x.unit), x.unit});
+            return raised<Degree>(
+                x * one_type{static_cast<storage>(words::signed_double_word(1) << -x.unit), x.unit});
     }
 }
 
@@ -236,7 +245,7 @@ constexpr auto sum_of_raised(const X& x, const Y& y) {
     using result = sized_integer<typename X::level, (X::bits > Y::bits ? X::bits : Y::bits) + 1,
                                  X::degree>;
     using storage = typename result::storage;
-    if constexpr (X::level::is_long) {
+    if constexpr (X::level::kind == integer_kind::any_length) {
         return result{Subtract ? storage::difference(x.value, y.value)
                                : storage::sum(x.value, y.value),
                       x.unit};

@@ -21,16 +21,20 @@
 // least 1 − u; where a product of sizes underflows, the half of τ that is left pays. Then
 //     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u),
 // where the sum of the slacks, at least 3u, pays for the rounding of the constant, of the bound and
-// of x̂ itself. The bound does not underflow: uτ > m. Where anything overflowed, x̂ is infinite or
-// NaN, or Ŝ is, and no sign passes; numbers never become finite again without division.
+// of x̂ itself. The bound does not underflow: uτ > m.
 //
-// Fused multiply-add (contraction) leaves out roundings and keeps all of this.
+// Overflow: rounding is monotone, so Ŝ >= |x̂| for every number of an expression; where one is
+// infinite or NaN, so are all that are made of it, and their sizes: no sign passes.
+//
+// Fused multiply-add (contraction) leaves out roundings and keeps all of this but the last: a value
+// can overflow where its size just does not. Where it may happen, values are asked to be finite.
 // For orient2d, orient3d, incircle and insphere the counts k − 1 are those of Shewchuk's A-filters:
 // 3, 7, 10 and 16. Source of these: Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic.
 #pragma once
 
 #include <concepts>
 #include <errbound/number_traits.hpp>
+#include <errbound/rounded.hpp>
 #include <errbound/sign.hpp>
 #include <type_traits>
 
@@ -65,13 +69,14 @@ struct filtered {
 
     /// |value| <= bound() leaves the sign open; so does a value that is not finite.
     constexpr T bound() const {
-        constexpr int counted = Roundings == 0 ? 0 : Roundings - 1;
-        if constexpr (counted == 0) return T(0);
-        return filter_constant<T>(counted) * (size + T(Products == 0 ? 1 : Products) * allowance);
+        if constexpr (Roundings <= 1) return T(0);
+        return filter_constant<T>(Roundings - 1) * (size + T(Products == 0 ? 1 : Products) * allowance);
     }
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
-        const bool decided = magnitude > x.bound() && number_traits<T>::is_finite(x.value);
+        bool decided = magnitude > x.bound();
+        if constexpr (may_contract || Roundings <= 1)  // then the bound is not infinite either
+            decided = decided && number_traits<T>::is_finite(x.value);
         if (decided) [[likely]]
             return x.value > 0 ? sign_type::positive : sign_type::negative;
         // What was rounded once at most is zero only where it is zero.
