@@ -23,7 +23,7 @@ namespace detail {
 
 /// One run: the signs that it is told, and what it asks.
 struct counting_run {
-    static constexpr std::size_t most_signs = 64;
+    static constexpr std::size_t most_signs = 256;
 
     expression_counts counts;
     std::array<sign_type, most_signs> told{};  ///< by default `negative`, the first of its type

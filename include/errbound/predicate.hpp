@@ -86,6 +86,10 @@ struct predicate_options {
     using tracked_rule = void;
     /// Exact number type of the last stage, constructible from double; void: long_integer.
     using exact_type = void;
+    /// Whether terms of different degree are never added, so that powers of two scale coordinates
+    /// without changing a sign. It is found out for all expressions but those with too many branches
+    /// (errbound/expression_count.hpp); a false claim does not compile.
+    static constexpr bool homogeneous = false;
 };
 
 /// Coordinate i of a point, or the number itself, of what users have as points.
@@ -204,7 +208,8 @@ class predicate_type {
     /// The sign. Points: anything that coordinate_of takes, of float or double.
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
-        const sign_type s = filter(p...);
+        // Overflow is no constant expression.
+        const sign_type s = std::is_constant_evaluated() ? sign_type::uncertain : filter(p...);
         if (certain(s)) [[likely]]
             return s;
         return later_stages<number_of<Points...>>(listed(p...), nullptr);
@@ -218,6 +223,21 @@ class predicate_type {
             return s;
         }
         return later_stages<number_of<Points...>>(listed(p...), &report);
+    }
+    /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or the
+    /// sign_type of an expression that branches.
+    template <class... Points>
+    static constexpr auto filtered(const Points&... p) {
+        using scalars = detail::filtered_scalars<number_of<Points...>, Points...>;
+        return detail::evaluate<Shape>(F(), scalars{{p...}});
+    }
+    /// The expression's value over a number type of one's own, constructible from a coordinate.
+    template <class Number, class... Points>
+    static constexpr auto value(const Points&... p) {
+        const auto make = [](const auto& x) { return Number(x); };
+        const auto list = listed(p...);
+        return detail::evaluate<Shape>(
+            F(), detail::listed_scalars<Shape, coordinate_list, decltype(make)>{list, make});
     }
     /// The sign that one stage alone finds.
     template <class... Points>
@@ -237,7 +257,8 @@ class predicate_type {
     }
 
   private:
-    static constexpr bool mixed = counts.mixed || !counts.complete;
+    static constexpr bool mixed =
+        !Options::homogeneous && (counts.mixed || !counts.complete);
     /// Where terms of different degree are added, 1 is one more coordinate.
     static constexpr std::size_t listed_size = Shape::size + mixed;
     using coordinate_list = std::array<double, listed_size>;
@@ -247,6 +268,9 @@ class predicate_type {
         static_assert(sizeof...(Points) == Shape::count,
                       "errbound: as many points as the predicate's shape says");
         using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
+        static_assert((std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> &&
+                       ...) && sizeof(type) <= sizeof(double),
+                      "errbound: coordinates must be float or double");
     };
     template <class... Points>
     using number_of = typename number<Points...>::type;
@@ -256,8 +280,7 @@ class predicate_type {
 
     template <class... Points>
     static constexpr sign_type filter(const Points&... p) {
-        using scalars = detail::filtered_scalars<number_of<Points...>, Points...>;
-        return detail::conclude(detail::evaluate<Shape>(F(), scalars{{p...}}));
+        return detail::conclude(filtered(p...));
     }
 
     template <class... Points>

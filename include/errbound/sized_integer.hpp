@@ -202,7 +202,8 @@ concept sized_operand = is_sized_integer<X>;
 /// A whole number in an expression.
 template <class Level>
 constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
-    return {c, unit};
+    using storage = typename sized_integer<Level, 32, 0>::storage;
+    return {static_cast<storage>(c), unit};
 }
 
 template <sized_operand X, sized_operand Y>
