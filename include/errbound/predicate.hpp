@@ -209,9 +209,11 @@ class predicate_type {
     template <class... Points>
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         // Overflow is no constant expression.
-        const sign_type s = std::is_constant_evaluated() ? sign_type::uncertain : filter(p...);
-        if (certain(s)) [[likely]]
-            return s;
+        if (!std::is_constant_evaluated()) {
+            const sign_type s = filter(p...);
+            if (certain(s)) [[likely]]
+                return s;
+        }
         return later_stages<number_of<Points...>>(listed(p...), nullptr);
     }
     /// The same, and the stage that decided is counted.
@@ -275,9 +277,6 @@ class predicate_type {
     template <class... Points>
     using number_of = typename number<Points...>::type;
 
-    // Each stage is one piece of code, with the expression and its scalars inlined (flatten): else
-    // every + would be a call.
-
     template <class... Points>
     static constexpr sign_type filter(const Points&... p) {
         return detail::conclude(filtered(p...));
@@ -330,7 +329,7 @@ class predicate_type {
     }
 
     template <class T>
-    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_tracked(const coordinate_list& list) {
+    [[gnu::noinline]] static constexpr sign_type by_tracked(const coordinate_list& list) {
         using rule = std::conditional_t<std::is_void_v<typename Options::tracked_rule>, tight,
                                         typename Options::tracked_rule>;
         return detail::sign_over<Shape>(
@@ -338,12 +337,12 @@ class predicate_type {
     }
 
     template <integer_kind Kind, int Bits, class Coordinates>
-    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_values(const Coordinates& c) {
+    [[gnu::noinline]] static constexpr sign_type by_values(const Coordinates& c) {
         using scalar = sized_integer<integer_level<Kind, Bits, mixed>, Bits, 1>;
         return detail::sign_over<Shape>(
             F(), c.value, [&](const auto& v) { return scalar{v, c.unit}; });
     }
-    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_doubles(const coordinate_list& list,
+    [[gnu::noinline]] static constexpr sign_type by_doubles(const coordinate_list& list,
                                                                               std::uint64_t largest) {
         constexpr int bits = coordinate_bits(53);
         if constexpr (bits < 1) {
@@ -365,7 +364,7 @@ class predicate_type {
 
     /// Coordinates of two words: their differences' products end before a word's end.
     static constexpr int two_word_bits = 124;
-    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_two_words(const coordinate_list& list) {
+    [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
         const common_unit unit(list);
         if (unit.bits > two_word_bits) return sign_type::uncertain;
         return detail::sign_over<Shape>(F(), list, [&](double x) {

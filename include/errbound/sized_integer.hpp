@@ -206,8 +206,11 @@ constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
     return {static_cast<storage>(c), unit};
 }
 
+// Operators are inlined whatever the compiler thinks of it: most are one instruction or a few, and
+// the others call what is longer themselves.
+
 template <sized_operand X, sized_operand Y>
-constexpr auto operator*(const X& x, const Y& y) {
+[[gnu::always_inline]] constexpr auto operator*(const X& x, const Y& y) {
     using result = sized_integer<typename X::level, X::bits + Y::bits, X::degree + Y::degree>;
     using storage = typename result::storage;
     if constexpr (X::level::kind == integer_kind::any_length) {
@@ -225,7 +228,7 @@ namespace detail {
 
 /// x brought to a higher degree: times a power of 1 = 2^−unit units.
 template <int Degree, class X>
-constexpr auto raised(const X& x) {
+[[gnu::always_inline]] constexpr auto raised(const X& x) {
     using level = typename X::level;
     if constexpr (X::degree >= Degree) {
         return x;
@@ -242,7 +245,7 @@ constexpr auto raised(const X& x) {
 }
 
 template <bool Subtract, class X, class Y>
-constexpr auto sum_of_raised(const X& x, const Y& y) {
+[[gnu::always_inline]] constexpr auto sum_of_raised(const X& x, const Y& y) {
     using result = sized_integer<typename X::level, (X::bits > Y::bits ? X::bits : Y::bits) + 1,
                                  X::degree>;
     using storage = typename result::storage;
@@ -259,42 +262,42 @@ constexpr auto sum_of_raised(const X& x, const Y& y) {
     }
 }
 template <bool Subtract, class X, class Y>
-constexpr auto sum_of(const X& x, const Y& y) {
+[[gnu::always_inline]] constexpr auto sum_of(const X& x, const Y& y) {
     return sum_of_raised<Subtract>(raised<Y::degree>(x), raised<X::degree>(y));
 }
 
 }  // namespace detail
 
 template <sized_operand X, sized_operand Y>
-constexpr auto operator+(const X& x, const Y& y) {
+[[gnu::always_inline]] constexpr auto operator+(const X& x, const Y& y) {
     return detail::sum_of<false>(x, y);
 }
 template <sized_operand X, sized_operand Y>
-constexpr auto operator-(const X& x, const Y& y) {
+[[gnu::always_inline]] constexpr auto operator-(const X& x, const Y& y) {
     return detail::sum_of<true>(x, y);
 }
 template <sized_operand X>
-constexpr auto operator+(const X& x, int c) {
+[[gnu::always_inline]] constexpr auto operator+(const X& x, int c) {
     return x + sized_constant<typename X::level>(c, x.unit);
 }
 template <sized_operand X>
-constexpr auto operator+(int c, const X& x) {
+[[gnu::always_inline]] constexpr auto operator+(int c, const X& x) {
     return x + c;
 }
 template <sized_operand X>
-constexpr auto operator-(const X& x, int c) {
+[[gnu::always_inline]] constexpr auto operator-(const X& x, int c) {
     return x - sized_constant<typename X::level>(c, x.unit);
 }
 template <sized_operand X>
-constexpr auto operator-(int c, const X& x) {
+[[gnu::always_inline]] constexpr auto operator-(int c, const X& x) {
     return sized_constant<typename X::level>(c, x.unit) - x;
 }
 template <sized_operand X>
-constexpr auto operator*(const X& x, int c) {
+[[gnu::always_inline]] constexpr auto operator*(const X& x, int c) {
     return x * sized_constant<typename X::level>(c, x.unit);
 }
 template <sized_operand X>
-constexpr auto operator*(int c, const X& x) {
+[[gnu::always_inline]] constexpr auto operator*(int c, const X& x) {
     return x * c;
 }
 
