@@ -128,7 +128,8 @@ points<T, D, N> deep(generator& random, surface s) {
         for (auto& point : p) {
             const auto turn = static_cast<std::size_t>(between(random, 0, D - 1));
             for (std::size_t i = 0; i < D; ++i)
-                point[i] = between(random, 0, 1) == 0 ? size[(i + turn) % D] : -size[(i + turn) % D];
+                point[i] =
+                    between(random, 0, 1) == 0 ? size[(i + turn) % D] : -size[(i + turn) % D];
         }
     }
     return p;
@@ -166,10 +167,18 @@ template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> scaled(generator& random, surface s) {
     points<T, D, N> p;
     switch (random() % 4) {
-        case 0: p = any_uniform<T, D, N>(random, s); break;
-        case 1: p = near<T, D, N>(random, s); break;
-        case 2: p = grid<T, D, N>(random, s); break;
-        default: p = deep<T, D, N>(random, s); break;
+        case 0:
+            p = any_uniform<T, D, N>(random, s);
+            break;
+        case 1:
+            p = near<T, D, N>(random, s);
+            break;
+        case 2:
+            p = grid<T, D, N>(random, s);
+            break;
+        default:
+            p = deep<T, D, N>(random, s);
+            break;
     }
     using limits = std::numeric_limits<T>;
     const int e = between(random, limits::min_exponent - limits::digits, limits::max_exponent - 9);

@@ -1,5 +1,6 @@
-// Predicates against rationals: every stage alone is right or uncertain, and all together are right,
-// on inputs of all kinds and sizes. ERRBOUND_PREDICATE_INPUTS: inputs per predicate and family.
+// Predicates against rationals: every stage alone is right or uncertain, and all together are
+// right, on inputs of all kinds and sizes. ERRBOUND_PREDICATE_INPUTS: inputs per predicate and
+// family.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -226,13 +227,13 @@ TEST(Signs, OfSegments) {
     };
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, -1, 1}, {0, 1, 1}), positive);
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, -1, 2}, {0, 1, 2}), negative);
-    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, 0, 1}, {0, 1, 1}), zero);    // a T
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, 0, 1}, {0, 1, 1}), zero);  // a T
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {2, -1, 1}, {2, 1, 1}), negative);
     EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {2, 0, 1}, {2, 1, 1}), negative);  // end on the line
-    EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3}), zero);     // overlap
+    EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3}), zero);       // overlap
     EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {2, 2, 2}, {3, 3, 3}), zero);
     EXPECT_EQ(at({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}), negative);
-    EXPECT_EQ(at({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}), zero);     // points
+    EXPECT_EQ(at({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}), zero);  // points
     EXPECT_EQ(at({1, 1, 1}, {1, 1, 1}, {0, 0, 0}, {2, 2, 2}), zero);
     EXPECT_EQ(at({1, 1, 2}, {1, 1, 2}, {0, 0, 0}, {2, 2, 2}), negative);
 }
@@ -289,7 +290,8 @@ static_assert(errbound::orient2d.static_constant<double> < 1.0001 * (3 + 16 * e)
 static_assert(errbound::orient3d.static_constant<double> < 1.0001 * (7 + 56 * e) * e);
 static_assert(errbound::incircle.static_constant<double> < 1.0001 * (10 + 96 * e) * e);
 static_assert(errbound::insphere.static_constant<double> < 1.0001 * (16 + 224 * e) * e);
-static_assert(errbound::orient2d.counts.roundings == 3 && errbound::orient3d.counts.roundings == 7 &&
+static_assert(errbound::orient2d.counts.roundings == 3 &&
+              errbound::orient3d.counts.roundings == 7 &&
               errbound::incircle.counts.roundings == 10 &&
               errbound::insphere.counts.roundings == 15);
 
@@ -320,8 +322,9 @@ void attack(const Predicate&, surface s) {
                 abs(rational(x.value)) * rational(errbound::number_traits<T>::unit_roundoff());
             ASSERT_LE(error, rational(x.bound()) + last) << family.name << replay(p);
             if (error > last)
-                worst = std::max(worst, rational((error - last) / rational(x.bound()))
-                                            .template convert_to<double>());
+                worst = std::max(
+                    worst,
+                    rational((error - last) / rational(x.bound())).template convert_to<double>());
         }
     EXPECT_GT(worst, 0.01);  // the bound is no more than it needs to be by orders of magnitude
     std::printf("used up at most %.3f of the bound\n", worst);
@@ -360,9 +363,9 @@ TEST(Points, AreWhatUsersHave) {
 }
 
 TEST(Points, ThatAreNotFinite) {
-    for (const double bad : {std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity(),
-                             std::numeric_limits<double>::quiet_NaN()})
+    for (const double bad :
+         {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+          std::numeric_limits<double>::quiet_NaN()})
         for (std::size_t i = 0; i < 6; ++i) {
             std::array<double, 6> x{0.5, 1, 4, 2, 3, 9};
             x[i] = bad;
@@ -395,7 +398,8 @@ TYPED_TEST(Predicates, OfAnyDegree) {
     for (int i = 0; i < inputs_per_family(); ++i) {
         const auto p = predicate_inputs::stretched<T, 1, 3>(random, surface::flat);
         const T a = p[0][0], b = p[1][0], c = p[2][0];
-        EXPECT_EQ(discriminant(a, b, c), errbound::sign_of(rational(rational(b) * b - rational(4) * a * c)));
+        EXPECT_EQ(discriminant(a, b, c),
+                  errbound::sign_of(rational(rational(b) * b - rational(4) * a * c)));
     }
 }
 

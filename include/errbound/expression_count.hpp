@@ -12,10 +12,10 @@
 namespace errbound {
 
 struct expression_counts {
-    int roundings = 0;  ///< that bear on a sign: errbound/static_filter.hpp
-    int bits = 0;       ///< of the longest number whose sign is asked, for the coordinates' given
-    int degree = 0;     ///< of that number
-    bool mixed = false;     ///< terms of different degree are added
+    int roundings = 0;   ///< that bear on a sign: errbound/static_filter.hpp
+    int bits = 0;        ///< of the longest number whose sign is asked, for the coordinates' given
+    int degree = 0;      ///< of that number
+    bool mixed = false;  ///< terms of different degree are added
     bool complete = true;  ///< all branches were seen
 };
 
@@ -72,9 +72,7 @@ class expression_count {
         return {x.run_ != nullptr ? x.run_ : y.run_, x.bits_ + y.bits_, x.degree_ + y.degree_,
                 x.roundings_ + y.roundings_ + 1};
     }
-    constexpr expression_count operator-() const {
-        return {run_, bits_, degree_, roundings_};
-    }
+    constexpr expression_count operator-() const { return {run_, bits_, degree_, roundings_}; }
     friend constexpr sign_type sign_of(const expression_count& x) {
         auto& run = *x.run_;
         const int roundings = x.roundings_ == 0 ? 0 : x.roundings_ - 1;

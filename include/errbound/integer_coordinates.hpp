@@ -37,9 +37,9 @@ struct short_coordinates {
     int unit;
     bool fit = false;
 
-    /// `largest` is largest_size(coordinates), finite. A sum of x and 3·2^51 units is a whole number
-    /// of units, x's nearest; only multiples of the unit come back from it. Then, and only then, is
-    /// the product with a power of two known to be exact.
+    /// `largest` is largest_size(coordinates), finite. A sum of x and 3·2^51 units is a whole
+    /// number of units, x's nearest; only multiples of the unit come back from it. Then, and only
+    /// then, is the product with a power of two known to be exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
@@ -64,7 +64,6 @@ struct word_coordinates {
 
     std::array<std::int64_t, N> value;
     int unit;
-    int bits;  ///< values lie strictly between −2^bits and 2^bits
     bool fit;
 
     /// `largest` is largest_size(coordinates), finite. The largest coordinate is less than
@@ -74,30 +73,26 @@ struct word_coordinates {
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - most_bits;
-        bits = most_bits;
         fit = field > 61;  // both powers of two are normal numbers
         if (!fit) return;
         const double from_unit = power_of_two(unit), to_unit = power_of_two(-unit);
-        std::uint64_t any = 0;
+        std::uint64_t any = 0, differing = 0;
         for (std::size_t i = 0; i < N; ++i) {
             value[i] = static_cast<std::int64_t>(coordinates[i] * to_unit);
-            fit = fit & (static_cast<double>(value[i]) * from_unit == coordinates[i]);
+            const double back = static_cast<double>(value[i]) * from_unit;
+            differing |=
+                std::bit_cast<std::uint64_t>(back) ^ std::bit_cast<std::uint64_t>(coordinates[i]);
             any |= static_cast<std::uint64_t>(value[i]);
         }
-        trailing_zeros_ = std::min(most_bits, std::countr_zero(any));
+        fit = differing << 1 == 0;  // zeros may differ in sign
+        least_bits_ = any == 0 ? 0 : most_bits - std::countr_zero(any);
     }
 
-    /// Takes the largest unit that there is.
-    constexpr void shorten() {
-        for (auto& v : value) v >>= trailing_zeros_;
-        unit += trailing_zeros_;
-        bits -= trailing_zeros_;
-        trailing_zeros_ = 0;
-    }
-    constexpr int least_bits() const { return bits - trailing_zeros_; }
+    /// Of values in the largest common unit.
+    constexpr int least_bits() const { return least_bits_; }
 
   private:
-    int trailing_zeros_ = 0;
+    int least_bits_ = most_bits;
 };
 
 /// The common unit of any finite coordinates, and how many bits they take in it.
@@ -130,8 +125,8 @@ struct common_unit {
         if constexpr (Level::kind == integer_kind::any_length) {
             return {storage(magnitude, std::max(shift, 0), d.negative), unit};
         } else {
-            const auto size = static_cast<storage>(static_cast<storage>(magnitude)
-                                                   << std::max(shift, 0));
+            const auto size =
+                static_cast<storage>(static_cast<storage>(magnitude) << std::max(shift, 0));
             return {d.negative ? -size : size, unit};
         }
     }

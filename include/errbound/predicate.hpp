@@ -7,14 +7,15 @@
 //   errbound::sign_type s = orient2d(p, q, r);  // arrays, spans, Eigen vectors, structs of x, y, z
 //
 // The expression is a program of +, − and × on coordinates and whole constants. Every result has a
-// type of its own, so its variables are `auto` and are not assigned to. It may branch on signs: then
-// it asks sign_of(x), passes on `uncertain` (returns it at once), and returns a sign_type.
+// type of its own, so its variables are `auto` and are not assigned to. It may branch on signs:
+// then it asks sign_of(x), passes on `uncertain` (returns it at once), and returns a sign_type.
 //
 // It is run on one scalar after the other, until one is certain (`predicate_stage`):
 //  * static_filter: in floating point, with a bound whose constant the types count while the
 //    expression is compiled (errbound/static_filter.hpp); no branch but the last;
 //  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
-//  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that doubles
+//  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
+//  doubles
 //    hold all results, or words of 128 bits do; coordinates of one word, of two, or of up to the
 //    full range of exponents. Without allocation; or the options' own exact type takes the place of
 //    the last.
@@ -23,8 +24,8 @@
 // (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
 // overflow included. `uncertain` where a coordinate is not finite. No exceptions, no global state.
 // Usable in constant expressions; in device code up to the two-word integers.
-// Cost: the static filter 1 to 2 times the expression in floating point, the integers some ten times
-// that, and in the full range up to 100 µs and some 100 KiB of stack for a degree of 5.
+// Cost: the static filter 1 to 2 times the expression in floating point, the integers some ten
+// times that, and in the full range up to 100 µs and some 100 KiB of stack for a degree of 5.
 #pragma once
 
 #include <array>
@@ -87,8 +88,8 @@ struct predicate_options {
     /// Exact number type of the last stage, constructible from double; void: long_integer.
     using exact_type = void;
     /// Whether terms of different degree are never added, so that powers of two scale coordinates
-    /// without changing a sign. It is found out for all expressions but those with too many branches
-    /// (errbound/expression_count.hpp); a false claim does not compile.
+    /// without changing a sign. It is found out for all expressions but those with too many
+    /// branches (errbound/expression_count.hpp); a false claim does not compile.
     static constexpr bool homogeneous = false;
 };
 
@@ -164,7 +165,8 @@ template <class Shape, class F, class Scalars>
 constexpr auto evaluate(const F& f, const Scalars& scalars) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
         return f(view<Shape, I>(scalars)...);
-    }(std::make_index_sequence<Shape::count>());
+    }
+    (std::make_index_sequence<Shape::count>());
 }
 template <class Shape, class F, class List, class Make>
 constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
@@ -226,8 +228,8 @@ class predicate_type {
         }
         return later_stages<number_of<Points...>>(listed(p...), &report);
     }
-    /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or the
-    /// sign_type of an expression that branches.
+    /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or
+    /// the sign_type of an expression that branches.
     template <class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = detail::filtered_scalars<number_of<Points...>, Points...>;
@@ -259,8 +261,7 @@ class predicate_type {
     }
 
   private:
-    static constexpr bool mixed =
-        !Options::homogeneous && (counts.mixed || !counts.complete);
+    static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
     /// Where terms of different degree are added, 1 is one more coordinate.
     static constexpr std::size_t listed_size = Shape::size + mixed;
     using coordinate_list = std::array<double, listed_size>;
@@ -271,7 +272,8 @@ class predicate_type {
                       "errbound: as many points as the predicate's shape says");
         using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
         static_assert((std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> &&
-                       ...) && sizeof(type) <= sizeof(double),
+                       ...) &&
+                          sizeof(type) <= sizeof(double),
                       "errbound: coordinates must be float or double");
     };
     template <class... Points>
@@ -336,39 +338,50 @@ class predicate_type {
             F(), list, [](double x) { return errbound::tracked<T, rule>(static_cast<T>(x)); });
     }
 
-    template <integer_kind Kind, int Bits, class Coordinates>
-    [[gnu::noinline]] static constexpr sign_type by_values(const Coordinates& c) {
-        using scalar = sized_integer<integer_level<Kind, Bits, mixed>, Bits, 1>;
-        return detail::sign_over<Shape>(
-            F(), c.value, [&](const auto& v) { return scalar{v, c.unit}; });
-    }
-    [[gnu::noinline]] static constexpr sign_type by_doubles(const coordinate_list& list,
-                                                                              std::uint64_t largest) {
+    static constexpr sign_type by_doubles(const coordinate_list& list, std::uint64_t largest) {
         constexpr int bits = coordinate_bits(53);
         if constexpr (bits < 1) {
             return sign_type::uncertain;
         } else {
             const short_coordinates<listed_size, bits> c(list, largest);
-            return c.fit ? by_values<integer_kind::floating, bits>(c) : sign_type::uncertain;
+            return c.fit ? by_short_doubles<bits>(c) : sign_type::uncertain;
         }
     }
-    static constexpr int short_bits = coordinate_bits(127);
-    static constexpr sign_type by_short(word_coordinates<listed_size> words) {
-        if (words.least_bits() > short_bits) return sign_type::uncertain;
-        if constexpr (short_bits < words.most_bits) words.shorten();
-        return by_values<integer_kind::words, short_bits>(words);
-    }
-    static constexpr sign_type by_words(const word_coordinates<listed_size>& words) {
-        return by_values<integer_kind::words, words.most_bits>(words);
+    template <int Bits>
+    [[gnu::noinline]] static constexpr sign_type by_short_doubles(
+        const short_coordinates<listed_size, Bits>& c) {
+        using scalar = sized_integer<integer_level<integer_kind::floating, Bits, mixed>, Bits, 1>;
+        return detail::sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
     }
 
+    /// Words that are short when brought to the largest common unit.
+    static constexpr sign_type by_short(const word_coordinates<listed_size>& words) {
+        if (words.least_bits() > short_bits) return sign_type::uncertain;
+        if constexpr (short_bits == words.most_bits) return by_words(words);
+        return by_values<short_bits>(words, words.most_bits - words.least_bits());
+    }
+    static constexpr sign_type by_words(const word_coordinates<listed_size>& words) {
+        return by_values<words.most_bits>(words, 0);
+    }
+    /// Inlined: passing the values on would cost as much as a small expression.
+    template <int Bits>
+    [[gnu::always_inline]] static constexpr sign_type by_values(
+        const word_coordinates<listed_size>& words, int shift) {
+        using scalar = sized_integer<integer_level<integer_kind::words, Bits, mixed>, Bits, 1>;
+        return detail::sign_over<Shape>(F(), words.value, [&](std::int64_t v) {
+            return scalar{v >> shift, words.unit + shift};
+        });
+    }
+
+    static constexpr int short_bits = coordinate_bits(127);
     /// Coordinates of two words: their differences' products end before a word's end.
     static constexpr int two_word_bits = 124;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
         const common_unit unit(list);
         if (unit.bits > two_word_bits) return sign_type::uncertain;
         return detail::sign_over<Shape>(F(), list, [&](double x) {
-            return unit.template converted<integer_level<integer_kind::words, two_word_bits, mixed>>(x);
+            return unit
+                .template converted<integer_level<integer_kind::words, two_word_bits, mixed>>(x);
         });
     }
 
@@ -376,7 +389,8 @@ class predicate_type {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
             const common_unit unit(list);
             return detail::sign_over<Shape>(F(), list, [&](double x) {
-                return unit.template converted<integer_level<integer_kind::any_length, full_range_bits, mixed>>(x);
+                return unit.template converted<
+                    integer_level<integer_kind::any_length, full_range_bits, mixed>>(x);
             });
         } else {
             return detail::sign_over<Shape>(

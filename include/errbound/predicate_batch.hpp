@@ -65,7 +65,8 @@ template <class Predicate, class... Ranges>
     for (std::size_t i = 0; i < block_size; ++i) {
         const auto x = Predicate::filtered(p[first + i]...);
         const T size = number_traits<T>::abs(x.value);
-        // Instruction sets with fused multiply-add may use it: static_filter.hpp asks for this then.
+        // Instruction sets with fused multiply-add may use it: static_filter.hpp asks for this
+        // then.
         const bool decided = (size > x.bound()) & (size <= number_traits<T>::largest());
         codes[i] = !decided ? T(3) : x.value > 0 ? T(2) : T(0);
     }

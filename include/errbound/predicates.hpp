@@ -6,10 +6,10 @@
 //           / \               orient3d(a, b, c, d) > 0: seen from d, a, b, c turn right, clockwise;
 //          a---b              d is below (away from the reader) if a, b, c are as in the picture.
 //
-// incircle(a, b, c, d) > 0: d lies inside the circle through a, b, c, if these turn left; outside if
-// they turn right. insphere(a, b, c, d, e) > 0: e lies inside the sphere through a, b, c, d, if
-// orient3d(a, b, c, d) > 0; else outside. These are the signs of Shewchuk 1997; CGAL's orientation of
-// four points is the opposite of orient3d.
+// incircle(a, b, c, d) > 0: d lies inside the circle through a, b, c, if these turn left; outside
+// if they turn right. insphere(a, b, c, d, e) > 0: e lies inside the sphere through a, b, c, d, if
+// orient3d(a, b, c, d) > 0; else outside. These are the signs of Shewchuk 1997; CGAL's orientation
+// of four points is the opposite of orient3d.
 #pragma once
 
 #include <errbound/predicate.hpp>
@@ -83,7 +83,8 @@ constexpr auto line_line(const auto& a, const auto& b, const auto& c, const auto
     const auto along = (c[0] - a[0]) * v - (c[1] - a[1]) * u;
     return implicit_point2d{a, x * along, y * along, x * v - y * u};
 }
-/// Where the line through a and b meets the plane through p, q and r; w = 0: nowhere, or everywhere.
+/// Where the line through a and b meets the plane through p, q and r; w = 0: nowhere, or
+/// everywhere.
 constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const auto& q,
                           const auto& r) {
     const auto x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
@@ -165,16 +166,15 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
-inline constexpr auto orient3d = predicate<points<3, 3, 3, 3>>(
-    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+inline constexpr auto orient3d =
+    predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
     });
 
-inline constexpr auto incircle = predicate<points<2, 2, 2, 2>>(
-    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+inline constexpr auto incircle =
+    predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::squared_distance2d(a, d),
-                                  forms::squared_distance2d(b, d),
-                                  forms::squared_distance2d(c, d));
+                                  forms::squared_distance2d(b, d), forms::squared_distance2d(c, d));
     });
 
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
@@ -184,10 +184,10 @@ inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
             forms::squared_distance3d(c, e), forms::squared_distance3d(d, e));
     });
 
-/// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power distance
-/// of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
-inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>>(
-    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+/// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power
+/// distance of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
+inline constexpr auto power_incircle =
+    predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::squared_distance2d(a, d) - (a[2] - d[2]),
                                   forms::squared_distance2d(b, d) - (b[2] - d[2]),
                                   forms::squared_distance2d(c, d) - (c[2] - d[2]));
@@ -196,8 +196,7 @@ inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>>(
 /// insphere for weighted points x, y, z, w: spheres of squared radius w.
 inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
-        return forms::lifted_volume(a, b, c, d, e,
-                                    forms::squared_distance3d(a, e) - (a[3] - e[3]),
+        return forms::lifted_volume(a, b, c, d, e, forms::squared_distance3d(a, e) - (a[3] - e[3]),
                                     forms::squared_distance3d(b, e) - (b[3] - e[3]),
                                     forms::squared_distance3d(c, e) - (c[3] - e[3]),
                                     forms::squared_distance3d(d, e) - (d[3] - e[3]));
@@ -219,12 +218,12 @@ struct homogeneous_options : predicate_options {
 };
 
 /// Closed segments ab and cd. Positive: they cross, in one point inside both; zero: they touch
-/// otherwise, or overlap; negative: they are apart. Degenerate segments are the points that they are.
-inline constexpr auto segments_intersect3d =
-    predicate<points<3, 3, 3, 3>, homogeneous_options>(
-        [](const auto& a, const auto& b, const auto& c, const auto& d) {
-            return forms::segments_intersect(a, b, c, d);
-        });
+/// otherwise, or overlap; negative: they are apart. Degenerate segments are the points that they
+/// are.
+inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homogeneous_options>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return forms::segments_intersect(a, b, c, d);
+    });
 
 /// Closed segment pq and triangle abc. Positive: they cross, in one point inside both; zero: they
 /// touch otherwise, or overlap; negative: they are apart. Degenerate ones are what they are.
@@ -234,8 +233,8 @@ inline constexpr auto segment_intersects_triangle =
             return forms::segment_triangle(p, q, a, b, c);
         });
 
-/// orient2d of three points, the first of which is where the lines ab and cd meet: (a, b, c, d, q, r).
-/// Zero if the lines are parallel.
+/// orient2d of three points, the first of which is where the lines ab and cd meet: (a, b, c, d, q,
+/// r). Zero if the lines are parallel.
 inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& q, const auto& r) {
         const auto p = forms::line_line(a, b, c, d);
@@ -243,8 +242,8 @@ inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
         return sign_of(x * (q[1] - r[1]) - y * (q[0] - r[0])) * sign_of(p.w);
     });
 
-/// orient3d of four points, the first of which is where the line ab meets the plane pqr: (a, b, p, q,
-/// r, s, t, u). Zero if they are parallel.
+/// orient3d of four points, the first of which is where the line ab meets the plane pqr: (a, b, p,
+/// q, r, s, t, u). Zero if they are parallel.
 inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& p, const auto& q, const auto& r, const auto& s,
        const auto& t, const auto& u) {

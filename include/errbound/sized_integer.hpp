@@ -6,8 +6,8 @@
 // one by factors of 1 = 2^−unit units; that asks for unit <= 0, and for 1 to have no more bits than
 // coordinates may have.
 //
-// `level` says how many bits coordinates have, and thereby everything else. From `long_from` bits on
-// lengths are found at run time: types then only bound them.
+// `level` says how many bits coordinates have, and thereby everything else. From `long_from` bits
+// on lengths are found at run time: types then only bound them.
 #pragma once
 
 #include <array>
@@ -219,7 +219,7 @@ template <sized_operand X, sized_operand Y>
         return result{static_cast<storage>(x.value) * static_cast<storage>(y.value), x.unit};
     } else {
         return result{detail::narrowed<storage::width / 64>(detail::as_fixed(x.value) *
-                                                           detail::as_fixed(y.value)),
+                                                            detail::as_fixed(y.value)),
                       x.unit};
     }
 }
@@ -240,19 +240,20 @@ template <int Degree, class X>
             return raised<Degree>(x * one_type{storage(1, -x.unit, false), x.unit});
         else
             return raised<Degree>(
-                x * one_type{static_cast<storage>(words::signed_double_word(1) << -x.unit), x.unit});
+                x *
+                one_type{static_cast<storage>(words::signed_double_word(1) << -x.unit), x.unit});
     }
 }
 
 template <bool Subtract, class X, class Y>
 [[gnu::always_inline]] constexpr auto sum_of_raised(const X& x, const Y& y) {
-    using result = sized_integer<typename X::level, (X::bits > Y::bits ? X::bits : Y::bits) + 1,
-                                 X::degree>;
+    using result =
+        sized_integer<typename X::level, (X::bits > Y::bits ? X::bits : Y::bits) + 1, X::degree>;
     using storage = typename result::storage;
     if constexpr (X::level::kind == integer_kind::any_length) {
-        return result{Subtract ? storage::difference(x.value, y.value)
-                               : storage::sum(x.value, y.value),
-                      x.unit};
+        return result{
+            Subtract ? storage::difference(x.value, y.value) : storage::sum(x.value, y.value),
+            x.unit};
     } else if constexpr (result::is_native) {
         const auto a = static_cast<storage>(x.value), b = static_cast<storage>(y.value);
         return result{Subtract ? a - b : a + b, x.unit};

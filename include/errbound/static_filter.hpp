@@ -2,10 +2,11 @@
 // many roundings went into it. What the compiler makes of an expression over it is the expression,
 // its size, and one comparison with a constant.
 //
-// Notation: u the unit roundoff, η the smallest positive number, m the smallest normal one. Rounding
-// is to nearest. For a number x computed as x̂ from coordinates, S is its size: the value of the same
-// expression with every term made positive, where a product's size is that of its factors times each
-// other, plus `allowance`, τ = 4m/u. After k roundings (as `filtered` counts them)
+// Notation: u the unit roundoff, η the smallest positive number, m the smallest normal one.
+// Rounding is to nearest. For a number x computed as x̂ from coordinates, S is its size: the value
+// of the same expression with every term made positive, where a product's size is that of its
+// factors times each other, plus `allowance`, τ = 4m/u. After k roundings (as `filtered` counts
+// them)
 //     |x̂ − x| <= ((1 + u)^k − 1)·S.
 // Proof, by induction over the expression:
 //  * a coordinate: k = 0. The difference of two: |d̂ − d| <= u|d̂|; its size is |d̂|, k = 1. (It is
@@ -62,15 +63,14 @@ struct filtered {
     T value;
     T size;  ///< less Products times τ
 
-    constexpr T full_size() const {
-        return Products == 0 ? size : size + T(Products) * allowance;
-    }
+    constexpr T full_size() const { return Products == 0 ? size : size + T(Products) * allowance; }
     constexpr filtered operator-() const { return {-value, size}; }
 
     /// |value| <= bound() leaves the sign open; so does a value that is not finite.
     constexpr T bound() const {
         if constexpr (Roundings <= 1) return T(0);
-        return filter_constant<T>(Roundings - 1) * (size + T(Products == 0 ? 1 : Products) * allowance);
+        return filter_constant<T>(Roundings - 1) *
+               (size + T(Products == 0 ? 1 : Products) * allowance);
     }
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
@@ -138,8 +138,7 @@ constexpr auto filtered_product(const X& x, const Y& y) {
     using T = typename X::value_type;
     constexpr int roundings = X::roundings + Y::roundings + 1;
     const T v = x.value * y.value;
-    constexpr bool plain =
-        X::plain && Y::plain && X::products == 0 && Y::products == 0;
+    constexpr bool plain = X::plain && Y::plain && X::products == 0 && Y::products == 0;
     if constexpr (plain)  // |x|·|y| is |xy|, also when rounded
         return filtered<T, roundings, 1, true>{v, number_traits<T>::abs(v)};
     else
