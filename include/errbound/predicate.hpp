@@ -148,7 +148,16 @@ struct listed_scalars {
     Make make;
     template <std::size_t Argument>
     constexpr auto at(int i) const {
-        return make(list[Shape::offset(Argument) + static_cast<std::size_t>(i)]);
+        constexpr std::size_t first = Shape::offset(Argument);
+        return make(list[first + static_cast<std::size_t>(i)]);
+    }
+};
+/// Coordinates that only count.
+struct counted_scalars {
+    counting_run& run;
+    template <std::size_t>
+    constexpr expression_count at(int) const {
+        return expression_count(run);
     }
 };
 
@@ -177,9 +186,7 @@ constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
 template <class Shape, class F>
 constexpr expression_counts counts_of(int coordinate_bits) {
     return count_expression(coordinate_bits, [](counting_run& run) {
-        // The coordinates do not matter.
-        const std::array<int, Shape::size> none{};
-        (void)sign_over<Shape>(F(), none, [&run](int) { return expression_count(run); });
+        (void)conclude(evaluate<Shape>(F(), counted_scalars{run}));
     });
 }
 
@@ -193,9 +200,10 @@ class predicate_type {
   public:
     using options = Options;
 
+    /// Of coordinates that fit a word.
+    static constexpr int word_bits = word_coordinates<1>::most_bits;
     /// Counts for coordinates of one word.
-    static constexpr expression_counts counts =
-        detail::counts_of<Shape, F>(word_coordinates<1>::most_bits);
+    static constexpr expression_counts counts = detail::counts_of<Shape, F>(word_bits);
     /// The static filter's: certain where |value| exceeds it times the sum of the terms' sizes. Of
     /// an expression that branches, the largest of all.
     template <class T>
@@ -203,8 +211,7 @@ class predicate_type {
     /// So many bits may coordinates have for no result to take more than `bits`.
     static constexpr int coordinate_bits(int bits) {
         const int excess = counts.bits - bits;
-        return word_coordinates<1>::most_bits -
-               (excess <= 0 ? 0 : (excess + counts.degree - 1) / counts.degree);
+        return word_bits - (excess <= 0 ? 0 : (excess + counts.degree - 1) / counts.degree);
     }
 
     /// The sign. Points: anything that coordinate_of takes, of float or double.
@@ -316,7 +323,7 @@ class predicate_type {
             if (certain(s)) return counted(s, tracked);
         }
         // Where two words hold all results of one-word coordinates, doubles would gain nothing.
-        if constexpr (short_bits < word_coordinates<1>::most_bits) {
+        if constexpr (short_bits < word_bits) {
             const sign_type s = by_doubles(list, largest);
             if (certain(s)) return counted(s, exact_doubles);
         }
@@ -357,11 +364,11 @@ class predicate_type {
     /// Words that are short when brought to the largest common unit.
     static constexpr sign_type by_short(const word_coordinates<listed_size>& words) {
         if (words.least_bits() > short_bits) return sign_type::uncertain;
-        if constexpr (short_bits == words.most_bits) return by_words(words);
-        return by_values<short_bits>(words, words.most_bits - words.least_bits());
+        if constexpr (short_bits == word_bits) return by_words(words);
+        return by_values<short_bits>(words, word_bits - words.least_bits());
     }
     static constexpr sign_type by_words(const word_coordinates<listed_size>& words) {
-        return by_values<words.most_bits>(words, 0);
+        return by_values<word_bits>(words, 0);
     }
     /// Inlined: passing the values on would cost as much as a small expression.
     template <int Bits>

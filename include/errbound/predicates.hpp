@@ -76,6 +76,10 @@ struct implicit_point3d {
     X x, y, z;
     W w;
 };
+template <class Anchor, class X, class W>
+implicit_point2d(const Anchor&, X, X, W) -> implicit_point2d<Anchor, X, W>;
+template <class Anchor, class X, class W>
+implicit_point3d(const Anchor&, X, X, X, W) -> implicit_point3d<Anchor, X, W>;
 /// Where the line through a and b meets that through c and d; w = 0: nowhere, or everywhere.
 constexpr auto line_line(const auto& a, const auto& b, const auto& c, const auto& d) {
     const auto x = b[0] - a[0], y = b[1] - a[1];
@@ -262,7 +266,8 @@ inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3
 inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,
        const auto& g, const auto& h) {
-        const auto p = forms::line_line(a, b, c, d), q = forms::line_line(e, f, g, h);
+        const auto p = forms::line_line(a, b, c, d);
+        const auto q = forms::line_line(e, f, g, h);
         return sign_of((a[0] - e[0]) * (p.w * q.w) + (p.x * q.w - q.x * p.w)) * sign_of(p.w) *
                sign_of(q.w);
     });
