@@ -67,8 +67,9 @@ template <class Predicate, class... Ranges>
         const T size = number_traits<T>::abs(x.value);
         // Instruction sets with fused multiply-add may use it: static_filter.hpp asks for this
         // then.
-        const bool decided = (size > x.bound()) & (size <= number_traits<T>::largest());
-        codes[i] = !decided ? T(3) : x.value > 0 ? T(2) : T(0);
+        const T code = x.value > 0 ? T(2) : T(0);
+        const T decided = size > x.bound() ? code : T(3);
+        codes[i] = size <= number_traits<T>::largest() ? decided : T(3);
     }
     unsigned all = 0;
     for (std::size_t i = 0; i < block_size; ++i) {
@@ -95,8 +96,7 @@ template <class Predicate, class... Ranges>
     return filter_block<Predicate>(signs, first, p...);
 }
 template <class Predicate, class... Ranges>
-[[gnu::target("avx512f,avx512dq,avx512vl,avx512bw,prefer-vector-width=512"), gnu::flatten,
-  gnu::noinline]] bool
+[[gnu::target("avx512f,avx512dq,avx512vl,avx512bw"), gnu::flatten, gnu::noinline]] bool
 filter_block_avx512(sign_type* signs, std::size_t first, const Ranges&... p) {
     return filter_block<Predicate>(signs, first, p...);
 }
