@@ -5,38 +5,12 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <ccd/transform.hpp>
-#include <cstdint>
+#include <errbound/binary_double.hpp>
 #include <errbound/fixed_integer.hpp>
 #include <limits>
 
 namespace ccd {
-
-/// A double as ±magnitude·2^exponent with a whole magnitude below 2^53. Infinities and NaN get the
-/// exponent `not_finite`.
-struct binary_double {
-    static constexpr int not_finite = 2047 - 1075;
-
-    std::uint64_t magnitude;
-    int exponent;
-    bool negative;
-
-    constexpr explicit binary_double(double x) {
-        const auto bits = std::bit_cast<std::uint64_t>(x);
-        const std::uint64_t field = bits >> 52 & 2047, fraction = bits & ((1ULL << 52) - 1);
-        magnitude = fraction | std::uint64_t{field != 0} << 52;
-        exponent = static_cast<int>(field) + (field == 0) - 1075;
-        negative = bits >> 63 != 0;
-    }
-    /// The place of the last bit that is set; of 0 above every other's.
-    constexpr int last_bit() const {
-        return magnitude == 0 ? std::numeric_limits<int>::max()
-                              : exponent + std::countr_zero(magnitude);
-    }
-    /// One above the place of the first bit that is set; of 0 below every other's.
-    constexpr int end_bit() const { return exponent + static_cast<int>(std::bit_width(magnitude)); }
-};
 
 /// One axis of a query: its unit, and how many units its coordinates differ by.
 struct axis_extent {
@@ -50,16 +24,16 @@ struct axis_extent {
         double low0 = points[0].t0.*axis, high0 = low0, low1 = points[0].t1.*axis, high1 = low1;
         for (const auto& p : points) {
             const double x0 = p.t0.*axis, x1 = p.t1.*axis;
-            const binary_double d0(x0), d1(x1);
+            const errbound::binary_double d0(x0), d1(x1);
             last = std::min({last, d0.last_bit(), d1.last_bit()});
-            finite = finite && d0.exponent != binary_double::not_finite &&
-                     d1.exponent != binary_double::not_finite;
+            finite = finite && d0.exponent != errbound::binary_double::not_finite &&
+                     d1.exponent != errbound::binary_double::not_finite;
             low0 = std::min(low0, x0), high0 = std::max(high0, x0);
             low1 = std::min(low1, x1), high1 = std::max(high1, x1);
         }
         // Rounding is monotone, so a rounded difference below a power of two was below it before;
         // one that overflows is below 2^1025, as the infinity's end_bit() says.
-        const binary_double extent(std::max(high0 - low0, high1 - low1));
+        const errbound::binary_double extent(std::max(high0 - low0, high1 - low1));
         if (last == std::numeric_limits<int>::max()) return;  // all are zero
         unit = last;
         bits = std::max(0, extent.end_bit() - unit);
@@ -97,7 +71,7 @@ struct integer_units {
 
     template <int Words>
     static errbound::fixed_integer<Words> in_units(double coordinate, int unit) {
-        const binary_double d(coordinate);
+        const errbound::binary_double d(coordinate);
         const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
         const auto size = errbound::fixed_integer<Words>::shifted(
             d.magnitude >> std::clamp(-shift, 0, 63), std::max(shift, 0));

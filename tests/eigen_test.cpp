@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <errbound/eigen.hpp>
+#include <errbound/predicates.hpp>
 
 namespace {
 
@@ -28,6 +29,13 @@ TEST(Eigen, MatricesOfTrackedScalars) {
     Eigen::Matrix<number, Eigen::Dynamic, 1> v = Eigen::Matrix<number, Eigen::Dynamic, 1>::Ones(5);
     EXPECT_EQ(v.sum().value(), 5);
     EXPECT_LT(v.sum().error(), 1e-14);
+}
+
+TEST(Eigen, VectorsArePoints) {
+    const Eigen::Vector2d a(0, 0), b(1, 0), c(0, 1);
+    EXPECT_EQ(errbound::orient2d(a, b, c), sign_type::positive);
+    const Eigen::Matrix<float, 3, 4> m = Eigen::Matrix<float, 3, 4>::Identity();
+    EXPECT_EQ(errbound::orient3d(m.col(0), m.col(1), m.col(2), m.col(3)), sign_type::positive);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <errbound/environment.hpp>
 #include <limits>
+#include <type_traits>
 
 namespace errbound {
 
@@ -28,7 +29,12 @@ struct number_traits {
     /// The precision p: bits of a normal number's significand, ε = 2^(1−p).
     static constexpr int digits = std::numeric_limits<T>::digits;
 
-    static constexpr T abs(const T& x) { return x < 0 ? -x : x; }
+    static constexpr T abs(const T& x) {
+        // One instruction, which the comparison is not: it keeps the sign of zeros.
+        if constexpr (std::is_floating_point_v<T>)
+            if (!std::is_constant_evaluated()) return std::fabs(x);
+        return x < 0 ? -x : x;
+    }
     static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }
     static constexpr bool is_finite(const T& x) { return abs(x) <= largest(); }
     /// x·2^e, rounded once.

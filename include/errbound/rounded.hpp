@@ -21,6 +21,14 @@ constexpr T rounded(const T& x) {
     return x;
 }
 
+/// False where no compiler can fuse, for want of an instruction.
+#if defined(__x86_64__) && !defined(__CUDACC__) && !defined(__FMA__) && !defined(__FMA4__) && \
+    !defined(__AVX512F__)
+inline constexpr bool may_contract = false;
+#else
+inline constexpr bool may_contract = true;
+#endif
+
 #if defined(__GNUC__) && !defined(__CUDA_ARCH__)
 #if !defined(__x86_64__) || defined(__FMA__) || defined(__FMA4__) || defined(__AVX512F__)
 template <std::floating_point T>

@@ -24,9 +24,13 @@ struct options {
     bool wants(std::string_view section) const {
         return sections.empty() || std::ranges::find(sections, section) != sections.end();
     }
+    bool wants_scenes() const {
+        return wants("methods") || wants("stages") || wants("steps") || wants("growth");
+    }
 };
 
-inline constexpr std::string_view section_names[] = {"methods", "stages", "steps", "growth"};
+inline constexpr std::string_view section_names[] = {"methods", "stages", "steps", "growth",
+                                                     "predicates"};
 
 using ccd::report::clock;
 using ccd::report::keep;

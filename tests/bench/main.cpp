@@ -58,7 +58,8 @@ int main(int argc, char** argv) try {
     app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
     app.add_option("--json", json, "The tables as JSON, to this file");
     app.add_option("--scene", o.scene, "Only scenes whose name holds this");
-    app.add_option("--sections", o.sections, "Only these: methods, stages, steps, growth")
+    app.add_option("--sections", o.sections,
+                   "Only these: methods, stages, steps, growth, predicates")
         ->delimiter(',')
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(bench::section_names),
                                                        std::end(bench::section_names))));
@@ -75,7 +76,7 @@ int main(int argc, char** argv) try {
     for (const std::string& name : bench::scene_names()) {
         if (name.find(o.scene) == std::string::npos) continue;
         any = true;
-        run_scene(name, o, out);
+        if (o.wants_scenes()) run_scene(name, o, out);
     }
     if (!any) {
         std::string names;
@@ -85,6 +86,7 @@ int main(int argc, char** argv) try {
         return 1;
     }
     if (o.wants("growth") && o.scene.empty()) bench::growth_with_mesh(o, out);
+    if (o.wants("predicates") && o.scene.empty()) bench::predicates(o, out);
     if (!json.empty()) {
         ccd::io::write_whole(
             json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");

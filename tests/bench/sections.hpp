@@ -24,4 +24,8 @@ void growth_with_queries(const scene& s, const options& o, report& out);
 /// Whole steps against the size of the mesh.
 void growth_with_mesh(const options& o, report& out);
 
+/// Predicates against their expressions in plain double, one by one and in batches. Throws
+/// std::runtime_error if these disagree.
+void predicates(const options& o, report& out);
+
 }  // namespace bench

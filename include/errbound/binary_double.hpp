@@ -1,0 +1,35 @@
+// A double as an integer times a power of two.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+namespace errbound {
+
+/// A double as ±magnitude·2^exponent with a whole magnitude below 2^53. Infinities and NaN get the
+/// exponent `not_finite`. (A float is a double.)
+struct binary_double {
+    static constexpr int not_finite = 2047 - 1075;
+
+    std::uint64_t magnitude;
+    int exponent;
+    bool negative;
+
+    constexpr explicit binary_double(double x) {
+        const auto bits = std::bit_cast<std::uint64_t>(x);
+        const std::uint64_t field = bits >> 52 & 2047, fraction = bits & ((1ULL << 52) - 1);
+        magnitude = fraction | std::uint64_t{field != 0} << 52;
+        exponent = static_cast<int>(field) + (field == 0) - 1075;
+        negative = bits >> 63 != 0;
+    }
+    /// The place of the last bit that is set; of 0 above every other's.
+    constexpr int last_bit() const {
+        return magnitude == 0 ? std::numeric_limits<int>::max()
+                              : exponent + std::countr_zero(magnitude);
+    }
+    /// One above the place of the first bit that is set; of 0 below every other's.
+    constexpr int end_bit() const { return exponent + static_cast<int>(std::bit_width(magnitude)); }
+};
+
+}  // namespace errbound

@@ -1,0 +1,415 @@
+// Predicates: an expression, written once, whose sign is right on every finite input.
+//
+//   inline constexpr auto orient2d = errbound::predicate<errbound::points<2, 2, 2>>(
+//       [](const auto& a, const auto& b, const auto& c) {
+//           return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+//       });
+//   errbound::sign_type s = orient2d(p, q, r);  // arrays, spans, Eigen vectors, structs of x, y, z
+//
+// The expression is a program of +, − and × on coordinates and whole constants. Every result has a
+// type of its own, so its variables are `auto` and are not assigned to. It may branch on signs:
+// then it asks sign_of(x), passes on `uncertain` (returns it at once), and returns a sign_type.
+//
+// It is run on one scalar after the other, until one is certain (`predicate_stage`):
+//  * static_filter: in floating point, with a bound whose constant the types count while the
+//    expression is compiled (errbound/static_filter.hpp); no branch but the last;
+//  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
+//  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
+//  doubles
+//    hold all results, or words of 128 bits do; coordinates of one word, of two, or of up to the
+//    full range of exponents. Without allocation; or the options' own exact type takes the place of
+//    the last.
+//
+// Promised, for finite coordinates, under rounding to nearest and gradual underflow
+// (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
+// overflow included. `uncertain` where a coordinate is not finite. No exceptions, no global state.
+// Usable in constant expressions; in device code up to the two-word integers.
+// Cost: the static filter 1 to 2 times the expression in floating point, the integers some ten
+// times that, and in the full range up to 100 µs and some 100 KiB of stack for a degree of 5.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/expression_count.hpp>
+#include <errbound/integer_coordinates.hpp>
+#include <errbound/sign.hpp>
+#include <errbound/sized_integer.hpp>
+#include <errbound/static_filter.hpp>
+#include <errbound/tracked.hpp>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace errbound {
+
+/// What a predicate takes: points of these dimensions. 0 is a plain number.
+template <int... Dimensions>
+struct points {
+    static constexpr std::size_t count = sizeof...(Dimensions);
+    static constexpr std::array<int, count> dimensions{Dimensions...};
+    /// How many numbers these are.
+    static constexpr std::size_t size = (std::size_t{Dimensions == 0 ? 1 : Dimensions} + ... + 0);
+    static constexpr std::size_t offset(std::size_t argument) {
+        std::size_t o = 0;
+        for (std::size_t i = 0; i < argument; ++i)
+            o += dimensions[i] == 0 ? 1 : static_cast<std::size_t>(dimensions[i]);
+        return o;
+    }
+};
+
+/// In the order in which an input passes them; it leaves at the first that is certain.
+enum class predicate_stage : std::uint8_t {
+    static_filter,
+    tracked,
+    exact_doubles,   ///< coordinates so short that no result takes more than 53 bits
+    short_integers,  ///< so short that none takes more than 128
+    word_integers,
+    two_word_integers,
+    long_integers,  ///< any finite coordinates; or the options' exact type
+};
+inline constexpr std::size_t predicate_stage_count = 7;
+
+/// How many inputs each stage decided; `undecided` had coordinates that were not finite.
+struct predicate_report {
+    std::array<std::uint64_t, predicate_stage_count> decided{};
+    std::uint64_t undecided = 0;
+
+    std::uint64_t operator[](predicate_stage s) const {
+        return decided[static_cast<std::size_t>(s)];
+    }
+};
+
+/// The defaults; derive from it to change some.
+struct predicate_options {
+    /// Bound rule of the tracked stage; void: no such stage.
+    using tracked_rule = void;
+    /// Exact number type of the last stage, constructible from double; void: long_integer.
+    using exact_type = void;
+    /// Whether terms of different degree are never added, so that powers of two scale coordinates
+    /// without changing a sign. It is found out for all expressions but those with too many
+    /// branches (errbound/expression_count.hpp); a false claim does not compile.
+    static constexpr bool homogeneous = false;
+};
+
+/// Coordinate i of a point, or the number itself, of what users have as points.
+template <class Point>
+constexpr auto coordinate_of(const Point& p, int i) {
+    if constexpr (std::is_arithmetic_v<Point>) {
+        return p;
+    } else if constexpr (requires { p[i]; }) {
+        return p[static_cast<std::size_t>(i)];
+    } else if constexpr (requires { p.x() + p.y(); }) {
+        if constexpr (requires { p.z(); })
+            return i == 0 ? p.x() : i == 1 ? p.y() : p.z();
+        else
+            return i == 0 ? p.x() : p.y();
+    } else {
+        static_assert(
+            requires { p.x + p.y; },
+            "errbound: a point needs p[i], or x, y (and z) as members or member functions");
+        if constexpr (requires { p.z; })
+            return i == 0 ? p.x : i == 1 ? p.y : p.z;
+        else
+            return i == 0 ? p.x : p.y;
+    }
+}
+
+namespace detail {
+
+/// The argument of a predicate that an expression sees: coordinates become scalars when asked for.
+template <class Scalars, std::size_t Argument>
+struct point_view {
+    const Scalars& scalars;
+    constexpr auto operator[](int i) const { return scalars.template at<Argument>(i); }
+};
+template <class Shape, std::size_t Argument, class Scalars>
+constexpr auto view(const Scalars& scalars) {
+    if constexpr (Shape::dimensions[Argument] == 0)
+        return scalars.template at<Argument>(0);
+    else
+        return point_view<Scalars, Argument>{scalars};
+}
+
+/// Coordinates, where they are, for the static filter.
+template <class T, class... Points>
+struct filtered_scalars {
+    std::tuple<const Points&...> points;
+    template <std::size_t Argument>
+    constexpr filtered_coordinate<T> at(int i) const {
+        return {coordinate_of(std::get<Argument>(points), i)};
+    }
+};
+/// Coordinates one after the other, made into scalars by a function.
+template <class Shape, class List, class Make>
+struct listed_scalars {
+    const List& list;
+    Make make;
+    template <std::size_t Argument>
+    constexpr auto at(int i) const {
+        constexpr std::size_t first = Shape::offset(Argument);
+        return make(list[first + static_cast<std::size_t>(i)]);
+    }
+};
+/// Coordinates that only count.
+struct counted_scalars {
+    counting_run& run;
+    template <std::size_t>
+    constexpr expression_count at(int) const {
+        return expression_count(run);
+    }
+};
+
+/// A result's sign, if it is not one.
+template <class X>
+constexpr sign_type conclude(const X& x) {
+    if constexpr (std::is_same_v<X, sign_type>)
+        return x;
+    else
+        return sign_of(x);
+}
+
+template <class Shape, class F, class Scalars>
+constexpr auto evaluate(const F& f, const Scalars& scalars) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+        return f(view<Shape, I>(scalars)...);
+    }
+    (std::make_index_sequence<Shape::count>());
+}
+template <class Shape, class F, class List, class Make>
+constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
+    return conclude(evaluate<Shape>(f, listed_scalars<Shape, List, Make>{list, make}));
+}
+
+/// What the expression asks for coordinates of this many bits.
+template <class Shape, class F>
+constexpr expression_counts counts_of(int coordinate_bits) {
+    return count_expression(coordinate_bits, [](counting_run& run) {
+        (void)conclude(evaluate<Shape>(F(), counted_scalars{run}));
+    });
+}
+
+}  // namespace detail
+
+template <class Shape, class F, class Options>
+class predicate_type {
+    static_assert(std::is_empty_v<F> && std::is_default_constructible_v<F>,
+                  "errbound: a predicate's expression must not have captures or members");
+
+  public:
+    using options = Options;
+
+    /// Of coordinates that fit a word.
+    static constexpr int word_bits = word_coordinates<1>::most_bits;
+    /// Counts for coordinates of one word.
+    static constexpr expression_counts counts = detail::counts_of<Shape, F>(word_bits);
+    /// The static filter's: certain where |value| exceeds it times the sum of the terms' sizes. Of
+    /// an expression that branches, the largest of all.
+    template <class T>
+    static constexpr T static_constant = filter_constant<T>(counts.roundings);
+    /// So many bits may coordinates have for no result to take more than `bits`.
+    static constexpr int coordinate_bits(int bits) {
+        const int excess = counts.bits - bits;
+        return word_bits - (excess <= 0 ? 0 : (excess + counts.degree - 1) / counts.degree);
+    }
+
+    /// The sign. Points: anything that coordinate_of takes, of float or double.
+    template <class... Points>
+    [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
+        // Overflow is no constant expression.
+        if (!std::is_constant_evaluated()) {
+            const sign_type s = filter(p...);
+            if (certain(s)) [[likely]]
+                return s;
+        }
+        return later_stages<number_of<Points...>>(listed(p...), nullptr);
+    }
+    /// The same, and the stage that decided is counted.
+    template <class... Points>
+    constexpr sign_type operator()(predicate_report& report, const Points&... p) const {
+        const sign_type s = filter(p...);
+        if (certain(s)) {
+            ++report.decided[0];
+            return s;
+        }
+        return later_stages<number_of<Points...>>(listed(p...), &report);
+    }
+    /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or
+    /// the sign_type of an expression that branches.
+    template <class... Points>
+    static constexpr auto filtered(const Points&... p) {
+        using scalars = detail::filtered_scalars<number_of<Points...>, Points...>;
+        return detail::evaluate<Shape>(F(), scalars{{p...}});
+    }
+    /// The expression's value over a number type of one's own, constructible from a coordinate.
+    template <class Number, class... Points>
+    static constexpr auto value(const Points&... p) {
+        const auto make = [](const auto& x) { return Number(x); };
+        const auto list = listed(p...);
+        return detail::evaluate<Shape>(
+            F(), detail::listed_scalars<Shape, coordinate_list, decltype(make)>{list, make});
+    }
+    /// The sign that one stage alone finds.
+    template <class... Points>
+    constexpr sign_type by(predicate_stage stage, const Points&... p) const {
+        using enum predicate_stage;
+        if (stage == static_filter) return filter(p...);
+        const coordinate_list list = listed(p...);
+        const std::uint64_t largest = largest_size(list);
+        if (!is_finite_size(largest)) return sign_type::uncertain;
+        if (stage == tracked) return by_tracked<number_of<Points...>>(list);
+        if (stage == exact_doubles) return by_doubles(list, largest);
+        if (stage == two_word_integers) return by_two_words(list);
+        if (stage == long_integers) return by_any(list);
+        word_coordinates<listed_size> words(list, largest);
+        if (!words.fit) return sign_type::uncertain;
+        return stage == short_integers ? by_short(words) : by_words(words);
+    }
+
+  private:
+    static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
+    /// Where terms of different degree are added, 1 is one more coordinate.
+    static constexpr std::size_t listed_size = Shape::size + mixed;
+    using coordinate_list = std::array<double, listed_size>;
+
+    template <class... Points>
+    struct number {
+        static_assert(sizeof...(Points) == Shape::count,
+                      "errbound: as many points as the predicate's shape says");
+        using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
+        static_assert((std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> &&
+                       ...) &&
+                          sizeof(type) <= sizeof(double),
+                      "errbound: coordinates must be float or double");
+    };
+    template <class... Points>
+    using number_of = typename number<Points...>::type;
+
+    template <class... Points>
+    static constexpr sign_type filter(const Points&... p) {
+        return detail::conclude(filtered(p...));
+    }
+
+    template <class... Points>
+    static constexpr coordinate_list listed(const Points&... p) {
+        coordinate_list list{};
+        std::size_t i = 0, argument = 0;
+        const auto add = [&](const auto& point) {
+            const int dimension = Shape::dimensions[argument++];
+            for (int k = 0; k < (dimension == 0 ? 1 : dimension); ++k)
+                list[i++] = coordinate_of(point, k);
+        };
+        (add(p), ...);
+        if (mixed) list[i] = 1;
+        return list;
+    }
+
+    template <class T>
+    [[gnu::noinline]] static constexpr sign_type later_stages(const coordinate_list& list,
+                                                              predicate_report* report) {
+        using enum predicate_stage;
+        const auto counted = [&](sign_type s, predicate_stage stage) {
+            if (report != nullptr) ++report->decided[static_cast<std::size_t>(stage)];
+            return s;
+        };
+        const std::uint64_t largest = largest_size(list);
+        if (!is_finite_size(largest)) {
+            if (report != nullptr) ++report->undecided;
+            return sign_type::uncertain;
+        }
+        if constexpr (!std::is_void_v<typename Options::tracked_rule>) {
+            const sign_type s = by_tracked<T>(list);
+            if (certain(s)) return counted(s, tracked);
+        }
+        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
+        if constexpr (short_bits < word_bits) {
+            const sign_type s = by_doubles(list, largest);
+            if (certain(s)) return counted(s, exact_doubles);
+        }
+        word_coordinates<listed_size> words(list, largest);
+        if (words.fit) {
+            if (words.least_bits() <= short_bits) return counted(by_short(words), short_integers);
+            return counted(by_words(words), word_integers);
+        }
+        const sign_type s = by_two_words(list);
+        if (certain(s)) return counted(s, two_word_integers);
+        return counted(by_any(list), long_integers);
+    }
+
+    template <class T>
+    [[gnu::noinline]] static constexpr sign_type by_tracked(const coordinate_list& list) {
+        using rule = std::conditional_t<std::is_void_v<typename Options::tracked_rule>, tight,
+                                        typename Options::tracked_rule>;
+        return detail::sign_over<Shape>(
+            F(), list, [](double x) { return errbound::tracked<T, rule>(static_cast<T>(x)); });
+    }
+
+    static constexpr sign_type by_doubles(const coordinate_list& list, std::uint64_t largest) {
+        constexpr int bits = coordinate_bits(53);
+        if constexpr (bits < 1) {
+            return sign_type::uncertain;
+        } else {
+            const short_coordinates<listed_size, bits> c(list, largest);
+            return c.fit ? by_short_doubles<bits>(c) : sign_type::uncertain;
+        }
+    }
+    template <int Bits>
+    [[gnu::noinline]] static constexpr sign_type by_short_doubles(
+        const short_coordinates<listed_size, Bits>& c) {
+        using scalar = sized_integer<integer_level<integer_kind::floating, Bits, mixed>, Bits, 1>;
+        return detail::sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
+    }
+
+    /// Words that are short when brought to the largest common unit.
+    static constexpr sign_type by_short(const word_coordinates<listed_size>& words) {
+        if (words.least_bits() > short_bits) return sign_type::uncertain;
+        if constexpr (short_bits == word_bits) return by_words(words);
+        return by_values<short_bits>(words, word_bits - words.least_bits());
+    }
+    static constexpr sign_type by_words(const word_coordinates<listed_size>& words) {
+        return by_values<word_bits>(words, 0);
+    }
+    /// Inlined: passing the values on would cost as much as a small expression.
+    template <int Bits>
+    [[gnu::always_inline]] static constexpr sign_type by_values(
+        const word_coordinates<listed_size>& words, int shift) {
+        using scalar = sized_integer<integer_level<integer_kind::words, Bits, mixed>, Bits, 1>;
+        return detail::sign_over<Shape>(F(), words.value, [&](std::int64_t v) {
+            return scalar{v >> shift, words.unit + shift};
+        });
+    }
+
+    static constexpr int short_bits = coordinate_bits(127);
+    /// Coordinates of two words: their differences' products end before a word's end.
+    static constexpr int two_word_bits = 124;
+    [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
+        const common_unit unit(list);
+        if (unit.bits > two_word_bits) return sign_type::uncertain;
+        return detail::sign_over<Shape>(F(), list, [&](double x) {
+            return unit
+                .template converted<integer_level<integer_kind::words, two_word_bits, mixed>>(x);
+        });
+    }
+
+    [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
+        if constexpr (std::is_void_v<typename Options::exact_type>) {
+            const common_unit unit(list);
+            return detail::sign_over<Shape>(F(), list, [&](double x) {
+                return unit.template converted<
+                    integer_level<integer_kind::any_length, full_range_bits, mixed>>(x);
+            });
+        } else {
+            return detail::sign_over<Shape>(
+                F(), list, [](double x) { return typename Options::exact_type(x); });
+        }
+    }
+};
+
+/// The predicate of an expression: see the head of this file.
+template <class Shape, class Options = predicate_options, class F>
+constexpr predicate_type<Shape, F, Options> predicate(F) {
+    return {};
+}
+
+}  // namespace errbound

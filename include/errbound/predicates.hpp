@@ -1,0 +1,275 @@
+// Predicates that geometry uses, written as a user of errbound/predicate.hpp would write them.
+//
+// Orientation, for all of them (y up, z towards the reader):
+//
+//            c                orient2d(a, b, c) > 0: a, b, c turn left, counterclockwise.
+//           / \               orient3d(a, b, c, d) > 0: seen from d, a, b, c turn right, clockwise;
+//          a---b              d is below (away from the reader) if a, b, c are as in the picture.
+//
+// incircle(a, b, c, d) > 0: d lies inside the circle through a, b, c, if these turn left; outside
+// if they turn right. insphere(a, b, c, d, e) > 0: e lies inside the sphere through a, b, c, d, if
+// orient3d(a, b, c, d) > 0; else outside. These are the signs of Shewchuk 1997; CGAL's orientation
+// of four points is the opposite of orient3d.
+#pragma once
+
+#include <errbound/predicate.hpp>
+
+namespace errbound {
+
+/// The parts of the predicates below, for expressions of one's own.
+namespace forms {
+
+/// Twice the area of the triangle a, b, c in the plane of axes i and j.
+constexpr auto area(const auto& a, const auto& b, const auto& c, int i = 0, int j = 1) {
+    return (a[i] - c[i]) * (b[j] - c[j]) - (a[j] - c[j]) * (b[i] - c[i]);
+}
+/// Six times the volume of the tetrahedron a, b, c, d.
+constexpr auto volume(const auto& a, const auto& b, const auto& c, const auto& d) {
+    const auto ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
+    const auto bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
+    const auto cx = c[0] - d[0], cy = c[1] - d[1], cz = c[2] - d[2];
+    return az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
+}
+
+constexpr auto squared_distance2d(const auto& a, const auto& b) {
+    const auto x = a[0] - b[0], y = a[1] - b[1];
+    return x * x + y * y;
+}
+constexpr auto squared_distance3d(const auto& a, const auto& b) {
+    const auto x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+/// The determinant of a − d, b − d, c − d and their heights on a paraboloid.
+constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const auto& d,
+                           const auto& lift_a, const auto& lift_b, const auto& lift_c) {
+    const auto ax = a[0] - d[0], ay = a[1] - d[1];
+    const auto bx = b[0] - d[0], by = b[1] - d[1];
+    const auto cx = c[0] - d[0], cy = c[1] - d[1];
+    return lift_a * (bx * cy - cx * by) + lift_b * (cx * ay - ax * cy) +
+           lift_c * (ax * by - bx * ay);
+}
+constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const auto& d,
+                             const auto& e, const auto& lift_a, const auto& lift_b,
+                             const auto& lift_c, const auto& lift_d) {
+    const auto ax = a[0] - e[0], ay = a[1] - e[1], az = a[2] - e[2];
+    const auto bx = b[0] - e[0], by = b[1] - e[1], bz = b[2] - e[2];
+    const auto cx = c[0] - e[0], cy = c[1] - e[1], cz = c[2] - e[2];
+    const auto dx = d[0] - e[0], dy = d[1] - e[1], dz = d[2] - e[2];
+    const auto ab = ax * by - bx * ay, bc = bx * cy - cx * by, cd = cx * dy - dx * cy,
+               da = dx * ay - ax * dy, ac = ax * cy - cx * ay, bd = bx * dy - dx * by;
+    const auto abc = az * bc - bz * ac + cz * ab, bcd = bz * cd - cz * bd + dz * bc,
+               cda = cz * da + dz * ac + az * cd, dab = dz * ab + az * bd + bz * da;
+    return (lift_d * abc - lift_c * dab) + (lift_b * cda - lift_a * bcd);
+}
+
+/// A point that is given by its parents: anchor + (x, y[, z])/w.
+template <class Anchor, class X, class W>
+struct implicit_point2d {
+    const Anchor& anchor;
+    X x, y;
+    W w;
+};
+template <class Anchor, class X, class W>
+struct implicit_point3d {
+    const Anchor& anchor;
+    X x, y, z;
+    W w;
+};
+template <class Anchor, class X, class W>
+implicit_point2d(const Anchor&, X, X, W) -> implicit_point2d<Anchor, X, W>;
+template <class Anchor, class X, class W>
+implicit_point3d(const Anchor&, X, X, X, W) -> implicit_point3d<Anchor, X, W>;
+/// Where the line through a and b meets that through c and d; w = 0: nowhere, or everywhere.
+constexpr auto line_line(const auto& a, const auto& b, const auto& c, const auto& d) {
+    const auto x = b[0] - a[0], y = b[1] - a[1];
+    const auto u = d[0] - c[0], v = d[1] - c[1];
+    const auto along = (c[0] - a[0]) * v - (c[1] - a[1]) * u;
+    return implicit_point2d{a, x * along, y * along, x * v - y * u};
+}
+/// Where the line through a and b meets the plane through p, q and r; w = 0: nowhere, or
+/// everywhere.
+constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const auto& q,
+                          const auto& r) {
+    const auto x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
+    const auto qx = q[0] - p[0], qy = q[1] - p[1], qz = q[2] - p[2];
+    const auto rx = r[0] - p[0], ry = r[1] - p[1], rz = r[2] - p[2];
+    const auto nx = qy * rz - qz * ry, ny = qz * rx - qx * rz, nz = qx * ry - qy * rx;
+    const auto along = nx * (p[0] - a[0]) + ny * (p[1] - a[1]) + nz * (p[2] - a[2]);
+    return implicit_point3d{a, x * along, y * along, z * along, nx * x + ny * y + nz * z};
+}
+
+/// Segments ab and cd: see segments_intersect3d.
+constexpr sign_type segments_intersect(const auto& a, const auto& b, const auto& c, const auto& d) {
+    const sign_type coplanar = sign_of(volume(a, b, c, d));
+    if (!certain(coplanar)) return coplanar;
+    if (coplanar != sign_type::zero) return sign_type::negative;
+    // A projection along an axis that is not parallel to the plane changes nothing; where the axis
+    // is, all four areas are zero.
+    for (int axis = 0; axis < 3; ++axis) {
+        const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        const sign_type abc = sign_of(area(a, b, c, i, j)), abd = sign_of(area(a, b, d, i, j));
+        const sign_type cda = sign_of(area(c, d, a, i, j)), cdb = sign_of(area(c, d, b, i, j));
+        for (const sign_type s : {abc, abd, cda, cdb})
+            if (!certain(s)) return s;
+        if (abc == sign_type::zero && abd == sign_type::zero && cda == sign_type::zero &&
+            cdb == sign_type::zero)
+            continue;
+        // Positive where the other segment's ends are on different sides.
+        const sign_type of_ab = -(abc * abd), of_cd = -(cda * cdb);
+        if (of_ab == sign_type::negative || of_cd == sign_type::negative)
+            return sign_type::negative;
+        return of_ab * of_cd;
+    }
+    // All on one line: apart if they are on some axis.
+    for (int i = 0; i < 3; ++i) {
+        const sign_type ca = sign_of(c[i] - a[i]), cb = sign_of(c[i] - b[i]);
+        const sign_type da = sign_of(d[i] - a[i]), db = sign_of(d[i] - b[i]);
+        for (const sign_type s : {ca, cb, da, db})
+            if (!certain(s)) return s;
+        if (ca != sign_type::zero && ca == cb && ca == da && ca == db) return sign_type::negative;
+    }
+    return sign_type::zero;
+}
+/// Segment pq and triangle abc: see segment_intersects_triangle.
+constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a, const auto& b,
+                                     const auto& c) {
+    const sign_type side_p = sign_of(volume(a, b, c, p)), side_q = sign_of(volume(a, b, c, q));
+    if (!certain(side_p) || !certain(side_q)) return sign_type::uncertain;
+    if (side_p != sign_type::zero || side_q != sign_type::zero) {
+        if (side_p == side_q) return sign_type::negative;
+        // The line meets the plane in one point, and the segment does.
+        const sign_type ab = sign_of(volume(p, q, a, b)), bc = sign_of(volume(p, q, b, c)),
+                        ca = sign_of(volume(p, q, c, a));
+        const sign_type first = ab * bc, second = bc * ca, third = ca * ab;
+        for (const sign_type s : {first, second, third})
+            if (s == sign_type::negative || !certain(s)) return s;
+        return -(side_p * side_q) * ab * bc * ca == sign_type::zero ? sign_type::zero
+                                                                    : sign_type::positive;
+    }
+    // All in one plane, or the triangle is a segment.
+    const sign_type at_ab = segments_intersect(p, q, a, b), at_bc = segments_intersect(p, q, b, c),
+                    at_ca = segments_intersect(p, q, c, a);
+    for (const sign_type s : {at_ab, at_bc, at_ca})
+        if (!certain(s)) return s;
+    for (const sign_type s : {at_ab, at_bc, at_ca})
+        if (s != sign_type::negative) return sign_type::zero;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+        const sign_type ab = sign_of(area(a, b, p, i, j)), bc = sign_of(area(b, c, p, i, j)),
+                        ca = sign_of(area(c, a, p, i, j));
+        for (const sign_type s : {ab, bc, ca})
+            if (!certain(s)) return s;
+        if (ab != sign_type::zero && ab == bc && bc == ca) return sign_type::zero;
+    }
+    return sign_type::negative;
+}
+
+}  // namespace forms
+
+inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
+    [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
+
+inline constexpr auto orient3d =
+    predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return forms::volume(a, b, c, d);
+    });
+
+inline constexpr auto incircle =
+    predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return forms::lifted_area(a, b, c, d, forms::squared_distance2d(a, d),
+                                  forms::squared_distance2d(b, d), forms::squared_distance2d(c, d));
+    });
+
+inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
+        return forms::lifted_volume(
+            a, b, c, d, e, forms::squared_distance3d(a, e), forms::squared_distance3d(b, e),
+            forms::squared_distance3d(c, e), forms::squared_distance3d(d, e));
+    });
+
+/// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power
+/// distance of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
+inline constexpr auto power_incircle =
+    predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return forms::lifted_area(a, b, c, d, forms::squared_distance2d(a, d) - (a[2] - d[2]),
+                                  forms::squared_distance2d(b, d) - (b[2] - d[2]),
+                                  forms::squared_distance2d(c, d) - (c[2] - d[2]));
+    });
+
+/// insphere for weighted points x, y, z, w: spheres of squared radius w.
+inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
+        return forms::lifted_volume(a, b, c, d, e, forms::squared_distance3d(a, e) - (a[3] - e[3]),
+                                    forms::squared_distance3d(b, e) - (b[3] - e[3]),
+                                    forms::squared_distance3d(c, e) - (c[3] - e[3]),
+                                    forms::squared_distance3d(d, e) - (d[3] - e[3]));
+    });
+
+/// Negative if p is nearer to a than to b, zero if it is as far from both.
+inline constexpr auto compare_distances2d =
+    predicate<points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
+        return forms::squared_distance2d(p, a) - forms::squared_distance2d(p, b);
+    });
+inline constexpr auto compare_distances3d =
+    predicate<points<3, 3, 3>>([](const auto& p, const auto& a, const auto& b) {
+        return forms::squared_distance3d(p, a) - forms::squared_distance3d(p, b);
+    });
+
+/// Expressions that branch so much that the compiler does not see all of it.
+struct homogeneous_options : predicate_options {
+    static constexpr bool homogeneous = true;
+};
+
+/// Closed segments ab and cd. Positive: they cross, in one point inside both; zero: they touch
+/// otherwise, or overlap; negative: they are apart. Degenerate segments are the points that they
+/// are.
+inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homogeneous_options>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return forms::segments_intersect(a, b, c, d);
+    });
+
+/// Closed segment pq and triangle abc. Positive: they cross, in one point inside both; zero: they
+/// touch otherwise, or overlap; negative: they are apart. Degenerate ones are what they are.
+inline constexpr auto segment_intersects_triangle =
+    predicate<points<3, 3, 3, 3, 3>, homogeneous_options>(
+        [](const auto& p, const auto& q, const auto& a, const auto& b, const auto& c) {
+            return forms::segment_triangle(p, q, a, b, c);
+        });
+
+/// orient2d of three points, the first of which is where the lines ab and cd meet: (a, b, c, d, q,
+/// r). Zero if the lines are parallel.
+inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& q, const auto& r) {
+        const auto p = forms::line_line(a, b, c, d);
+        const auto x = (a[0] - r[0]) * p.w + p.x, y = (a[1] - r[1]) * p.w + p.y;
+        return sign_of(x * (q[1] - r[1]) - y * (q[0] - r[0])) * sign_of(p.w);
+    });
+
+/// orient3d of four points, the first of which is where the line ab meets the plane pqr: (a, b, p,
+/// q, r, s, t, u). Zero if they are parallel.
+inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3, 3>>(
+    [](const auto& a, const auto& b, const auto& p, const auto& q, const auto& r, const auto& s,
+       const auto& t, const auto& u) {
+        const auto i = forms::line_plane(a, b, p, q, r);
+        const auto x = (a[0] - u[0]) * i.w + i.x, y = (a[1] - u[1]) * i.w + i.y,
+                   z = (a[2] - u[2]) * i.w + i.z;
+        const auto sx = s[0] - u[0], sy = s[1] - u[1], sz = s[2] - u[2];
+        const auto tx = t[0] - u[0], ty = t[1] - u[1], tz = t[2] - u[2];
+        return sign_of(x * (sy * tz - sz * ty) + y * (sz * tx - sx * tz) +
+                       z * (sx * ty - sy * tx)) *
+               sign_of(i.w);
+    });
+
+/// The order, by x, of the points where lines ab and cd, and ef and gh, meet: negative if the first
+/// is less. Zero if either does not exist.
+inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,
+       const auto& g, const auto& h) {
+        const auto p = forms::line_line(a, b, c, d);
+        const auto q = forms::line_line(e, f, g, h);
+        return sign_of((a[0] - e[0]) * (p.w * q.w) + (p.x * q.w - q.x * p.w)) * sign_of(p.w) *
+               sign_of(q.w);
+    });
+
+}  // namespace errbound

@@ -1,0 +1,73 @@
+// Predicates in batches: the signs of one by one.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <errbound/predicate_batch.hpp>
+#include <errbound/predicates.hpp>
+#include <utility>
+#include <vector>
+
+#include "predicate_inputs.hpp"
+
+namespace {
+
+using errbound::sign_type;
+using predicate_inputs::surface;
+
+template <class T, std::size_t D, class Predicate, std::size_t... I>
+void compare_batch(const Predicate& predicate, surface s, std::index_sequence<I...>) {
+    constexpr std::size_t N = sizeof...(I);
+    predicate_inputs::generator random(3);
+    for (const auto& family : predicate_inputs::families<T, D, N>) {
+        const std::size_t count = 1000;  // not a whole number of blocks
+        std::array<std::vector<std::array<T, D>>, N> points;
+        std::array<std::array<std::vector<T>, D>, N> arrays;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto p = family.make(random, s);
+            for (std::size_t k = 0; k < N; ++k) {
+                points[k].push_back(p[k]);
+                for (std::size_t d = 0; d < D; ++d) arrays[k][d].push_back(p[k][d]);
+            }
+        }
+        const auto as_arrays = [&](std::size_t k) {
+            errbound::coordinate_arrays<T, D> a{{}, count};
+            for (std::size_t d = 0; d < D; ++d) a.coordinates[d] = arrays[k][d].data();
+            return a;
+        };
+        std::vector<sign_type> one_by_one(count), batch(count), of_arrays(count);
+        for (std::size_t i = 0; i < count; ++i) one_by_one[i] = predicate(points[I][i]...);
+        errbound::batch_signs(predicate, batch, points[I]...);
+        errbound::batch_signs(predicate, of_arrays, as_arrays(I)...);
+        EXPECT_EQ(batch, one_by_one) << family.name;
+        EXPECT_EQ(of_arrays, one_by_one) << family.name;
+    }
+}
+template <class T>
+class Batches : public testing::Test {};
+using number_types = testing::Types<float, double>;
+TYPED_TEST_SUITE(Batches, number_types);
+
+TYPED_TEST(Batches, AreOneByOne) {
+    using T = TypeParam;
+    compare_batch<T, 2>(errbound::orient2d, surface::flat, std::make_index_sequence<3>());
+    compare_batch<T, 3>(errbound::orient3d, surface::flat, std::make_index_sequence<4>());
+    compare_batch<T, 2>(errbound::incircle, surface::round, std::make_index_sequence<4>());
+    compare_batch<T, 3>(errbound::insphere, surface::round, std::make_index_sequence<5>());
+    compare_batch<T, 3>(errbound::segments_intersect3d, surface::flat,
+                        std::make_index_sequence<4>());
+}
+
+TEST(Batch, OfOnePointAgainstMany) {
+    std::vector<std::array<double, 2>> points;
+    for (int i = 0; i < 200; ++i) points.push_back({i * 0.5, 50.0 - i});
+    std::vector<sign_type> signs(points.size());
+    errbound::batch_signs(errbound::orient2d, signs, errbound::every<std::array<double, 2>>{{0, 0}},
+                          errbound::every<std::array<double, 2>>{{1, 0}}, points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_EQ(signs[i], i < 50    ? sign_type::positive
+                            : i == 50 ? sign_type::zero
+                                      : sign_type::negative);
+}
+
+}  // namespace
