@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <errbound/bernstein.hpp>
 #include <errbound/integer_polynomial.hpp>
+#include <errbound/polynomial_stages.hpp>
 #include <errbound/root_filter.hpp>
 #include <errbound/root_isolation.hpp>
 #include <errbound/rules/tight.hpp>
@@ -32,64 +33,19 @@ integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
             p.h.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-/// One polynomial for both stages: exact, and in floating point with error bounds.
-template <exact_number Integer>
-class staged_polynomial {
-  public:
-    using number = tracked<double, tight>;
+/// The number of roots of the polynomial that is identically zero.
+inline constexpr std::size_t infinitely_many = std::numeric_limits<std::size_t>::max();
 
-    /// Of finite doubles, which are exact; integers are made of them when asked for.
-    explicit staged_polynomial(const std::vector<double>& coefficients)
-        : floating_(coefficients.begin(), coefficients.end()) {
-        while (!floating_.empty() && floating_.back().value() == 0) floating_.pop_back();
-    }
-    explicit staged_polynomial(integer_form<Integer> p) : exact_(std::move(p)) {
-        trim(exact_);
-        int highest = std::numeric_limits<int>::min();
-        for (const Integer& c : exact_)
-            if (c != 0) highest = std::max(highest, floor_log2(c));
-        // A positive multiple, where double's range asks for one.
-        const int unit = std::max(0, highest - number_traits<double>::max_exponent / 2);
-        for (const Integer& c : exact_) {
-            const double x = nearby_double(c, -unit);
-            const bool same = unit == 0 && std::abs(x) < 0x1p53;
-            const double error = number_traits<double>::epsilon() * std::abs(x);
-            floating_.push_back(
-                same || c == 0
-                    ? number(x)
-                    : number::within(x, 2 * error + number_traits<double>::underflow_unit()));
-        }
-    }
+/// Which signs a polynomial takes.
+struct occurring_signs {
+    bool negative = false, zero = false, positive = false;
 
-    bool is_zero() const { return floating_.empty(); }
-    std::size_t size() const { return floating_.size(); }
-    const std::vector<number>& floating() const { return floating_; }
-    /// A positive multiple.
-    const integer_form<Integer>& exact() {
-        if (exact_.empty() && !floating_.empty()) {
-            int unit = std::numeric_limits<int>::max();
-            for (const number& c : floating_)
-                if (c.value() != 0) unit = std::min(unit, decomposed(c.value()).exponent);
-            for (const number& c : floating_)
-                exact_.push_back(dyadic<Integer>::from(c.value()).in_units(unit));
-        }
-        return exact_;
+    constexpr void add(sign_type s) {
+        if (s == sign_type::negative) negative = true;
+        if (s == sign_type::zero) zero = true;
+        if (s == sign_type::positive) positive = true;
     }
-
-    /// Divides by x as often as that goes; how often.
-    int divide_by_x() {
-        const auto first = std::find_if(floating_.begin(), floating_.end(), [](const number& c) {
-            return c.value() != 0 || c.error() != 0;
-        });
-        const auto count = first - floating_.begin();
-        floating_.erase(floating_.begin(), first);
-        if (!exact_.empty()) exact_.erase(exact_.begin(), exact_.begin() + count);
-        return static_cast<int>(count);
-    }
-
-  private:
-    std::vector<number> floating_;
-    integer_form<Integer> exact_;
+    friend constexpr bool operator==(const occurring_signs&, const occurring_signs&) = default;
 };
 
 /// The distinct roots of a polynomial on a part of the line, in ascending order. What is found out
@@ -99,6 +55,7 @@ class real_roots {
   public:
     using interval = isolating_interval<Integer>;
     using point = dyadic<Integer>;
+    using number = typename staged_polynomial<Integer>::number;
 
     /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
     explicit real_roots(const integer_form<Integer>& p) : p_(p) {
@@ -112,27 +69,25 @@ class real_roots {
             everywhere_ = true;
             return;
         }
-        const int zeros = p_.divide_by_x();
-        const bool zero_is_root = zeros > 0 && a <= 0 && 0 <= b;
-        std::size_t negative = 0;
+        zeros_ = p_.divide_by_x();
         if (a == b) {
             if (a != 0) exact().isolate(point::from(a), point::from(a), intervals_);
         } else {
-            const root_filter<tight> filter(p_.floating(), a, b);
-            const auto& parts = filter.parts();
-            for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
-            decided_by_filter_ = filter.decides();
+            add(root_filter<tight>(p_.floating(), a, b));
         }
-        if (!zero_is_root) return;
-        // No other interval may hold the root at 0.
-        const point zero;
-        for (interval& root : intervals_) {
-            while (root.low == zero || root.high == zero || (root.low < zero && zero < root.high))
-                exact().refine(root);
-            if (root.low < zero) ++negative;
-        }
-        intervals_.insert(intervals_.begin() + static_cast<std::ptrdiff_t>(negative),
-                          interval{zero, zero, zeros});
+        if (a <= 0 && 0 <= b) add_zero();
+    }
+
+    /// The number of these roots alone; `infinitely_many` if p is identically zero.
+    static std::size_t count(staged_polynomial<Integer> p, double a, double b) {
+        if (p.is_zero()) return infinitely_many;
+        if (a == b) return real_roots(std::move(p), a, b).size();
+        const std::size_t zeros = p.divide_by_x() > 0 && a <= 0 && 0 <= b ? 1 : 0;
+        const root_filter<tight> filter(p.floating(), a, b);
+        if (filter.decides()) return zeros + filter.parts().size();
+        real_roots roots(std::move(p));
+        roots.add(filter);
+        return zeros + roots.size();
     }
 
     /// Whether the polynomial is identically zero: all points are roots, and none is listed.
@@ -144,14 +99,37 @@ class real_roots {
 
     /// Narrows root k's interval to at most this width > 0.
     void refine(std::size_t k, const point& width) {
-        interval& root = intervals_[k];
-        while (width < root.high - root.low) exact().refine(root);
+        if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
+        if (width < intervals_[k].high - intervals_[k].low) exact().refine(intervals_[k], width);
     }
     void refine(std::size_t k, double width) { refine(k, point::from(width)); }
 
     /// The sign of g at root k, exactly.
-    sign_type sign_at_root(const integer_form<Integer>& g, std::size_t k) {
-        return exact().sign_at_root(g, intervals_[k]);
+    sign_type sign_at(staged_polynomial<Integer>& g, std::size_t k) {
+        interval& root = intervals_[k];
+        const auto by_values = [&] { return sign_of(value_at(g.floating(), enclosure(root))); };
+        sign_type s = by_values();
+        if (!certain(s) && narrow(root)) s = by_values();
+        return certain(s) ? s : exact().sign_at_root(g.exact(), root);
+    }
+    template <class C>
+    sign_type sign_at(const polynomial<C>& g, std::size_t k) {
+        auto p = errbound::staged<Integer>(g);
+        return sign_at(p, k);
+    }
+
+    /// The signs of the polynomial on [a, b], for which these roots were asked.
+    occurring_signs signs_on(double a, double b) {
+        occurring_signs signs;
+        if (everywhere_ || size() > 0) signs.zero = true;
+        if (everywhere_ || (a == b && signs.zero)) return signs;
+        // At a root of odd multiplicity inside, the sign changes; otherwise there is but one.
+        for (const interval& root : intervals_) {
+            const bool at_end = root.is_point() && (is_at(root, a) || is_at(root, b));
+            if (root.multiplicity % 2 == 1 && !at_end) signs.negative = signs.positive = true;
+        }
+        if (!signs.negative) signs.add(sign_beside_roots(a, b));
+        return signs;
     }
 
   private:
@@ -160,6 +138,14 @@ class real_roots {
         return *exact_;
     }
 
+    /// Without any root, to be added.
+    explicit real_roots(staged_polynomial<Integer> p) : p_(std::move(p)) {}
+
+    void add(const root_filter<tight>& filter) {
+        const auto& parts = filter.parts();
+        for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
+        decided_by_filter_ = filter.decides();
+    }
     /// The filter's part i, together with its neighbours if it is not known.
     void add(const std::vector<filtered_part>& parts, std::size_t& i) {
         const filtered_part& part = parts[i];
@@ -188,7 +174,101 @@ class real_roots {
         return from < to ? std::pair{from, to} : std::pair{to, from};
     }
 
-    staged_polynomial<Integer> p_;
+    /// Puts the root at 0 in its place, if there is one; no other interval may hold it.
+    void add_zero() {
+        if (zeros_ == 0) return;
+        const point zero;
+        for (interval& root : intervals_)
+            while (root.low <= zero && zero <= root.high) exact().refine(root);
+        const auto next = std::find_if(intervals_.begin(), intervals_.end(),
+                                       [&](const interval& root) { return zero < root.low; });
+        intervals_.insert(next, interval{zero, zero, zeros_});
+    }
+
+    /// The root, which lies within that of a double, and no more where it is a double itself.
+    static number enclosure(const interval& root) {
+        using traits = number_traits<double>;
+        const double low = root.low.to_double(), high = root.high.to_double();
+        const double size = std::max(std::abs(low), std::abs(high));
+        return number::within(
+            low + (high - low) / 2,
+            (high - low) / 2 + 4 * traits::epsilon() * size + 4 * traits::underflow_unit());
+    }
+    sign_type floating_sign_at(const number& x) const {
+        return sign_of(value_at(p_.floating(), x));
+    }
+
+    /// Narrows a root's interval to about double's precision, without integers; false if that
+    /// fails.
+    bool narrow(interval& root) {
+        if (root.is_point() || root.multiplicity % 2 == 0) return false;
+        const sign_type before = floating_sign_at(enclosure({root.low, root.low}));
+        const double low = root.low.to_double(), high = root.high.to_double();
+        if (!certain(before) || !std::isfinite(low) || !std::isfinite(high)) return false;
+        const double x = approximate_root(low, high, before == sign_type::negative);
+        bool narrowed = false;
+        for (const bool left : {true, false}) {
+            double distance = number_traits<double>::epsilon() * std::abs(x);
+            for (;; distance *= 16) {
+                const double t = left ? x - distance : x + distance;
+                if (!(low < t && t < high)) break;
+                if (floating_sign_at(number(t)) != (left ? before : -before)) continue;
+                const point end = point::from(t);
+                if (!(root.low < end && end < root.high)) break;
+                (left ? root.low : root.high) = end;
+                narrowed = true;
+                break;
+            }
+        }
+        return narrowed;
+    }
+    /// By Newton's method in plain doubles, or halving where its steps do not halve.
+    double approximate_root(double low, double high, bool rising) const {
+        double x = low + (high - low) / 2, last_step = high - low;
+        for (int i = 0; i < 4 * number_traits<double>::digits; ++i) {
+            double y = 0, slope = 0;
+            for (auto c = p_.floating().rbegin(); c != p_.floating().rend(); ++c) {
+                slope = slope * x + y;
+                y = y * x + c->value();
+            }
+            if (y == 0) break;
+            ((y < 0) == rising ? low : high) = x;
+            double next = x - y / slope;
+            if (!(low < next && next < high && 2 * std::abs(next - x) <= last_step))
+                next = low + (high - low) / 2;
+            if (next == x) break;
+            last_step = std::abs(next - x);
+            x = next;
+        }
+        return x;
+    }
+
+    static bool is_at(const interval& root, double x) {
+        return std::isfinite(x) && root.low == point::from(x);
+    }
+    /// The polynomial's sign somewhere in [a, b], a < b, where it is not zero; or at a = b.
+    sign_type sign_beside_roots(double a, double b) {
+        const point x = beside_roots(a, b);
+        const number place = enclosure({x, x});
+        const sign_type power = zeros_ % 2 == 1 ? sign_of(x) : sign_type::positive;
+        const sign_type s = floating_sign_at(place);
+        return power * (certain(s) ? s : errbound::sign_at(p_.exact(), x));
+    }
+    /// A point of [a, b] that is not a root.
+    point beside_roots(double a, double b) const {
+        if (intervals_.empty()) return point::from(std::isfinite(a) ? a : std::isfinite(b) ? b : 0);
+        const interval& first = intervals_[0];
+        if (!first.is_point()) return first.low;
+        const point one = point::power_of_two(0);
+        if (!std::isfinite(a)) return first.low - one;
+        if (point::from(a) < first.low) return middle(point::from(a), first.low);
+        if (size() == 1)
+            return std::isfinite(b) ? middle(first.low, point::from(b)) : first.low + one;
+        return intervals_[1].is_point() ? middle(first.low, intervals_[1].low) : intervals_[1].low;
+    }
+
+    staged_polynomial<Integer> p_;  ///< divided by x^zeros_
+    int zeros_ = 0;
     std::optional<root_isolation<Integer>> exact_;
     std::vector<interval> intervals_;
     bool everywhere_ = false;

@@ -1,5 +1,5 @@
-// Real roots of polynomials in floating point: what tracked Bernstein coefficients tell for certain,
-// and which parts of the line they leave open. The first stage of errbound/real_roots.hpp.
+// Real roots of polynomials in floating point: what tracked Bernstein coefficients tell for
+// certain, and which parts of the line they leave open. The first stage of errbound/real_roots.hpp.
 //
 // Descartes' rule in Bernstein form, as in errbound/root_isolation.hpp: control values (Bernstein
 // coefficients) without sign change exclude a root inside the part, one change proves exactly one.
@@ -65,8 +65,9 @@ struct tracked_row {
             v[j] = sum;
         }
     }
-    /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Where that underflows, value and error are each
-    /// off by at most half the smallest number; the last factor pays for the sum's two roundings.
+    /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Where that underflows,
+    /// value and error are each off by at most half the smallest number; the last factor pays for
+    /// the sum's two roundings.
     void shrink(const double* factor, std::size_t first, std::size_t last) const {
         constexpr double lost = 2 * number_traits<double>::underflow_unit();
         for (std::size_t j = first; j <= last; ++j) {
@@ -149,7 +150,9 @@ class root_filter {
     }
 
   private:
-    static bool is_strict(sign_type s) { return s == sign_type::positive || s == sign_type::negative; }
+    static bool is_strict(sign_type s) {
+        return s == sign_type::positive || s == sign_type::negative;
+    }
 
     /// The parts of [low, high], 0 <= low < high, for c_.
     void on_half_line(double low, double high) {
@@ -198,8 +201,8 @@ class root_filter {
             if (!std::isfinite(largest(c_[i]))) return number_traits<double>::infinity();
             const int quotient = std::ilogb(largest(c_[i])) + 1 - last;
             const int degree = static_cast<int>(n - i);
-            exponent = std::max(
-                exponent, 1 + (quotient > 0 ? (quotient + degree - 1) / degree : quotient / degree));
+            exponent = std::max(exponent, 1 + (quotient > 0 ? (quotient + degree - 1) / degree
+                                                            : quotient / degree));
         }
         if (exponent == std::numeric_limits<int>::min()) return 0;
         return std::ldexp(45.0 / 32, exponent);
@@ -252,7 +255,8 @@ class root_filter {
         set_control_values();
         std::array<double, most_degree + 1> right_factor, left_factor;
         double factor = 1;
-        for (std::size_t i = 0; i <= n; ++i, factor /= 2) left_factor[i] = right_factor[n - i] = factor;
+        for (std::size_t i = 0; i <= n; ++i, factor /= 2)
+            left_factor[i] = right_factor[n - i] = factor;
 
         // Row k of rows_ belongs to spans[k]; the last is the leftmost.
         std::vector<span_of_u> spans{{0, 1}};

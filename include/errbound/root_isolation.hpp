@@ -78,8 +78,8 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
     if (start != 0)
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = n; j-- > i;) p[j] += p[j + 1] * start;
-    // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u. The multiple
-    // of the divisions' least common denominator keeps all in integers.
+    // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u. The
+    // multiple of the divisions' least common denominator keeps all in integers.
     std::vector<Integer> binomials{Integer(1)};
     Integer denominator = 1;
     for (std::size_t i = 1; i <= n; ++i) {
@@ -153,15 +153,13 @@ class root_isolation {
             roots[k].multiplicity = multiplicity(roots[k]);
     }
 
-    /// Halves the interval or finds the root itself.
-    void refine(interval& root) const {
-        if (root.is_point()) return;
-        const point half = middle(root.low, root.high);
-        const sign_type s = sign_at(squarefree(), half);
-        if (s == sign_type::zero)
-            root.low = root.high = half;
-        else
-            (s == sign_at(squarefree(), root.low) ? root.low : root.high) = half;
+    /// Narrows the root's interval to at most half of it, or to this width.
+    void refine(interval& root) const { refine(root, scale(root.high - root.low, -1)); }
+    /// Quadratic interval refinement (J. Abbott 2006): the secant picks one of 2^bits parts, and
+    /// bits doubles if that is right.
+    void refine(interval& root, const point& width) const {
+        for (int bits = 1; width < root.high - root.low;)
+            bits = keep_part(root, bits) ? 2 * bits : std::max(1, bits / 2);
     }
 
     /// The sign of g at the root; refines it. Zero is decided by a common factor, any other sign
@@ -169,7 +167,7 @@ class root_isolation {
     sign_type sign_at_root(const form& g, interval& root) const {
         if (g.empty()) return sign_type::zero;
         form common;
-        for (;;) {
+        for (int bits = 1;; bits *= 2) {
             if (root.is_point()) return sign_at(g, root.low);
             const form b = control_values_on(g, root.low, root.high);
             const auto differs = [&](const Integer& c) { return sign_of(c) != sign_of(b[0]); };
@@ -178,7 +176,7 @@ class root_isolation {
                 common = common_factor(squarefree(), g);
                 if (vanishes(common, root)) return sign_type::zero;
             }
-            refine(root);
+            refine(root, scale(root.high - root.low, -bits));
         }
     }
 
@@ -214,13 +212,41 @@ class root_isolation {
                                     (chain_.begin() + 1));
     }
 
+    /// Keeps one of 2^bits parts of the interval if the root is in the one where the secant has it,
+    /// and otherwise what lies on the root's side of that; one half if bits is 1.
+    bool keep_part(interval& root, int bits) const {
+        const form& f = squarefree();
+        const point at_low = value_at(f, root.low), at_high = value_at(f, root.high);
+        const int unit = std::min(at_low.exponent(), at_high.exponent());
+        const Integer above_low = abs(at_low.in_units(unit));
+        const Integer whole = above_low + abs(at_high.in_units(unit));
+        const Integer part = (above_low << static_cast<unsigned>(bits)) / whole;
+        const point width = root.high - root.low, start = root.low;
+        const auto place = [&](const Integer& k) { return start + width * point(k, -bits); };
+        const sign_type before = sign_of(at_low);
+        // The part's ends: the sign there tells on which side of it the root is.
+        const point left = place(part), right = place(Integer(part + 1));
+        if (root.low < left) {
+            const sign_type s = sign_at(f, left);
+            if (s == sign_type::zero) return root.low = root.high = left, true;
+            if (s != before) return root.high = left, false;
+            root.low = left;
+        }
+        if (right < root.high) {
+            const sign_type s = sign_at(f, right);
+            if (s == sign_type::zero) return root.low = root.high = right, true;
+            if (s == before) return root.low = right, false;
+            root.high = right;
+        }
+        return true;
+    }
+
     void append_if_root(const point& x, std::vector<interval>& roots) const {
         if (sign_at(squarefree(), x) == sign_type::zero) roots.push_back({x, x});
     }
 
     /// The roots strictly between low and high, 0 <= low < high.
-    static void inside(const half_line& line, point low, point high,
-                       std::vector<interval>& roots) {
+    static void inside(const half_line& line, point low, point high, std::vector<interval>& roots) {
         if (line.upper < line.lower) return;
         const point least = point::power_of_two(line.lower),
                     greatest = point::power_of_two(line.upper);
