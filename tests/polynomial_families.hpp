@@ -24,22 +24,22 @@ struct sample {
 };
 
 enum class family {
-    random,       ///< uniform coefficients
-    wide,         ///< exponents of any double
-    separated,    ///< rounded products of random linear and quadratic factors
-    clustered,    ///< dyadic roots, some closer than the others by up to 2^40
-    multiple,     ///< small rational and quadratic irrational roots, most of them multiple
-    bernstein,    ///< few-valued Bernstein coefficients on [0, 1], ill-conditioned elsewhere
-    wilkinson,    ///< Π (x − k), or with one coefficient changed in its last place
-    chebyshev,    ///< all roots in (−1, 1), and shifted by less than an extremum's size
-    mignotte,     ///< x^n − 2(ax − 1)²: two roots very close to 1/a
+    random,     ///< uniform coefficients
+    wide,       ///< exponents of any double
+    separated,  ///< rounded products of random linear and quadratic factors
+    clustered,  ///< dyadic roots, some closer than the others by up to 2^40
+    multiple,   ///< small rational and quadratic irrational roots, most of them multiple
+    bernstein,  ///< few-valued Bernstein coefficients on [0, 1], ill-conditioned elsewhere
+    wilkinson,  ///< Π (x − k), or with one coefficient changed in its last place
+    chebyshev,  ///< all roots in (−1, 1), and shifted by less than an extremum's size
+    mignotte,   ///< x^n − 2(ax − 1)²: two roots very close to 1/a
 };
-inline constexpr std::array all{
-    family::random,    family::wide,      family::separated, family::clustered, family::multiple,
-    family::bernstein, family::wilkinson, family::chebyshev, family::mignotte};
-inline constexpr const char* names[] = {"random",    "wide",      "separated", "clustered",
-                                        "multiple",  "bernstein", "wilkinson", "chebyshev",
-                                        "mignotte"};
+inline constexpr std::array all{family::random,    family::wide,      family::separated,
+                                family::clustered, family::multiple,  family::bernstein,
+                                family::wilkinson, family::chebyshev, family::mignotte};
+inline constexpr const char* names[] = {"random",    "wide",      "separated",
+                                        "clustered", "multiple",  "bernstein",
+                                        "wilkinson", "chebyshev", "mignotte"};
 
 /// Degrees from 1 up to `most`, or up to 8 where integers have thousands of bits.
 constexpr int degree_of_sample(family f, int k, int most) {
@@ -168,8 +168,7 @@ class generator {
         for (const double x : c)
             if (x != 0) unit = std::min(unit, errbound::decomposed(x).exponent);
         std::vector<integer> whole;
-        for (const double x : c)
-            whole.push_back(errbound::dyadic<integer>::from(x).in_units(unit));
+        for (const double x : c) whole.push_back(errbound::dyadic<integer>::from(x).in_units(unit));
         return {whole, std::move(c)};
     }
 

@@ -45,8 +45,9 @@ TEST_P(Flint, CountsAgree) {
     RecordProperty("decided_by_filter", decided);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Roots, Flint, testing::ValuesIn(polynomial_families::all),
-    [](const auto& info) { return polynomial_families::names[static_cast<int>(info.param)]; });
+INSTANTIATE_TEST_SUITE_P(Roots, Flint, testing::ValuesIn(polynomial_families::all),
+                         [](const auto& info) {
+                             return polynomial_families::names[static_cast<int>(info.param)];
+                         });
 
 }  // namespace

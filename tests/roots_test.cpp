@@ -209,9 +209,9 @@ TEST_P(Families, SignsAtRootsAgreeWithTarskisQuery) {
         for (std::size_t i = 0; i < roots.size(); ++i) {
             const auto root = roots[i];
             const auto truth =
-                root.is_point() ? sign_at(g.whole, root.low)
-                                : sign_of(integer(tarski(s.whole, g.whole).between(root.low,
-                                                                                  root.high)));
+                root.is_point()
+                    ? sign_at(g.whole, root.low)
+                    : sign_of(integer(tarski(s.whole, g.whole).between(root.low, root.high)));
             ASSERT_EQ(roots.sign_at(polynomial<integer>(g.whole), i), truth) << text(s);
             if (!g.doubles.empty()) {
                 ASSERT_EQ(roots.sign_at(polynomial<double>(g.doubles), i), truth) << text(s);
@@ -253,9 +253,10 @@ TEST_P(Families, SignsOnIntervals) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Roots, Families, testing::ValuesIn(polynomial_families::all),
-    [](const auto& info) { return polynomial_families::names[static_cast<int>(info.param)]; });
+INSTANTIATE_TEST_SUITE_P(Roots, Families, testing::ValuesIn(polynomial_families::all),
+                         [](const auto& info) {
+                             return polynomial_families::names[static_cast<int>(info.param)];
+                         });
 
 // Given roots: f and the g share some of them.
 TEST(Roots, RootWhereNonnegative) {
@@ -326,8 +327,7 @@ TEST(Roots, ZeroConstantAndLinearPolynomials) {
 
 TEST(Roots, MultiplicitiesAndRootsAtEnds) {
     // (x − 1)³ x² (x² − 2)
-    const polynomial<integer> p(generator::product(
-        form{0, 0, -1, 3, -3, 1}, form{2, 0, -1}));
+    const polynomial<integer> p(generator::product(form{0, 0, -1, 3, -3, 1}, form{2, 0, -1}));
     const auto roots = isolate_roots(p, 0, 1.5);
     ASSERT_EQ(roots.size(), 3U);
     EXPECT_EQ(roots[0].multiplicity, 2);

@@ -1,18 +1,18 @@
 // Real roots and signs of polynomials of any degree, always exact.
 //
-//   using integer = boost::multiprecision::cpp_int;      // or GMP's; with errbound/multiprecision.hpp
-//   const errbound::polynomial p{-2.0, 0.0, 1.0};         // x² − 2: coefficients ascend
-//   auto roots = errbound::isolate_roots<integer>(p, 0, 10);
-//   roots.refine(0, 1e-30);                               // roots[0].low < √2 < roots[0].high
+//   using integer = boost::multiprecision::cpp_int;      // or GMP's; with
+//   errbound/multiprecision.hpp const errbound::polynomial p{-2.0, 0.0, 1.0};         // x² − 2:
+//   coefficients ascend auto roots = errbound::isolate_roots<integer>(p, 0, 10); roots.refine(0,
+//   1e-30);                               // roots[0].low < √2 < roots[0].high
 //   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);    // of x − 1.5 at √2: negative
 //
 // Coefficients: double or float, which are exact numbers; integers or rationals of unbounded size;
 // or tracked numbers, with answers that say so where the coefficients' errors leave them open.
 // Intervals are closed; their ends are doubles, also infinite ones.
 //
-// Each question is asked in floating point with certified bounds first, then in integers. Allocates.
-// Time and memory are bounded by degree and size of the coefficients; where the first stage decides,
-// by some hundred additions times degree².
+// Each question is asked in floating point with certified bounds first, then in integers.
+// Allocates. Time and memory are bounded by degree and size of the coefficients; where the first
+// stage decides, by some hundred additions times degree².
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,9 @@ struct integer_for {
 };
 template <class C>
 struct integer_for<void, C> {
-    static_assert(exact_number<C>,
-                  "errbound: name the integer type to decide in, as in count_roots<integer>(p, a, b)");
+    static_assert(
+        exact_number<C>,
+        "errbound: name the integer type to decide in, as in count_roots<integer>(p, a, b)");
     static auto of(const C& c) {
         if constexpr (std::numeric_limits<C>::is_integer)
             return c;
@@ -65,7 +66,15 @@ auto isolate_roots(const polynomial<C>& p, double a, double b) {
 template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     using integer = detail::integer_for_t<Integer, C>;
-    return real_roots<integer>::count(staged<integer>(p), a, b);
+    if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
+        // No intervals are made, and no integers copied, where the filter decides.
+        const auto c = floating_coefficients(p.coefficients());
+        if (!c.empty() && a < b && !(c[0].value() == 0 && a <= 0 && 0 <= b))
+            if (const root_filter<tight> filter(c, a, b); filter.decides())
+                return filter.parts().size();
+    }
+    const real_roots<integer> roots(staged<integer>(p), a, b);
+    return roots.everywhere() ? infinitely_many : roots.size();
 }
 
 /// The same of a polynomial whose coefficients are known within bounds: nothing if polynomials
@@ -82,8 +91,8 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
 template <class Integer = void, class C>
 auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
     using integer = detail::integer_for_t<Integer, C>;
-    return polynomial<integer>(common_factor(staged<integer>(p).exact(),
-                                             staged<integer>(q).exact()));
+    return polynomial<integer>(
+        common_factor(staged<integer>(p).exact(), staged<integer>(q).exact()));
 }
 
 /// The roots that p and q have in common in [a, b], a <= b, with the lower of their multiplicities.
@@ -151,7 +160,8 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 
 /// Is there t in [a, b], a <= b, with f(t) = 0 and every g_i(t) >= 0?
 ///
-/// Cubic f and one to four quartic g_i on a finite interval are asked by BSC first (errbound/bsc.hpp).
+/// Cubic f and one to four quartic g_i on a finite interval are asked by BSC first
+/// (errbound/bsc.hpp).
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {
@@ -161,9 +171,7 @@ bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial
     for (const polynomial<C>& p : g) constraints.push_back(staged<integer>(p));
     const auto holds_at_any = [&](real_roots<integer> roots) {
         for (std::size_t k = 0; k < roots.size(); ++k) {
-            const auto holds = [&](auto& p) {
-                return roots.sign_at(p, k) != sign_type::negative;
-            };
+            const auto holds = [&](auto& p) { return roots.sign_at(p, k) != sign_type::negative; };
             if (std::all_of(constraints.begin(), constraints.end(), holds)) return true;
         }
         return false;

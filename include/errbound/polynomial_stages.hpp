@@ -33,33 +33,57 @@ class polynomial {
     std::vector<Coefficient> c_;
 };
 
+/// What the floating-point stage computes with.
+using floating_coefficient = tracked<double, tight>;
+
+/// Exactly the doubles, without zeros at the end.
+inline std::vector<floating_coefficient> floating_coefficients(const std::vector<double>& p) {
+    std::vector<floating_coefficient> c(p.begin(), p.end());
+    while (!c.empty() && c.back().value() == 0) c.pop_back();
+    return c;
+}
+/// Those of p or, where double's range asks for it, of a positive multiple of p, within bounds;
+/// zero is exact, and zeros at the end are left out.
+template <exact_number Integer>
+std::vector<floating_coefficient> floating_coefficients(const integer_form<Integer>& p) {
+    constexpr double epsilon = number_traits<double>::epsilon();
+    std::size_t size = p.size();
+    while (size > 0 && p[size - 1] == 0) --size;
+    std::vector<floating_coefficient> c;
+    c.reserve(size);
+    double largest = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        // Conversions of other types may be off by some units in the last place.
+        const double x = static_cast<double>(p[i]), size_of_x = std::abs(x);
+        largest = std::max(largest, size_of_x);
+        c.push_back(size_of_x < 0x1p52 ? floating_coefficient(x)
+                                       : floating_coefficient::within(x, 4 * epsilon * size_of_x));
+    }
+    if (largest < 0x1p+500) return c;
+    int unit = 0;
+    for (std::size_t i = 0; i < size; ++i)
+        if (p[i] != 0) unit = std::max(unit, floor_log2(p[i]));
+    for (std::size_t i = 0; i < size; ++i) {
+        const double x = nearby_double(p[i], -unit);
+        if (p[i] != 0)
+            c[i] = floating_coefficient::within(
+                x, 2 * epsilon * std::abs(x) + number_traits<double>::underflow_unit());
+    }
+    return c;
+}
+
 /// One polynomial for both stages: exact, and in floating point with error bounds.
 template <exact_number Integer>
 class staged_polynomial {
   public:
-    using number = tracked<double, tight>;
+    using number = floating_coefficient;
 
     /// Of finite doubles, which are exact; integers are made of them when asked for.
     explicit staged_polynomial(const std::vector<double>& coefficients)
-        : floating_(coefficients.begin(), coefficients.end()) {
-        while (!floating_.empty() && floating_.back().value() == 0) floating_.pop_back();
-    }
-    explicit staged_polynomial(integer_form<Integer> p) : exact_(std::move(p)) {
+        : floating_(floating_coefficients(coefficients)) {}
+    explicit staged_polynomial(integer_form<Integer> p)
+        : floating_(floating_coefficients(p)), exact_(std::move(p)) {
         trim(exact_);
-        int highest = std::numeric_limits<int>::min();
-        for (const Integer& c : exact_)
-            if (c != 0) highest = std::max(highest, floor_log2(c));
-        // A positive multiple, where double's range asks for one.
-        const int unit = std::max(0, highest - number_traits<double>::max_exponent / 2);
-        for (const Integer& c : exact_) {
-            const double x = nearby_double(c, -unit);
-            const bool same = unit == 0 && std::abs(x) < 0x1p53;
-            const double error = number_traits<double>::epsilon() * std::abs(x);
-            floating_.push_back(
-                same || c == 0
-                    ? number(x)
-                    : number::within(x, 2 * error + number_traits<double>::underflow_unit()));
-        }
     }
 
     bool is_zero() const { return floating_.empty(); }

@@ -78,18 +78,6 @@ class real_roots {
         if (a <= 0 && 0 <= b) add_zero();
     }
 
-    /// The number of these roots alone; `infinitely_many` if p is identically zero.
-    static std::size_t count(staged_polynomial<Integer> p, double a, double b) {
-        if (p.is_zero()) return infinitely_many;
-        if (a == b) return real_roots(std::move(p), a, b).size();
-        const std::size_t zeros = p.divide_by_x() > 0 && a <= 0 && 0 <= b ? 1 : 0;
-        const root_filter<tight> filter(p.floating(), a, b);
-        if (filter.decides()) return zeros + filter.parts().size();
-        real_roots roots(std::move(p));
-        roots.add(filter);
-        return zeros + roots.size();
-    }
-
     /// Whether the polynomial is identically zero: all points are roots, and none is listed.
     bool everywhere() const { return everywhere_; }
     std::size_t size() const { return intervals_.size(); }
@@ -137,9 +125,6 @@ class real_roots {
         if (!exact_) exact_.emplace(p_.exact());
         return *exact_;
     }
-
-    /// Without any root, to be added.
-    explicit real_roots(staged_polynomial<Integer> p) : p_(std::move(p)) {}
 
     void add(const root_filter<tight>& filter) {
         const auto& parts = filter.parts();

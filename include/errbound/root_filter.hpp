@@ -116,6 +116,8 @@ class root_filter {
     /// Up to this degree n, binomials are exact in double, and so are their products with n.
     static constexpr std::size_t most_degree = 50;
     static constexpr int most_halvings = 200;
+    /// Parts on the way, so 2^-47 is the narrowest: their ends are exact in double.
+    static constexpr std::size_t most_rows = 48;
 
     /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
     /// may be infinite. Coefficients ascend in the power basis; empty means zero.
@@ -131,7 +133,9 @@ class root_filter {
         // Leave room for powers, binomials and sums, and above the smallest numbers.
         int e = number_traits<double>::exponent(largest);
         if (std::abs(e) < number_traits<double>::max_exponent / 2) e = 0;
-        for (const number& c : coefficients) c_.push_back(e == 0 ? c : scale(c, -e));
+        c_ = {first_.data(), size};
+        for (std::size_t i = 0; i < size; ++i)
+            c_[i] = e == 0 ? coefficients[i] : scale(coefficients[i], -e);
         if (a < 0) {
             for (std::size_t i = 1; i < size; i += 2) c_[i] = -c_[i];
             on_half_line(b < 0 ? -b : 0, -a);
@@ -212,7 +216,7 @@ class root_filter {
     void set_control_values() {
         const std::size_t n = c_.size() - 1;
         const number high(at1_);
-        std::vector<number> b(n + 1);
+        std::array<number, most_degree + 1> b;
         number power = high;
         double binomial = 1;
         b[0] = c_[0];
@@ -223,7 +227,7 @@ class root_filter {
             b[i] /= number(binomial);
             power *= high;
         }
-        rows_.resize(2 * (n + 1));
+        rows_.resize(16 * (n + 1));
         const auto first = row(0);
         for (std::size_t i = 0; i <= n; ++i) {
             first.value[i] = b[i].value();
@@ -259,26 +263,28 @@ class root_filter {
             left_factor[i] = right_factor[n - i] = factor;
 
         // Row k of rows_ belongs to spans[k]; the last is the leftmost.
-        std::vector<span_of_u> spans{{0, 1}};
-        for (int halvings = 0; !spans.empty();) {
-            const std::size_t k = spans.size() - 1;
+        std::array<span_of_u, most_rows> spans;
+        spans[0] = {0, 1};
+        int halvings = 0;
+        for (std::size_t count = 1; count > 0;) {
+            const std::size_t k = count - 1;
             const auto whole = row(k);
-            const auto [from, to] = spans.back();
+            const auto [from, to] = spans[k];
             const int changes = whole.variations(size);
             if (changes < 2) {
                 if (changes == 1) parts_.push_back({at0_, at1_, from, to, true});
-                spans.pop_back();
+                --count;
                 continue;
             }
             // Ends of an uncertain sign stay so however often the part is halved.
             if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == most_halvings ||
-                to - from < smallest_part) {
+                count == most_rows) {
                 parts_.push_back({at0_, at1_, from, to, false});
-                spans.pop_back();
+                --count;
                 continue;
             }
             ++halvings;
-            if (rows_.size() < 2 * (k + 2) * size) rows_.resize(2 * (k + 2) * size);
+            if (rows_.size() < 2 * (k + 2) * size) rows_.resize(2 * rows_.size());
             const auto right = row(k), left = row(k + 1);
             for (std::size_t i = 0; i <= n; ++i) {
                 left.value[i] = right.value[0];
@@ -288,15 +294,13 @@ class root_filter {
             left.shrink(left_factor.data(), 1, n);
             right.shrink(right_factor.data(), 0, n - 1);
             const double half = from + (to - from) / 2;
-            spans.back() = {half, to};
-            spans.push_back({from, half});
+            spans[k] = {half, to};
+            spans[count++] = {from, half};
         }
     }
 
-    /// Halving stays exact in double far below it.
-    static constexpr double smallest_part = 0x1p-48;
-
-    std::vector<number> c_;
+    std::array<number, most_degree + 1> first_;
+    std::span<number> c_;  ///< of first_
     double at0_ = 0, at1_ = 0;
     std::vector<double> rows_;
     std::vector<filtered_part> parts_;
