@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <errbound/number_traits.hpp>
+#include <errbound/sign_variations.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
 #include <span>
@@ -79,23 +80,8 @@ struct tracked_row {
     int sign(std::size_t j) const {
         return (value[j] > error[j] ? 1 : 0) - (value[j] < -error[j] ? 1 : 0);
     }
-    /// The number of sign changes if it is certainly 0 or 1 and the ends are certainly not zero,
-    /// otherwise 2. One uncertain sign between opposite ones does not matter.
     int variations(std::size_t count) const {
-        int last = sign(0), changes = 0, open = 0;
-        if (last == 0) return 2;
-        for (std::size_t j = 1; j < count; ++j) {
-            const int s = sign(j);
-            if (s == 0) {
-                ++open;
-                continue;
-            }
-            if (open > (s == last ? 0 : 1)) return 2;
-            if (s != last && ++changes > 1) return 2;
-            open = 0;
-            last = s;
-        }
-        return open > 0 ? 2 : changes;
+        return certain_sign_variations(count, [this](std::size_t j) { return sign(j); });
     }
 
   private:

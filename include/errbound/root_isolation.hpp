@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <errbound/fixed_row.hpp>
 #include <errbound/integer_polynomial.hpp>
 #include <limits>
 #include <utility>
@@ -47,19 +48,6 @@ int positive_root_exponent(const integer_form<Integer>& p) {
         exponent = std::max(exponent, root + 1);
     }
     return exponent;
-}
-
-/// Changes of sign, zeros left out.
-template <class Integer>
-int sign_variations(const integer_form<Integer>& coefficients) {
-    int count = 0, last = 0;
-    for (const Integer& c : coefficients) {
-        if (c == 0) continue;
-        const int s = c > 0 ? 1 : -1;
-        if (s == -last) ++count;
-        last = s;
-    }
-    return count;
 }
 
 /// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
@@ -245,11 +233,14 @@ class root_isolation {
         if (sign_at(squarefree(), x) == sign_type::zero) roots.push_back({x, x});
     }
 
+    /// A point between 2^exponent and twice that, and such that halving from there hardly meets the
+    /// numbers that people choose as roots.
+    static point unlikely_root(int exponent) { return {Integer(45), exponent - 5}; }
+
     /// The roots strictly between low and high, 0 <= low < high.
     static void inside(const half_line& line, point low, point high, std::vector<interval>& roots) {
         if (line.upper < line.lower) return;
-        const point least = point::power_of_two(line.lower),
-                    greatest = point::power_of_two(line.upper);
+        const point least = unlikely_root(line.lower - 1), greatest = unlikely_root(line.upper);
         if (low < least) low = least;
         if (greatest < high) high = greatest;
         if (low < high) on_part(line.p, low, high, control_values_on(line.p, low, high), roots);
@@ -258,18 +249,27 @@ class root_isolation {
     /// b: control values on the part.
     static void on_part(const form& p, const point& low, const point& high, form b,
                         std::vector<interval>& roots) {
-        const int variations = sign_variations(b);
+        const int variations = sign_variations(b.size(), [&b](std::size_t i) {
+            return b[i] == 0 ? 0 : b[i] > 0 ? 1 : -1;
+        });
         if (variations == 0) return;
         if (variations == 1 && b.front() != 0 && b.back() != 0) {
             roots.push_back({low, high});
             return;
         }
-        // Halve the exponents' interval first, so that roots far apart in size take few steps.
+        // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
         const int low_exponent = floor_log2(low), high_exponent = floor_log2(high);
-        const bool by_exponent = high_exponent - low_exponent >= 2;
-        const point half =
-            by_exponent ? point::power_of_two(low_exponent + (high_exponent - low_exponent) / 2)
-                        : middle(low, high);
+        const bool by_exponent = high_exponent - low_exponent >= 12;
+        const point half = by_exponent
+                               ? unlikely_root(low_exponent + (high_exponent - low_exponent) / 2)
+                               : middle(low, high);
+        if (!by_exponent && b.front() != 0 && b.back() != 0) {
+            if (fixed_row<4> row(b); row.ends_are_certain()) {
+                b = {};
+                on_part(p, low, high, std::move(row), roots);
+                return;
+            }
+        }
         auto parts = by_exponent ? std::pair{control_values_on(p, low, half),
                                              control_values_on(p, half, high)}
                                  : halves(std::move(b));
@@ -277,6 +277,27 @@ class root_isolation {
         const bool half_is_root = parts.second.front() == 0;
         on_part(p, low, half, std::move(parts.first), roots);
         if (half_is_root) roots.push_back({half, half});
+        on_part(p, half, high, std::move(parts.second), roots);
+    }
+
+    /// The same by cut coefficients; back to all their bits where those kept do not tell.
+    static void on_part(const form& p, const point& low, const point& high, fixed_row<4> row,
+                        std::vector<interval>& roots) {
+        if (!row.ends_are_certain()) {
+            on_part(p, low, high, control_values_on(p, low, high), roots);
+            return;
+        }
+        const int variations = row.variations();
+        if (variations == 0) return;
+        if (variations == 1) {
+            roots.push_back({low, high});
+            return;
+        }
+        const point half = middle(low, high);
+        auto parts = std::move(row).halves();
+        on_part(p, low, half, std::move(parts.first), roots);
+        if (parts.second.sign(0) == 0 && sign_at(p, half) == sign_type::zero)
+            roots.push_back({half, half});
         on_part(p, half, high, std::move(parts.second), roots);
     }
 
