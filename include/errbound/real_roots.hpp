@@ -106,6 +106,11 @@ class real_roots {
         return sign_at(p, k);
     }
 
+    /// The same by integers alone.
+    sign_type sign_at_root(const integer_form<Integer>& g, std::size_t k) {
+        return exact().sign_at_root(g, intervals_[k]);
+    }
+
     /// The signs of the polynomial on [a, b], for which these roots were asked.
     occurring_signs signs_on(double a, double b) {
         occurring_signs signs;
