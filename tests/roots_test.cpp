@@ -356,6 +356,22 @@ TEST(Roots, RationalCoefficientsAndOtherIntegers) {
               sign_type::positive);
 }
 
+// Of more than root_filter::most_degree: integers alone.
+TEST(Roots, HighDegrees) {
+    form p{1};
+    for (int k = 1; k <= 60; ++k) p = generator::product(p, form{-k, 1});
+    const polynomial<integer> wilkinson(p);
+    EXPECT_EQ(count_roots(wilkinson, -infinity, infinity), 60U);
+    EXPECT_EQ(count_roots(wilkinson, 100, infinity), 0U);
+    EXPECT_EQ(count_roots(wilkinson, -infinity, -100), 0U);
+    EXPECT_EQ(count_roots(wilkinson, -infinity, 1), 1U);
+    EXPECT_EQ(count_roots(wilkinson, 30.5, 40), 10U);
+    auto roots = isolate_roots(wilkinson, 59, infinity);
+    ASSERT_EQ(roots.size(), 2U);
+    EXPECT_EQ(roots.sign_at(polynomial<integer>{-60, 1}, 1), sign_type::zero);
+    EXPECT_EQ(roots.sign_at(polynomial<integer>{-60, 1}, 0), sign_type::negative);
+}
+
 // What tracked coefficients leave open is said to be open; the rest is right for each polynomial
 // within them.
 TEST(Roots, TrackedCoefficients) {

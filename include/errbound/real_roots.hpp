@@ -152,13 +152,15 @@ class real_roots {
         }
         exact().isolate(low, high, intervals_);
     }
-    /// Both in ascending order; root bounds for infinite ends.
+    /// Both in ascending order; root bounds for infinite ends, as far as they leave anything.
     std::pair<point, point> ends(const filtered_part& part) {
-        const auto end = [this](double x) {
+        const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);
-            return x > 0 ? exact().upper_bound() : exact().lower_bound();
+            const point bound = x > 0 ? exact().upper_bound() : exact().lower_bound();
+            const bool beyond = std::isfinite(other) && (bound < point::from(other)) == (x > 0);
+            return beyond ? point::from(other) : bound;
         };
-        const point at0 = end(part.at0), at1 = end(part.at1);
+        const point at0 = end(part.at0, part.at1), at1 = end(part.at1, part.at0);
         const point from = at0 + (at1 - at0) * point::from(part.from),
                     to = at0 + (at1 - at0) * point::from(part.to);
         return from < to ? std::pair{from, to} : std::pair{to, from};

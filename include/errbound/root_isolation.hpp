@@ -118,9 +118,9 @@ class root_isolation {
     /// p without its factors' multiplicities.
     const form& squarefree() const { return chain_[0]; }
 
-    /// No root is at or beyond 2^(these) in size.
-    point upper_bound() const { return point::power_of_two(right_.upper); }
-    point lower_bound() const { return -point::power_of_two(left_.upper); }
+    /// All roots lie between these, strictly.
+    point upper_bound() const { return unlikely_root(right_.upper); }
+    point lower_bound() const { return -unlikely_root(left_.upper); }
 
     /// Appends the roots in [low, high], low <= high, in ascending order.
     void isolate(const point& low, const point& high, std::vector<interval>& roots) const {
