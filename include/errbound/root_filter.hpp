@@ -67,8 +67,8 @@ struct tracked_row {
         }
     }
     /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Where that underflows,
-    /// value and error are each off by at most half the smallest number; the last factor pays for
-    /// the sum's two roundings.
+    /// value and error are each off by less than the smallest number; the last factor pays for the
+    /// two roundings after that.
     void shrink(const double* factor, std::size_t first, std::size_t last) const {
         constexpr double lost = 2 * number_traits<double>::underflow_unit();
         for (std::size_t j = first; j <= last; ++j) {
@@ -102,8 +102,10 @@ class root_filter {
     /// Up to this degree n, binomials are exact in double, and so are their products with n.
     static constexpr std::size_t most_degree = 50;
     static constexpr int most_halvings = 200;
-    /// Parts on the way, so 2^-47 is the narrowest: their ends are exact in double.
-    static constexpr std::size_t most_rows = 48;
+    /// Ends of parts of at least half this share are exact in double, and at most most_rows parts
+    /// are on the way.
+    static constexpr double narrowest = 0x1p-46;
+    static constexpr std::size_t most_rows = 50;
 
     /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
     /// may be infinite. Coefficients ascend in the power basis; empty means zero.
@@ -264,7 +266,7 @@ class root_filter {
             }
             // Ends of an uncertain sign stay so however often the part is halved.
             if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == most_halvings ||
-                count == most_rows) {
+                to - from < narrowest) {
                 parts_.push_back({at0_, at1_, from, to, false});
                 --count;
                 continue;
