@@ -1,6 +1,6 @@
 // `bsc-exact`: the BSC template over two scalars, and the contacts that settle what it leaves open.
 //
-// Over tracked numbers BSC says "no" and "yes" only where that is certain (errbound/bsc.hpp). Over
+// Over intervals BSC says "no" and "yes" only where that is certain (errbound/bsc.hpp). Over
 // integers every sign is certain, and then so is nearly every answer of root_with_nonnegative():
 //  * Curvature and slopes are known, so that no part is halved, and the cubics whose roots are
 //    asked for are strict at both ends (a root there is split off). The reductions then have
@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <ccd/bsc.hpp>
 #include <ccd/bsc_exact.hpp>
-#include <errbound/rules/tight.hpp>
+#include <errbound/rules/interval.hpp>
 
 #include "ccd/finite.hpp"
 #include "ccd/unbounded_integers.hpp"
@@ -50,7 +50,7 @@ bool contact(const Query<double>& original) {
 template <class Query>
 verdict decide_any(const Query& query) {
     if (!is_finite(query)) return {outcome::uncertain, cause::range};
-    const verdict filtered = decide_bsc<errbound::tight>(query);
+    const verdict filtered = decide_bsc<errbound::interval>(query);
     if (filtered.outcome != outcome::uncertain) return filtered;
     return {contact(query) ? outcome::collides : outcome::separate, cause::none};
 }

@@ -6,6 +6,7 @@
 #include <ccd/method.hpp>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
@@ -47,6 +48,21 @@ struct stress_arguments {
 /// Every method on stiff and extreme queries. Returns whether all promises were kept; else it says
 /// which not and writes a query for each, to `out` or the current folder.
 bool run_stress(const stress_arguments& arguments);
+
+struct report_arguments {
+    std::vector<std::filesystem::path>
+        data;  ///< folders; none: the bundled scenes and made queries
+    std::filesystem::path out = "out/report";
+    std::vector<ccd::method> methods;
+    std::vector<std::string> sections;  ///< of report::section_names; none: all
+    bool quick = false;
+    int threads = 0;  ///< that count errors; 0: as many as the machine has cores
+    std::optional<std::string> commit;
+};
+
+/// Measures methods and bound rules on data sets and writes a report. False if a method broke its
+/// promise.
+bool run_report(const report_arguments& arguments);
 
 /// Prints what methods there are.
 void run_methods();

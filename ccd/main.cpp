@@ -1,23 +1,20 @@
 // The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
-// broke its promise, in `ccd stress`), 2 bad usage.
+// broke its promise, in `ccd stress` and `ccd report`), 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
 #include <string>
 
+#include "ccd/command_line.hpp"
 #include "ccd/commands.hpp"
 #include "ccd/io/error.hpp"
+#include "ccd/report/report.hpp"
 #include "ccd/table.hpp"
 
 namespace ccd::program {
 namespace {
 
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2 };
-
-/// A command line that CLI11 lets through but that makes no sense.
-struct usage_error : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 ccd::method method_named(const std::string& name) {
     if (const std::optional<ccd::method> method = find_method(name)) return *method;
@@ -47,18 +44,6 @@ const stress::family* family_named(const std::string& name) {
     throw usage_error("--family: found '" + name + "', expected one of " + known);
 }
 
-/// What `named` makes of the names of a list N[,N...].
-template <class Named>
-auto all_named(const std::string& list, const Named& named) {
-    std::vector<decltype(named(list))> result;
-    std::size_t begin = 0;
-    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
-        comma = list.find(',', begin);
-        result.push_back(named(list.substr(begin, comma - begin)));
-    }
-    return result;
-}
-
 /// The methods of a list M[,M...], or all.
 std::vector<ccd::method> methods_named(const std::string& list, bool all) {
     if (!all) return all_named(list, method_named);
@@ -75,39 +60,24 @@ std::vector<const stress::family*> families_named(const std::string& list, bool 
     return result;
 }
 
-/// An output must be neither an input nor another output: nothing is lost.
-void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
-                      std::vector<std::filesystem::path> taken) {
-    for (const auto& output : outputs) {
-        if (!output) continue;
-        for (const std::filesystem::path& other : taken) {
-            std::error_code ignored;
-            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
-                              output->lexically_normal() == other.lexically_normal();
-            if (same && std::filesystem::status(*output, ignored).type() !=
-                            std::filesystem::file_type::character)
-                throw usage_error("found the output '" + output->string() +
-                                  "' among the inputs or twice, expected a file of its own");
-        }
-        taken.push_back(*output);
-    }
-}
-
 struct command_line {
     CLI::App app{
         "Exact continuous collision detection.\n"
-        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress also 1: a promise was broken.",
+        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress and report also 1: a promise was "
+        "broken.",
         "ccd"};
     query_arguments query;
     step_arguments step;
     stress_arguments stress;
+    report_arguments report;
     std::string query_methods, query_kind, step_method = "exact", step_set;
-    std::string stress_methods, stress_families;
+    std::string stress_methods, stress_families, report_methods;
     bool stress_quick = false;
-    std::size_t stress_queries = 400;
+    std::size_t stress_queries = 1000;
     CLI::App* query_command = nullptr;
     CLI::App* step_command = nullptr;
     CLI::App* stress_command = nullptr;
+    CLI::App* report_command = nullptr;
     CLI::App* methods_command = nullptr;
 
     command_line() {
@@ -190,6 +160,37 @@ struct command_line {
                          "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
             ->type_name("OUT");
 
+        report_command = app.add_subcommand(
+            "report",
+            "Error against run time: tables and pictures of all methods and bound rules.\n"
+            "A stopped report goes on where it was");
+        report_command->add_option(
+            "DATA", report.data,
+            "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
+            "meshes), looked through with all they hold; else the bundled scene and queries that\n"
+            "the program makes itself");
+        report_command->add_option("--out", report.out, "The report's folder, else out/report")
+            ->type_name("DIR");
+        report_command->add_flag("--quick", report.quick, "Fewer queries are timed");
+        report_command->add_option("--method", report_methods, "Methods M[,M...], else all")
+            ->type_name("M[,M...]");
+        report_command
+            ->add_option("--sections", report.sections,
+                         "Only these: methods, times, bounds, tightness (needs a build with\n"
+                         "MPFR), stress")
+            ->type_name("S[,S...]")
+            ->delimiter(',')
+            ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),
+                                                           std::end(report::section_names))));
+        report_command
+            ->add_option("--threads", report.threads,
+                         "Threads that count errors; 0: one per core (times are taken on one)")
+            ->check(CLI::Range(0, 4096));
+        report_command
+            ->add_option("--commit", report.commit,
+                         "To be told in the report, else that of the configured build")
+            ->type_name("TEXT");
+
         methods_command =
             app.add_subcommand("methods", "What methods there are and what each promises");
     }
@@ -224,12 +225,15 @@ struct command_line {
             stress.plan.families =
                 families_named(stress_families, stress_command->count("--family") == 0);
             const bool few = stress_quick && stress_command->count("--queries") == 0;
-            stress.plan.queries = few ? 40 : stress_queries;
+            stress.plan.queries = few ? 100 : stress_queries;
             stress.plan.seconds = stress_quick ? 0.002 : 0.02;
             if (stress.json && stress.out)
                 require_separate({stress.json},
                                  {*stress.out / "stress.csv", *stress.out / "stress.md"});
             if (!run_stress(stress)) return broken_promise;
+        } else if (report_command->parsed()) {
+            report.methods = methods_named(report_methods, report_command->count("--method") == 0);
+            if (!run_report(report)) return broken_promise;
         } else if (methods_command->parsed()) {
             run_methods();
         }

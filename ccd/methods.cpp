@@ -7,8 +7,11 @@
 #include <ccd/provot.hpp>
 #include <ccd/root_parity.hpp>
 #include <ccd/safeccd.hpp>
+#include <errbound/rules/interval.hpp>
 #include <errbound/rules/none.hpp>
+#include <errbound/rules/residual.hpp>
 #include <errbound/rules/safe.hpp>
+#include <errbound/rules/sharp.hpp>
 #include <errbound/rules/tight.hpp>
 #include <iterator>
 
@@ -25,9 +28,18 @@ constexpr method_info table[] = {
     {method::tight, "tight", false, true,
      "never loses a collision; false positives where TightBound cannot tell",
      "TightCCD; Wang, Tang, Manocha, Tong 2015"},
+    {method::sharp, "sharp", false, true,
+     "never loses a collision, rounding to nearest; false positives where the bound cannot tell",
+     "BSC with TightBound's rules at half their unit roundoff (errbound/rules/sharp.hpp)"},
+    {method::interval, "interval", false, true,
+     "never loses a collision, rounding to nearest; false positives where intervals hold zero",
+     "BSC in interval arithmetic, rounded outwards (errbound/rules/interval.hpp)"},
+    {method::residual, "residual", false, true,
+     "never loses a collision, rounding to nearest; few false positives",
+     "BSC with each operation's own rounding error (errbound/rules/residual.hpp)"},
     {method::bsc_exact, "bsc-exact", false, false,
      "no false negative, no false positive, on any finite input",
-     "BSC in tracked numbers, then in unbounded integers; Tang, Tong, Wang, Manocha 2014"},
+     "BSC in interval arithmetic, then in unbounded integers; Tang, Tong, Wang, Manocha 2014"},
     {method::safeccd, "safeccd", false, true,
      "never loses a collision; many false positives, from one uniform bound",
      "SafeCCD; Wang 2014, mended as ccd/safeccd.hpp tells"},
@@ -39,7 +51,7 @@ constexpr method_info table[] = {
      "Provot 1997"},
     {method::root_parity, "root-parity", true, false,
      "no false positive; loses contacts that come in even numbers within a step",
-     "Brochu, Edwards, Bridson 2012, in tracked numbers, then in unbounded integers"},
+     "Brochu, Edwards, Bridson 2012; in interval arithmetic, then in unbounded integers"},
     {method::exact, "exact", false, false,
      "no false negative, no false positive, on any finite input",
      "static error bounds, then integers of fixed and of unbounded width (ccd step --explain)"},
@@ -54,6 +66,12 @@ verdict decide_any(method m, const Query& query) {
             return decide_bsc<errbound::safe>(query);
         case method::tight:
             return decide_bsc<errbound::tight>(query);
+        case method::sharp:
+            return decide_bsc<errbound::sharp>(query);
+        case method::interval:
+            return decide_bsc<errbound::interval>(query);
+        case method::residual:
+            return decide_bsc<errbound::residual>(query);
         case method::bsc_exact:
             return decide_bsc_exact(query);
         case method::safeccd:

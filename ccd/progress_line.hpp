@@ -16,23 +16,35 @@ class progress_line {
     progress_line() = default;
     progress_line(const progress_line&) = delete;
     progress_line& operator=(const progress_line&) = delete;
-    ~progress_line() {
-        if (shown_) std::fputs("\r\x1b[K", stderr);
-    }
+    ~progress_line() { clear(); }
 
     /// Of `total` > 0 parts `done` are done, and `what` is under way.
     void show(std::size_t done, std::size_t total, const std::string& what) {
+        draw(static_cast<double>(done) / static_cast<double>(total),
+             std::to_string(done) + '/' + std::to_string(total) + ' ' + what);
+    }
+    /// A share of the work, from 0 to 1, is done, and `what` is under way.
+    void show(double share, const std::string& what) {
+        draw(share, std::to_string(static_cast<int>(100 * share)) + " % " + what);
+    }
+    /// Makes room for a line of output.
+    void clear() {
+        if (shown_) std::fputs("\r\x1b[K", stderr);
+        shown_ = false;
+    }
+
+  private:
+    void draw(double share, const std::string& text) {
         using std::chrono::steady_clock;
         if (!is_terminal_ || steady_clock::now() - start_ < std::chrono::seconds(1)) return;
         shown_ = true;
         constexpr std::size_t width = 30;
-        std::string bar(done * width / total, '#');
+        std::string bar(static_cast<std::size_t>(share * width), '#');
         bar.resize(width, '.');
-        std::fprintf(stderr, "\r\x1b[K[%s] %zu/%zu %s", bar.c_str(), done, total, what.c_str());
+        std::fprintf(stderr, "\r\x1b[K[%s] %s", bar.c_str(), text.c_str());
         std::fflush(stderr);
     }
 
-  private:
     bool is_terminal_ = isatty(STDERR_FILENO) != 0;
     bool shown_ = false;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -35,7 +35,7 @@
 // The plane meets the x axis where x times that is det(p, q, r), so the triangle is hit if besides
 // the two have the same sign. (If det were zero, the triangle would hold the origin itself.)
 //
-// All this is written once and done twice: over tracked numbers, where an uncertain sign ends it,
+// All this is written once and done twice: over intervals, where an uncertain sign ends it,
 // and over integers.
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@
 #include <ccd/root_parity.hpp>
 #include <ccd/tracked_query.hpp>
 #include <cstddef>
-#include <errbound/rules/tight.hpp>
+#include <errbound/rules/interval.hpp>
 #include <span>
 
 #include "ccd/unbounded_integers.hpp"
@@ -171,6 +171,7 @@ crossing at_face(const part_corners<S, 3>& c) {
     if (ray_misses<S>(c)) return crossing::none;
     const std::array turns{cross(*c[0], *c[1]), cross(*c[1], *c[2]), cross(*c[2], *c[0])};
     const sign_type determinant = sign_of(dot(turns[0], *c[2])[0]);
+    if (!certain(determinant)) return crossing::uncertain;
     if (determinant != sign_type::zero) return at_triangle<S>(c, determinant);
     bool holds_origin = false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -244,7 +245,7 @@ crossing in_integers(const Query<double>& original) {
 
 template <template <class> class Query>
 verdict decide_any(const Query<double>& query) {
-    const auto [tracked, finite] = tracked_query<errbound::tight>(query);
+    const auto [tracked, finite] = tracked_query<errbound::interval>(query);
     if (!finite) return {outcome::uncertain, cause::range};
     crossing found =
         at_boundary(image_of(tracked), [](std::size_t) { return crossing::uncertain; });

@@ -8,7 +8,7 @@
 #include <ccd/transform.hpp>
 #include <cmath>
 #include <cstddef>
-#include <errbound/guarded_newton.hpp>
+#include <errbound/floating_roots.hpp>
 #include <limits>
 #include <random>
 
@@ -27,7 +27,7 @@ using number_types = testing::Types<float, double>;
 TYPED_TEST_SUITE(guarded_newton, number_types);
 
 template <class T>
-errbound::power_cubic<T> with_roots(T a, T b, T c) {
+errbound::bernstein<T, 3> with_roots(T a, T b, T c) {
     return {-a * b * c, a * b + a * c + b * c, -(a + b + c), 1};
 }
 
@@ -44,9 +44,9 @@ TYPED_TEST(guarded_newton, pieces_are_monotone_and_roots_are_found) {
         for (std::size_t p = 1; p < pieces.count; ++p) {
             const T low = pieces.at[p - 1], high = pieces.at[p];
             ASSERT_LE(low, high);
-            const T at_low = errbound::value_at(f, low), at_high = errbound::value_at(f, high);
+            const T at_low = value_at(f, T(1), low), at_high = value_at(f, T(1), high);
             for (int part = 1; part < 8; ++part) {
-                const T inside = errbound::value_at(f, T(low + (high - low) * T(part) / 8));
+                const T inside = value_at(f, T(1), T(low + (high - low) * T(part) / 8));
                 const T slack = 16 * std::numeric_limits<T>::epsilon();
                 EXPECT_GE(inside, std::min(at_low, at_high) - slack);
                 EXPECT_LE(inside, std::max(at_low, at_high) + slack);
@@ -55,8 +55,7 @@ TYPED_TEST(guarded_newton, pieces_are_monotone_and_roots_are_found) {
             const T root = errbound::guarded_newton(f, low, high);
             EXPECT_GE(root, low);
             EXPECT_LE(root, high);
-            EXPECT_LE(std::abs(errbound::value_at(f, root)),
-                      16 * std::numeric_limits<T>::epsilon());
+            EXPECT_LE(std::abs(value_at(f, T(1), root)), 16 * std::numeric_limits<T>::epsilon());
             ++found;
         }
     }
@@ -65,11 +64,11 @@ TYPED_TEST(guarded_newton, pieces_are_monotone_and_roots_are_found) {
 
 TYPED_TEST(guarded_newton, degrees_below_three) {
     using T = TypeParam;
-    const auto count = [](const errbound::power_cubic<T>& f) {
+    const auto count = [](const errbound::bernstein<T, 3>& f) {
         return errbound::monotone_pieces(f).count;
     };
     EXPECT_EQ(count({T(-1), T(4), T(-4), 0}), 3U);  // turns at 1/2
-    EXPECT_EQ(errbound::monotone_pieces(errbound::power_cubic<T>{T(-1), T(4), T(-4), 0}).at[1],
+    EXPECT_EQ(errbound::monotone_pieces(errbound::bernstein<T, 3>{T(-1), T(4), T(-4), 0}).at[1],
               T(0.5));
     EXPECT_EQ(count({T(-1), T(4), 0, 0}), 2U);
     EXPECT_EQ(count({T(1), 0, 0, 0}), 2U);
@@ -77,7 +76,7 @@ TYPED_TEST(guarded_newton, degrees_below_three) {
     EXPECT_EQ(count({0, 0, 0, T(1)}), 2U);           // t³ turns at 0, which is an end
     EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);       // t³ − t² at 2/3 too
     EXPECT_EQ(count({0, T(3), T(-7.5), T(5)}), 4U);  // 15t² − 15t + 3 at 0.28 and 0.72
-    EXPECT_EQ(errbound::guarded_newton(errbound::power_cubic<T>{T(-1), T(4), 0, 0}, T(0), T(1)),
+    EXPECT_EQ(errbound::guarded_newton(errbound::bernstein<T, 3>{T(-1), T(4), 0, 0}, T(0), T(1)),
               T(0.25));
 }
 

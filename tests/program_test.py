@@ -408,7 +408,8 @@ class Stress(ProgramTest):
 class Methods(ProgramTest):
     def test_methods(self):
         text = self.good("methods")
-        for name in ("float", "safe", "tight", "bsc-exact", "provot", "root-parity", "exact"):
+        for name in ("float", "safe", "tight", "sharp", "interval", "residual", "bsc-exact",
+                     "provot", "root-parity", "exact"):
             self.assertRegex(text, rf"(?m)^{name} ")
         self.bad_usage("methods", "more")
 

@@ -68,22 +68,33 @@ inline constexpr family list[] = {
     {"any-bits", [](source& r, kind) { return any_bits(r); }, 20},
     {"border", [](source& r, kind k) { return border_contact(r, k); }},
     {"missed-by-2^-36..56",
-     [](source& r, kind k) { return shifted(r, k, near_contact(r, k, 1), -r.between(36, 56)); }},
+     [](source& r, kind k) {
+         const int exponent = -r.between(36, 56);
+         return shifted(r, k, near_contact(r, k, 1), exponent);
+     }},
     {"resting", [](source& r, kind k) { return resting(r, k); }},
     {"resting-1-ulp", [](source& r, kind k) { return jitter(r, resting(r, k), 1); }},
     {"hovering-2^-36..56",
-     [](source& r, kind k) { return shifted(r, k, resting(r, k), -r.between(36, 56)); }},
+     [](source& r, kind k) {
+         const int exponent = -r.between(36, 56);
+         return shifted(r, k, resting(r, k), exponent);
+     }},
     {"grazing-2^-20..56",
      [](source& r, kind k) {
-         return shifted(r, k, chosen_roots(r, k, root_triple(r, 2)), -r.between(20, 56));
+         const int exponent = -r.between(20, 56);
+         return shifted(r, k, chosen_roots(r, k, root_triple(r, 2)), exponent);
      }},
     {"sliver-2^-20..56", [](source& r, kind k) { return sliver(r, k, -r.between(20, 56)); }},
     {"needle-2^-20..56", [](source& r, kind k) { return needle(r, k, -r.between(20, 56)); }},
     {"nearly-coplanar-2^-20..60",
-     [](source& r, kind) { return nearly_in_plane(r, uniform(r), -r.between(20, 60)); }},
+     [](source& r, kind) {
+         const int exponent = -r.between(20, 60);
+         return nearly_in_plane(r, uniform(r), exponent);
+     }},
     {"nearly-coplanar-contact",
      [](source& r, kind k) {
-         return nearly_in_plane(r, near_contact(r, k, 1), -r.between(20, 60));
+         const int exponent = -r.between(20, 60);
+         return nearly_in_plane(r, near_contact(r, k, 1), exponent);
      }},
     {"float-contact", [](source& r, kind k) { return rounded_to_float(near_contact(r, k, 1)); }},
     {"float-resting", [](source& r, kind k) { return rounded_to_float(resting(r, k)); }},
@@ -94,11 +105,20 @@ inline constexpr family list[] = {
     {"sheets", [](source& r, kind k) { return sheets(r, k); }},
     {"sheets-float", [](source& r, kind k) { return rounded_to_float(sheets(r, k)); }},
     {"contact-2^+-160..380",
-     [](source& r, kind k) { return scale(r, near_contact(r, k, 1), r.between(160, 380)); }},
+     [](source& r, kind k) {
+         const int exponent = r.between(160, 380);
+         return scale(r, near_contact(r, k, 1), exponent);
+     }},
     {"axis-2^+-0..200",
-     [](source& r, kind k) { return scale_axis(r, near_contact(r, k, 1), r.between(0, 200)); }},
+     [](source& r, kind k) {
+         const int exponent = r.between(0, 200);
+         return scale_axis(r, near_contact(r, k, 1), exponent);
+     }},
     {"point-2^+-0..200",
-     [](source& r, kind k) { return scale_point(r, near_contact(r, k, 1), r.between(0, 200)); }},
+     [](source& r, kind k) {
+         const int exponent = r.between(0, 200);
+         return scale_point(r, near_contact(r, k, 1), exponent);
+     }},
 };
 
 }  // namespace detail

@@ -2,8 +2,6 @@
 // both sides; exact zero, underflow, overflow, NaN.
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
-#include <boost/multiprecision/gmp.hpp>
 #include <cfenv>
 #include <cmath>
 #include <cstdint>
@@ -14,56 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "special_values.hpp"
+
 namespace {
 
 using errbound::sign_type;
 using errbound::tracked;
-using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
-
-template <class T>
-rational exactly(T x) {
-    int e = 0;
-    const T m = std::ldexp(std::frexp(x, &e), std::numeric_limits<T>::digits);
-    e -= std::numeric_limits<T>::digits;
-    rational r;
-    if constexpr (std::numeric_limits<T>::digits > 63) {
-        r = rational(static_cast<std::int64_t>(m / 2)) * 2 +
-            rational(static_cast<int>(m - 2 * std::trunc(m / 2)));
-    } else {
-        r = rational(static_cast<std::int64_t>(m));
-    }
-    boost::multiprecision::mpz_int power = 1;
-    power <<= std::abs(e);
-    return e >= 0 ? rational(r * rational(power)) : rational(r / rational(power));
-}
-
-/// Values that find trouble: zeros, powers of two and their neighbours, subnormals, huge numbers,
-/// and mantissas with few bits (many exact results) or all bits.
-template <class T>
-T special_value(std::mt19937_64& random) {
-    using limits = std::numeric_limits<T>;
-    const int spread = static_cast<int>(random() % 4);
-    const int range = spread == 0 ? 4 : spread == 1 ? 60 : limits::max_exponent - 2;
-    const int e = static_cast<int>(random() % static_cast<unsigned>(2 * range + 1)) - range;
-    const bool few_bits = random() % 3 == 0;
-    const auto bits = static_cast<std::int64_t>(random() >> (few_bits ? 60 : 11));
-    switch (random() % 12) {
-        case 0:
-            return T(0);
-        case 1:
-            return limits::denorm_min() * T(static_cast<int>(random() % 8));
-        case 2:
-            return limits::min() * T(static_cast<int>(random() % 5));
-        case 3:
-            return std::nextafter(std::ldexp(T(1), e), random() % 2 ? T(0) : limits::max());
-        default:
-            break;
-    }
-    const T m = T(bits) * (random() % 2 ? T(1) : T(-1));
-    return std::ldexp(m, e - (few_bits ? 4 : 53));
-}
-
 /// A value or one of its own kind of operand that arrives with a bound, and the exact number that
 /// it stands for.
 template <class Number>
@@ -178,6 +132,53 @@ TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
     }
 }
 
+/// x·y − z and x·y·z + x in straight lines, which a compiler that contracts would fuse; z is the
+/// rounded x·y or near it.
+template <class T, class Rule>
+void check_straight_lines(std::uint64_t seed) {
+    using number = tracked<T, Rule>;
+    constexpr std::size_t count = 2000;
+    std::mt19937_64 random(seed);
+    std::vector<T> x(count), y(count), z(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto draw = [&] { return std::ldexp(T(random() >> 11), -50) - T(4); };
+        x[i] = draw();
+        y[i] = draw();
+        volatile T product = x[i] * y[i];
+        z[i] = product;
+        if (random() % 2) z[i] = std::nextafter(z[i], T(random() % 9) - 4);
+    }
+    std::vector<number> difference(count), from_product(count), sum(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        difference[i] = number(x[i]) * number(y[i]) - number(z[i]);
+        from_product[i] = number(x[i] * y[i]) - number(z[i]);
+        sum[i] = number(x[i]) * number(y[i]) * number(z[i]) + number(x[i]);
+    }
+    // Values alone: where no bound uses the product too, a compiler is most free.
+    std::vector<T> value(count), value_from_product(count);
+    for (std::size_t i = 0; i < count; ++i)
+        value[i] = (number(x[i]) * number(y[i]) - number(z[i])).value();
+    for (std::size_t i = 0; i < count; ++i)
+        value_from_product[i] = (number(x[i] * y[i]) - number(z[i])).value();
+    for (std::size_t i = 0; i < count; ++i) {
+        const rational a = exactly(x[i]), b = exactly(y[i]), c = exactly(z[i]);
+        volatile T product = x[i] * y[i];
+        const std::string what = std::string(Rule::name) + " line " + std::to_string(i);
+        check<T, Rule>({difference[i], a * b - c}, what);
+        check<T, Rule>({from_product[i], exactly(T(product)) - c}, what);
+        check<T, Rule>({sum[i], a * b * c + a}, what);
+        for (const T v :
+             {difference[i].value(), from_product[i].value(), value[i], value_from_product[i]})
+            ASSERT_EQ(v, product - z[i]) << what;
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TYPED_TEST(TrackedBy, ProductsAreRoundedByThemselves) {
+    check_straight_lines<double, TypeParam>(11);
+    check_straight_lines<float, TypeParam>(12);
+}
+
 // From the other side: a bound of one operation on exact, normal numbers is at most 1.01·ε|v|.
 TEST(Tracked, BoundsOfOneOperationAreTight) {
     std::mt19937_64 random(9);
@@ -228,6 +229,27 @@ TEST(Tracked, OverflowAndUnderflowEndUncertain) {
     check_range<errbound::interval>();
     check_range<errbound::residual>();
     check_range<errbound::none>();
+}
+
+TEST(Tracked, ARuleMayKnowMoreThanItsError) {
+    using errbound::interval;
+    using errbound::residual;
+    // Less than the error, but the correction is known to second order.
+    const tracked<double, residual> a = 0.1, b = 0.3;
+    const auto x = (a + a) + a - b;
+    EXPECT_LE(std::abs(x.value()), 2 * x.error());
+    EXPECT_EQ(sign_of(x), sign_type::positive);
+    EXPECT_EQ(sign_of((a + b) - a - b), sign_type::zero);
+    EXPECT_EQ(sign_of(-x), sign_type::negative);
+    // A certain sign of an interval that reaches far beyond twice its value.
+    const auto wide =
+        tracked<double, interval>::within(1, 0.9) * tracked<double, interval>::within(1, 0.9);
+    EXPECT_GT(wide.error(), wide.value());
+    EXPECT_EQ(sign_of(wide), sign_type::positive);
+    EXPECT_EQ(sign_of(-wide), sign_type::negative);
+    const tracked<double, interval> three = 3, eighth = 0.125;
+    EXPECT_EQ((three * eighth - three / tracked<double, interval>(4)).error(), 0);
+    EXPECT_EQ(sign_of(three * eighth * tracked<double, interval>(8) - three), sign_type::zero);
 }
 
 TEST(Tracked, DivisionByWhatMayBeZeroIsUnknown) {

@@ -61,7 +61,9 @@ struct plan {
     std::uint64_t seed = 1;
     std::size_t queries = 0;  ///< of a cell; fewer where the family is thinned, and at least one
     int threads = 0;          ///< for the truth; 0: one per core
-    double seconds = 0;  ///< a subject's time on a cell is the least of passes so long together
+    /// A subject's time on a cell is that of the fastest pass: of at least three, which together
+    /// take so long, or of fewer where passes take ten times as long.
+    double seconds = 0;
 };
 
 /// Says that so many of all cells (methods apart) are done, and which family is next.

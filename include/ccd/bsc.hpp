@@ -3,6 +3,7 @@
 //   decide_bsc<none>    `float`: plain arithmetic; may be wrong either way
 //   decide_bsc<safe>    `safe`:  BSC with SafeBound; `separate` and `collides` are certain
 //   decide_bsc<tight>   `tight`: TightCCD; `separate` and `collides` are certain
+//   decide_bsc<sharp>, <interval>, <residual>   the methods of those names: certain likewise
 //
 // Sources: Wang, Tang, Manocha, Tong 2015 (TightCCD), Sections 3 to 5; errbound/bsc.hpp tells how
 // the branches differ from the printed ones and why.

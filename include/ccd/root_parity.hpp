@@ -5,7 +5,8 @@
 // one of them is at t = 0, at t = 1, or at a vertex or edge of the face (an end of an edge). A
 // coordinate that is not finite: `uncertain` with cause `range`; nothing else is uncertain.
 // Time and memory grow with the spread of the coordinates' exponents and are bounded. Allocates
-// where the filter cannot tell; throws only std::bad_alloc.
+// where the filter cannot tell; throws only std::bad_alloc. Promised in a sound environment
+// (errbound/environment.hpp) that rounds to nearest, which intervals need.
 #pragma once
 
 #include <ccd/query.hpp>

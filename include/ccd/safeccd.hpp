@@ -238,18 +238,26 @@ class solver {
         return value_at(p, scalar(T(1)), scalar(t));
     }
 
-    /// How far f may move against `direction` on [p, q]: its length times the most that f' has the
-    /// other sign, by its values at both ends and at the vertex, whose place is rounded.
+    /// How far f may move against `direction` on [p, q]: the length times a bound of how far f'
+    /// falls below zero, times direction. The better of two bounds on the least f': that of its
+    /// Bernstein coefficients on [p, q], certified one by one; and the least value of the computed
+    /// f', at an end or at its vertex, less all errors of its coefficients and what evaluation and
+    /// the vertex' own rounding (second order) can add. Neither rests on where the true f' has its
+    /// vertex.
     T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p, T q) const {
-        const auto lowest = [&](T t) {
-            const scalar s = at(slope, t);
-            return direction * s.value() - s.error();
-        };
-        T low = std::min(lowest(p), lowest(q));
-        if (vertex > p && vertex < q) {
-            const T bend = upper_magnitude(at(errbound::power_derivative(slope), vertex));
-            low = std::min(low, lowest(vertex) - bend * (q - p));
-        }
+        const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };
+        const scalar at_p = at(slope, p), at_q = at(slope, q);
+        const scalar half_length = (scalar(q) - scalar(p)) * scalar(T(0.5));
+        const scalar middle = at_p + at(errbound::power_derivative(slope), p) * half_length;
+        const T hull = std::min({low_end(at_p), low_end(middle), low_end(at_q)});
+
+        T least = std::min(direction * at_p.value(), direction * at_q.value());
+        if (vertex > p && vertex < q)
+            least = std::min(least, direction * at(slope, vertex).value());
+        for (int i = 0; i <= 2; ++i)
+            least -= slope[i].error() + 16 * traits::epsilon() * traits::abs(slope[i].value());
+
+        const T low = traits::max(hull, least);
         // NaN counts as unbounded.
         return low >= 0 ? T(0) : low < 0 ? -low * (q - p) * (1 + T(0x1p-10)) : traits::infinity();
     }
@@ -315,12 +323,13 @@ class solver {
                 inside = inside && sign_within(g[0], T(0)) != sign_type::negative;
             if (inside) return {outcome::uncertain, cause::inside};
         }
-        const T wide = T(1.7320509) * (nu + error);  // |N|₂ where |N|∞ <= ν, by computed values
+        const T wide = T(1.7320509) * (nu + 2 * error);  // |N|₂ where |N|∞ may be below ν
         T radius = std::sqrt(wide) / 2;
         if (length > 0) radius = std::min(radius, wide / (2 * length));
         radius = traits::max(radius, T(0.8660255) * limits_.normal_per_length);
         doubt_ = true;
-        reach_ = traits::max(reach_, (mu / nu + radius) * (1 + T(0x1p-10)));
+        const T reach = (mu / nu + radius) * (1 + T(0x1p-10));
+        reach_ = reach <= traits::largest() ? traits::max(reach_, reach) : traits::infinity();
         return {outcome::separate, cause::none};
     }
 

@@ -10,10 +10,11 @@ namespace ccd {
 
 /// The query over tracked numbers, times the power of two that brings its largest coordinate near
 /// 1. A coordinate that underflows when scaled carries that loss as its bound. False in `second` if
-/// a coordinate is not finite.
-template <class Rule, class T, template <class> class Query>
-std::pair<Query<errbound::tracked<T, Rule>>, bool> tracked_query(const Query<T>& query) {
-    using scalar = errbound::tracked<T, Rule>;
+/// a coordinate is not finite. Scalar is the tracked number, or what stands for one
+/// (errbound::is_tracked).
+template <class Rule, class T, template <class> class Query,
+          class Scalar = errbound::tracked<T, Rule>>
+std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {
     using traits = errbound::number_traits<T>;
     T largest = 0;
     bool finite = true;
@@ -25,8 +26,8 @@ std::pair<Query<errbound::tracked<T, Rule>>, bool> tracked_query(const Query<T>&
     constexpr int room = traits::max_exponent / 32;
     const int e = finite && largest > 0 ? traits::exponent(largest) : 0;
     if (e >= -room && e <= room)
-        return {transformed(query, [](const T& x) { return scalar(x); }), finite};
-    return {transformed(query, [e](const T& x) { return scale(scalar(x), -e); }), finite};
+        return {transformed(query, [](const T& x) { return Scalar(x); }), finite};
+    return {transformed(query, [e](const T& x) { return scale(Scalar(x), -e); }), finite};
 }
 
 }  // namespace ccd

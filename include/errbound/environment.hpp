@@ -2,10 +2,11 @@
 // be.
 //
 // Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format
-// (any rounding direction), and no value-changing optimisation. Contraction to fused
-// multiply-add leaves `tight` and `safe` sound (a fused operation has one rounding less than the
-// bound counts), but results then differ between machines and error-free transformations break:
-// build with -ffp-contract=off for identical results everywhere.
+// (any rounding direction for `tight` and `safe`; to nearest for `sharp`, `interval`, `residual`
+// and error-free transformations), and no value-changing optimisation. Contraction to fused
+// multiply-add does not reach the values and bounds of tracked numbers (rounded.hpp); in SIMD packs
+// and plain floating-point code it makes results differ between machines: build with
+// -ffp-contract=off for identical results everywhere.
 #pragma once
 
 #include <cfloat>

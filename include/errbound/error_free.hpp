@@ -18,8 +18,9 @@ struct with_error {
 };
 
 /// a + b = value + error exactly, value = a ⊕ b.
-/// Precondition: no overflow; else value or error is infinite or NaN. Underflow does no harm: sums
-/// that underflow are exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B
+/// Precondition: no overflow, of the sum or on the way to the error (an operand of the largest size
+/// only); else value or error is infinite or NaN. Underflow does no harm: sums that underflow are
+/// exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B
 /// (TwoSum); any precision >= 2.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
@@ -124,8 +125,10 @@ struct division_remainder {
 /// Matula 1991.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
+    using traits = number_traits<T>;
+    if (a == 0) return {T(0), traits::is_finite(q)};
     const with_error<T> product = two_product(q, b);
-    const bool exact = a == 0 || (q != 0 && product_error_is_exact(q, b, product));
+    const bool exact = q != 0 && product_error_is_exact(q, b, product);
     return {(a - product.value) - product.error, exact};
 }
 

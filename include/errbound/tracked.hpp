@@ -119,6 +119,8 @@ class tracked {
     [[no_unique_address]] bound_type bound_;
 };
 
+/// Whether generic code may treat it as a tracked number: it has value_type, value(), sign_of and
+/// scale. Specialise for a type that wraps one.
 template <class>
 inline constexpr bool is_tracked = false;
 template <class T, class Rule>

@@ -1,43 +1,11 @@
 #include "harness.hpp"
 
-#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
 #include "ccd/table.hpp"
 
 namespace bench {
-
-std::vector<timing> race(const std::vector<std::function<void()>>& passes, int repeats) {
-    constexpr double least_seconds = 2e-3;
-    std::vector<int> runs;  // of each pass per measurement
-    for (const auto& pass : passes) {
-        const auto seconds_of_one = [&pass] {
-            const clock::time_point start = clock::now();
-            pass();
-            return seconds_since(start);
-        };
-        // The first meets cold caches and new pages; where that is nothing, it tells the time too.
-        double one = seconds_of_one();
-        if (one < 10 * least_seconds) one = seconds_of_one();
-        runs.push_back(1 + static_cast<int>(least_seconds / std::max(one, 1e-7)));
-    }
-    std::vector<std::vector<double>> seconds(passes.size());
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-        for (std::size_t i = 0; i < passes.size(); ++i) {
-            const std::size_t which = repeat % 2 == 0 ? i : passes.size() - 1 - i;
-            const clock::time_point start = clock::now();
-            for (int run = 0; run < runs[which]; ++run) passes[which]();
-            seconds[which].push_back(seconds_since(start) / runs[which]);
-        }
-    }
-    std::vector<timing> timings;
-    for (auto& s : seconds) {
-        std::ranges::sort(s);
-        timings.push_back({s.front(), s[s.size() / 2]});
-    }
-    return timings;
-}
 
 cell word(std::string_view text) {
     return {std::string(text), text};

@@ -1,15 +1,15 @@
-// What the benchmarks share: timing of contestants in turn, and tables for people and machines.
+// What the benchmarks share: their options, and tables for people and machines.
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "ccd/report/timing.hpp"
 
 namespace bench {
 
@@ -28,27 +28,11 @@ struct options {
 
 inline constexpr std::string_view section_names[] = {"methods", "stages", "steps", "growth"};
 
-using clock = std::chrono::steady_clock;
-
-inline double seconds_since(clock::time_point start) {
-    return std::chrono::duration<double>(clock::now() - start).count();
-}
-
-/// Makes the compiler compute `value`.
-template <class T>
-void keep(const T& value) {
-    asm volatile("" : : "g"(&value) : "memory");
-}
-
-/// Seconds of one pass.
-struct timing {
-    double minimum = 0;
-    double median = 0;
-};
-
-/// Times `passes` in turn, so that what disturbs the machine disturbs all alike: a warm-up, then
-/// `repeats` rounds, back and forth. A pass shorter than 2 ms is repeated until it takes as long.
-std::vector<timing> race(const std::vector<std::function<void()>>& passes, int repeats);
+using ccd::report::clock;
+using ccd::report::keep;
+using ccd::report::race;
+using ccd::report::seconds_since;
+using ccd::report::timing;
 
 /// A value for people and the same for machines.
 struct cell {

@@ -1,42 +1,27 @@
 // ./run bench: what `exact` costs, beside the other methods, as tables.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <string>
-#include <thread>
 
 #include "ccd/io/output_file.hpp"
+#include "ccd/report/machine.hpp"
 #include "sections.hpp"
 
 namespace {
 
-std::string processor() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-    }
-    return "unknown";
-}
-
 nlohmann::json head(const std::string& commit) {
-    std::string sets;
-    for (const auto set : ccd::instruction_sets()) {
-        sets.append(sets.empty() ? "" : ", ").append(ccd::name(set));
-    }
-    double load[1] = {0};
-    getloadavg(load, 1);
-    const nlohmann::json all{{"processor", processor()},
-                             {"cores", std::thread::hardware_concurrency()},
-                             {"load", load[0]},
-                             {"instruction_sets", sets},
-                             {"compiler", ERRBOUND_COMPILER},
-                             {"flags", ERRBOUND_FLAGS},
+    const ccd::report::machine here = ccd::report::this_machine();
+    const nlohmann::json all{{"processor", here.processor},
+                             {"cores", here.cores},
+                             {"load", here.load},
+                             {"instruction_sets", here.instruction_sets},
+                             {"compiler", here.compiler},
+                             {"flags", here.flags},
                              {"commit", commit}};
     std::printf("%s, %u cores, load %.2f; instruction sets: %s\n%s, flags: %s\ncommit %s\n",
-                processor().c_str(), std::thread::hardware_concurrency(), load[0], sets.c_str(),
-                ERRBOUND_COMPILER, ERRBOUND_FLAGS, commit.c_str());
+                here.processor.c_str(), here.cores, here.load, here.instruction_sets.c_str(),
+                here.compiler.c_str(), here.flags.c_str(), commit.c_str());
     return all;
 }
 

@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "query_set.hpp"
+#include "ccd/report/query_set.hpp"
 
 namespace bench {
+
+using ccd::report::kind_of;
+using ccd::report::query_set;
+using ccd::report::query_sets;
 
 struct scene {
     std::string name;

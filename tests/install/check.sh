@@ -12,4 +12,5 @@ cmake --build "$work/build" >/dev/null
 "$work/build/use_headers"
 "$work/build/use_ccd"
 "$work/prefix/bin/ccd" methods | grep -q exact
+test -f "$work/prefix/share/errbound/scenes/cloth-over-ball/frame0.ply"
 echo "installed package found, built against and run"

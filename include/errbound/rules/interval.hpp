@@ -44,8 +44,13 @@ struct interval {
     }
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
-        const T off = number_traits<T>::max(b.upper - value, value - b.lower);
-        return off == 0 ? off : above<T>(off);
+        using traits = number_traits<T>;
+        const T off = traits::max(b.upper - value, value - b.lower);
+        if (off == 0) return off;
+        const T enough = above<T>(off);
+        // Ends of one sign are no further from each other than the largest number.
+        return certain(sign<T>(value, b)) && !(enough < traits::largest()) ? traits::largest()
+                                                                           : enough;
     }
     template <class T>
     static constexpr sign_type sign(const T&, const bound<T>& b) {

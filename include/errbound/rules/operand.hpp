@@ -1,6 +1,7 @@
 // What a bound rule sees of an operand: its value and the bound that the rule itself gave it.
 //
 // A bound rule is a type with
+//   name                                         a string, for tables and messages
 //   template <class T> struct bound              what it stores beside a value
 //   exact(value)                                 the bound of a number that is exact
 //   within(value, error)                         of a number known to be within error of value
@@ -14,9 +15,12 @@
 //   negate(bound)                                the bound of −value; default: the same bound
 //   sign(value, bound)                           the certain sign, for a rule that knows more than
 //                                                |value − true value| <= error; default: what value
-//                                                and error tell. Uncertain where value is not
-//                                                finite; zero only if the true value is zero
+//                                                and error tell. Uncertain where value or error is
+//                                                not finite; zero only if the true value is zero
 //   minimal_precision                            the number of bits of T that the proof needs
+//   has_division                                 false where `divide` only says why there is none
+//   holds_in_directed_rounding                   true where the proof does not need rounding to
+//                                                nearest: validation then tries every direction
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
 #pragma once
 

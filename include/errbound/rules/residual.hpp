@@ -57,7 +57,8 @@ struct residual {
         using traits = number_traits<T>;
         const T corrected = value + b.correction;
         if (corrected == 0 && b.remainder == 0) return sign_type::zero;
-        if (!(traits::abs(corrected) > inflated<T>(b.remainder)) || !traits::is_finite(corrected))
+        if (!(traits::abs(corrected) > inflated<T>(b.remainder)) ||
+            !traits::is_finite(error<T>(value, b)))
             return sign_type::uncertain;
         return corrected > 0 ? sign_type::positive : sign_type::negative;
     }
@@ -110,7 +111,7 @@ struct residual {
         if (!(distance > 0)) return {T(0), traits::infinity()};
         if (is_zero(a)) return exact<T>(v);
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
-        const bool known = division.exact && traits::is_finite(division.value);
+        const bool known = division.exact;
         const T own = known ? division.value : T(0);
         const T unknown = known ? T(0) : half_ulp<T>(v);
         if (own == 0 && is_exact(a) && is_exact(b)) return {T(0), unknown + (v - v)};

@@ -18,6 +18,10 @@ namespace errbound {
 
 struct safe {
     static constexpr const char* name = "safe";
+    /// But for the overflow that is named above.
+    static constexpr bool holds_in_directed_rounding = true;
+    /// `divide` is there to tell why.
+    static constexpr bool has_division = false;
 
     template <class T>
     struct bound {

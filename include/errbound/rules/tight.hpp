@@ -4,7 +4,8 @@
 // σ a bound. Closed here, beyond the printed rule:
 //  * the bound is itself rounded: every bound is multiplied by 1 + 8ε at the end, which exceeds
 //    the at most six roundings (each within a factor 1 ± ε, in any rounding direction) on the way
-//    to it: (1 + 8ε)(1 − ε)^6 > 1;
+//    to it: (1 + 8ε)(1 − ε)^6 > 1 from 5 bits of precision on (from 3 in rounding to nearest; with
+//    fewer, that it holds is checked case by case: errbound/tiny_check.hpp);
 //  * underflow: a product's value and the three products inside its bound are each off by less
 //    than η where they underflow, so 4η is added. Sums need none: a sum that is not exact is at
 //    least 2^p·η in size, and |v|ε is then at least its last place;
@@ -20,6 +21,8 @@ namespace errbound {
 
 struct tight {
     static constexpr const char* name = "tight";
+    /// But for the overflow that is named above.
+    static constexpr bool holds_in_directed_rounding = true;
 
     /// |value − true value| <= error.
     template <class T>

@@ -1,4 +1,4 @@
-// The queries that benchmarks decide: a step's candidates by index, or stored ones.
+// The queries that reports and benchmarks decide: a step's candidates by index, or stored ones.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace bench {
+namespace ccd::report {
 
 template <class Query>
 struct kind_of;
@@ -36,7 +36,7 @@ struct query_set {
 
     std::size_t size() const { return by_index.size() + stored.size(); }
     Query operator[](std::size_t i) const {
-        return by_index.empty() ? stored[i] : query(by_index[i]);
+        return by_index.empty() ? stored[i] : ccd::query_of(rows, by_index[i]);
     }
     /// Queries from `first` on, as many as there are answers.
     void decide_batch(std::size_t first, std::span<ccd::outcome> answers,
@@ -69,21 +69,6 @@ struct query_set {
         for (std::size_t i = 0; i < size(); ++i) queries.push_back((*this)[i]);
         return queries;
     }
-
-  private:
-    ccd::moving_point<double> moving(ccd::index v) const {
-        const std::size_t i = 3 * static_cast<std::size_t>(v);
-        const auto at = [i](const double* x) {
-            return ccd::point<double>{x[i], x[i + 1], x[i + 2]};
-        };
-        return {at(rows.before), at(rows.after)};
-    }
-    ccd::vertex_face<double> query(const ccd::vertex_face_indices& q) const {
-        return {moving(q.v), moving(q.f0), moving(q.f1), moving(q.f2)};
-    }
-    ccd::edge_edge<double> query(const ccd::edge_edge_indices& q) const {
-        return {moving(q.a0), moving(q.a1), moving(q.b0), moving(q.b1)};
-    }
 };
 
 struct query_sets {
@@ -91,4 +76,4 @@ struct query_sets {
     query_set<ccd::edge_edge<double>> edge_edge;
 };
 
-}  // namespace bench
+}  // namespace ccd::report

@@ -1,0 +1,49 @@
+// What the programs' command lines share beyond CLI11: lists of names, and outputs that nothing is
+// lost to.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace ccd::program {
+
+/// A command line that CLI11 lets through but that makes no sense.
+struct usage_error : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// What `named` makes of the names of a list N[,N...].
+template <class Named>
+auto all_named(const std::string& list, const Named& named) {
+    std::vector<decltype(named(list))> result;
+    std::size_t begin = 0;
+    for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
+        comma = list.find(',', begin);
+        result.push_back(named(list.substr(begin, comma - begin)));
+    }
+    return result;
+}
+
+/// An output must be neither an input nor another output: nothing is lost.
+inline void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
+                             std::vector<std::filesystem::path> taken) {
+    for (const auto& output : outputs) {
+        if (!output) continue;
+        for (const std::filesystem::path& other : taken) {
+            std::error_code ignored;
+            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
+                              output->lexically_normal() == other.lexically_normal();
+            if (same && std::filesystem::status(*output, ignored).type() !=
+                            std::filesystem::file_type::character)
+                throw usage_error("found the output '" + output->string() +
+                                  "' among the inputs or twice, expected a file of its own");
+        }
+        taken.push_back(*output);
+    }
+}
+
+}  // namespace ccd::program

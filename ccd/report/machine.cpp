@@ -1,0 +1,65 @@
+#include "ccd/report/machine.hpp"
+
+#include <unistd.h>
+
+#include <ccd/batch.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "ccd/io/error.hpp"
+#include "ccd/io/output_file.hpp"
+
+namespace ccd::report {
+namespace {
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    }
+    return "unknown";
+}
+
+}  // namespace
+
+machine this_machine() {
+    machine here;
+    here.processor = processor();
+    here.cores = std::thread::hardware_concurrency();
+    here.compiler = ERRBOUND_COMPILER;
+    here.flags = ERRBOUND_FLAGS;
+    getloadavg(&here.load, 1);
+    const auto pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+    here.memory_gib = pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 30);
+    for (const instruction_set set : instruction_sets()) {
+        here.instruction_sets.append(here.instruction_sets.empty() ? "" : ", ").append(name(set));
+    }
+    return here;
+}
+
+std::string program_fingerprint() {
+    try {
+        return fingerprint_of(io::read_whole("/proc/self/exe"));
+    } catch (const io::file_error&) {
+        return "0";
+    }
+}
+
+std::string configured_commit() {
+    return ERRBOUND_COMMIT;
+}
+
+std::string fingerprint_of(std::string_view bytes) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char byte : bytes) {
+        hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
+    }
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+}  // namespace ccd::report

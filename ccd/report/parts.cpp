@@ -1,0 +1,88 @@
+#include "ccd/report/parts.hpp"
+
+#include <cctype>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "ccd/io/error.hpp"
+#include "ccd/io/output_file.hpp"
+#include "ccd/report/machine.hpp"
+
+namespace ccd::report {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr auto replace = ordered_json::error_handler_t::replace;  // a path need not be UTF-8
+
+std::string dumped(const ordered_json& value) {
+    return value.dump(-1, ' ', false, replace);
+}
+
+std::string csv_of(const ordered_json& value) {
+    if (!value.is_string()) return value.is_null() ? "" : dumped(value);
+    const std::string text = value.get<std::string>();
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+}  // namespace
+
+part_store::part_store(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error || !fs::is_directory(folder_))
+        throw io::file_error(folder_.string() + ": cannot be made a folder" +
+                             (error ? " (" + error.message() + ")" : std::string()));
+}
+
+fs::path part_store::path_of(const part_key& key) const {
+    // Legible, and yet different for names that differ in other characters alone.
+    std::string name = key.name;
+    for (char& c : name) {
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+    }
+    return folder_ / (name.substr(0, 100) + "-" + fingerprint_of(key.name).substr(0, 8) + ".json");
+}
+
+bool part_store::find(const part_key& key, rows& into) const {
+    const fs::path path = path_of(key);
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) return false;
+    const ordered_json document = ordered_json::parse(io::read_whole(path), nullptr, false);
+    if (!document.is_object() || !document.contains("rows") || !document["rows"].is_array() ||
+        document.value("depends_on", ordered_json()) != key.depends_on ||
+        document.value("check", ordered_json()) != fingerprint_of(dumped(document["rows"])))
+        return false;
+    into = document["rows"].get<rows>();
+    return true;
+}
+
+void part_store::keep(const part_key& key, const rows& of_part) const {
+    const ordered_json values = of_part;
+    const ordered_json document = {{"part", key.name},
+                                   {"depends_on", key.depends_on},
+                                   {"check", fingerprint_of(dumped(values))},
+                                   {"rows", values}};
+    io::write_whole(path_of(key), document.dump(1, ' ', false, replace) + '\n');
+}
+
+std::string csv_of(const std::vector<std::string>& columns, const rows& of_table) {
+    std::string text;
+    for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
+    text += '\n';
+    for (const row& r : of_table) {
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (i > 0) text += ',';
+            if (r.contains(columns[i])) text += csv_of(r[columns[i]]);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace ccd::report

@@ -1,0 +1,436 @@
+#!/usr/bin/env python3
+"""Draws a report's pictures from the CSV files beside this script, as PNG and SVG.
+
+    python3 plot.py
+
+`ccd report` puts this script into its folder and runs it there. Needs matplotlib; exit status 3
+where it is missing.
+"""
+
+import csv
+import math
+import pathlib
+import sys
+
+try:
+    import matplotlib
+except ImportError:
+    print("no pictures: Python finds no matplotlib (Debian, Ubuntu: apt-get install "
+          "python3-matplotlib)", file=sys.stderr)
+    sys.exit(3)
+
+matplotlib.use("Agg")
+import matplotlib.colors
+import matplotlib.pyplot as plt
+import numpy
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+INK, PALE, BAND = "#333333", "#d9d9d9", "#f2f2f2"
+# Told apart by people who see few colours, too (Paul Tol's palettes).
+COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb",
+           "#000000", "#ee7733", "#009988", "#882255", "#999933", "#332288", "#ddcc77"]
+
+plt.rcParams.update({
+    "font.size": 9, "font.family": "DejaVu Sans", "figure.dpi": 100, "savefig.dpi": 200,
+    "axes.edgecolor": INK, "axes.labelcolor": INK, "axes.linewidth": 0.7,
+    "axes.spines.top": False, "axes.spines.right": False,
+    "axes.titlesize": 10, "axes.titlelocation": "left", "axes.titlepad": 8,
+    "xtick.color": INK, "ytick.color": INK, "text.color": INK,
+    "axes.grid": True, "grid.color": PALE, "grid.linewidth": 0.5, "axes.axisbelow": True,
+    "svg.fonttype": "none", "svg.hashsalt": "errbound",
+})
+
+
+def table(name):
+    """The file's rows as dictionaries, numbers as numbers; none where there is no such file."""
+    path = FOLDER / name
+    if not path.exists():
+        return []
+
+    def value(text):
+        try:
+            return float(text)
+        except ValueError:
+            return text if text else math.nan
+
+    with path.open(newline="") as file:
+        return [{key: value(text) for key, text in row.items()} for row in csv.DictReader(file)]
+
+
+def save(figure, name):
+    figure.savefig(FOLDER / f"{name}.png", bbox_inches="tight", pad_inches=0.15)
+    figure.savefig(FOLDER / f"{name}.svg", bbox_inches="tight", pad_inches=0.15,
+                   metadata={"Date": None})
+    plt.close(figure)
+
+
+def in_order(values):
+    """Each value once, in the order of first appearance."""
+    return list(dict.fromkeys(values))
+
+
+def colours(names):
+    return {name: COLOURS[i % len(COLOURS)] for i, name in enumerate(names)}
+
+
+def short(number):
+    """0.001, 12, 3k, 2M."""
+    if math.isinf(number):  # a logarithmic knob of -inf
+        return "zero"
+    if number == 0:
+        return "0"
+    for size, letter in ((1e6, "M"), (1e3, "k")):
+        if abs(number) >= size:
+            return f"{number / size:.3g}{letter}"
+    return f"{number:.3g}" if abs(number) >= 1e-3 else f"1e{math.log10(abs(number)):.0f}"
+
+
+def nanoseconds(ns):
+    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
+        if ns >= size:
+            return f"{ns / size:.3g} {unit}"
+    return f"{ns:.3g} ns"
+
+
+NANOSECONDS = FuncFormatter(lambda ns, _: nanoseconds(ns))
+SHORT = FuncFormatter(lambda number, _: short(number))
+
+
+# ---- Error against run time ----
+
+def rate_axis(axes, rates):
+    """A logarithmic axis of rates with a band below it for exact zero, and the band's ends."""
+    positive = [rate for rate in rates if rate > 0]
+    low = 10.0 ** math.floor(math.log10(min(positive)) - 0.1) if positive else 1.0
+    high = 10.0 ** math.ceil(math.log10(max(positive)) + 0.1) if positive else 10.0
+    share = 0.2 + 0.3 * sum(rate == 0 for rate in rates) / len(rates)
+    bottom = low / (high / low) ** (share / (1 - share))
+    axes.set_yscale("log")
+    axes.set_ylim(bottom, high)
+    axes.axhspan(bottom, low, color=BAND, lw=0, zorder=0)
+    axes.axhline(low, color=INK, lw=0.7)
+    first, last = round(math.log10(low)), round(math.log10(high))
+    ticks = [10.0 ** e for e in range(first, last + 1, max(1, round((last - first) / 6)))]
+    axes.set_yticks(ticks)
+    axes.set_yticklabels([short(tick) for tick in ticks])
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.text(-0.012, share / 2, "exactly 0", ha="right", va="center", transform=axes.transAxes)
+    return bottom, low
+
+
+def place_in_band(axes, names, ns, band):
+    """Heights in the band of the points there, so that no label meets another point or label."""
+    left, right = (math.log10(x) for x in axes.get_xlim())
+    width = axes.get_window_extent().width / axes.figure.dpi * 72
+    lanes, lane_of = [], {}  # how far each lane is taken, in points
+    for name in sorted(names, key=lambda name: ns[name]):
+        at = (math.log10(ns[name]) - left) / (right - left) * width
+        free = [i for i, taken in enumerate(lanes) if taken < at - 8]
+        if not free:
+            lanes.append(0)
+        lane_of[name] = free[0] if free else len(lanes) - 1
+        lanes[lane_of[name]] = at + 14 + 6 * len(name)
+    bottom, top = (math.log10(y) for y in band)
+    step = (top - bottom) / (len(lanes) + 1)
+    return {name: 10 ** (top - step * (lane + 1)) for name, lane in lane_of.items()}
+
+
+def label_points(axes, points):
+    """Writes each (x, y, text, colour) beside its point, where it meets neither point nor label."""
+    figure = axes.figure
+    figure.canvas.draw()
+    renderer = figure.canvas.get_renderer()
+    pixel = figure.dpi / 72
+    frame = axes.get_window_extent(renderer)
+    taken = []
+    for x, y, _, _ in points:
+        px, py = axes.transData.transform((x, y))
+        taken.append(matplotlib.transforms.Bbox.from_extents(px - 5 * pixel, py - 5 * pixel,
+                                                             px + 5 * pixel, py + 5 * pixel))
+    # Right, left, above and below the point, then further and further off.
+    offsets = [(8, 0), (-8, 0), (0, 11), (0, -11)]
+    for distance in range(14, 140, 6):
+        for angle in range(0, 360, 30):
+            offsets.append((distance * math.cos(math.radians(angle)),
+                            distance * math.sin(math.radians(angle))))
+    at = axes.transData.transform([point[:2] for point in points])
+    for x, y, text, colour in sorted(points, key=lambda point: point[:2]):
+        px, py = axes.transData.transform((x, y))
+        # Of two points that nearly coincide, the left one's label stands on the left.
+        neighbour = any(0 < qx - px < 14 * pixel and abs(qy - py) < 10 * pixel for qx, qy in at)
+        for dx, dy in [(-8, 0)] * neighbour + offsets:
+            side = "left" if dx > 1 else "right" if dx < -1 else "center"
+            line = None if math.hypot(dx, dy) < 12 else dict(
+                arrowstyle="-", color=colour, lw=0.7, shrinkA=0, shrinkB=4)
+            label = axes.annotate(text, (x, y), xytext=(dx, dy), textcoords="offset points",
+                                  ha=side, va="center", arrowprops=line)
+            label.update_positions(renderer)
+            box = matplotlib.text.Text.get_window_extent(label, renderer)  # without the line
+            inside = (frame.x0 <= box.x0 and box.x1 <= frame.x1 and
+                      frame.y0 <= box.y0 and box.y1 <= frame.y1)
+            if inside and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+                break
+            label.remove()
+        else:  # a crowd: better over another label than nowhere
+            axes.annotate(text, (x, y), xytext=(8, 0), textcoords="offset points", va="center")
+
+
+def totals(rows):
+    """Per method: sums over data sets and kinds, and the mean of ns weighted by queries."""
+    methods = {}
+    for row in rows:
+        m = methods.setdefault(row["method"], dict.fromkeys(
+            ("queries", "colliding", "false_positives", "false_negatives", "ns"), 0))
+        for key in ("queries", "colliding", "false_positives", "false_negatives"):
+            m[key] += row[key]
+        m["ns"] += row["ns_min"] * row["queries"]
+    for m in methods.values():
+        m["ns"] /= m["queries"]
+        m["separate"] = m["queries"] - m["colliding"]
+    return methods
+
+
+def pareto(rows, name, of_what):
+    if not rows:
+        return
+    methods = totals(rows)
+    colour = colours(methods)
+    ns = {name: m["ns"] for name, m in methods.items()}
+    figure, panels = plt.subplots(2, 1, figsize=(9, 8.6), sharex=True)
+    panels[0].set_xscale("log")
+    panels[0].set_xlim(min(ns.values()) / 1.6, max(ns.values()) * 2.6)
+    panels[1].set_xlabel("time per query, one thread, mean over all")
+    any_method = next(iter(methods.values()))
+    judged = ((panels[0], "false_positives", "separate", "False positives", "do not collide"),
+              (panels[1], "false_negatives", "colliding", "False negatives", "collide"))
+    for axes, _, among, what, do in judged:
+        axes.set_title(f"{what} per million, of the {any_method[among]:,.0f} {of_what} that {do}")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(NANOSECONDS)
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.tick_params(labelbottom=True)
+    figure.tight_layout(h_pad=2)
+    for axes, errors, among, _, _ in judged:
+        rates = {name: 1e6 * m[errors] / max(m[among], 1) for name, m in methods.items()}
+        band = rate_axis(axes, rates.values())
+        heights = place_in_band(axes, [name for name in rates if rates[name] == 0], ns, band)
+        points = [(ns[name], heights.get(name, rates[name]), name, colour[name])
+                  for name in methods]
+        for x, y, _, c in points:
+            axes.plot(x, y, "o", ms=7, mfc=c, mec="white", mew=0.8, zorder=3, clip_on=False)
+        label_points(axes, points)
+    save(figure, name)
+
+
+def paretos():
+    rows = table("methods.csv")
+    pareto([r for r in rows if r["origin"] == "scene"], "pareto", "candidate pairs of steps")
+    pareto([r for r in rows if r["origin"] != "scene"], "pareto-queries",
+           "queries picked to be hard")
+
+
+# ---- Distributions: a line from 1 % to 99 %, thick over the middle half, a dot at the median ----
+
+def spread(axes, at, row, prefix, colour, vertical):
+    values = [row.get(f"{prefix}q{p}", math.nan) for p in (1, 25, 50, 75, 99)]
+    if any(not isinstance(v, float) or math.isnan(v) for v in values):
+        return
+    draw = axes.vlines if vertical else axes.hlines
+    draw(at, values[0], values[4], color=colour, lw=1)
+    draw(at, values[1], values[3], color=colour, lw=4)
+    axes.plot(*((at, values[2]) if vertical else (values[2], at)), "o", ms=4, mfc="white",
+              mec=colour, mew=1.2)
+
+
+def legend(figure, handles, note):
+    """A line above the figure, and one with the note above that."""
+    figure.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.01, 1.0),
+                  ncol=len(handles), frameon=False, borderaxespad=0)
+    figure.text(0.012, 1 + 0.3 / figure.get_figheight(), note, va="bottom")
+
+
+def rule_legend(figure, colour, note):
+    legend(figure, [plt.Line2D([], [], color=c, lw=4, label=r) for r, c in colour.items()], note)
+
+
+SPREAD_NOTE = "Dot: median; thick: middle half; thin: 1 % to 99 %"
+
+
+def grid(rows, height):
+    """A panel for each data set (down) and kind (across): yields (axes, rows of the panel)."""
+    sets, kinds = in_order(r["data_set"] for r in rows), in_order(r["kind"] for r in rows)
+    figure, panels = plt.subplots(len(sets), len(kinds), figsize=(9, height * len(sets)),
+                                  squeeze=False)
+    cells = []
+    for i, name in enumerate(sets):
+        for j, kind in enumerate(kinds):
+            here = [r for r in rows if (r["data_set"], r["kind"]) == (name, kind)]
+            panels[i][j].set_title(f"{name}, {kind}")
+            if here:
+                cells.append((panels[i][j], here))
+            else:
+                panels[i][j].set_axis_off()
+                panels[i][j].set_title("")
+    return figure, cells
+
+
+def bounds():
+    rows = table("bounds.csv")
+    if not rows:
+        return
+    rules = in_order(r["rule"] for r in rows)
+    colour = colours(rules)
+    variables = in_order(r["variable"] for r in rows)
+    # Beyond these nothing is known, or nothing need be: a query's k may all be rounding errors.
+    low, high = 1e-18, 1e3
+    figure, cells = grid(rows, 2.1)
+    for axes, here in cells:
+        axes.set_yscale("log")
+        axes.set_ylim(low, high)
+        axes.set_yticks([10.0 ** e for e in range(-18, 4, 3)])
+        for r in here:
+            at = variables.index(r["variable"]) + \
+                (rules.index(r["rule"]) - (len(rules) - 1) / 2) * 0.7 / len(rules)
+            inside = {key: min(max(value, low), high) if isinstance(value, float) else value
+                      for key, value in r.items()}
+            spread(axes, at, inside, "relative_", colour[r["rule"]], True)
+        axes.set_xticks(range(len(variables)))
+        axes.set_xticklabels(variables)
+        axes.grid(axis="x", visible=False)
+        axes.set_ylabel("bound / largest |k|")
+    figure.tight_layout()
+    rule_legend(figure, colour, SPREAD_NOTE + "; cut off at 1e-18 and 1000")
+    save(figure, "bounds")
+
+
+def tightness():
+    rows = [r for r in table("tightness.csv")
+            if r["number"] == "double" and r["measure"] == "bound/error"]
+    if not rows:
+        return
+    for r in rows:
+        r["quantity"] = f"{r['part']}: {r['quantity']}"
+    rules, quantities = in_order(r["rule"] for r in rows), in_order(r["quantity"] for r in rows)
+    colour = colours(rules)
+    figure, axes = plt.subplots(figsize=(9, 0.9 + len(quantities) * (0.2 + 0.12 * len(rules))))
+    for r in rows:
+        at = quantities.index(r["quantity"]) + \
+            (rules.index(r["rule"]) - (len(rules) - 1) / 2) * 0.75 / len(rules)
+        spread(axes, at, r, "", colour[r["rule"]], False)
+    axes.set_yticks(range(len(quantities)))
+    axes.set_yticklabels(quantities)
+    axes.set_ylim(len(quantities) - 0.4, -0.6)
+    axes.grid(axis="y", visible=False)
+    # Most lies below 10^4, some far beyond: the exponent by its square root. Ends at 10^60.
+    high = axes.get_xlim()[1]
+    axes.set_xscale("function", functions=(lambda x: numpy.sign(x) * numpy.sqrt(numpy.abs(x)),
+                                           lambda x: numpy.sign(x) * x * x))
+    least = min(r["q1"] for r in rows if not math.isnan(r["q1"]))
+    axes.set_xlim(min(0, least) - 0.02, min(high, 60))
+    axes.set_xticks([e for e in (-4, -2, -1, 0, 1, 2, 4, 8, 16, 32, 60)
+                     if axes.get_xlim()[0] <= e <= axes.get_xlim()[1]])
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
+    axes.axvline(0, color=INK, lw=0.7)
+    axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails)")
+    figure.tight_layout()
+    rule_legend(figure, colour, SPREAD_NOTE)
+    save(figure, "tightness")
+
+
+def times():
+    rows = table("times.csv")
+    if not rows:
+        return
+    methods = in_order(r["method"] for r in rows)
+    marks = (("ns_median", "o", "median"), ("ns_99", "|", "99 %"), ("ns_99_9", "d", "99.9 %"),
+             ("ns_worst", "x", "worst"))
+    figure, cells = grid(rows, 0.8 + 0.2 * len(methods))
+    least = min(max(r["ns_median"], 1) for r in rows)
+    most = max(r["ns_worst"] for r in rows)
+    for axes, here in cells:
+        axes.set_xscale("log")
+        for r in here:
+            at = methods.index(r["method"])
+            axes.hlines(at, max(r["ns_median"], 1), r["ns_worst"], color=PALE, lw=3)
+            for key, mark, _ in marks:
+                axes.plot(max(r[key], 1), at, mark, ms=5, color=COLOURS[0], mew=1.4,
+                          mfc="white" if mark == "o" else COLOURS[0])
+        axes.set_yticks(range(len(methods)))
+        axes.set_yticklabels(methods)
+        axes.set_ylim(len(methods) - 0.5, -0.5)
+        axes.set_xlim(least / 1.5, most * 1.5)
+        axes.grid(axis="y", visible=False)
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if most < 300 * least else (1,)))
+        axes.xaxis.set_major_formatter(NANOSECONDS)
+        axes.xaxis.set_minor_locator(NullLocator())
+    figure.tight_layout()
+    handles = [plt.Line2D([], [], color=COLOURS[0], marker=mark, ls="", label=label, mew=1.4,
+                          mfc="white" if mark == "o" else COLOURS[0]) for _, mark, label in marks]
+    legend(figure, handles, "Time of single queries")
+    save(figure, "times")
+
+
+# ---- Stress heat maps ----
+
+def stress():
+    rows = table("stress.csv")
+    if not rows:
+        return
+    families, methods = in_order(r["family"] for r in rows), in_order(r["method"] for r in rows)
+    cells = {}  # (family, knob, method): sums over kinds
+    for r in rows:
+        c = cells.setdefault((r["family"], r["knob"], r["method"]), dict.fromkeys(
+            ("queries", "false_negatives", "false_positives", "ns"), 0))
+        for key in ("queries", "false_negatives", "false_positives"):
+            c[key] += r[key]
+        c["ns"] += r["ns_per_query"] * r["queries"]
+    names = {r["family"]: r["knob_name"] for r in rows}
+    for quantity, name, title in (
+            ("false_negatives", "stress-false-negatives", "false negatives, share of queries"),
+            ("false_positives", "stress-false-positives", "false positives, share of queries"),
+            ("ns", "stress-ns", "ns per query")):
+        value = {at: c[quantity] / c["queries"] for at, c in cells.items() if c["queries"]}
+        heat_map(value, families, methods, names, name, title, quantity == "ns")
+
+
+def heat_map(value, families, methods, knob_names, name, title, is_time):
+    positive = [v for v in value.values() if v > 0]
+    low, high = (min(positive), max(positive)) if positive else (1e-3, 1)
+    norm = matplotlib.colors.LogNorm(low, max(high, low * 1.01))
+    palette = matplotlib.colormaps["viridis" if is_time else "YlOrRd"].copy()
+    palette.set_bad(BAND)  # exactly 0
+    columns = 3
+    lines = -(-len(families) // columns)
+    figure, panels = plt.subplots(lines, columns, squeeze=False,
+                                  figsize=(12, lines * (1.0 + 0.17 * len(methods))))
+    for i, axes in enumerate(panels.flat):
+        if i >= len(families):
+            axes.set_axis_off()
+            continue
+        family = families[i]
+        knobs = in_order(knob for f, knob, _ in value if f == family)
+        image = [[value.get((family, knob, method), math.nan) or math.nan for knob in knobs]
+                 for method in methods]
+        axes.imshow(image, norm=norm, cmap=palette, aspect="auto", interpolation="nearest")
+        axes.set_title(family, fontsize=9)
+        axes.set_yticks(range(len(methods)))
+        axes.set_yticklabels(methods if i % columns == 0 else [], fontsize=8)
+        step = max(1, -(-len(knobs) // 6))
+        axes.set_xticks(range(0, len(knobs), step))
+        axes.set_xticklabels([short(k) if isinstance(k, float) else k for k in knobs[::step]],
+                             fontsize=7)
+        axes.set_xlabel(knob_names[family], fontsize=8)
+        axes.grid(False)
+    figure.tight_layout()
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, palette), ax=panels, shrink=0.5,
+                          aspect=30, pad=0.02, format=NANOSECONDS if is_time else SHORT)
+    ticks = [d * 10.0 ** e for e in range(-12, 12) for d in (1, 2, 5)]
+    bar.set_ticks([tick for tick in ticks if norm.vmin <= tick <= norm.vmax])
+    bar.set_label(title if is_time else f"{title} (grey: none)")
+    save(figure, name)
+
+
+for draw in (paretos, bounds, tightness, times, stress):
+    draw()

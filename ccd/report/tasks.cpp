@@ -1,0 +1,121 @@
+#include "ccd/report/tasks.hpp"
+
+#include <utility>
+
+namespace ccd::report {
+
+task_list::task_list(const options& settings, const machine& here)
+    : settings_(settings),
+      size_(sizes(settings.quick)),
+      program_({{"program", program_fingerprint()},
+                {"commit", settings.commit},
+                {"processor", here.processor}}) {
+    for (const std::string& name : settings.methods) {
+        if (name != batch_name) singly_.push_back(name);
+    }
+}
+
+void task_list::add(std::string name, row depends_on, double cost, row about,
+                    std::function<rows(const progress&)> measure, rows& into) {
+    row all = program_;
+    all.update(depends_on);
+    tasks.push_back(
+        {{std::move(name), std::move(all)}, cost, std::move(about), std::move(measure), &into});
+}
+
+void task_list::add(const data_set& data) {
+    data_.push_back(&data);
+    add(data, data.vertex_face_queries);
+    add(data, data.edge_edge_queries);
+}
+
+template <class Query>
+void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
+    const std::size_t n = judged.queries.size();
+    if (n == 0) return;
+    const row about = {
+        {"data_set", data.name}, {"origin", name(data.origin)}, {"kind", kind_of<Query>::name}};
+    const std::string prefix = data.name + " " + std::string(kind_of<Query>::name) + ": ";
+    const auto add_part = [&](const std::string& what, row depends_on, double cost,
+                              std::function<rows(const progress&)> measure, rows& into) {
+        depends_on["data"] = data.fingerprint;
+        add(prefix + what, std::move(depends_on), cost, about, std::move(measure), into);
+    };
+    const auto drawn = [n](std::size_t most) { return static_cast<double>(std::min(n, most)); };
+    const auto methods = static_cast<double>(settings_.methods.size());
+
+    if (settings_.wants("methods")) {
+        for (const std::string& method : settings_.methods) {
+            add_part(
+                "errors of " + method, {{"method", method}}, static_cast<double>(n) / 2,
+                [&judged, method, this](const progress& show) {
+                    return count_errors(judged, method, settings_.threads, show);
+                },
+                errors);
+        }
+        add_part(
+            "ns per query",
+            {{"methods", settings_.methods}, {"at_most", size_.speed}, {"repeats", size_.repeats}},
+            drawn(size_.speed) * methods * (1 + size_.repeats),
+            [&judged, this](const progress& show) {
+                return race_methods(judged, settings_.methods, size_, show);
+            },
+            speeds);
+    }
+    if (settings_.wants("times")) {
+        add_part(
+            "times of single queries",
+            {{"methods", singly_}, {"at_most", size_.times}, {"repeats", size_.repeats}},
+            drawn(size_.times) * methods * size_.repeats,
+            [&judged, this](const progress& show) {
+                return time_queries(judged, singly_, size_, show);
+            },
+            times);
+    }
+    if (settings_.wants("bounds")) {
+        add_part(
+            "bounds", {{"at_most", size_.bounds}}, drawn(size_.bounds),
+            [&judged, this](const progress&) { return take_bounds(judged, size_); }, bounds);
+    }
+}
+
+void task_list::add_others() {
+#ifdef ERRBOUND_HAVE_MPFR
+    if (settings_.wants("tightness")) {
+        add(
+            "tightness: expressions", {{"number", size_.expressions}},
+            20.0 * static_cast<double>(size_.expressions), {{"part", "expressions"}},
+            [this](const progress& show) {
+                return measure_expressions(size_, settings_.threads, show);
+            },
+            tightness);
+        row all = row::array();
+        for (const data_set* data : data_) all.push_back(data->fingerprint);
+        add(
+            "tightness: queries", {{"data", all}, {"at_most", size_.tightness}},
+            2000.0 * static_cast<double>(size_.tightness * data_.size()), {{"part", "queries"}},
+            [this](const progress& show) {
+                return measure_tightness(data_, size_, settings_.threads, show);
+            },
+            tightness);
+    }
+#endif
+    if (settings_.wants("stress")) {
+        for (const stress::family& family : stress::families()) {
+            const auto knobs = static_cast<double>(family.knobs.size());
+            const auto methods = static_cast<double>(settings_.methods.size());
+            add(
+                "stress: " + std::string(family.name),
+                {{"methods", settings_.methods}, {"quick", settings_.quick}},
+                2e6 * size_.stress_seconds * knobs * (methods + 1),
+                {{"family", family.name}, {"knob_name", family.knob_name}},
+                [&family, this](const progress& show) {
+                    return stress_methods(family, settings_.methods, size_, settings_.threads,
+                                          show);
+                },
+                stress);
+        }
+    }
+}
+
+}  // namespace ccd::report

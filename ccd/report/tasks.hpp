@@ -1,0 +1,53 @@
+// The parts that a report consists of, as tasks to be done.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ccd/report/data_set.hpp"
+#include "ccd/report/parts.hpp"
+#include "ccd/report/report.hpp"
+#include "ccd/report/sections.hpp"
+
+namespace ccd::report {
+
+/// A part to be measured.
+struct task {
+    part_key key;
+    double cost;  ///< roughly, in microseconds
+    row about;    ///< columns that its rows begin with
+    std::function<rows(const progress&)> measure;
+    rows* into;  ///< a table of the list below
+};
+
+/// The tasks of a report, in the order in which they are done, and the tables that they fill. Must
+/// stay where it is, as must the data.
+class task_list {
+  public:
+    task_list(const options& settings, const machine& here);
+    task_list(const task_list&) = delete;
+    task_list& operator=(const task_list&) = delete;
+
+    /// What is measured of each data set.
+    void add(const data_set& data);
+    /// What is measured without data sets, or on all that were added.
+    void add_others();
+
+    std::vector<task> tasks;
+    rows errors, speeds, times, bounds, tightness, stress;
+
+  private:
+    template <class Query>
+    void add(const data_set& data, const judged_queries<Query>& judged);
+    void add(std::string name, row depends_on, double cost, row about,
+             std::function<rows(const progress&)> measure, rows& into);
+
+    std::vector<const data_set*> data_;
+    const options settings_;
+    const sample_sizes size_;
+    const row program_;                ///< what all parts depend on
+    std::vector<std::string> singly_;  ///< methods that decide queries one by one
+};
+
+}  // namespace ccd::report

@@ -1,0 +1,37 @@
+// Timing of contestants in turn, so that what disturbs the machine disturbs all alike.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+namespace ccd::report {
+
+using clock = std::chrono::steady_clock;
+
+inline double seconds_since(clock::time_point start) {
+    return std::chrono::duration<double>(clock::now() - start).count();
+}
+
+/// Makes the compiler compute `value`.
+template <class T>
+void keep(const T& value) {
+    asm volatile("" : : "g"(&value) : "memory");
+}
+
+/// Seconds of one pass.
+struct timing {
+    double minimum = 0;
+    double median = 0;
+};
+
+/// Times `passes` in turn: a warm-up, then `repeats` rounds, back and forth. A pass shorter than
+/// 2 ms is repeated until it takes as long. Between timings, `show` is told the share that is done.
+std::vector<timing> race(
+    const std::vector<std::function<void()>>& passes, int repeats,
+    const std::function<void(double)>& show = [](double) {});
+
+/// Seconds that two readings of the clock, one right after the other, are apart at least.
+double clock_overhead();
+
+}  // namespace ccd::report

@@ -1,0 +1,227 @@
+// Real numbers known two-sidedly, by MPFR: a midpoint and a radius, |x − midpoint| <= radius.
+//
+// Sums and products are exact, radius 0, as long as they fit the precision. Every rounding of a
+// midpoint adds half a last place to the radius, and radii are rounded up, so that the enclosure
+// holds whatever the precision; a larger one only makes it narrower. The exponent range must be
+// MPFR's widest (widest_exponents): no program here has as many operations as it takes to leave it.
+#pragma once
+
+#include <mpfr.h>
+
+#include <errbound/sign.hpp>
+#include <utility>
+
+namespace errbound::validation {
+
+/// MPFR's exponents reach ±2^62, and each operation at most doubles an exponent: fewer than 50
+/// operations on double's ±1100 stay inside.
+inline constexpr int most_operations = 48;
+
+/// Sets the calling thread's range of exponents to the widest while it lives.
+class widest_exponents {
+  public:
+    widest_exponents() : least_(mpfr_get_emin()), most_(mpfr_get_emax()) {
+        mpfr_set_emin(mpfr_get_emin_min());
+        mpfr_set_emax(mpfr_get_emax_max());
+    }
+    ~widest_exponents() {
+        mpfr_set_emin(least_);
+        mpfr_set_emax(most_);
+    }
+    widest_exponents(const widest_exponents&) = delete;
+    widest_exponents& operator=(const widest_exponents&) = delete;
+
+  private:
+    mpfr_exp_t least_, most_;
+};
+
+/// An mpfr_t that cleans up after itself.
+class mpfr_number {
+  public:
+    explicit mpfr_number(mpfr_prec_t precision) {
+        mpfr_init2(x_, precision);
+        mpfr_set_zero(x_, 1);
+    }
+    mpfr_number(const mpfr_number& other) {
+        mpfr_init2(x_, mpfr_get_prec(other.x_));
+        mpfr_set(x_, other.x_, MPFR_RNDN);
+    }
+    mpfr_number& operator=(const mpfr_number& other) {
+        if (this != &other) {
+            if (mpfr_get_prec(x_) != mpfr_get_prec(other.x_))
+                mpfr_set_prec(x_, mpfr_get_prec(other.x_));
+            mpfr_set(x_, other.x_, MPFR_RNDN);
+        }
+        return *this;
+    }
+    ~mpfr_number() { mpfr_clear(x_); }
+
+    mpfr_ptr get() { return x_; }
+    mpfr_srcptr get() const { return x_; }
+
+  private:
+    mpfr_t x_;
+};
+
+class ball {
+  public:
+    /// Exactly zero; midpoints are rounded to `precision` bits.
+    explicit ball(mpfr_prec_t precision) : middle_(precision), radius_(radius_precision) {}
+
+    /// Exactly zero, at another precision.
+    void restart(mpfr_prec_t precision) {
+        mpfr_set_prec(middle_.get(), precision);
+        mpfr_set_zero(middle_.get(), 1);
+        mpfr_set_zero(radius_.get(), 1);
+    }
+    /// value, of at least 53 bits of precision.
+    void set(double value) {
+        mpfr_set_d(middle_.get(), value, MPFR_RNDN);
+        mpfr_set_zero(radius_.get(), 1);
+    }
+    /// value + error·quarters/4.
+    void set(double value, double error, int quarters) {
+        set(error);
+        mpfr_mul_si(middle_.get(), middle_.get(), quarters, MPFR_RNDN);  // at most 53 + 3 bits
+        mpfr_mul_2si(middle_.get(), middle_.get(), -2, MPFR_RNDN);
+        rounded(mpfr_add_d(middle_.get(), middle_.get(), value, MPFR_RNDN));
+    }
+    void set_sum(const ball& a, const ball& b) {
+        const int off = mpfr_add(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
+        mpfr_add(radius_.get(), a.radius(), b.radius(), MPFR_RNDU);
+        rounded(off);
+    }
+    void set_difference(const ball& a, const ball& b) {
+        const int off = mpfr_sub(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
+        mpfr_add(radius_.get(), a.radius(), b.radius(), MPFR_RNDU);
+        rounded(off);
+    }
+    /// |xy − ab| <= |a|·rb + ra·(|b| + rb).
+    void set_product(const ball& a, const ball& b) {
+        const int off = mpfr_mul(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
+        if (a.is_exact() && b.is_exact()) {
+            mpfr_set_zero(radius_.get(), 1);
+        } else if (a.is_unknown() || b.is_unknown()) {
+            mpfr_set_inf(radius_.get(), 1);
+        } else {
+            MPFR_DECL_INIT(left, radius_precision);
+            MPFR_DECL_INIT(right, radius_precision);
+            mpfr_abs(left, a.middle(), MPFR_RNDU);
+            mpfr_mul(left, left, b.radius(), MPFR_RNDU);
+            mpfr_abs(right, b.middle(), MPFR_RNDU);
+            mpfr_add(right, right, b.radius(), MPFR_RNDU);
+            mpfr_mul(right, right, a.radius(), MPFR_RNDU);
+            mpfr_add(radius_.get(), left, right, MPFR_RNDU);
+        }
+        rounded(off);
+    }
+    /// |x/y − a/b| <= (ra + |a/b|·rb)/(|b| − rb); undefined if b is exactly 0, unknown if it may
+    /// be.
+    void set_quotient(const ball& a, const ball& b) {
+        if (b.is_exact() && mpfr_zero_p(b.middle())) {
+            mpfr_set_nan(middle_.get());
+            return;
+        }
+        MPFR_DECL_INIT(distance, radius_precision);
+        mpfr_abs(distance, b.middle(), MPFR_RNDD);
+        mpfr_sub(distance, distance, b.radius(), MPFR_RNDD);
+        if (a.is_unknown() || !(mpfr_sgn(distance) > 0)) {
+            if (!a.is_defined() || !b.is_defined()) {
+                mpfr_set_nan(middle_.get());
+            } else {
+                mpfr_set_zero(middle_.get(), 1);
+                mpfr_set_inf(radius_.get(), 1);
+            }
+            return;
+        }
+        MPFR_DECL_INIT(size, radius_precision);
+        const int off = mpfr_div(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
+        mpfr_abs(size, middle_.get(), MPFR_RNDU);
+        if (off != 0) mpfr_nextabove(size);  // at least |a/b| itself
+        mpfr_mul(size, size, b.radius(), MPFR_RNDU);
+        mpfr_add(size, size, a.radius(), MPFR_RNDU);
+        mpfr_div(radius_.get(), size, distance, MPFR_RNDU);
+        rounded(off);
+    }
+    void set_negative(const ball& a) {
+        mpfr_neg(middle_.get(), a.middle(), MPFR_RNDN);
+        mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
+    }
+    /// a·2^e.
+    void set_scaled(const ball& a, int e) {
+        mpfr_mul_2si(middle_.get(), a.middle(), e, MPFR_RNDN);
+        mpfr_mul_2si(radius_.get(), a.radius(), e, MPFR_RNDU);
+    }
+
+    mpfr_srcptr middle() const { return middle_.get(); }
+    mpfr_srcptr radius() const { return radius_.get(); }
+    bool is_exact() const { return mpfr_zero_p(radius_.get()) != 0; }
+    /// Nothing is known: the precision did not tell a divisor from zero.
+    bool is_unknown() const { return mpfr_inf_p(radius_.get()) != 0; }
+    /// False for what was divided by exactly zero, and all that comes of it.
+    bool is_defined() const { return mpfr_nan_p(middle_.get()) == 0; }
+    /// The sign, where the enclosure tells.
+    sign_type sign() const {
+        if (!is_defined()) return sign_type::uncertain;
+        if (mpfr_cmpabs(middle_.get(), radius_.get()) <= 0)
+            return is_exact() && mpfr_zero_p(middle_.get()) ? sign_type::zero
+                                                            : sign_type::uncertain;
+        return mpfr_sgn(middle_.get()) > 0 ? sign_type::positive : sign_type::negative;
+    }
+
+  private:
+    static constexpr mpfr_prec_t radius_precision = 64;
+
+    /// Pays for the rounding of the midpoint, where there was one: half a last place.
+    void rounded(int off) {
+        if (off == 0 || mpfr_regular_p(middle_.get()) == 0) return;
+        MPFR_DECL_INIT(half, radius_precision);
+        mpfr_set_ui_2exp(half, 1, mpfr_get_exp(middle_.get()) - mpfr_get_prec(middle_.get()) - 1,
+                         MPFR_RNDU);
+        mpfr_add(radius_.get(), radius_.get(), half, MPFR_RNDU);
+    }
+
+    mpfr_number middle_, radius_;
+};
+
+/// Whether a claim holds, as far as the enclosure tells.
+enum class judgement { holds, violated, undetermined };
+
+/// |value − x| for a finite value and x in a ball: two-sided.
+class deviation {
+  public:
+    deviation() : lower_(precision), upper_(precision), value_(53) {}
+
+    void compute(double value, const ball& x) {
+        mpfr_set_d(value_.get(), value, MPFR_RNDN);
+        const int off = mpfr_sub(lower_.get(), value_.get(), x.middle(), MPFR_RNDZ);
+        mpfr_abs(lower_.get(), lower_.get(), MPFR_RNDN);
+        mpfr_set(upper_.get(), lower_.get(), MPFR_RNDN);
+        if (off != 0) mpfr_nextabove(upper_.get());
+        if (x.is_exact()) return;
+        mpfr_add(upper_.get(), upper_.get(), x.radius(), MPFR_RNDU);
+        mpfr_sub(lower_.get(), lower_.get(), x.radius(), MPFR_RNDD);
+    }
+    judgement at_most(double bound) const {
+        if (mpfr_cmp_d(upper_.get(), bound) <= 0) return judgement::holds;
+        return mpfr_cmp_d(lower_.get(), bound) > 0 ? judgement::violated : judgement::undetermined;
+    }
+    bool is_zero() const { return mpfr_zero_p(upper_.get()) != 0; }
+    /// Zero, or too small for the enclosure to tell its size.
+    bool is_negligible() const {
+        return is_zero() || mpfr_sgn(lower_.get()) <= 0 ||
+               mpfr_get_exp(upper_.get()) > mpfr_get_exp(lower_.get()) + 1;
+    }
+    /// Unless it is negligible.
+    double log10() const { return log10_of(upper_.get()); }
+    mpfr_srcptr upper() const { return upper_.get(); }
+
+    /// For x > 0, whatever its exponent.
+    static double log10_of(mpfr_srcptr x);
+
+  private:
+    static constexpr mpfr_prec_t precision = 64;
+    mpfr_number lower_, upper_, value_;
+};
+
+}  // namespace errbound::validation

@@ -1,0 +1,150 @@
+# Tests of `ccd report` as a user runs it: files it writes, going on after a stop, exit statuses.
+# The path to the program is in the environment variable CCD_PROGRAM.
+import csv
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["CCD_PROGRAM"]
+
+# A triangle, and one that falls through it.
+BASE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+FACES = "f 1 2 3\nf 4 5 6\n"
+BEFORE = BASE + "v 0.2 0.2 1\nv 0.4 0.2 1.125\nv 0.2 0.4 1.25\n" + FACES
+AFTER = BASE + "v 0.2 0.2 -1\nv 0.4 0.2 -0.875\nv 0.2 0.4 -0.75\n" + FACES
+# A vertex that falls through a triangle.
+HIT = ["0.25,0.25,1", "0,0,0", "1,0,0", "0,1,0", "0.25,0.25,-1", "0,0,0", "1,0,0", "0,1,0"]
+
+HAVE_MATPLOTLIB = subprocess.run(["/usr/bin/python3", "-c", "import matplotlib"],
+                                 capture_output=True, check=False).returncode == 0
+
+
+class Report(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name)
+        self.data, self.out = self.directory / "data", self.directory / "out"
+        self.write("falling/frame0.obj", BEFORE)
+        self.write("falling/frame1.obj", AFTER)
+        # Pictures take seconds: only where they are tested.
+        self.write("../no/matplotlib.py", "raise ImportError")
+
+    def write(self, name, text):
+        path = self.data / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def report(self, *arguments, pictures=False, status=0):
+        environment = dict(os.environ)
+        if not pictures:
+            environment["PYTHONPATH"] = str(self.directory / "no")
+        done = subprocess.run(
+            [PROGRAM, "report", "--quick", "--sections", "methods,times,bounds", "--out", self.out,
+             *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False,
+            env=environment)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stdout if status != 2 else done.stderr
+
+    def table(self, name):
+        with (self.out / name).open(newline="") as file:
+            return list(csv.DictReader(file))
+
+    def parts(self):
+        return {path.name: path.read_text() for path in (self.out / "parts").iterdir()}
+
+    def test_tables_tell_the_same(self):
+        self.write("hits/vertex-face/1.csv", "".join(f"{line},1\n" for line in HIT))
+        text = self.report(self.data, "--commit", "of-the-test")
+        rows = self.table("methods.csv")
+        self.assertEqual({r["data_set"] for r in rows}, {"falling", "hits"})
+        for method in ("exact", "exact, batch"):
+            found = [(r["data_set"], r["origin"], r["kind"], r["queries"], r["colliding"],
+                      r["collisions"], r["false_positives"], r["false_negatives"])
+                     for r in rows if r["method"] == method]
+            self.assertIn(("hits", "stored", "vf", "1", "1", "1", "0", "0"), found)
+            self.assertIn(("falling", "scene", "vf", "3", "3", "3", "0", "0"), found)
+        self.assertTrue(all(float(r["ns_min"]) > 0 for r in rows))
+        markdown = (self.out / "report.md").read_text()
+        self.assertIn("of-the-test", markdown)
+        self.assertIn("None: every method kept its promise", markdown)
+        for method in {r["method"] for r in rows}:
+            self.assertIn(f"| {method} |", markdown)
+            self.assertIn(f"\n{method} ", text)
+        for r in self.table("times.csv"):
+            times = [float(r[key]) for key in ("ns_median", "ns_90", "ns_99", "ns_99_9",
+                                               "ns_worst")]
+            self.assertEqual(times, sorted(times))
+        self.assertEqual({r["variable"] for r in self.table("bounds.csv")},
+                         {"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"})
+
+    def test_goes_on_where_it_was(self):
+        def resumed(text):
+            lines = [line for line in text.splitlines() if line.startswith("going on: ")]
+            return lines[0].split()[2] if lines else "0"
+
+        arguments = [self.data, "--method", "float,exact"]
+        self.assertEqual(resumed(self.report(*arguments)), "0")
+        first, table = self.parts(), self.table("methods.csv")
+        self.assertEqual(resumed(self.report(*arguments)), str(len(first)))
+        self.assertEqual(self.parts(), first)
+        self.assertEqual(self.table("methods.csv"), table)
+
+        # One part is missing, one damaged: these alone are measured anew.
+        gone, damaged = sorted(name for name in first if "errors" in name)[:2]
+        (self.out / "parts" / gone).unlink()
+        (self.out / "parts" / damaged).write_text(first[damaged].replace('"queries": ',
+                                                                         '"queries": 1'))
+        self.assertEqual(resumed(self.report(*arguments)), str(len(first) - 2))
+        self.assertEqual(self.parts().keys(), first.keys())
+        self.assertEqual(self.parts()[gone], first[gone])
+        self.assertEqual(self.parts()[damaged], first[damaged])
+
+        # Other methods are timed anew; errors and bounds do not depend on that.
+        kept = sum("errors_of_exact" in name or "bounds" in name for name in first)
+        self.assertEqual(resumed(self.report(self.data, "--method", "exact")), str(kept))
+        # Other data: nothing is kept.
+        self.write("falling/frame1.obj", AFTER.replace("-0.75", "-0.7"))
+        self.assertEqual(resumed(self.report(*arguments)), "0")
+
+    def test_broken_promise(self):
+        self.write("hits/vf/1.csv", "".join(f"{line},0\n" for line in HIT))
+        text = self.report(self.data, "--method", "exact", status=1)
+        self.assertIn("FAILED: exact: 1 false collisions on hits, vf, against its promise", text)
+        self.assertIn("* exact: 1 false collisions on hits, vf, against its promise",
+                      (self.out / "report.md").read_text())
+
+    def test_left_out(self):
+        self.write("bad/vf/1.csv", "1,2\n")
+        self.write("bad/table.csv", "a,b\n")
+        text = self.report(self.data, "--method", "exact")
+        self.assertIn("1.csv:1: ", text)
+        self.assertIn("table.csv: its path names no kind of query", text)
+        self.assertIn("table.csv`: its path names no kind of query",
+                      (self.out / "report.md").read_text())
+
+    def test_bad_input_and_usage(self):
+        empty = self.directory / "empty"
+        empty.mkdir()
+        self.report(empty, status=1)
+        self.report(self.directory / "missing", status=1)
+        self.assertFalse(self.out.exists())
+        self.assertIn("--sections", self.report(self.data, "--sections", "all", status=2))
+
+    @unittest.skipUnless(HAVE_MATPLOTLIB, "no matplotlib")
+    def test_pictures(self):
+        self.report(self.data, "--method", "float,exact", pictures=True)
+        markdown = (self.out / "report.md").read_text()
+        for name in ("pareto", "bounds", "times"):
+            self.assertTrue((self.out / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
+            self.assertIn("<svg", (self.out / f"{name}.svg").read_text())
+            self.assertIn(f"]({name}.png)", markdown)
+        # A later report that cannot draw does not show these.
+        self.report(self.data, "--method", "exact")
+        self.assertFalse((self.out / "pareto.png").exists())
+        self.assertNotIn("pareto.png", (self.out / "report.md").read_text())
+
+
+unittest.main()

@@ -1,0 +1,107 @@
+# Tests of the program `errbound` as a user runs it: exit statuses, messages, files it writes.
+# The path to the program is in the environment variable ERRBOUND_PROGRAM.
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+
+# A vertex that falls through a triangle, with coordinates that round.
+HIT = "0x1.3p-2,0.1,0.7\n0.1,-0.3,0\n1.3,0,0.1\n0.1,1.7,0\n" \
+      "0.23,0.1,-0.7\n0,-0.3,0\n1.3,0.1,0\n0,1.7,0.1\n"
+
+
+class Validate(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                              timeout=300)
+
+    def good(self, *arguments):
+        done = self.run_program("validate", *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+        self.assertTrue(done.stdout.endswith("\nno violations\n"), done.stdout)
+        return done.stdout
+
+    def test_expressions_as_table_json_and_csv(self):
+        out, table = self.directory / "out.json", self.directory / "out.csv"
+        text = self.good("--expressions", 2000, "--json", out, "--csv", table)
+        found = json.loads(out.read_text())
+        self.assertEqual(list(found), ["counts", "violations", "tightness"])
+        self.assertEqual(found["violations"], [])
+        for entry in found["counts"]:
+            self.assertGreaterEqual(entry["cases"], 2000)
+            self.assertEqual(entry["violations"], 0)
+            self.assertIn(str(entry["values"]), text)
+        rules = {entry["rule"] for entry in found["counts"]}
+        self.assertLessEqual({"none", "safe", "tight"}, rules)
+        with open(table, newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(found["tightness"]))
+        for row, entry in zip(rows, found["tightness"]):
+            self.assertEqual(list(row), list(entry))
+            self.assertEqual(row["quantity"], entry["quantity"])
+            self.assertEqual(int(row["ratios"]), entry["ratios"])
+            if entry["ratios"] == 0:
+                self.assertIsNone(entry["median"])
+                self.assertEqual(row["median"], "")
+                continue
+            quantiles = [entry[q] for q in ("min", "q01", "q25", "median", "q75", "q99", "max")]
+            self.assertEqual(quantiles, sorted(quantiles))
+            self.assertAlmostEqual(float(row["median"]), entry["median"], places=3)
+            if entry["measure"] == "bound/error":
+                self.assertGreaterEqual(entry["min"], 0)
+
+    def test_same_result_for_same_seed_and_any_threads(self):
+        common = ("--expressions", 3000, "--rules", "tight")
+        one = self.good(*common, "--threads", 1)
+        self.assertEqual(one, self.good(*common, "--threads", 3))
+        self.assertNotEqual(one, self.good(*common, "--seed", 2))
+
+    def test_queries(self):
+        file = self.directory / "vf.csv"
+        file.write_text(HIT)
+        out = self.directory / "out.json"
+        text = self.good("--queries", file, "--rules", "tight,safe", "--json", out)
+        self.assertNotIn("expressions", text)
+        found = json.loads(out.read_text())
+        self.assertEqual([(c["part"], c["rule"], c["cases"]) for c in found["counts"]],
+                         [(str(file), "tight", 1), (str(file), "safe", 1)])
+        quantities = {t["quantity"] for t in found["tightness"]}
+        self.assertLessEqual({"k0", "3 k1", "3 k2", "k3", "Y'(0)", "Y''(1)", "G"}, quantities)
+
+    def test_bad_input(self):
+        file = self.directory / "vf.csv"
+        file.write_text(HIT.replace("0.7\n", "x\n", 1))
+        out = self.directory / "out.json"
+        done = self.run_program("validate", "--queries", file, "--json", out)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("vf.csv", done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertFalse(out.exists())
+
+    def test_bad_usage(self):
+        file = self.directory / "vf.csv"
+        file.write_text(HIT)
+        for arguments in ((), ("validate", "--rules", "loose"), ("validate", "--expressions", "0"),
+                          ("validate", "--operations", "49"), ("validate", "--kind", "vv"),
+                          ("validate", "--queries", file, "--json", file),
+                          ("validate", "--json", "out", "--csv", "out"), ("nothing",)):
+            done = self.run_program(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertNotEqual(done.stderr, "")
+            self.assertEqual(done.stdout, "")
+        self.assertEqual(file.read_text(), HIT)
+
+
+if __name__ == "__main__":
+    unittest.main()
