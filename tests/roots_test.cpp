@@ -325,6 +325,19 @@ TEST(Roots, ZeroConstantAndLinearPolynomials) {
     EXPECT_TRUE(root_where_nonnegative<integer>(zero, {}, 0, 1));
 }
 
+TEST(Roots, BeyondTheRangeOfDouble) {
+    // Nearer to 0 than any other double, and larger than all.
+    for (const polynomial<double>& p :
+         {polynomial{-0x1p-801, -0x1p+329}, polynomial{-0x1p-801, 0x1p+329},
+          polynomial{0x1p+1000, -0x1p-1000}}) {
+        EXPECT_EQ(count_roots<integer>(p, -infinity, infinity), 1U);
+        EXPECT_EQ(isolate_roots<integer>(p, -infinity, infinity).size(), 1U);
+    }
+    const polynomial<double> tiny{-0x1p-801, 0x1p+329};
+    EXPECT_EQ(count_roots<integer>(tiny, 0, number_traits<double>::underflow_unit()), 1U);
+    EXPECT_EQ(count_roots<integer>(tiny, number_traits<double>::underflow_unit(), 1), 0U);
+}
+
 TEST(Roots, MultiplicitiesAndRootsAtEnds) {
     // (x − 1)³ x² (x² − 2)
     const polynomial<integer> p(generator::product(form{0, 0, -1, 3, -3, 1}, form{2, 0, -1}));

@@ -174,7 +174,8 @@ class root_filter {
     }
 
     /// A bound of Kioustelidis (see positive_root_exponent), not a power of two so that the ends of
-    /// parts are rarely numbers that people choose as roots. Infinite if there is none in range.
+    /// parts are rarely numbers that people choose as roots. 0 if there is no positive root,
+    /// infinite if there is no bound in range.
     double root_bound() const {
         const std::size_t n = c_.size() - 1;
         const auto largest = [](const number& c) {
@@ -197,7 +198,7 @@ class root_filter {
                                                             : quotient / degree));
         }
         if (exponent == std::numeric_limits<int>::min()) return 0;
-        return std::ldexp(45.0 / 32, exponent);
+        return std::max(std::ldexp(45.0 / 32, exponent), number_traits<double>::smallest_normal());
     }
 
     /// The control values on [at0, at1] as a new row.

@@ -42,21 +42,20 @@ struct contest {
                 for (const auto& p : doubles) bench::keep(ask(p));
             };
         };
-        const auto timings = bench::race(
-            {pass([](const auto& p) {
-                 return errbound::count_roots<integer>(p, -infinity, infinity);
-             }),
-             pass([](const auto& p) {
-                 return errbound::isolate_roots<integer>(p, -infinity, infinity).size();
-             }),
-             [this] {
-                 for (const auto& p : others) bench::keep(p->distinct_real_roots());
-             }},
-            repeats);
+        const auto timings =
+            bench::race({pass([](const auto& p) {
+                             return errbound::count_roots<integer>(p, -infinity, infinity);
+                         }),
+                         pass([](const auto& p) {
+                             return errbound::isolate_roots<integer>(p, -infinity, infinity).size();
+                         }),
+                         [this] {
+                             for (const auto& p : others) bench::keep(p->distinct_real_roots());
+                         }},
+                        repeats);
         std::vector<bench::cell> row;
         for (const auto& t : timings)
-            row.push_back(
-                bench::number(1e9 * t.median / static_cast<double>(others.size()), 0));
+            row.push_back(bench::number(1e9 * t.median / static_cast<double>(others.size()), 0));
         row.push_back(bench::number(timings[2].median / timings[0].median, 1));
         return row;
     }
@@ -65,9 +64,8 @@ struct contest {
 bool decided_by_filter(const polynomial_families::sample& s) {
     const errbound::polynomial whole(s.whole);
     const errbound::polynomial doubles(s.doubles);
-    return (s.doubles.empty()
-                ? errbound::isolate_roots<integer>(whole, -infinity, infinity)
-                : errbound::isolate_roots<integer>(doubles, -infinity, infinity))
+    return (s.doubles.empty() ? errbound::isolate_roots<integer>(whole, -infinity, infinity)
+                              : errbound::isolate_roots<integer>(doubles, -infinity, infinity))
         .decided_by_filter();
 }
 
