@@ -5,12 +5,10 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <ccd/forms.hpp>
 #include <ccd/transform.hpp>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <errbound/dyadic.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/real_roots.hpp>
 #include <limits>
@@ -32,20 +30,6 @@ using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
                                               boost::multiprecision::et_off>;
 #endif
 
-/// x = mantissa·2^exponent with an odd mantissa, for x finite and not zero.
-struct decomposed {
-    std::int64_t mantissa;
-    int exponent;
-
-    explicit decomposed(double x) {
-        int e = 0;
-        const auto m = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &e), 53));
-        const int zeros = std::countr_zero(static_cast<std::uint64_t>(m));
-        mantissa = m >> zeros;
-        exponent = e - 53 + zeros;
-    }
-};
-
 /// The query, of finite coordinates, in integers: each axis times a power of two of its own.
 /// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
 /// by positive factors, and integers stay short when one axis is much smaller than the others.
@@ -54,7 +38,7 @@ Query<integer> to_integers(const Query<double>& query) {
     constexpr int none = std::numeric_limits<int>::max();
     point<int> lowest{none, none, none};
     const auto lower = [](int& bound, double x) {
-        if (x != 0) bound = std::min(bound, decomposed(x).exponent);
+        if (x != 0) bound = std::min(bound, errbound::decomposed(x).exponent);
     };
     for (const auto& p : points_of(query))
         for (const auto& x : {p.t0, p.t1}) {
@@ -64,7 +48,7 @@ Query<integer> to_integers(const Query<double>& query) {
         }
     const auto to_integer = [](double x, int unit) {
         if (x == 0) return integer(0);
-        const decomposed d(x);
+        const errbound::decomposed d(x);
         return integer(integer(d.mantissa) << (d.exponent - unit));
     };
     return transformed_points(query, [&](const point<double>& p) {

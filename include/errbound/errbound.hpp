@@ -4,5 +4,5 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/bsc.hpp>
 #include <errbound/environment.hpp>
-#include <errbound/real_roots.hpp>
+#include <errbound/polynomial.hpp>
 #include <errbound/tracked.hpp>

@@ -1,26 +1,29 @@
-// Real roots in (0, 1) of polynomials with integer coefficients, and exact signs of others there.
+// Real roots of one polynomial, always exactly: floating point first (errbound/root_filter.hpp),
+// integers for what it leaves open (errbound/root_isolation.hpp).
 //
-// A polynomial is a form Σ h_i s^(n−i) t^i, as in bernstein.hpp, of run-time degree; h_i are at
-// the same time power-basis coefficients in x = t/s, in which (0, 1) is (0, ∞). Integer is an exact
-// type with + − × / %, comparison, abs(), gcd() and msb() found by argument-dependent lookup
-// (Boost.Multiprecision's integers). Allocates; time and memory are bounded by degree and size of
-// the coefficients (the root separation of the polynomials limits the refinement).
+// errbound/polynomial.hpp has the calls that most users want.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <errbound/bernstein.hpp>
-#include <errbound/sign.hpp>
+#include <errbound/integer_polynomial.hpp>
+#include <errbound/polynomial_stages.hpp>
+#include <errbound/root_filter.hpp>
+#include <errbound/root_isolation.hpp>
+#include <errbound/rules/tight.hpp>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace errbound {
 
-template <exact_number Integer>
-using integer_form = std::vector<Integer>;
-
-/// The form of p without its roots at t = 0 and t = 1 (leading and trailing zero coefficients);
-/// empty if p is identically zero.
+/// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1 (leading and trailing zero
+/// coefficients); empty if p is identically zero. Its coefficients are those of the power basis in
+/// x = t/s, in which (0, 1) is (0, ∞).
 template <exact_number Integer, int N>
 integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
     std::size_t first = 0, last = N + 1;
@@ -30,230 +33,238 @@ integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
             p.h.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
-namespace detail {
+/// The number of roots of the polynomial that is identically zero.
+inline constexpr std::size_t infinitely_many = std::numeric_limits<std::size_t>::max();
 
-template <class Integer>
-void trim(integer_form<Integer>& p) {
-    while (!p.empty() && p.back() == 0) p.pop_back();
-}
+/// Which signs a polynomial takes.
+struct occurring_signs {
+    bool negative = false, zero = false, positive = false;
 
-/// p divided by the (positive) greatest common divisor of its coefficients.
-template <class Integer>
-void make_primitive(integer_form<Integer>& p) {
-    Integer content = 0;
-    for (const Integer& c : p) content = gcd(content, c);
-    if (content > 1)
-        for (Integer& c : p) c /= content;
-}
-
-/// A positive multiple of the remainder of a by b (power basis in x), and of the quotient.
-template <class Integer>
-std::pair<integer_form<Integer>, integer_form<Integer>> pseudo_divide(
-    integer_form<Integer> a, const integer_form<Integer>& b) {
-    const Integer lead = abs(b.back());
-    const bool negative = b.back() < 0;
-    integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
-    while (a.size() >= b.size()) {
-        const std::size_t shift = a.size() - b.size();
-        const Integer factor = negative ? Integer(-a.back()) : a.back();
-        for (Integer& c : quotient) c *= lead;
-        quotient[shift] = factor;
-        for (Integer& c : a) c *= lead;
-        for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] -= factor * b[i];
-        trim(a);
+    constexpr void add(sign_type s) {
+        if (s == sign_type::negative) negative = true;
+        if (s == sign_type::zero) zero = true;
+        if (s == sign_type::positive) positive = true;
     }
-    return {std::move(quotient), std::move(a)};
-}
-
-template <class Integer>
-integer_form<Integer> derivative_in_x(const integer_form<Integer>& p) {
-    integer_form<Integer> d;
-    for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * Integer(i));
-    return d;
-}
-
-}  // namespace detail
-
-/// The greatest common divisor, primitive; empty only if both are identically zero.
-template <exact_number Integer>
-integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b) {
-    detail::trim(a);
-    detail::trim(b);
-    while (!b.empty()) {
-        detail::make_primitive(b);
-        a = detail::pseudo_divide(std::move(a), b).second;
-        std::swap(a, b);
-    }
-    detail::make_primitive(a);
-    return a;
-}
-
-/// The point t/(s + t) of [0, 1], for s, t >= 0 not both zero; x = t/s there.
-template <exact_number Integer>
-struct ratio {
-    Integer s, t;
+    friend constexpr bool operator==(const occurring_signs&, const occurring_signs&) = default;
 };
 
-/// The sign of p at a point. (At x = ∞ it is that of p's last coefficient, which is not zero.)
-template <exact_number Integer>
-sign_type sign_at(const integer_form<Integer>& p, const ratio<Integer>& point) {
-    if (p.empty()) return sign_type::zero;
-    Integer sum = p[0], power = 1;
-    for (std::size_t i = 1; i < p.size(); ++i) {
-        power *= point.t;
-        sum = sum * point.s + p[i] * power;
-    }
-    return sign_of(sum);
-}
-
-/// The distinct roots of a polynomial in (0, 1), by Sturm's theorem and bisection: of the
-/// exponent of x first, so that roots near the ends take few steps, then of x itself.
+/// The distinct roots of a polynomial on a part of the line, in ascending order. What is found out
+/// of a root narrows its interval for what is asked next: not for use by two threads at once.
 template <exact_number Integer>
 class real_roots {
   public:
-    /// The roots of p; p has no root at 0 or 1 (see without_end_roots) and is not empty.
-    explicit real_roots(const integer_form<Integer>& p) {
-        const auto d = detail::derivative_in_x(p);
-        squarefree_ = d.empty() ? p : detail::pseudo_divide(p, common_factor(p, d)).first;
-        detail::make_primitive(squarefree_);
-        chain_ = sturm_chain(squarefree_);
-        for (const Integer& c : squarefree_) {
-            const Integer size = abs(c);
-            if (size > 0) exponent_bound_ = std::max(exponent_bound_, int(msb(size)) + 2);
-        }
-        isolate({1, 0}, {0, 1});
+    using interval = isolating_interval<Integer>;
+    using point = dyadic<Integer>;
+    using number = typename staged_polynomial<Integer>::number;
+
+    /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
+    explicit real_roots(const integer_form<Integer>& p) : p_(p) {
+        const point zero;
+        exact().isolate(zero, exact().upper_bound(), intervals_);
     }
 
-    std::size_t size() const { return intervals_.size(); }
+    /// The roots in [a, b], a <= b, which may be infinite.
+    real_roots(staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
+        if (p_.is_zero()) {
+            everywhere_ = true;
+            return;
+        }
+        zeros_ = p_.divide_by_x();
+        if (a == b) {
+            if (a != 0) exact().isolate(point::from(a), point::from(a), intervals_);
+        } else {
+            add(root_filter<tight>(p_.floating(), a, b));
+        }
+        if (a <= 0 && 0 <= b) add_zero();
+    }
 
-    /// The sign of g at root k (in ascending order); g is not changed by roots at 0 or 1.
-    /// Exact: zero is decided by a common factor, any other sign by refining the root's interval
-    /// until g's coefficients on it have one sign.
+    /// Whether the polynomial is identically zero: all points are roots, and none is listed.
+    bool everywhere() const { return everywhere_; }
+    std::size_t size() const { return intervals_.size(); }
+    const interval& operator[](std::size_t k) const { return intervals_[k]; }
+    /// Whether no integers were needed to isolate the roots.
+    bool decided_by_filter() const { return decided_by_filter_; }
+
+    /// Narrows root k's interval to at most this width > 0.
+    void refine(std::size_t k, const point& width) {
+        if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
+        if (width < intervals_[k].high - intervals_[k].low) exact().refine(intervals_[k], width);
+    }
+    void refine(std::size_t k, double width) { refine(k, point::from(width)); }
+
+    /// The sign of g at root k, exactly.
+    sign_type sign_at(staged_polynomial<Integer>& g, std::size_t k) {
+        interval& root = intervals_[k];
+        const auto by_values = [&] { return sign_of(value_at(g.floating(), enclosure(root))); };
+        sign_type s = by_values();
+        if (!certain(s) && narrow(root)) s = by_values();
+        return certain(s) ? s : exact().sign_at_root(g.exact(), root);
+    }
+    template <class C>
+    sign_type sign_at(const polynomial<C>& g, std::size_t k) {
+        auto p = errbound::staged<Integer>(g);
+        return sign_at(p, k);
+    }
+
+    /// The same by integers alone.
     sign_type sign_at_root(const integer_form<Integer>& g, std::size_t k) {
-        // A remainder by the squarefree part has g's signs at the roots, and at most its degree.
-        return sign_of_reduced(detail::pseudo_divide(g, squarefree_).second, k);
+        return exact().sign_at_root(g, intervals_[k]);
+    }
+
+    /// The signs of the polynomial on [a, b], for which these roots were asked.
+    occurring_signs signs_on(double a, double b) {
+        occurring_signs signs;
+        if (everywhere_ || size() > 0) signs.zero = true;
+        if (everywhere_ || (a == b && signs.zero)) return signs;
+        // At a root of odd multiplicity inside, the sign changes; otherwise there is but one.
+        for (const interval& root : intervals_) {
+            const bool at_end = root.is_point() && (is_at(root, a) || is_at(root, b));
+            if (root.multiplicity % 2 == 1 && !at_end) signs.negative = signs.positive = true;
+        }
+        if (!signs.negative) signs.add(sign_beside_roots(a, b));
+        return signs;
     }
 
   private:
-    sign_type sign_of_reduced(integer_form<Integer> g, std::size_t k) {
-        if (g.empty()) return sign_type::zero;
-        detail::make_primitive(g);
-        const integer_form<Integer> common = common_factor(squarefree_, g);
-        interval& root = intervals_[k];
-        if (common.size() > 1) {
-            const auto chain = sturm_chain(common);
-            if (variations(chain, root.low) != variations(chain, root.high)) return sign_type::zero;
-        }
-        for (;;) {
-            if (sign_at(squarefree_, root.high) == sign_type::zero) return sign_at(g, root.high);
-            const sign_type hull = sign_on(g, root);
-            if (certain(hull)) return hull;
-            refine(root);
-        }
+    const root_isolation<Integer>& exact() {
+        if (!exact_) exact_.emplace(p_.exact());
+        return *exact_;
     }
 
-    /// Contains exactly one root, in (low, high].
-    struct interval {
-        ratio<Integer> low, high;
-    };
-    using chain_type = std::vector<integer_form<Integer>>;
-
-    static chain_type sturm_chain(const integer_form<Integer>& p) {
-        chain_type chain{p, detail::derivative_in_x(p)};
-        while (!chain.back().empty()) {
-            auto rest = detail::pseudo_divide(chain[chain.size() - 2], chain.back()).second;
-            detail::make_primitive(rest);
-            for (Integer& c : rest) c = -c;
-            chain.push_back(std::move(rest));
-        }
-        chain.pop_back();
-        return chain;
+    void add(const root_filter<tight>& filter) {
+        const auto& parts = filter.parts();
+        for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
+        decided_by_filter_ = filter.decides();
     }
-
-    /// Sign variations of the chain: those at low less those at high are the number of roots of a
-    /// squarefree polynomial in (low, high].
-    static int variations(const chain_type& chain, const ratio<Integer>& point) {
-        int count = 0;
-        sign_type last = sign_type::zero;
-        for (const auto& p : chain) {
-            const sign_type s = sign_at(p, point);
-            if (s == sign_type::zero) continue;
-            if (last != sign_type::zero && s != last) ++count;
-            last = s;
-        }
-        return count;
-    }
-
-    /// ⌊log2 x⌋ of a point (every s here is a power of two or 0). At the ends it is a bound of
-    /// Cauchy's: roots have 2^-bound < x < 2^(bound − 1), so no interval that holds one is narrow
-    /// and has x = ∞ as its end.
-    int exponent(const ratio<Integer>& point) const {
-        if (point.t == 0) return -exponent_bound_;
-        if (point.s == 0) return exponent_bound_;
-        return int(msb(point.t)) - int(msb(point.s));
-    }
-
-    /// A point strictly between a and b.
-    ratio<Integer> middle(const ratio<Integer>& a, const ratio<Integer>& b) const {
-        const int low = exponent(a), high = exponent(b);
-        if (high - low >= 2) {
-            const int e = low + (high - low) / 2;
-            return e >= 0 ? ratio<Integer>{1, Integer(1) << e}
-                          : ratio<Integer>{Integer(1) << -e, 1};
-        }
-        // x = (xa + xb)/2
-        const Integer& s = a.s < b.s ? b.s : a.s;
-        return {Integer(2 * s), Integer(a.t * (s / a.s) + b.t * (s / b.s))};
-    }
-
-    void isolate(const ratio<Integer>& low, const ratio<Integer>& high) {
-        const int count = variations(chain_, low) - variations(chain_, high);
-        if (count == 0) return;
-        if (count == 1) {
+    /// The filter's part i, together with its neighbours if it is not known.
+    void add(const std::vector<filtered_part>& parts, std::size_t& i) {
+        const filtered_part& part = parts[i];
+        if (part.has_one_root) {
+            const auto [low, high] = ends(part);
             intervals_.push_back({low, high});
             return;
         }
-        const ratio<Integer> half = middle(low, high);
-        isolate(low, half);
-        isolate(half, high);
-    }
-
-    void refine(interval& root) const {
-        const ratio<Integer> half = middle(root.low, root.high);
-        if (variations(chain_, root.low) != variations(chain_, half))
-            root.high = half;
-        else
-            root.low = half;
-    }
-
-    /// The one sign of g's coefficients on [low, high], or uncertain.
-    static sign_type sign_on(const integer_form<Integer>& g, const interval& range) {
-        const integer_form<Integer> s{range.low.s, range.high.s};
-        const integer_form<Integer> t{range.low.t, range.high.t};
-        // g(s(σ, τ), t(σ, τ)) by Horner's rule; s and t are linear forms on the interval.
-        integer_form<Integer> sum{g[0]}, power{Integer(1)};
-        for (std::size_t i = 1; i < g.size(); ++i) {
-            power = product(power, t);
-            sum = product(sum, s);
-            for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += g[i] * power[j];
+        auto [low, high] = ends(part);
+        for (; i + 1 < parts.size() && !parts[i + 1].has_one_root; ++i) {
+            const auto next = ends(parts[i + 1]);
+            if (high < next.first) break;
+            high = next.second;
         }
-        sign_type all = sign_of(sum[0]);
-        for (const Integer& c : sum)
-            if (sign_of(c) != all || c == 0) return sign_type::uncertain;
-        return all;
+        exact().isolate(low, high, intervals_);
     }
-    static integer_form<Integer> product(const integer_form<Integer>& a,
-                                         const integer_form<Integer>& b) {
-        integer_form<Integer> r(a.size() + b.size() - 1);
-        for (std::size_t i = 0; i < a.size(); ++i)
-            for (std::size_t j = 0; j < b.size(); ++j) r[i + j] += a[i] * b[j];
-        return r;
+    /// Both in ascending order; root bounds for infinite ends, as far as they leave anything.
+    std::pair<point, point> ends(const filtered_part& part) {
+        const auto end = [this](double x, double other) {
+            if (std::isfinite(x)) return point::from(x);
+            const point bound = x > 0 ? exact().upper_bound() : exact().lower_bound();
+            const bool beyond = std::isfinite(other) && (bound < point::from(other)) == (x > 0);
+            return beyond ? point::from(other) : bound;
+        };
+        const point at0 = end(part.at0, part.at1), at1 = end(part.at1, part.at0);
+        const point from = at0 + (at1 - at0) * point::from(part.from),
+                    to = at0 + (at1 - at0) * point::from(part.to);
+        return from < to ? std::pair{from, to} : std::pair{to, from};
     }
 
-    integer_form<Integer> squarefree_;
-    chain_type chain_;
-    int exponent_bound_ = 0;
+    /// Puts the root at 0 in its place, if there is one; no other interval may hold it.
+    void add_zero() {
+        if (zeros_ == 0) return;
+        const point zero;
+        for (interval& root : intervals_)
+            while (root.low <= zero && zero <= root.high) exact().refine(root);
+        const auto next = std::find_if(intervals_.begin(), intervals_.end(),
+                                       [&](const interval& root) { return zero < root.low; });
+        intervals_.insert(next, interval{zero, zero, zeros_});
+    }
+
+    /// The root, which lies within that of a double, and no more where it is a double itself.
+    static number enclosure(const interval& root) {
+        using traits = number_traits<double>;
+        const double low = root.low.to_double(), high = root.high.to_double();
+        const double size = std::max(std::abs(low), std::abs(high));
+        return number::within(
+            low + (high - low) / 2,
+            (high - low) / 2 + 4 * traits::epsilon() * size + 4 * traits::underflow_unit());
+    }
+    sign_type floating_sign_at(const number& x) const {
+        return sign_of(value_at(p_.floating(), x));
+    }
+
+    /// Narrows a root's interval to about double's precision, without integers; false if that
+    /// fails.
+    bool narrow(interval& root) {
+        if (root.is_point() || root.multiplicity % 2 == 0) return false;
+        const sign_type before = floating_sign_at(enclosure({root.low, root.low}));
+        const double low = root.low.to_double(), high = root.high.to_double();
+        if (!certain(before) || !std::isfinite(low) || !std::isfinite(high)) return false;
+        const double x = approximate_root(low, high, before == sign_type::negative);
+        bool narrowed = false;
+        for (const bool left : {true, false}) {
+            double distance = number_traits<double>::epsilon() * std::abs(x);
+            for (;; distance *= 16) {
+                const double t = left ? x - distance : x + distance;
+                if (!(low < t && t < high)) break;
+                if (floating_sign_at(number(t)) != (left ? before : -before)) continue;
+                const point end = point::from(t);
+                if (!(root.low < end && end < root.high)) break;
+                (left ? root.low : root.high) = end;
+                narrowed = true;
+                break;
+            }
+        }
+        return narrowed;
+    }
+    /// By Newton's method in plain doubles, or halving where its steps do not halve.
+    double approximate_root(double low, double high, bool rising) const {
+        double x = low + (high - low) / 2, last_step = high - low;
+        for (int i = 0; i < 4 * number_traits<double>::digits; ++i) {
+            double y = 0, slope = 0;
+            for (auto c = p_.floating().rbegin(); c != p_.floating().rend(); ++c) {
+                slope = slope * x + y;
+                y = y * x + c->value();
+            }
+            if (y == 0) break;
+            ((y < 0) == rising ? low : high) = x;
+            double next = x - y / slope;
+            if (!(low < next && next < high && 2 * std::abs(next - x) <= last_step))
+                next = low + (high - low) / 2;
+            if (next == x) break;
+            last_step = std::abs(next - x);
+            x = next;
+        }
+        return x;
+    }
+
+    static bool is_at(const interval& root, double x) {
+        return std::isfinite(x) && root.low == point::from(x);
+    }
+    /// The polynomial's sign somewhere in [a, b], a < b, where it is not zero; or at a = b.
+    sign_type sign_beside_roots(double a, double b) {
+        const point x = beside_roots(a, b);
+        const number place = enclosure({x, x});
+        const sign_type power = zeros_ % 2 == 1 ? sign_of(x) : sign_type::positive;
+        const sign_type s = floating_sign_at(place);
+        return power * (certain(s) ? s : errbound::sign_at(p_.exact(), x));
+    }
+    /// A point of [a, b] that is not a root.
+    point beside_roots(double a, double b) const {
+        if (intervals_.empty()) return point::from(std::isfinite(a) ? a : std::isfinite(b) ? b : 0);
+        const interval& first = intervals_[0];
+        if (!first.is_point()) return first.low;
+        const point one = point::power_of_two(0);
+        if (!std::isfinite(a)) return first.low - one;
+        if (point::from(a) < first.low) return middle(point::from(a), first.low);
+        if (size() == 1)
+            return std::isfinite(b) ? middle(first.low, point::from(b)) : first.low + one;
+        return intervals_[1].is_point() ? middle(first.low, intervals_[1].low) : intervals_[1].low;
+    }
+
+    staged_polynomial<Integer> p_;  ///< divided by x^zeros_
+    int zeros_ = 0;
+    std::optional<root_isolation<Integer>> exact_;
     std::vector<interval> intervals_;
+    bool everywhere_ = false;
+    bool decided_by_filter_ = false;
 };
 
 }  // namespace errbound

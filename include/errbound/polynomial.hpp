@@ -1,0 +1,194 @@
+// Real roots and signs of polynomials of any degree, always exact.
+//
+//   using integer = boost::multiprecision::cpp_int;      // or GMP's; with
+//   errbound/multiprecision.hpp const errbound::polynomial p{-2.0, 0.0, 1.0};         // x² − 2:
+//   coefficients ascend auto roots = errbound::isolate_roots<integer>(p, 0, 10); roots.refine(0,
+//   1e-30);                               // roots[0].low < √2 < roots[0].high
+//   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);    // of x − 1.5 at √2: negative
+//
+// Coefficients: double or float, which are exact numbers; integers or rationals of unbounded size;
+// or tracked numbers, with answers that say so where the coefficients' errors leave them open.
+// Intervals are closed; their ends are doubles, also infinite ones.
+//
+// Each question is asked in floating point with certified bounds first, then in integers.
+// Allocates. Time and memory are bounded by degree and size of the coefficients; where the first
+// stage decides, by some hundred additions times degree².
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <errbound/bsc.hpp>
+#include <errbound/polynomial_stages.hpp>
+#include <errbound/real_roots.hpp>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace errbound {
+
+namespace detail {
+
+/// The integer type to decide in: the one named, or that of the coefficients.
+template <class Named, class C>
+struct integer_for {
+    using type = Named;
+};
+template <class C>
+struct integer_for<void, C> {
+    static_assert(
+        exact_number<C>,
+        "errbound: name the integer type to decide in, as in count_roots<integer>(p, a, b)");
+    static auto of(const C& c) {
+        if constexpr (std::numeric_limits<C>::is_integer)
+            return c;
+        else
+            return numerator(c);
+    }
+    using type = std::remove_cvref_t<decltype(of(std::declval<const C&>()))>;
+};
+template <class Named, class C>
+using integer_for_t = typename integer_for<Named, C>::type;
+
+}  // namespace detail
+
+/// The distinct roots of p in [a, b], a <= b, each in an interval of its own, with multiplicities.
+template <class Integer = void, class C>
+auto isolate_roots(const polynomial<C>& p, double a, double b) {
+    using integer = detail::integer_for_t<Integer, C>;
+    return real_roots<integer>(staged<integer>(p), a, b);
+}
+
+/// The number of distinct roots of p in [a, b], a <= b; `infinitely_many` if p is identically zero.
+template <class Integer = void, class C>
+std::size_t count_roots(const polynomial<C>& p, double a, double b) {
+    using integer = detail::integer_for_t<Integer, C>;
+    if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
+        // No intervals are made, and no integers copied, where the filter decides.
+        const auto c = floating_coefficients(p.coefficients());
+        if (!c.empty() && a < b && !(c[0].value() == 0 && a <= 0 && 0 <= b))
+            if (const root_filter<tight> filter(c, a, b); filter.decides())
+                return filter.parts().size();
+    }
+    const real_roots<integer> roots(staged<integer>(p), a, b);
+    return roots.everywhere() ? infinitely_many : roots.size();
+}
+
+/// The same of a polynomial whose coefficients are known within bounds: nothing if polynomials
+/// within them may differ in it, as far as floating point can tell.
+template <class Rule>
+std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
+                                       double b) {
+    const root_filter<Rule> filter(p.coefficients(), a, b);
+    if (!filter.decides()) return {};
+    return filter.parts().size();
+}
+
+/// The greatest common divisor, primitive over the integers.
+template <class Integer = void, class C>
+auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
+    using integer = detail::integer_for_t<Integer, C>;
+    return polynomial<integer>(
+        common_factor(staged<integer>(p).exact(), staged<integer>(q).exact()));
+}
+
+/// The roots that p and q have in common in [a, b], a <= b, with the lower of their multiplicities.
+template <class Integer = void, class C>
+auto common_roots(const polynomial<C>& p, const polynomial<C>& q, double a, double b) {
+    return isolate_roots(common_factor<Integer>(p, q), a, b);
+}
+
+/// The signs that p takes on [a, b], a <= b.
+template <class Integer = void, class C>
+occurring_signs sign_on(const polynomial<C>& p, double a, double b) {
+    using integer = detail::integer_for_t<Integer, C>;
+    return real_roots<integer>(staged<integer>(p), a, b).signs_on(a, b);
+}
+
+namespace detail {
+
+/// f as a form in (s, t) of degree N on [a, b]: x = (a·s + b·t)/(s + t).
+template <int N, class S>
+bernstein<S, N> form_on(const std::vector<S>& f, const S& a, const S& b, std::size_t first = 0) {
+    const S c = first < f.size() ? f[first] : S(0);
+    if constexpr (N == 0) {
+        return {{c}};
+    } else {
+        auto p = bernstein<S, 1>{{a, b}} * form_on<N - 1>(f, a, b, first + 1);
+        for (int i = 0; i <= N; ++i) p[i] = p[i] + c * S(binomial(N, i));
+        return p;
+    }
+}
+
+/// What BSC says for a cubic f and M quartics g on [a, b].
+template <std::size_t M, class Integer>
+existence by_bsc(const staged_polynomial<Integer>& f,
+                 const std::vector<staged_polynomial<Integer>>& g, double a, double b) {
+    using number = typename staged_polynomial<Integer>::number;
+    return root_with_nonnegative(form_on<3, number>(f.floating(), a, b), [&] {
+        std::array<bernstein<number, 4>, M> forms;
+        for (std::size_t i = 0; i < M; ++i) forms[i] = form_on<4, number>(g[i].floating(), a, b);
+        return forms;
+    });
+}
+
+/// BSC where the degrees allow it, for one to four g.
+template <class Integer>
+existence by_bsc(const staged_polynomial<Integer>& f,
+                 const std::vector<staged_polynomial<Integer>>& g, double a, double b) {
+    if (f.size() > 4 || !std::isfinite(a) || !std::isfinite(b)) return existence::maybe_root;
+    for (const auto& p : g)
+        if (p.size() > 5) return existence::maybe_root;
+    switch (g.size()) {
+        case 1:
+            return by_bsc<1>(f, g, a, b);
+        case 2:
+            return by_bsc<2>(f, g, a, b);
+        case 3:
+            return by_bsc<3>(f, g, a, b);
+        case 4:
+            return by_bsc<4>(f, g, a, b);
+        default:
+            return existence::maybe_root;
+    }
+}
+
+}  // namespace detail
+
+/// Is there t in [a, b], a <= b, with f(t) = 0 and every g_i(t) >= 0?
+///
+/// Cubic f and one to four quartic g_i on a finite interval are asked by BSC first
+/// (errbound/bsc.hpp).
+template <class Integer = void, class C>
+bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
+                            double b) {
+    using integer = detail::integer_for_t<Integer, C>;
+    auto root_of = staged<integer>(f);
+    std::vector<staged_polynomial<integer>> constraints;
+    for (const polynomial<C>& p : g) constraints.push_back(staged<integer>(p));
+    const auto holds_at_any = [&](real_roots<integer> roots) {
+        for (std::size_t k = 0; k < roots.size(); ++k) {
+            const auto holds = [&](auto& p) { return roots.sign_at(p, k) != sign_type::negative; };
+            if (std::all_of(constraints.begin(), constraints.end(), holds)) return true;
+        }
+        return false;
+    };
+    if (!root_of.is_zero()) {
+        const existence quick = detail::by_bsc(root_of, constraints, a, b);
+        if (quick == existence::yes || quick == existence::no) return quick == existence::yes;
+        return holds_at_any(real_roots<integer>(std::move(root_of), a, b));
+    }
+    // Where all g_i >= 0 is a closed set: if it is neither empty nor holds the point of [a, b] next
+    // to 0, then its end towards that point is a root of some g_i.
+    const double next_to_zero = std::min(std::max(0.0, a), b);
+    const staged_polynomial<integer> shifted(std::vector{-next_to_zero, 1.0});
+    if (holds_at_any(real_roots<integer>(shifted, next_to_zero, next_to_zero))) return true;
+    for (const auto& p : constraints)
+        if (holds_at_any(real_roots<integer>(p, a, b))) return true;
+    return false;
+}
+
+}  // namespace errbound

@@ -1,0 +1,121 @@
+// ns per polynomial for counting and isolating real roots, beside FLINT's count of them, by family
+// and degree. FLINT 2.9 counts exactly, by Sturm's theorem, but does not isolate.
+#include <cstdio>
+#include <cstdlib>
+#include <errbound/polynomial.hpp>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "harness.hpp"
+#include "tests/flint_polynomial.hpp"
+#include "tests/polynomial_families.hpp"
+
+namespace {
+
+using polynomial_families::family;
+using polynomial_families::integer;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Polynomials with coefficients in the type that users would have them in, and FLINT's.
+struct contest {
+    std::vector<errbound::polynomial<integer>> whole = {};
+    std::vector<errbound::polynomial<double>> doubles = {};
+    std::vector<std::unique_ptr<flint_polynomial>> others = {};
+
+    void add(const polynomial_families::sample& s) {
+        if (s.doubles.empty())
+            whole.emplace_back(s.whole);
+        else
+            doubles.emplace_back(s.doubles);
+        others.push_back(std::make_unique<flint_polynomial>(s.whole));
+    }
+
+    /// ns per polynomial: counted, isolated, counted by FLINT; medians.
+    std::vector<bench::cell> cells(int repeats) const {
+        if (others.empty()) return {bench::none(), bench::none(), bench::none(), bench::none()};
+        const auto pass = [this](const auto& ask) {
+            return [this, ask] {
+                for (const auto& p : whole) bench::keep(ask(p));
+                for (const auto& p : doubles) bench::keep(ask(p));
+            };
+        };
+        const auto timings =
+            bench::race({pass([](const auto& p) {
+                             return errbound::count_roots<integer>(p, -infinity, infinity);
+                         }),
+                         pass([](const auto& p) {
+                             return errbound::isolate_roots<integer>(p, -infinity, infinity).size();
+                         }),
+                         [this] {
+                             for (const auto& p : others) bench::keep(p->distinct_real_roots());
+                         }},
+                        repeats);
+        std::vector<bench::cell> row;
+        for (const auto& t : timings)
+            row.push_back(bench::number(1e9 * t.median / static_cast<double>(others.size()), 0));
+        row.push_back(bench::number(timings[2].median / timings[0].median, 1));
+        return row;
+    }
+};
+
+bool decided_by_filter(const polynomial_families::sample& s) {
+    const errbound::polynomial whole(s.whole);
+    const errbound::polynomial doubles(s.doubles);
+    return (s.doubles.empty() ? errbound::isolate_roots<integer>(whole, -infinity, infinity)
+                              : errbound::isolate_roots<integer>(doubles, -infinity, infinity))
+        .decided_by_filter();
+}
+
+void run(bool quick) {
+    bench::report out;
+    std::vector<std::vector<bench::cell>> rows;
+    for (const family f : polynomial_families::all) {
+        for (const int degree : {2, 3, 5, 8, 12, 20, 30}) {
+            if (f == family::wide && degree > 8) continue;
+            polynomial_families::generator make(1);
+            contest all, decided;
+            const int polynomials = quick ? 5 : 200;
+            for (int k = 0; k < polynomials; ++k) {
+                const auto s = make.make(f, degree);
+                all.add(s);
+                if (decided_by_filter(s)) decided.add(s);
+            }
+            std::vector<bench::cell> row{
+                bench::word(polynomial_families::names[static_cast<int>(f)]),
+                bench::count(static_cast<std::uint64_t>(degree)),
+                bench::percent(static_cast<double>(decided.others.size()) / polynomials)};
+            const int repeats = quick ? 1 : 5;
+            for (const contest* c : {&decided, &all})
+                for (auto& cell : c->cells(repeats)) row.push_back(cell);
+            rows.push_back(row);
+        }
+    }
+    out.table("roots", {}, "distinct real roots on the whole line, ns per polynomial",
+              {{"family", "family", true},
+               {"degree", "degree"},
+               {"decided", "decided by filter"},
+               {"decided_count", "those: count"},
+               {"decided_isolate", "isolate"},
+               {"decided_flint", "FLINT count"},
+               {"decided_ratio", "FLINT/count"},
+               {"count", "all: count"},
+               {"isolate", "isolate"},
+               {"flint", "FLINT count"},
+               {"ratio", "FLINT/count"}},
+              rows);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
+    if (argc > 1 && !quick) {
+        std::fprintf(stderr, "usage: errbound_roots_bench [--quick]\n");
+        return 2;
+    }
+    run(quick);
+    return 0;
+}

@@ -1,0 +1,14 @@
+# The target `flint`, with GMP and the headers, where FLINT is installed (libflint-dev).
+include_guard(DIRECTORY)
+find_path(ERRBOUND_FLINT_INCLUDE flint/fmpz_poly.h)
+find_library(ERRBOUND_FLINT_LIBRARY flint)
+mark_as_advanced(ERRBOUND_FLINT_INCLUDE ERRBOUND_FLINT_LIBRARY)
+if(ERRBOUND_FLINT_INCLUDE AND ERRBOUND_FLINT_LIBRARY AND ERRBOUND_GMP_INCLUDE AND
+   ERRBOUND_GMP_LIBRARY AND NOT TARGET flint)
+  add_library(flint INTERFACE)
+  target_link_libraries(flint INTERFACE errbound Boost::headers ${ERRBOUND_FLINT_LIBRARY}
+                                        ${ERRBOUND_GMP_LIBRARY})
+  target_include_directories(flint SYSTEM INTERFACE ${ERRBOUND_FLINT_INCLUDE}
+                                                    ${ERRBOUND_GMP_INCLUDE})
+  target_compile_options(flint INTERFACE -ffp-contract=off)
+endif()
