@@ -1,4 +1,4 @@
-// Integers of fixed width against GMP's, modulo their width.
+// Integers of fixed width against GMP's, modulo their width; and long integers.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <errbound/bernstein.hpp>
 #include <errbound/fixed_integer.hpp>
+#include <errbound/long_integer.hpp>
 #include <errbound/multiprecision.hpp>
 #include <random>
 #include <utility>
@@ -153,6 +154,48 @@ TEST(FixedInteger, PolynomialsGrowByTheirFactorsWidths) {
         static_assert(std::is_same_v<decltype(value), const fixed_integer<5>>);
         EXPECT_EQ(big(value), value_at(big_p, big(s), big(t)));
         EXPECT_EQ(sign_inside(product), sign_inside(big_product));
+    }
+}
+
+/// A double's worth of bits anywhere, or sums of up to three.
+errbound::long_integer<20> any_long(std::mt19937_64& random) {
+    using number = errbound::long_integer<20>;
+    const auto one = [&] {
+        return number(random() >> random() % 64, static_cast<int>(random() % 1100),
+                      random() % 2 == 0);
+    };
+    const number first = one(), second = one(), third = one();
+    switch (random() % 4) {
+        case 0:
+            return first;
+        case 1:
+            return number::difference(first, second);
+        case 2:
+            return number(static_cast<std::int64_t>(random() % 5) - 2);
+        default:
+            return number::sum(number::sum(first, second), third);
+    }
+}
+template <int Words>
+integer big(const errbound::long_integer<Words>& x) {
+    integer sum = 0;
+    for (int i = x.size() - 1; i >= 0; --i) sum = (sum << 64) + integer(x[i]);
+    return x.negative() ? integer(sum - (integer(1) << (64 * x.size()))) : sum;
+}
+
+TEST(LongIntegers, AgreeWithGmp) {
+    std::mt19937_64 random(11);
+    for (int k = 0; k < 100'000; ++k) {
+        const auto a = any_long(random), b = any_long(random);
+        const integer x = big(a), y = big(b);
+        using product = errbound::long_integer<40>;
+        const auto ab = product::product(a, b);
+        ASSERT_EQ(big(ab), x * y);
+        using result = errbound::long_integer<60>;
+        const auto more = result::product(product::sum(ab, a), b);
+        ASSERT_EQ(big(more), (x * y + x) * y);
+        ASSERT_EQ(big(result::difference(more, ab)), (x * y + x) * y - x * y);
+        ASSERT_EQ(sign_of(ab), sign_of(integer(x * y)));
     }
 }
 

@@ -68,20 +68,26 @@ constexpr word sign_word(word w) {
     return static_cast<word>(static_cast<std::int64_t>(w) >> 63);
 }
 
-/// r = a·b, for two's complement numbers of m and n words and a zeroed r of m + n. The unsigned
-/// product of the words is a·b, plus 2^(64m)·b where a < 0, plus 2^(64n)·a where b < 0, modulo the
-/// width of the result.
+/// r += a·b for a magnitude of n words; returns what goes beyond the n words of r.
+[[gnu::always_inline]] constexpr word add_multiple(word* r, word a, const word* b, int n) {
+    word carry = 0;
+#pragma GCC unroll 4
+    for (int j = 0; j < n; ++j) {
+        auto sum = double_word(a) * b[j] + r[j];
+        sum += carry;
+        r[j] = static_cast<word>(sum);
+        carry = static_cast<word>(sum >> 64);
+    }
+    return carry;
+}
+
+/// r = a·b, for two's complement numbers of m and n words and an r of m + n. The unsigned product
+/// of the words is a·b, plus 2^(64m)·b where a < 0, plus 2^(64n)·a where b < 0, modulo the width of
+/// the result.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
-    for (int i = 0; i < m; ++i) {
-        word carry = 0;
-        for (int j = 0; j < n; ++j) {
-            const auto sum = double_word(a[i]) * b[j] + r[i + j] + carry;
-            r[i + j] = static_cast<word>(sum);
-            carry = static_cast<word>(sum >> 64);
-        }
-        r[i + n] = carry;
-    }
+    for (int j = 0; j < n; ++j) r[j] = 0;
+    for (int i = 0; i < m; ++i) r[i + n] = add_multiple(r + i, a[i], b, n);
     const word if_a = sign_word(a[m - 1]), if_b = sign_word(b[n - 1]);
     unsigned char borrow = 0;
     for (int j = 0; j < n; ++j) r[m + j] = subtract_with_borrow(r[m + j], b[j] & if_a, borrow);

@@ -122,7 +122,7 @@ namespace detail {
 template <class Scalars, std::size_t Argument>
 struct point_view {
     const Scalars& scalars;
-    constexpr auto operator[](int i) const { return scalars.template at<Argument>(i); }
+    constexpr decltype(auto) operator[](int i) const { return scalars.template at<Argument>(i); }
 };
 template <class Shape, std::size_t Argument, class Scalars>
 constexpr auto view(const Scalars& scalars) {
@@ -141,13 +141,13 @@ struct filtered_scalars {
         return {coordinate_of(std::get<Argument>(points), i)};
     }
 };
-/// Coordinates one after the other, made into scalars by a function.
+/// Coordinates one after the other, made into scalars by a function, which may refer to them.
 template <class Shape, class List, class Make>
 struct listed_scalars {
     const List& list;
     Make make;
     template <std::size_t Argument>
-    constexpr auto at(int i) const {
+    constexpr decltype(auto) at(int i) const {
         constexpr std::size_t first = Shape::offset(Argument);
         return make(list[first + static_cast<std::size_t>(i)]);
     }
@@ -394,11 +394,16 @@ class predicate_type {
 
     [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
+            // Long ones are made once.
+            using level = integer_level<integer_kind::any_length, full_range_bits, mixed>;
+            using scalar = sized_integer<level, full_range_bits, 1>;
             const common_unit unit(list);
-            return detail::sign_over<Shape>(F(), list, [&](double x) {
-                return unit.template converted<
-                    integer_level<integer_kind::any_length, full_range_bits, mixed>>(x);
-            });
+            const auto longs = [&]<std::size_t... I>(std::index_sequence<I...>) {
+                return std::array{unit.template converted<level>(list[I])...};
+            }
+            (std::make_index_sequence<listed_size>());
+            return detail::sign_over<Shape>(F(), longs,
+                                            [](const scalar& x) -> const scalar& { return x; });
         } else {
             return detail::sign_over<Shape>(
                 F(), list, [](double x) { return typename Options::exact_type(x); });

@@ -15,101 +15,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/fixed_integer.hpp>
+#include <errbound/long_integer.hpp>
 #include <errbound/sign.hpp>
 #include <type_traits>
 
 namespace errbound {
-
-/// A two's complement number of at most Words words, as long as it needs to be. Sums and products
-/// must fit.
-template <int Words>
-class long_integer {
-    using word = words::word;
-
-  public:
-    constexpr long_integer(std::int64_t value) : size_(1) {
-        initialise();
-        at(0) = static_cast<word>(value);
-    }
-    /// ±magnitude·2^shift.
-    constexpr long_integer(word magnitude, int shift, bool negative) {
-        initialise();
-        const int whole = shift / 64, bits = shift % 64;
-        size_ = whole + 3 < Words ? whole + 3 : Words;
-        for (int i = 0; i < size_; ++i) at(i) = 0;
-        at(whole) = magnitude << bits;
-        if (whole + 1 < size_) at(whole + 1) = bits == 0 ? 0 : magnitude >> (64 - bits);
-        trim();
-        if (negative) *this = long_integer(0) - *this;
-    }
-    /// One of another capacity, which it fits.
-    template <int Other>
-    constexpr long_integer(const long_integer<Other>& x) : size_(x.size()) {
-        initialise();
-        for (int i = 0; i < size_; ++i) at(i) = x[i];
-    }
-
-    constexpr int size() const { return size_; }
-    constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
-    constexpr bool negative() const { return (*this)[size_ - 1] >> 63 != 0; }
-
-    template <int A, int B>
-    static constexpr long_integer sum(const long_integer<A>& a, const long_integer<B>& b) {
-        return combined(a, b, words::add_with_carry);
-    }
-    template <int A, int B>
-    static constexpr long_integer difference(const long_integer<A>& a, const long_integer<B>& b) {
-        return combined(a, b, words::subtract_with_borrow);
-    }
-    template <int A, int B>
-    static constexpr long_integer product(const long_integer<A>& a, const long_integer<B>& b) {
-        // Before it is trimmed a product may have a word more than fits.
-        long_integer<A + B> r(0);
-        r.size_ = a.size() + b.size();
-        for (int i = 0; i < r.size_; ++i) r.at(i) = 0;
-        words::multiply_long(r.words_.data(), a.words_.data(), a.size(), b.words_.data(), b.size());
-        r.trim();
-        return r;
-    }
-    friend constexpr long_integer operator-(const long_integer& a, const long_integer& b) {
-        return difference(a, b);
-    }
-    friend constexpr sign_type sign_of(const long_integer& x) {
-        if (x.negative()) return sign_type::negative;
-        return x.size_ == 1 && x[0] == 0 ? sign_type::zero : sign_type::positive;
-    }
-
-  private:
-    template <int>
-    friend class long_integer;
-
-    /// Words beyond the size are never read, but constant expressions must not copy them unset.
-    constexpr void initialise() {
-        if (std::is_constant_evaluated()) words_.fill(0);
-    }
-    constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
-    constexpr word or_sign(int i) const {
-        return i < size_ ? (*this)[i] : words::sign_word((*this)[size_ - 1]);
-    }
-    /// Leaves out words that say nothing.
-    constexpr void trim() {
-        while (size_ > 1 && (*this)[size_ - 1] == words::sign_word((*this)[size_ - 2])) --size_;
-    }
-    template <int A, int B>
-    static constexpr long_integer combined(const long_integer<A>& a, const long_integer<B>& b,
-                                           word (*step)(word, word, unsigned char&)) {
-        long_integer r(0);
-        const int longer = a.size() < b.size() ? b.size() : a.size();
-        r.size_ = longer < Words ? longer + 1 : Words;
-        unsigned char carry = 0;
-        for (int i = 0; i < r.size_; ++i) r.at(i) = step(a.or_sign(i), b.or_sign(i), carry);
-        r.trim();
-        return r;
-    }
-
-    int size_;
-    std::array<word, Words> words_;
-};
 
 /// What numbers are made of: doubles that hold whole numbers, words, or as many words as it takes.
 enum class integer_kind : std::uint8_t { floating, words, any_length };

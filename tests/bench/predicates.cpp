@@ -42,16 +42,20 @@ const auto contestants = std::tuple(
                           }),
     make_contestant<2, 4>("incircle", surface::round, errbound::incircle,
                           [](const auto& a, const auto& b, const auto& c, const auto& d) {
-                              return forms::lifted_area(a, b, c, d, forms::squared_distance2d(a, d),
-                                                        forms::squared_distance2d(b, d),
-                                                        forms::squared_distance2d(c, d));
+                              using namespace errbound::forms;
+                              const auto u = difference2d(a, d), v = difference2d(b, d),
+                                         w = difference2d(c, d);
+                              return lifted_determinant(u, v, w, squared_length(u),
+                                                        squared_length(v), squared_length(w));
                           }),
     make_contestant<3, 5>(
         "insphere", surface::round, errbound::insphere,
         [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
-            return forms::lifted_volume(
-                a, b, c, d, e, forms::squared_distance3d(a, e), forms::squared_distance3d(b, e),
-                forms::squared_distance3d(c, e), forms::squared_distance3d(d, e));
+            using namespace errbound::forms;
+            const auto u = difference3d(a, e), v = difference3d(b, e), w = difference3d(c, e),
+                       x = difference3d(d, e);
+            return lifted_determinant(u, v, w, x, squared_length(u), squared_length(v),
+                                      squared_length(w), squared_length(x));
         }));
 
 /// Inputs as ranges of points, one for each argument.
