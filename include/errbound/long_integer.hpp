@@ -14,8 +14,8 @@ namespace errbound {
 
 namespace words {
 
-/// What a two's complement number of n words is as a sum of signed words times powers of 2^64: those
-/// that are not zero, by visit(index, magnitude, negative), in ascending order.
+/// What a two's complement number of n words is as a sum of signed words times powers of 2^64:
+/// those that are not zero, by visit(index, magnitude, negative), in ascending order.
 ///
 /// A word before one that is all ones, and the last of a negative number, is taken for negative and
 /// so passes on a carry, which turns ones to zeros: w = 2^64 − (2^64 − w). The words visited up to
@@ -164,7 +164,7 @@ class long_integer {
         const int whole = a.size() + b.size();
         if (whole <= Words) {
             words::multiply_any(words_.data(), a.words_.data(), a.size(), b.words_.data(),
-                                   b.size());
+                                b.size());
             size_ = whole;
         } else {  // before it is trimmed
             std::array<word, A + B> r;

@@ -19,61 +19,56 @@ namespace errbound {
 /// The parts of the predicates below, for expressions of one's own.
 namespace forms {
 
-/// From one point to another: their differences, made once.
-template <class X>
-struct vector2d {
-    X x, y;
-};
-template <class X>
-struct vector3d {
-    X x, y, z;
-};
-/// a − b, by default of their first coordinates.
-constexpr auto difference2d(const auto& a, const auto& b, int i = 0, int j = 1) {
-    return vector2d<decltype(a[i] - b[i])>{a[i] - b[i], a[j] - b[j]};
-}
-constexpr auto difference3d(const auto& a, const auto& b) {
-    return vector3d<decltype(a[0] - b[0])>{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-template <class X>
-constexpr auto determinant(const vector2d<X>& a, const vector2d<X>& b) {
-    return a.x * b.y - a.y * b.x;
-}
-template <class X>
-constexpr auto squared_length(const vector2d<X>& a) {
-    return a.x * a.x + a.y * a.y;
-}
-template <class X>
-constexpr auto squared_length(const vector3d<X>& a) {
-    return a.x * a.x + a.y * a.y + a.z * a.z;
-}
-/// The determinant of vectors and their heights on a paraboloid.
-template <class X, class H>
-constexpr auto lifted_determinant(const vector2d<X>& a, const vector2d<X>& b, const vector2d<X>& c,
-                                  const H& lift_a, const H& lift_b, const H& lift_c) {
-    return lift_a * determinant(b, c) + lift_b * determinant(c, a) + lift_c * determinant(a, b);
-}
-template <class X, class H>
-constexpr auto lifted_determinant(const vector3d<X>& a, const vector3d<X>& b, const vector3d<X>& c,
-                                  const vector3d<X>& d, const H& lift_a, const H& lift_b,
-                                  const H& lift_c, const H& lift_d) {
-    const auto ab = a.x * b.y - b.x * a.y, bc = b.x * c.y - c.x * b.y, cd = c.x * d.y - d.x * c.y,
-               da = d.x * a.y - a.x * d.y, ac = a.x * c.y - c.x * a.y, bd = b.x * d.y - d.x * b.y;
-    const auto abc = a.z * bc - b.z * ac + c.z * ab, bcd = b.z * cd - c.z * bd + d.z * bc,
-               cda = c.z * da + d.z * ac + a.z * cd, dab = d.z * ab + a.z * bd + b.z * da;
-    return (lift_d * abc - lift_c * dab) + (lift_b * cda - lift_a * bcd);
-}
-
 /// Twice the area of the triangle a, b, c in the plane of axes i and j.
 constexpr auto area(const auto& a, const auto& b, const auto& c, int i = 0, int j = 1) {
-    return determinant(difference2d(a, c, i, j), difference2d(b, c, i, j));
+    return (a[i] - c[i]) * (b[j] - c[j]) - (a[j] - c[j]) * (b[i] - c[i]);
 }
 /// Six times the volume of the tetrahedron a, b, c, d.
 constexpr auto volume(const auto& a, const auto& b, const auto& c, const auto& d) {
-    const auto u = difference3d(a, d), v = difference3d(b, d), w = difference3d(c, d);
-    return u.z * (v.x * w.y - w.x * v.y) + v.z * (w.x * u.y - u.x * w.y) +
-           w.z * (u.x * v.y - v.x * u.y);
+    const auto ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
+    const auto bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
+    const auto cx = c[0] - d[0], cy = c[1] - d[1], cz = c[2] - d[2];
+    return az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
 }
+
+constexpr auto squared_distance2d(const auto& a, const auto& b) {
+    const auto x = a[0] - b[0], y = a[1] - b[1];
+    return x * x + y * y;
+}
+constexpr auto squared_distance3d(const auto& a, const auto& b) {
+    const auto x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return x * x + y * y + z * z;
+}
+
+/// The determinant of a − d, b − d and c − d, with their heights as a last column: those of a
+/// paraboloid, x² + y², or what height(point, x² + y²) makes of it.
+constexpr auto lifted_area(const auto& a, const auto& b, const auto& c, const auto& d,
+                           const auto& height) {
+    const auto ax = a[0] - d[0], ay = a[1] - d[1];
+    const auto bx = b[0] - d[0], by = b[1] - d[1];
+    const auto cx = c[0] - d[0], cy = c[1] - d[1];
+    return height(a, ax * ax + ay * ay) * (bx * cy - cx * by) +
+           height(b, bx * bx + by * by) * (cx * ay - ax * cy) +
+           height(c, cx * cx + cy * cy) * (ax * by - bx * ay);
+}
+/// The same of a − e, b − e, c − e and d − e.
+constexpr auto lifted_volume(const auto& a, const auto& b, const auto& c, const auto& d,
+                             const auto& e, const auto& height) {
+    const auto ax = a[0] - e[0], ay = a[1] - e[1], az = a[2] - e[2];
+    const auto bx = b[0] - e[0], by = b[1] - e[1], bz = b[2] - e[2];
+    const auto cx = c[0] - e[0], cy = c[1] - e[1], cz = c[2] - e[2];
+    const auto dx = d[0] - e[0], dy = d[1] - e[1], dz = d[2] - e[2];
+    const auto ab = ax * by - bx * ay, bc = bx * cy - cx * by, cd = cx * dy - dx * cy,
+               da = dx * ay - ax * dy, ac = ax * cy - cx * ay, bd = bx * dy - dx * by;
+    const auto abc = az * bc - bz * ac + cz * ab, bcd = bz * cd - cz * bd + dz * bc,
+               cda = cz * da + dz * ac + az * cd, dab = dz * ab + az * bd + bz * da;
+    return (height(d, dx * dx + dy * dy + dz * dz) * abc -
+            height(c, cx * cx + cy * cy + cz * cz) * dab) +
+           (height(b, bx * bx + by * by + bz * bz) * cda -
+            height(a, ax * ax + ay * ay + az * az) * bcd);
+}
+/// The height of a paraboloid.
+inline constexpr auto unweighted = [](const auto&, const auto& squared) { return squared; };
 
 /// A point that is given by its parents: anchor + (x, y[, z])/w.
 template <class Anchor, class X, class W>
@@ -189,52 +184,39 @@ inline constexpr auto orient3d =
 
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
-        using namespace forms;
-        const auto u = difference2d(a, d), v = difference2d(b, d), w = difference2d(c, d);
-        return lifted_determinant(u, v, w, squared_length(u), squared_length(v), squared_length(w));
+        return forms::lifted_area(a, b, c, d, forms::unweighted);
     });
 
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
-        using namespace forms;
-        const auto u = difference3d(a, e), v = difference3d(b, e), w = difference3d(c, e),
-                   x = difference3d(d, e);
-        return lifted_determinant(u, v, w, x, squared_length(u), squared_length(v),
-                                  squared_length(w), squared_length(x));
+        return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
     });
 
 /// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power
 /// distance of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
 inline constexpr auto power_incircle =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
-        using namespace forms;
-        const auto u = difference2d(a, d), v = difference2d(b, d), w = difference2d(c, d);
-        return lifted_determinant(u, v, w, squared_length(u) - (a[2] - d[2]),
-                                  squared_length(v) - (b[2] - d[2]),
-                                  squared_length(w) - (c[2] - d[2]));
+        return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {
+            return squared - (p[2] - d[2]);
+        });
     });
 
 /// insphere for weighted points x, y, z, w: spheres of squared radius w.
 inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
-        using namespace forms;
-        const auto u = difference3d(a, e), v = difference3d(b, e), w = difference3d(c, e),
-                   x = difference3d(d, e);
-        return lifted_determinant(
-            u, v, w, x, squared_length(u) - (a[3] - e[3]), squared_length(v) - (b[3] - e[3]),
-            squared_length(w) - (c[3] - e[3]), squared_length(x) - (d[3] - e[3]));
+        return forms::lifted_volume(a, b, c, d, e, [&e](const auto& p, const auto& squared) {
+            return squared - (p[3] - e[3]);
+        });
     });
 
 /// Negative if p is nearer to a than to b, zero if it is as far from both.
 inline constexpr auto compare_distances2d =
     predicate<points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
-        using namespace forms;
-        return squared_length(difference2d(p, a)) - squared_length(difference2d(p, b));
+        return forms::squared_distance2d(p, a) - forms::squared_distance2d(p, b);
     });
 inline constexpr auto compare_distances3d =
     predicate<points<3, 3, 3>>([](const auto& p, const auto& a, const auto& b) {
-        using namespace forms;
-        return squared_length(difference3d(p, a)) - squared_length(difference3d(p, b));
+        return forms::squared_distance3d(p, a) - forms::squared_distance3d(p, b);
     });
 
 /// Expressions that branch so much that the compiler does not see all of it.

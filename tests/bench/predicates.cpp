@@ -42,20 +42,12 @@ const auto contestants = std::tuple(
                           }),
     make_contestant<2, 4>("incircle", surface::round, errbound::incircle,
                           [](const auto& a, const auto& b, const auto& c, const auto& d) {
-                              using namespace errbound::forms;
-                              const auto u = difference2d(a, d), v = difference2d(b, d),
-                                         w = difference2d(c, d);
-                              return lifted_determinant(u, v, w, squared_length(u),
-                                                        squared_length(v), squared_length(w));
+                              return forms::lifted_area(a, b, c, d, forms::unweighted);
                           }),
     make_contestant<3, 5>(
         "insphere", surface::round, errbound::insphere,
         [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
-            using namespace errbound::forms;
-            const auto u = difference3d(a, e), v = difference3d(b, e), w = difference3d(c, e),
-                       x = difference3d(d, e);
-            return lifted_determinant(u, v, w, x, squared_length(u), squared_length(v),
-                                      squared_length(w), squared_length(x));
+            return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
         }));
 
 /// Inputs as ranges of points, one for each argument.
