@@ -11,20 +11,21 @@
 // then it asks sign_of(x), passes on `uncertain` (returns it at once), and returns a sign_type.
 //
 // It is run on one scalar after the other, until one is certain (`predicate_stage`):
+//  * semi_static_filter, of expressions of many terms: in floating point, with a bound from the
+//    largest coordinate difference (errbound/semi_static_filter.hpp);
 //  * static_filter: in floating point, with a bound whose constant the types count while the
 //    expression is compiled (errbound/static_filter.hpp); no branch but the last;
 //  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
 //  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
-//  doubles
-//    hold all results, or words of 128 bits do; coordinates of one word, of two, or of up to the
-//    full range of exponents. Without allocation; or the options' own exact type takes the place of
-//    the last.
+//    doubles hold all results, or words of 128 bits do; coordinates of one word, of two, or of up
+//    to the full range of exponents. Without allocation; or the options' own exact type takes the
+//    place of the last.
 //
 // Promised, for finite coordinates, under rounding to nearest and gradual underflow
 // (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
 // overflow included. `uncertain` where a coordinate is not finite. No exceptions, no global state.
 // Usable in constant expressions; in device code up to the two-word integers.
-// Cost: the static filter 1 to 2 times the expression in floating point, the integers some ten
+// Cost: the filters 1 to 2 times the expression in floating point, the integers some ten
 // times that, and in the full range up to 100 µs and some 100 KiB of stack for a degree of 5.
 #pragma once
 
@@ -34,6 +35,7 @@
 #include <cstdint>
 #include <errbound/expression_count.hpp>
 #include <errbound/integer_coordinates.hpp>
+#include <errbound/semi_static_filter.hpp>
 #include <errbound/sign.hpp>
 #include <errbound/sized_integer.hpp>
 #include <errbound/static_filter.hpp>
@@ -61,6 +63,7 @@ struct points {
 
 /// In the order in which an input passes them; it leaves at the first that is certain.
 enum class predicate_stage : std::uint8_t {
+    semi_static_filter,
     static_filter,
     tracked,
     exact_doubles,   ///< coordinates so short that no result takes more than 53 bits
@@ -69,7 +72,7 @@ enum class predicate_stage : std::uint8_t {
     two_word_integers,
     long_integers,  ///< any finite coordinates; or the options' exact type
 };
-inline constexpr std::size_t predicate_stage_count = 7;
+inline constexpr std::size_t predicate_stage_count = 8;
 
 /// How many inputs each stage decided; `undecided` had coordinates that were not finite.
 struct predicate_report {
@@ -79,6 +82,7 @@ struct predicate_report {
     std::uint64_t operator[](predicate_stage s) const {
         return decided[static_cast<std::size_t>(s)];
     }
+    void count(predicate_stage s) { ++decided[static_cast<std::size_t>(s)]; }
 };
 
 /// The defaults; derive from it to change some.
@@ -141,6 +145,16 @@ struct filtered_scalars {
         return {coordinate_of(std::get<Argument>(points), i)};
     }
 };
+/// The same for the semi-static one.
+template <class T, class... Points>
+struct semi_static_scalars {
+    std::tuple<const Points&...> points;
+    T* largest;
+    template <std::size_t Argument>
+    constexpr semi_static_coordinate<T> at(int i) const {
+        return {coordinate_of(std::get<Argument>(points), i), largest};
+    }
+};
 /// Coordinates one after the other, made into scalars by a function, which may refer to them.
 template <class Shape, class List, class Make>
 struct listed_scalars {
@@ -161,6 +175,20 @@ struct counted_scalars {
     }
 };
 
+/// A value whose sign is certain where its size exceeds the bound.
+template <class T>
+struct sign_estimate {
+    T value, bound;
+
+    friend constexpr sign_type sign_of(const sign_estimate& x) {
+        bool decided = number_traits<T>::abs(x.value) > x.bound;
+        if constexpr (may_contract)  // see errbound/static_filter.hpp
+            decided = decided && number_traits<T>::is_finite(x.value);
+        if (decided) [[likely]]
+            return x.value > 0 ? sign_type::positive : sign_type::negative;
+        return sign_type::uncertain;
+    }
+};
 /// A result's sign, if it is not one.
 template <class X>
 constexpr sign_type conclude(const X& x) {
@@ -208,6 +236,11 @@ class predicate_type {
     /// an expression that branches, the largest of all.
     template <class T>
     static constexpr T static_constant = filter_constant<T>(counts.roundings);
+    /// Whether there is a semi-static filter: what it saves grows with the degree.
+    static constexpr bool has_semi_static_filter =
+        !counts.mixed && counts.degree >= 5 &&
+        !std::is_same_v<sign_type, decltype(detail::evaluate<Shape>(
+                                       F(), std::declval<const detail::counted_scalars&>()))>;
     /// So many bits may coordinates have for no result to take more than `bits`.
     static constexpr int coordinate_bits(int bits) {
         const int excess = counts.bits - bits;
@@ -219,7 +252,7 @@ class predicate_type {
     [[gnu::flatten]] constexpr sign_type operator()(const Points&... p) const {
         // Overflow is no constant expression.
         if (!std::is_constant_evaluated()) {
-            const sign_type s = filter(p...);
+            const sign_type s = first_sign(p...);
             if (certain(s)) [[likely]]
                 return s;
         }
@@ -228,12 +261,30 @@ class predicate_type {
     /// The same, and the stage that decided is counted.
     template <class... Points>
     constexpr sign_type operator()(predicate_report& report, const Points&... p) const {
-        const sign_type s = filter(p...);
+        using enum predicate_stage;
+        const sign_type s = first_sign(p...);
         if (certain(s)) {
-            ++report.decided[0];
+            report.count(has_semi_static_filter ? semi_static_filter : static_filter);
             return s;
         }
         return later_stages<number_of<Points...>>(listed(p...), &report);
+    }
+    /// What the first filter finds out, or the sign_type of an expression that branches.
+    template <class... Points>
+    static constexpr auto estimate(const Points&... p) {
+        using T = number_of<Points...>;
+        if constexpr (has_semi_static_filter) {
+            T largest = 0;
+            const auto x = detail::evaluate<Shape>(
+                F(), detail::semi_static_scalars<T, Points...>{{p...}, &largest});
+            return detail::sign_estimate<T>{x.value, x.bound(largest)};
+        } else {
+            const auto x = filtered(p...);
+            if constexpr (std::is_same_v<decltype(x), const sign_type>)
+                return x;
+            else
+                return detail::sign_estimate<T>{x.value, x.bound()};
+        }
     }
     /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or
     /// the sign_type of an expression that branches.
@@ -254,7 +305,9 @@ class predicate_type {
     template <class... Points>
     constexpr sign_type by(predicate_stage stage, const Points&... p) const {
         using enum predicate_stage;
-        if (stage == static_filter) return filter(p...);
+        if (stage == static_filter) return detail::conclude(filtered(p...));
+        if (stage == semi_static_filter)
+            return has_semi_static_filter ? first_sign(p...) : sign_type::uncertain;
         const coordinate_list list = listed(p...);
         const std::uint64_t largest = largest_size(list);
         if (!is_finite_size(largest)) return sign_type::uncertain;
@@ -287,8 +340,11 @@ class predicate_type {
     using number_of = typename number<Points...>::type;
 
     template <class... Points>
-    static constexpr sign_type filter(const Points&... p) {
-        return detail::conclude(filtered(p...));
+    static constexpr sign_type first_sign(const Points&... p) {
+        if constexpr (has_semi_static_filter)
+            return detail::conclude(estimate(p...));
+        else
+            return detail::conclude(filtered(p...));
     }
 
     template <class... Points>
@@ -310,13 +366,19 @@ class predicate_type {
                                                               predicate_report* report) {
         using enum predicate_stage;
         const auto counted = [&](sign_type s, predicate_stage stage) {
-            if (report != nullptr) ++report->decided[static_cast<std::size_t>(stage)];
+            if (report != nullptr) report->count(stage);
             return s;
         };
         const std::uint64_t largest = largest_size(list);
         if (!is_finite_size(largest)) {
             if (report != nullptr) ++report->undecided;
             return sign_type::uncertain;
+        }
+        if constexpr (has_semi_static_filter) {
+            if (!std::is_constant_evaluated()) {
+                const sign_type s = by_filter<T>(list);
+                if (certain(s)) return counted(s, static_filter);
+            }
         }
         if constexpr (!std::is_void_v<typename Options::tracked_rule>) {
             const sign_type s = by_tracked<T>(list);
@@ -337,6 +399,12 @@ class predicate_type {
         return counted(by_any(list), long_integers);
     }
 
+    template <class T>
+    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_filter(
+        const coordinate_list& list) {
+        return detail::sign_over<Shape>(
+            F(), list, [](double x) { return filtered_coordinate<T>{static_cast<T>(x)}; });
+    }
     template <class T>
     [[gnu::noinline]] static constexpr sign_type by_tracked(const coordinate_list& list) {
         using rule = std::conditional_t<std::is_void_v<typename Options::tracked_rule>, tight,

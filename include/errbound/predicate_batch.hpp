@@ -1,4 +1,4 @@
-// Predicates on many inputs: the static filter on as many at a time as the processor has lanes.
+// Predicates on many inputs: the first filter on as many at a time as the processor has lanes.
 //
 //   std::vector<std::array<double, 2>> a, b, c;
 //   std::vector<errbound::sign_type> signs(a.size());
@@ -55,20 +55,20 @@ constexpr auto indexable(const Range& range) {
         return [&range](std::size_t i) -> decltype(auto) { return range[i]; };
 }
 
-/// Signs of block_size inputs by the static filter; true if all are certain. In floating point to
+/// Signs of block_size inputs by the first filter; true if all are certain. In floating point to
 /// the end, so that it is all of one width.
 template <class Predicate, class... Ranges>
 [[gnu::always_inline]] inline bool filter_block(sign_type* signs, std::size_t first,
                                                 const Ranges&... p) {
-    using T = typename decltype(Predicate::filtered(p[first]...))::value_type;
+    using T = decltype(Predicate::estimate(p[first]...).value);
     std::array<T, block_size> codes;
     for (std::size_t i = 0; i < block_size; ++i) {
-        const auto x = Predicate::filtered(p[first + i]...);
+        const auto x = Predicate::estimate(p[first + i]...);
         const T size = number_traits<T>::abs(x.value);
         // Instruction sets with fused multiply-add may use it: static_filter.hpp asks for this
         // then.
         const T code = x.value > 0 ? T(2) : T(0);
-        const T decided = size > x.bound() ? code : T(3);
+        const T decided = size > x.bound ? code : T(3);
         codes[i] = size <= number_traits<T>::largest() ? decided : T(3);
     }
     unsigned all = 0;
@@ -118,7 +118,7 @@ auto best_filter_block() {
 template <class Predicate, class... Ranges>
 void batch_over(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
     std::size_t first = 0;
-    if constexpr (!std::is_same_v<decltype(Predicate::filtered(p[first]...)), sign_type>) {
+    if constexpr (!std::is_same_v<decltype(Predicate::estimate(p[first]...)), sign_type>) {
         const auto filter = best_filter_block<Predicate, Ranges...>();
         for (; first + block_size <= signs.size(); first += block_size) {
             if (filter(&signs[first], first, p...)) [[likely]]

@@ -191,6 +191,7 @@ void predicates(const options& o, report& out) {
                {"ns_exact", "errbound"},
                {"ratio", "ratio"},
                {"plain_wrong", "plain wrong"},
+               {"semi_static_filter", "semi-static filter"},
                {"static_filter", "static filter"},
                {"tracked", "tracked"},
                {"exact_doubles", "exact doubles"},
