@@ -116,8 +116,9 @@ class triangulation {
             return Signs::incircle(points_[v[0]], points_[v[1]], points_[v[2]], points_[p]) ==
                    sign_type::positive;
         const sign_type side = orient(v[after[ghost]], v[before[ghost]], p);
-        if (side == sign_type::zero) return encloses(triangles[t.neighbour[ghost]], p);
-        return side == sign_type::positive;
+        if (side != sign_type::zero) return side == sign_type::positive;
+        const triangle& inner = triangles[t.neighbour[ghost]];
+        return inner.corner_of(infinity) == 3 && encloses(inner, p);
     }
 
     void insert(std::size_t p) {
@@ -193,7 +194,8 @@ std::string flaws(const std::vector<point>& points, const std::vector<triangle>&
         return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     };
     const auto lifted = [&](const triangle& t, std::size_t d) -> integer {
-        integer sum = 0;  // of areas that d sees, each times the square of the distance to the third
+        integer sum =
+            0;  // of areas that d sees, each times the square of the distance to the third
         for (std::size_t i = 0; i < 3; ++i) {
             const auto& p = exact[t.vertex[i]];
             const integer x = p[0] - exact[d][0], y = p[1] - exact[d][1];
