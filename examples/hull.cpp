@@ -169,8 +169,7 @@ std::vector<point> turned_cube(generator&) {
 /// By up to two units in the last place of 0.5.
 std::vector<point> jittered_cube(generator& random) {
     return cube([&](point p) {
-        for (double& x : p)
-            x = rounded(x) + (static_cast<double>(random() % 5) - 2) * 0x1p-53;
+        for (double& x : p) x = rounded(x) + (static_cast<double>(random() % 5) - 2) * 0x1p-53;
         return p;
     });
 }
