@@ -240,8 +240,10 @@ void time(const char* name, const Predicate& predicate, const Formula& formula) 
         const double single = nanoseconds(n, [&] {
             for (std::size_t i = 0; i < n; ++i) signs[i] = predicate(a[i], b[i], p[i], r[i]);
         });
-        const double batch = nanoseconds(
-            n, [&] { errbound::batch_signs(predicate, std::span(batched), a, b, p, r); });
+        const double batch = nanoseconds(n, [&] {
+            // Contiguous points, as many as signs.
+            errbound::batch_signs(predicate, std::span(batched), a, b, p, r);
+        });
         std::printf("%-20s %-13s %8.1f %8.1f %8.1f%s\n", name, f.name, plain, single, batch,
                     signs == batched ? "" : " and the batch differs");
     }
