@@ -5,4 +5,7 @@
 #include <errbound/bsc.hpp>
 #include <errbound/environment.hpp>
 #include <errbound/polynomial.hpp>
+#include <errbound/predicate_batch.hpp>
+#include <errbound/predicates.hpp>
+#include <errbound/real_roots.hpp>
 #include <errbound/tracked.hpp>

@@ -1,0 +1,351 @@
+// Delaunay triangulations of nearly degenerate points, by one algorithm over two sets of signs:
+// errbound's predicates, and the same expressions in plain double, which break it. What comes out
+// is checked in unbounded integers that know of neither. Fails unless all of errbound's are valid
+// and none of plain double's.
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <errbound/predicates.hpp>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using errbound::sign_type;
+using point = std::array<double, 2>;
+
+struct exact_signs {
+    static constexpr auto orient2d = errbound::orient2d;
+    static constexpr auto incircle = errbound::incircle;
+};
+struct plain_signs {
+    static sign_type sign_of(double x) {
+        return x > 0 ? sign_type::positive : x < 0 ? sign_type::negative : sign_type::zero;
+    }
+    static sign_type orient2d(const point& a, const point& b, const point& c) {
+        return sign_of(errbound::forms::area(a, b, c));
+    }
+    static sign_type incircle(const point& a, const point& b, const point& c, const point& d) {
+        using errbound::forms::squared_distance2d;
+        return sign_of(errbound::forms::lifted_area(a, b, c, d, squared_distance2d(a, d),
+                                                    squared_distance2d(b, d),
+                                                    squared_distance2d(c, d)));
+    }
+};
+
+/// Corners of a triangle, counterclockwise.
+constexpr std::array<std::size_t, 3> after{1, 2, 0}, before{2, 0, 1};
+
+/// Neighbour i is across from vertex i. Beyond each edge of the convex hull lies a triangle whose
+/// third vertex is at infinity, so that all edges have two sides.
+struct triangle {
+    std::array<std::size_t, 3> vertex, neighbour;
+
+    std::size_t corner_of(std::size_t v) const {  // 3 if it is none
+        return static_cast<std::size_t>(std::ranges::find(vertex, v) - vertex.begin());
+    }
+    /// The corner across from the edge from a to b; 3 if there is none.
+    std::size_t across(std::size_t a, std::size_t b) const {
+        const std::size_t i = corner_of(a);
+        return i < 3 && vertex[after[i]] == b ? before[i] : 3;
+    }
+};
+
+/// Incremental (Bowyer 1981, Watson 1981): a point is located by a walk; the triangles whose
+/// circles it is in give way to those that join it to their border.
+template <class Signs>
+class triangulation {
+  public:
+    /// Of different points. Throws std::runtime_error where signs contradict each other.
+    explicit triangulation(const std::vector<point>& points)
+        : infinity(points.size()), points_(points), first_(points.size() + 1, none) {
+        std::size_t c = 2;
+        while (c < points.size() && orient(0, 1, c) == sign_type::zero) ++c;
+        if (c == points.size()) throw std::runtime_error("all points are on one line");
+        std::size_t a = 0, b = 1;
+        if (orient(a, b, c) == sign_type::negative) std::swap(a, b);
+        triangles = {{{a, b, c}, {2, 3, 1}},
+                     {{b, a, infinity}, {3, 2, 0}},
+                     {{c, b, infinity}, {1, 3, 0}},
+                     {{a, c, infinity}, {2, 1, 0}}};
+        inside_of_.assign(4, none);
+        for (std::size_t p = 2; p < points.size(); ++p)
+            if (p != c) insert(p);
+    }
+
+    const std::size_t infinity;
+    std::vector<triangle> triangles;
+
+  private:
+    static constexpr std::size_t none = ~std::size_t{0};
+
+    sign_type orient(std::size_t a, std::size_t b, std::size_t c) const {
+        return Signs::orient2d(points_[a], points_[b], points_[c]);
+    }
+
+    /// The triangle that p lies in, or one at infinity beyond whose edge it lies.
+    std::size_t locate(std::size_t p) const {
+        std::size_t at = triangles.size() - 1;
+        const std::size_t ghost = triangles[at].corner_of(infinity);
+        if (ghost < 3) at = triangles[at].neighbour[ghost];
+        // Walks through a Delaunay triangulation visit no triangle twice (Edelsbrunner 1990).
+        for (std::size_t steps = 0; steps <= triangles.size(); ++steps) {
+            const triangle& t = triangles[at];
+            if (t.corner_of(infinity) < 3) return at;
+            std::size_t i = 0;
+            while (i < 3 &&
+                   orient(t.vertex[after[i]], t.vertex[before[i]], p) != sign_type::negative)
+                ++i;
+            if (i == 3) return at;
+            at = t.neighbour[i];
+        }
+        throw std::runtime_error("a walk does not end");
+    }
+
+    /// Whether p is inside a triangle's circle; at infinity this is a half-plane, with the inside
+    /// of the edge.
+    bool encloses(const triangle& t, std::size_t p) const {
+        const auto& v = t.vertex;
+        const std::size_t ghost = t.corner_of(infinity);
+        if (ghost == 3)
+            return Signs::incircle(points_[v[0]], points_[v[1]], points_[v[2]], points_[p]) ==
+                   sign_type::positive;
+        const sign_type side = orient(v[after[ghost]], v[before[ghost]], p);
+        if (side != sign_type::zero) return side == sign_type::positive;
+        const triangle& inner = triangles[t.neighbour[ghost]];
+        return inner.corner_of(infinity) == 3 && encloses(inner, p);
+    }
+
+    void insert(std::size_t p) {
+        std::vector<std::size_t> cavity{locate(p)};
+        std::vector<triangle> fan;  // on the edges of the cavity's border
+        inside_of_[cavity[0]] = p;
+        for (std::size_t k = 0; k < cavity.size(); ++k) {
+            const triangle& t = triangles[cavity[k]];
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::size_t other = t.neighbour[i];
+                if (inside_of_[other] == p) continue;
+                if (encloses(triangles[other], p)) {
+                    inside_of_[other] = p;
+                    cavity.push_back(other);
+                } else {
+                    fan.push_back({{t.vertex[after[i]], t.vertex[before[i]], p}, {0, 0, other}});
+                }
+            }
+        }
+        // A border that is one cycle through all vertices has two edges more than triangles inside.
+        if (fan.size() != cavity.size() + 2) throw std::runtime_error("a cavity has holes");
+        for (; cavity.size() < fan.size(); inside_of_.push_back(none)) {
+            cavity.push_back(triangles.size());
+            triangles.emplace_back();
+        }
+        for (std::size_t i = 0; i < fan.size(); ++i) {
+            const auto [a, b, unused] = fan[i].vertex;
+            triangle& other = triangles[fan[i].neighbour[2]];
+            other.neighbour[other.across(b, a)] = cavity[i];
+            if (first_[a] != none) throw std::runtime_error("a cavity's border meets itself");
+            first_[a] = i;
+        }
+        for (std::size_t i = 0; i < fan.size(); ++i) {
+            const std::size_t following = first_[fan[i].vertex[1]];
+            if (following == none) throw std::runtime_error("a cavity's border is not closed");
+            fan[i].neighbour[0] = cavity[following];
+            fan[following].neighbour[1] = cavity[i];
+        }
+        for (std::size_t i = 0; i < fan.size(); ++i) {
+            first_[fan[i].vertex[0]] = none;
+            triangles[cavity[i]] = fan[i];
+        }
+    }
+
+    const std::vector<point>& points_;
+    std::vector<std::size_t> inside_of_;  ///< by triangle: the last point found inside its circle
+    std::vector<std::size_t> first_;      ///< by vertex, while a cavity is filled
+};
+
+// The check.
+
+using integer = boost::multiprecision::cpp_int;
+
+/// Points in units that all coordinates are whole numbers of.
+std::vector<std::array<integer, 2>> as_integers(const std::vector<point>& points) {
+    int unit = 0;
+    for (const point& p : points)
+        for (const double x : p)
+            if (x != 0) unit = std::min(unit, std::ilogb(x) - 52);
+    std::vector<std::array<integer, 2>> exact;
+    for (const point& p : points)
+        exact.push_back({integer(std::ldexp(p[0], -unit)), integer(std::ldexp(p[1], -unit))});
+    return exact;
+}
+
+/// What is wrong with a triangulation: empty if it is the points' Delaunay triangulation. (Or one
+/// of them: four points on a circle have two.)
+std::string flaws(const std::vector<point>& points, const std::vector<triangle>& triangles) {
+    const std::size_t infinity = points.size();
+    const auto exact = as_integers(points);
+    const auto area = [&](std::size_t a, std::size_t b, std::size_t c) -> integer {
+        const auto &p = exact[a], &q = exact[b], &r = exact[c];
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    };
+    const auto lifted = [&](const triangle& t, std::size_t d) -> integer {
+        integer sum =
+            0;  // of areas that d sees, each times the square of the distance to the third
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& p = exact[t.vertex[i]];
+            const integer x = p[0] - exact[d][0], y = p[1] - exact[d][1];
+            sum += (x * x + y * y) * area(d, t.vertex[after[i]], t.vertex[before[i]]);
+        }
+        return sum;
+    };
+
+    std::size_t unmatched = 0, clockwise = 0, not_delaunay = 0, inner = 0, bends = 0, starts = 0;
+    std::vector<std::size_t> previous(points.size(), infinity), hull;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const triangle& t = triangles[k];
+        const std::size_t ghost = t.corner_of(infinity);
+        inner += ghost == 3;
+        if (ghost == 3)
+            clockwise += area(t.vertex[0], t.vertex[1], t.vertex[2]) <= 0;
+        else  // clockwise around the hull
+            previous[t.vertex[after[ghost]]] = t.vertex[before[ghost]];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const triangle& other = triangles[t.neighbour[i]];
+            const std::size_t j = other.across(t.vertex[before[i]], t.vertex[after[i]]);
+            if (j == 3 || other.neighbour[j] != k) {
+                ++unmatched;
+                continue;
+            }
+            if (ghost == 3 && other.vertex[j] != infinity)
+                not_delaunay += lifted(t, other.vertex[j]) > 0;
+        }
+    }
+    // The hull: closed, no right turn, and once around, as it has one lowest vertex.
+    const std::size_t border = triangles.size() - inner;
+    std::size_t v = 0;
+    while (v < points.size() && previous[v] == infinity) ++v;
+    for (; v < points.size() && hull.size() <= border; v = previous[v]) {
+        hull.push_back(v);
+        if (previous[v] == hull[0]) break;
+    }
+    if (hull.size() != border) ++unmatched;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const std::size_t a = hull[i], b = hull[(i + 1) % hull.size()],
+                          c = hull[(i + 2) % hull.size()];
+        bends += area(c, b, a) < 0;
+        starts += exact[b] < exact[a] && exact[b] < exact[c];
+    }
+    // Where all triangles turn left, edges match and the border runs once around a convex polygon,
+    // each point inside is covered once. Then Euler counts the vertices.
+    std::string found;
+    const auto add = [&](const char* what, std::size_t count) {
+        if (count == 0) return;
+        found += (found.empty() ? "" : ", ") + std::to_string(count) + what;
+    };
+    add(" triangles are not counterclockwise", clockwise);
+    add(" sides do not match", unmatched);
+    add(" right turns of the hull", bends);
+    if (starts != 1) add(" times around the hull", starts);
+    const std::size_t used = (inner + 2 + border) / 2;
+    add(" points are missing", used < points.size() ? points.size() - used : used - points.size());
+    add(" edges (seen from both sides) are not Delaunay", not_delaunay);
+    return found;
+}
+
+// The points.
+
+using generator = std::mt19937_64;
+double uniform(generator& random) {  // in [0, 1)
+    return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+double jittered(generator& random, double x) {  // by up to two units in the last place
+    return x + (static_cast<double>(random() % 5) - 2) * 0x1p-52;
+}
+
+/// A grid, turned and rounded.
+std::vector<point> turned_grid(generator&) {
+    std::vector<point> points;
+    for (int i = 0; i < 50; ++i)
+        for (int j = 0; j < 50; ++j)
+            points.push_back({(std::cos(0.3) * i - std::sin(0.3) * j) / 50,
+                              (std::sin(0.3) * i + std::cos(0.3) * j) / 50});
+    return points;
+}
+/// A grid whose points have moved by units in the last place.
+std::vector<point> jittered_grid(generator& random) {
+    std::vector<point> points;
+    for (int i = 0; i < 50; ++i)
+        for (int j = 0; j < 50; ++j)
+            points.push_back({jittered(random, 1 + i / 50.0), jittered(random, 1 + j / 50.0)});
+    return points;
+}
+/// On circles around a few centres.
+std::vector<point> circles(generator& random) {
+    std::vector<point> points;
+    for (int circle = 0; circle < 3; ++circle) {
+        const double x = uniform(random), y = uniform(random), radius = uniform(random) / 4;
+        for (int i = 0; i < 1000; ++i) {
+            const double angle = 6.28318530717958648 * i / 1000;
+            points.push_back({x + radius * std::cos(angle), y + radius * std::sin(angle)});
+        }
+    }
+    return points;
+}
+/// On one line, and a cluster of neighbouring doubles around another of its points (Kettner,
+/// Mehlhorn, Pion, Schirra, Yap 2008).
+std::vector<point> line_and_cluster(generator&) {
+    std::vector<point> points;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) points.push_back({0.5 + i * 0x1p-53, 0.5 + j * 0x1p-53});
+    for (int i = 12; i < 412; ++i) points.push_back({double(i), double(i)});
+    return points;
+}
+
+template <class Signs>
+bool valid(const char* signs, const std::vector<point>& points) {
+    std::string found;
+    std::size_t triangles = 0;
+    try {
+        const triangulation<Signs> result(points);
+        triangles = result.triangles.size();
+        found = flaws(points, result.triangles);
+    } catch (const std::runtime_error& contradiction) {
+        found = contradiction.what();
+    }
+    if (found.empty())
+        std::printf("  %s: valid, %zu triangles\n", signs, triangles);
+    else
+        std::printf("  %s: broken: %s\n", signs, found.c_str());
+    return found.empty();
+}
+
+}  // namespace
+
+int main() {
+    generator random(1);
+    int families = 0, as_expected = 0;
+    struct family {
+        const char* name;
+        std::vector<point> (*make)(generator&);
+    };
+    for (const auto& [name, make] :
+         {family{"turned grid", turned_grid}, family{"jittered grid", jittered_grid},
+          family{"circles", circles}, family{"line and cluster", line_and_cluster}}) {
+        auto points = make(random);
+        std::ranges::sort(points);
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        std::ranges::shuffle(points, random);
+        std::printf("%s, %zu points\n", name, points.size());
+        const bool exact = valid<exact_signs>("errbound", points);
+        const bool plain = valid<plain_signs>("plain double", points);
+        ++families;
+        as_expected += exact && !plain;
+    }
+    std::printf("%d of %d as expected\n", as_expected, families);
+    return as_expected == families ? 0 : 1;
+}

@@ -1,0 +1,241 @@
+// Convex hulls in space of nearly degenerate points, by one algorithm over two orientations:
+// errbound's, and the same expression in plain double, which breaks it. What comes out is checked
+// in integers that know of neither. Fails unless all of errbound's are valid and none of plain
+// double's.
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <errbound/predicates.hpp>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using errbound::sign_type;
+using point = std::array<double, 3>;
+
+constexpr auto plain_orient3d = [](const point& a, const point& b, const point& c, const point& d) {
+    const double volume = errbound::forms::volume(a, b, c, d);
+    return volume > 0 ? sign_type::positive : volume < 0 ? sign_type::negative : sign_type::zero;
+};
+
+/// Three of the points, counterclockwise seen from outside.
+using face = std::array<std::size_t, 3>;
+using edge = std::array<std::size_t, 2>;
+
+/// All edges of faces, sorted: on a closed surface each has one twin, the other way round.
+std::vector<edge> sorted_edges(const std::vector<face>& faces) {
+    std::vector<edge> edges;
+    for (const auto& [a, b, c] : faces) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+    std::ranges::sort(edges);
+    return edges;
+}
+
+/// Incrementally: faces that see a point give way to those that join it to their border. Facets of
+/// more than three points come in coplanar faces. Empty if all points are in one plane. Throws
+/// std::runtime_error where signs contradict each other. Cost: points times faces.
+template <class Orient3d>
+std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& orient3d) {
+    const auto orient = [&](const face& f, std::size_t p) {
+        return orient3d(points[f[0]], points[f[1]], points[f[2]], points[p]);
+    };
+    std::size_t c = 2, d = 3;
+    while (d < points.size() && orient({0, 1, c}, d) == sign_type::zero)
+        if (++c == d) c = 2, ++d;
+    if (d >= points.size()) return {};
+    // Below its first three points, a tetrahedron's last one is inside.
+    const bool below = orient({0, 1, c}, d) == sign_type::positive;
+    const std::size_t a = below ? 0 : 1, b = 1 - a;
+    std::vector<face> faces{{a, b, c}, {b, a, d}, {c, b, d}, {a, c, d}};
+
+    for (std::size_t p = 2; p < points.size(); ++p) {
+        const auto rest = std::stable_partition(faces.begin(), faces.end(), [&](const face& f) {
+            return orient(f, p) != sign_type::negative;
+        });
+        const std::vector<edge> seen = sorted_edges({rest, faces.end()});
+        faces.erase(rest, faces.end());
+        for (const auto& [from, to] : seen)
+            if (!std::ranges::binary_search(seen, edge{to, from})) faces.push_back({from, to, p});
+        if (faces.size() > 2 * points.size()) throw std::runtime_error("too many faces for a hull");
+    }
+    return faces;
+}
+
+// The check. Coordinates are multiples of 2^-70 below 2^10: see the points below.
+
+using integer = boost::multiprecision::int512_t;
+using vector = std::array<integer, 3>;
+
+vector exactly(const point& p) {
+    vector v;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double x = std::ldexp(p[k], 70);
+        if (x != std::trunc(x) || std::abs(x) >= 0x1p80)
+            throw std::logic_error("a coordinate that the check is not made for");
+        v[k] = integer(x);
+    }
+    return v;
+}
+vector operator-(const vector& a, const vector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+vector cross(const vector& a, const vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+integer dot(const vector& a, const vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// What is wrong with a hull; empty if nothing. All points are on or behind the planes of all
+/// faces, so that these are parts of the hull's boundary; they are closed and look outwards, so
+/// that they cover it, everywhere equally often; and some place is covered once.
+std::string flaws(const std::vector<point>& points, const std::vector<face>& faces) {
+    if (faces.empty()) return "no faces";
+    std::vector<vector> exact;
+    for (const point& p : points) exact.push_back(exactly(p));
+
+    const std::vector<edge> edges = sorted_edges(faces);
+    std::size_t unmatched = 0, flat = 0, outside = 0, layers = 0;
+    for (const auto& [from, to] : edges) {
+        const auto twins = std::ranges::equal_range(edges, edge{to, from});
+        const auto same = std::ranges::equal_range(edges, edge{from, to});
+        unmatched += twins.size() != 1 || same.size() != 1;
+    }
+    const auto sum = [&](const face& f, std::size_t k) -> integer {
+        return exact[f[0]][k] + exact[f[1]][k] + exact[f[2]][k];
+    };
+    const vector centre{sum(faces[0], 0), sum(faces[0], 1), sum(faces[0], 2)};  // three times that
+    for (const auto& [a, b, c] : faces) {
+        const vector normal = cross(exact[b] - exact[a], exact[c] - exact[a]);
+        const integer height = dot(normal, exact[a]);
+        flat += dot(normal, normal) == 0;
+        for (const vector& p : exact) outside += dot(normal, p) > height;
+        bool inside = dot(normal, centre) == 3 * height;
+        for (const auto& [from, to] : {edge{a, b}, edge{b, c}, edge{c, a}}) {
+            const vector& start = exact[from];
+            const vector thrice{3 * start[0], 3 * start[1], 3 * start[2]};
+            inside = inside && dot(normal, cross(exact[to] - start, centre - thrice)) >= 0;
+        }
+        layers += inside;
+    }
+    std::string found;
+    const auto add = [&](const char* what, std::size_t count) {
+        if (count == 0) return;
+        found += (found.empty() ? "" : ", ") + std::to_string(count) + what;
+    };
+    add(" edges without one twin", unmatched);
+    add(" flat faces", flat);
+    add(" times a point is outside of a face", outside);
+    if (layers != 1) found += (found.empty() ? "" : ", ") + std::to_string(layers) + " layers";
+    return found;
+}
+
+// The points, around the origin, in multiples of 2^-60.
+
+using generator = std::mt19937_64;
+
+double rounded(double x) {
+    return std::ldexp(std::rint(std::ldexp(x, 60)), -60);
+}
+/// By two angles.
+point turned(const point& p) {
+    const double x = std::cos(0.3) * p[0] - std::sin(0.3) * p[1],
+                 y = std::sin(0.3) * p[0] + std::cos(0.3) * p[1];
+    return {rounded(x), rounded(std::cos(0.7) * y - std::sin(0.7) * p[2]),
+            rounded(std::sin(0.7) * y + std::cos(0.7) * p[2])};
+}
+
+/// A cube's surface: as a grid, each of whose points `move` moves.
+template <class Move>
+std::vector<point> cube(const Move& move) {
+    std::vector<point> points;
+    for (int i = 0; i <= 20; ++i)
+        for (int j = 0; j <= 20; ++j)
+            for (const double side : {-0.5, 0.5}) {
+                const double u = i / 20.0 - 0.5, v = j / 20.0 - 0.5;
+                for (const point& p : {point{side, u, v}, point{u, side, v}, point{u, v, side}})
+                    points.push_back(move(p));
+            }
+    return points;
+}
+std::vector<point> turned_cube(generator&) {
+    return cube(turned);
+}
+/// By up to two units in the last place of 0.5.
+std::vector<point> jittered_cube(generator& random) {
+    return cube([&](point p) {
+        for (double& x : p) x = rounded(x) + (static_cast<double>(random() % 5) - 2) * 0x1p-53;
+        return p;
+    });
+}
+/// Circles of equal size above each other, turned.
+std::vector<point> cylinder(generator&) {
+    std::vector<point> points;
+    for (int height = 0; height < 20; ++height)
+        for (int i = 0; i < 100; ++i) {
+            const double angle = 6.28318530717958648 * i / 100;
+            points.push_back(turned({std::cos(angle), std::sin(angle), height / 10.0}));
+        }
+    return points;
+}
+/// On one plane, and a cluster of neighbouring doubles around another of its points; and two more.
+std::vector<point> plane_and_cluster(generator& random) {
+    std::vector<point> points{{0, 0, 1}, {1, 0, 0}};
+    for (int i = 0; i < 10; ++i)
+        for (int j = 0; j < 10; ++j)
+            for (int k = 0; k < 10; ++k)
+                points.push_back({0.5 + i * 0x1p-53, 0.5 + j * 0x1p-53, 0.5 + k * 0x1p-53});
+    for (int i = 0; i < 1000; ++i) {
+        const double x = double(random() % 400), y = double(random() % 400);
+        points.push_back({x, y, y});
+    }
+    return points;
+}
+
+template <class Orient3d>
+bool valid(const char* name, const std::vector<point>& points, const Orient3d& orient3d) {
+    std::vector<face> faces;
+    std::string found;
+    try {
+        faces = convex_hull(points, orient3d);
+        found = flaws(points, faces);
+    } catch (const std::runtime_error& contradiction) {
+        found = contradiction.what();
+    }
+    if (found.empty())
+        std::printf("  %s: valid, %zu faces\n", name, faces.size());
+    else
+        std::printf("  %s: broken: %s\n", name, found.c_str());
+    return found.empty();
+}
+
+}  // namespace
+
+int main() {
+    generator random(1);
+    int families = 0, as_expected = 0;
+    struct family {
+        const char* name;
+        std::vector<point> (*make)(generator&);
+    };
+    for (const auto& [name, make] :
+         {family{"turned cube", turned_cube}, family{"jittered cube", jittered_cube},
+          family{"cylinder", cylinder}, family{"plane and cluster", plane_and_cluster}}) {
+        auto points = make(random);
+        std::ranges::sort(points);
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        std::ranges::shuffle(points, random);
+        std::printf("%s, %zu points\n", name, points.size());
+        const bool exact = valid("errbound", points, errbound::orient3d);
+        const bool plain = valid("plain double", points, plain_orient3d);
+        ++families;
+        as_expected += exact && !plain;
+    }
+    std::printf("%d of %d as expected\n", as_expected, families);
+    return as_expected == families ? 0 : 1;
+}
