@@ -63,7 +63,10 @@ class dyadic {
     static dyadic from(double x) {
         if (x == 0) return {};
         const decomposed d(x);
-        return {Integer(d.mantissa), d.exponent};
+        dyadic exact;
+        exact.numerator_ = Integer(d.mantissa);
+        exact.exponent_ = d.exponent;
+        return exact;
     }
     static dyadic power_of_two(int exponent) { return {Integer(1), exponent}; }
 

@@ -24,6 +24,7 @@
 #include <errbound/real_roots.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -69,9 +70,11 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
         // No intervals are made, and no integers copied, where the filter decides.
         const auto c = floating_coefficients(p.coefficients());
-        if (!c.empty() && a < b && !(c[0].value() == 0 && a <= 0 && 0 <= b))
-            if (const root_filter<tight> filter(c, a, b); filter.decides())
-                return filter.parts().size();
+        const std::size_t zeros = leading_zeros(c);
+        const std::span others(c.begin() + static_cast<std::ptrdiff_t>(zeros), c.end());
+        if (!others.empty() && a < b)
+            if (const root_filter<tight> filter(others, a, b); filter.decides())
+                return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
     }
     const real_roots<integer> roots(staged<integer>(p), a, b);
     return roots.everywhere() ? infinitely_many : roots.size();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <errbound/integer_polynomial.hpp>
 #include <errbound/number_traits.hpp>
 #include <errbound/rules/tight.hpp>
@@ -72,6 +73,14 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     return c;
 }
 
+/// How many coefficients at the beginning are exactly zero: the multiplicity of the root 0.
+inline std::size_t leading_zeros(const std::vector<floating_coefficient>& c) {
+    const auto first = std::find_if(c.begin(), c.end(), [](const floating_coefficient& x) {
+        return x.value() != 0 || x.error() != 0;
+    });
+    return static_cast<std::size_t>(first - c.begin());
+}
+
 /// One polynomial for both stages: exact, and in floating point with error bounds.
 template <exact_number Integer>
 class staged_polynomial {
@@ -103,11 +112,9 @@ class staged_polynomial {
 
     /// Divides by x as often as that goes; how often.
     int divide_by_x() {
-        const auto first = std::find_if(floating_.begin(), floating_.end(), [](const number& c) {
-            return c.value() != 0 || c.error() != 0;
-        });
-        const auto count = first - floating_.begin();
-        floating_.erase(floating_.begin(), first);
+        const auto count = static_cast<std::ptrdiff_t>(leading_zeros(floating_));
+        if (count == 0) return 0;
+        floating_.erase(floating_.begin(), floating_.begin() + count);
         if (!exact_.empty()) exact_.erase(exact_.begin(), exact_.begin() + count);
         return static_cast<int>(count);
     }

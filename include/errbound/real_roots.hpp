@@ -71,7 +71,8 @@ class real_roots {
         }
         zeros_ = p_.divide_by_x();
         if (a == b) {
-            if (a != 0) exact().isolate(point::from(a), point::from(a), intervals_);
+            if (a != 0 && possibly_zero(floating_sign_at(number(a))))
+                exact().isolate(point::from(a), point::from(a), intervals_);
         } else {
             add(root_filter<tight>(p_.floating(), a, b));
         }
@@ -133,6 +134,7 @@ class real_roots {
 
     void add(const root_filter<tight>& filter) {
         const auto& parts = filter.parts();
+        intervals_.reserve(parts.size());
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
         decided_by_filter_ = filter.decides();
     }
@@ -160,6 +162,11 @@ class real_roots {
             const bool beyond = std::isfinite(other) && (bound < point::from(other)) == (x > 0);
             return beyond ? point::from(other) : bound;
         };
+        const auto quick_from = exact_place(part, part.from), quick_to = exact_place(part, part.to);
+        if (quick_from && quick_to && std::isfinite(*quick_from) && std::isfinite(*quick_to)) {
+            const auto [low, high] = std::minmax(*quick_from, *quick_to);
+            return {point::from(low), point::from(high)};
+        }
         const point at0 = end(part.at0, part.at1), at1 = end(part.at1, part.at0);
         const point from = at0 + (at1 - at0) * point::from(part.from),
                     to = at0 + (at1 - at0) * point::from(part.to);
@@ -171,7 +178,8 @@ class real_roots {
         if (zeros_ == 0) return;
         const point zero;
         for (interval& root : intervals_)
-            while (root.low <= zero && zero <= root.high) exact().refine(root);
+            while (root.low <= zero && zero <= root.high)
+                if (!narrow(root)) exact().refine(root);
         const auto next = std::find_if(intervals_.begin(), intervals_.end(),
                                        [&](const interval& root) { return zero < root.low; });
         intervals_.insert(next, interval{zero, zero, zeros_});

@@ -12,10 +12,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <errbound/error_free.hpp>
 #include <errbound/number_traits.hpp>
 #include <errbound/sign_variations.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,6 +39,18 @@ struct filtered_part {
     /// nothing is known of it. (Neighbours that are not known either touch it.)
     bool has_one_root;
 };
+
+/// The x of the part's u if that is a double, and found to be one.
+inline std::optional<double> exact_place(const filtered_part& part, double u) {
+    if (u == 0) return part.at0;
+    if (u == 1) return part.at1;
+    const auto width = two_sum(part.at1, -part.at0);
+    const auto offset = two_product(width.value, u);
+    const auto x = two_sum(part.at0, offset.value);
+    const bool exact = width.error == 0 && offset.error == 0 && x.error == 0 &&
+                       product_error_is_exact(width.value, u, offset);
+    return exact ? std::optional(x.value) : std::nullopt;
+}
 
 namespace detail {
 
