@@ -53,7 +53,7 @@ class fixed_row {
     }
     bool ends_are_certain() const { return sign(0) != 0 && sign(b_.size() - 1) != 0; }
     int variations() const {
-        return certain_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
+        return most_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
     }
 
     /// Of the two halves, by de Casteljau. A midpoint inherits at most the error of its ends, and

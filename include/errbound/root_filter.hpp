@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <errbound/error_free.hpp>
@@ -95,7 +96,7 @@ struct tracked_row {
         return (value[j] > error[j] ? 1 : 0) - (value[j] < -error[j] ? 1 : 0);
     }
     int variations(std::size_t count) const {
-        return certain_sign_variations(count, [this](std::size_t j) { return sign(j); });
+        return most_sign_variations(count, [this](std::size_t j) { return sign(j); });
     }
 
   private:
@@ -116,10 +117,10 @@ class root_filter {
     /// Up to this degree n, binomials are exact in double, and so are their products with n.
     static constexpr std::size_t most_degree = 50;
     static constexpr int most_halvings = 200;
-    /// Ends of parts of at least half this share are exact in double, and at most most_rows parts
-    /// are on the way.
+    /// Ends of parts of at least half this share of their distance from at0 are exact in double.
     static constexpr double narrowest = 0x1p-46;
-    static constexpr std::size_t most_rows = 50;
+    /// Of parts on the way.
+    static constexpr std::size_t most_rows = 64;
 
     /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
     /// may be infinite. Coefficients ascend in the power basis; empty means zero.
@@ -279,9 +280,13 @@ class root_filter {
                 --count;
                 continue;
             }
+            if (changes == 2 && add_pair(from, to, whole.sign(0))) {
+                --count;
+                continue;
+            }
             // Ends of an uncertain sign stay so however often the part is halved.
             if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == most_halvings ||
-                to - from < narrowest) {
+                count == most_rows || to - from < narrowest * to) {
                 parts_.push_back({at0_, at1_, from, to, false});
                 --count;
                 continue;
@@ -300,6 +305,43 @@ class root_filter {
             spans[k] = {half, to};
             spans[count++] = {from, half};
         }
+    }
+
+    /// Two close roots would take many halvings to part. Where at most two are left, a point between
+    /// them is tried: the extremum, as far as plain doubles find it. If the sign there is not
+    /// `outside`, that of both ends, there is one on either side. Tried after 4, 8, 16, ... halvings.
+    bool add_pair(double from, double to, int outside) {
+        const int halvings = -std::ilogb(to - from);
+        if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
+        // To 46 bits (as by errbound/error_free.hpp's split), so that the point is mostly a double.
+        const double exactly = extremum(from, to), much = exactly * 129;
+        const double u = much - (much - exactly);
+        if (!(from < u && u < to)) return false;
+        const number low(at0_), x = low + (number(at1_) - low) * number(u);
+        number sum = c_.back();
+        for (std::size_t i = c_.size() - 1; i-- > 0;) sum = sum * x + c_[i];
+        if (sign_of(sum) != (outside < 0 ? sign_type::positive : sign_type::negative)) return false;
+        parts_.push_back({at0_, at1_, from, u, true});
+        parts_.push_back({at0_, at1_, u, to, true});
+        return true;
+    }
+    /// A zero of the derivative, by Newton's method from the middle: any number if it fails.
+    double extremum(double from, double to) const {
+        const double width = at1_ - at0_;
+        double u = from + (to - from) / 2;
+        for (int i = 0; i < 8; ++i) {
+            const double x = at0_ + width * u;
+            double value = 0, slope = 0, half_curvature = 0;
+            for (std::size_t k = c_.size(); k-- > 0;) {
+                half_curvature = half_curvature * x + slope;
+                slope = slope * x + value;
+                value = value * x + c_[k].value();
+            }
+            const double step = slope / (2 * half_curvature * width);
+            u -= step;
+            if (!(std::abs(step) > narrowest * u)) break;
+        }
+        return u;
     }
 
     std::array<number, most_degree + 1> first_;
