@@ -54,13 +54,18 @@ integer_form<Integer> mirrored(integer_form<Integer> p) {
 template <class Integer>
 integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
     integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
+    Integer term;  // kept, so that it allocates once
     for (std::size_t k = quotient.size(); k-- > 0;) {
-        const Integer& head = a[k + b.size() - 1];
         Integer& factor = quotient[k];
-        factor = head / b.back();
-        if (factor * b.back() != head) return {};
+        factor = a[k + b.size() - 1];
         if (factor == 0) continue;
-        for (std::size_t i = 0; i < b.size(); ++i) a[i + k] -= factor * b[i];
+        factor /= b.back();
+        for (std::size_t i = b.size(); i-- > 0;) {
+            term = factor;
+            term *= b[i];
+            a[i + k] -= term;
+            if (i + 1 == b.size() && a[i + k] != 0) return {};
+        }
     }
     for (const Integer& c : a)
         if (c != 0) return {};
@@ -75,11 +80,14 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     const int e = std::min(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
+    Integer term;  // kept, so that it allocates once
     unsigned shift = 0;
     for (std::size_t i = p.size() - 1; i-- > 0;) {
         shift += static_cast<unsigned>(-e);
         sum *= m;
-        sum += Integer(p[i] << shift);
+        term = p[i];
+        term <<= shift;
+        sum += term;
     }
     return {std::move(sum), -static_cast<int>(shift)};
 }
@@ -126,7 +134,8 @@ struct remainders {
         const Integer next = modulus * Integer(field.modulus()), half = next / 2;
         p.resize(r.size());
         for (std::size_t i = 0; i < r.size(); ++i) {
-            const auto missing = field.multiply(field.subtract(r[i], residue(p[i], field)), inverse);
+            const auto missing =
+                field.multiply(field.subtract(r[i], residue(p[i], field)), inverse);
             if (missing == 0) continue;
             p[i] += modulus * Integer(missing);
             if (p[i] > half) p[i] -= next;

@@ -72,9 +72,11 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
         const auto c = floating_coefficients(p.coefficients());
         const std::size_t zeros = leading_zeros(c);
         const std::span others(c.begin() + static_cast<std::ptrdiff_t>(zeros), c.end());
-        if (!others.empty() && a < b)
-            if (const root_filter<tight> filter(others, a, b); filter.decides())
-                return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
+        if (!others.empty() && a < b) {
+            const root_filter<tight> filter(others, a, b);
+            if (filter.decides()) return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
+            return real_roots<integer>(staged<integer>(p), a, b, filter.parts()).size();
+        }
     }
     const real_roots<integer> roots(staged<integer>(p), a, b);
     return roots.everywhere() ? infinitely_many : roots.size();

@@ -74,8 +74,15 @@ class real_roots {
             if (a != 0 && possibly_zero(floating_sign_at(number(a))))
                 exact().isolate(point::from(a), point::from(a), intervals_);
         } else {
-            add(root_filter<tight>(p_.floating(), a, b));
+            add(root_filter<tight>(p_.floating(), a, b).parts());
         }
+        if (a <= 0 && 0 <= b) add_zero();
+    }
+    /// The same for a < b and p not zero, where root_filter was asked for the roots other than 0.
+    real_roots(staged_polynomial<Integer> p, double a, double b,
+               const std::vector<filtered_part>& parts)
+        : p_(std::move(p)), zeros_(p_.divide_by_x()) {
+        add(parts);
         if (a <= 0 && 0 <= b) add_zero();
     }
 
@@ -132,11 +139,10 @@ class real_roots {
         return *exact_;
     }
 
-    void add(const root_filter<tight>& filter) {
-        const auto& parts = filter.parts();
-        intervals_.reserve(parts.size());
+    void add(const std::vector<filtered_part>& parts) {
+        intervals_.reserve(parts.size() + 1);
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
-        decided_by_filter_ = filter.decides();
+        decided_by_filter_ = !exact_;
     }
     /// The filter's part i, together with its neighbours if it is not known.
     void add(const std::vector<filtered_part>& parts, std::size_t& i) {

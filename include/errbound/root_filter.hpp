@@ -307,25 +307,30 @@ class root_filter {
         }
     }
 
-    /// Two close roots would take many halvings to part. Where at most two are left, a point between
-    /// them is tried: the extremum, as far as plain doubles find it. If the sign there is not
-    /// `outside`, that of both ends, there is one on either side. Tried after 4, 8, 16, ... halvings.
+    /// Two close roots would take many halvings to part. Where at most two are left, a point
+    /// between them is tried: the extremum, as far as plain doubles find it. If the sign there is
+    /// not `outside`, that of both ends, there is one on either side; if it is uncertain, no
+    /// halving will tell more. Tried after 4, 8, 16, ... halvings; false if nothing comes of it.
     bool add_pair(double from, double to, int outside) {
         const int halvings = -std::ilogb(to - from);
         if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
-        // To 46 bits (as by errbound/error_free.hpp's split), so that the point is mostly a double.
-        const double exactly = extremum(from, to), much = exactly * 129;
-        const double u = much - (much - exactly);
+        const double u = extremum(from, to);
         if (!(from < u && u < to)) return false;
         const number low(at0_), x = low + (number(at1_) - low) * number(u);
-        number sum = c_.back();
-        for (std::size_t i = c_.size() - 1; i-- > 0;) sum = sum * x + c_[i];
-        if (sign_of(sum) != (outside < 0 ? sign_type::positive : sign_type::negative)) return false;
-        parts_.push_back({at0_, at1_, from, u, true});
-        parts_.push_back({at0_, at1_, u, to, true});
+        number value = c_.back();
+        for (std::size_t i = c_.size() - 1; i-- > 0;) value = value * x + c_[i];
+        const sign_type s = sign_of(value);
+        if (s == (outside < 0 ? sign_type::negative : sign_type::positive)) return false;
+        if (is_strict(s)) {
+            parts_.push_back({at0_, at1_, from, u, true});
+            parts_.push_back({at0_, at1_, u, to, true});
+        } else {
+            parts_.push_back({at0_, at1_, from, to, false});
+        }
         return true;
     }
-    /// A zero of the derivative, by Newton's method from the middle: any number if it fails.
+    /// A zero of the derivative, by Newton's method from the middle; NaN if it fails. Of 46 bits,
+    /// so that it mostly belongs to a point that is a double.
     double extremum(double from, double to) const {
         const double width = at1_ - at0_;
         double u = from + (to - from) / 2;
@@ -339,9 +344,12 @@ class root_filter {
             }
             const double step = slope / (2 * half_curvature * width);
             u -= step;
-            if (!(std::abs(step) > narrowest * u)) break;
+            if (std::abs(step) <= 0x1p-30 * u) {
+                const double much = u * 129;  // as by errbound/error_free.hpp's split
+                return much - (much - u);
+            }
         }
-        return u;
+        return std::numeric_limits<double>::quiet_NaN();
     }
 
     std::array<number, most_degree + 1> first_;

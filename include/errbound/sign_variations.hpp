@@ -19,10 +19,10 @@ int sign_variations(std::size_t count, const Sign& sign) {
     return changes;
 }
 
-/// The same where 0 means that a sign is uncertain: the largest number that there can be, 3 standing
-/// for all above 2 and for an uncertain sign at an end. 0 and 1 are the number itself, whose parity
-/// the ends' signs tell. (Uncertain signs between opposite ones add two for each two of them; between
-/// equal ones already the first adds two.)
+/// The same where 0 means that a sign is uncertain: the largest number that there can be, 3
+/// standing for all above 2 and for an uncertain sign at an end. 0 and 1 are the number itself,
+/// whose parity the ends' signs tell. (Uncertain signs between opposite ones add two for each two
+/// of them; between equal ones already the first adds two.)
 template <class Sign>
 int most_sign_variations(std::size_t count, const Sign& sign) {
     int last = sign(0), most = 0, open = 0;
