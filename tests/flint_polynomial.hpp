@@ -50,7 +50,7 @@ class flint_polynomial {
         return count + static_cast<std::size_t>(positive);
     }
 
-  private:
+    /// f = p without its factors' multiplicities.
     void squarefree(fmpz_poly_t f) const {
         fmpz_poly_t slope, common;
         fmpz_poly_init(slope);
@@ -62,5 +62,6 @@ class flint_polynomial {
         fmpz_poly_clear(common);
     }
 
+  private:
     fmpz_poly_t p_;
 };

@@ -183,14 +183,36 @@ class real_roots {
     void add_zero() {
         if (zeros_ == 0) return;
         const point zero;
-        for (interval& root : intervals_)
-            while (root.low <= zero && zero <= root.high)
-                if (!narrow(root)) exact().refine(root);
+        const point radius = point::from(rootless_radius());
+        for (interval& root : intervals_) {
+            if (root.low.is_zero()) root.low = radius.is_zero() ? exact().least_positive() : radius;
+            if (root.high.is_zero())
+                root.high = radius.is_zero() ? exact().greatest_negative() : -radius;
+        }
         const auto next = std::find_if(intervals_.begin(), intervals_.end(),
                                        [&](const interval& root) { return zero < root.low; });
         intervals_.insert(next, interval{zero, zero, zeros_});
     }
 
+    /// Some t >= 0 without root of p_ in [−t, t], if t > 0: with |c_i| t^i < |c_0|/2^i for i >= 1,
+    /// the sum of all these is less than |c_0|.
+    double rootless_radius() const {
+        const std::vector<number>& c = p_.floating();
+        const double first = std::abs(c[0].value()) - c[0].error();
+        if (!(first > 0)) return 0;
+        int exponent = std::numeric_limits<double>::max_exponent - 1;
+        for (std::size_t i = 1; i < c.size(); ++i) {
+            const double size = std::abs(c[i].value()) + c[i].error();
+            if (size == 0) continue;
+            // Below 2^(ilogb + 2), whatever the rounding of these two.
+            const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
+            const int degree = static_cast<int>(i);
+            const int root =
+                quotient >= 0 ? quotient / degree : -((degree - 1 - quotient) / degree);
+            exponent = std::min(exponent, root - 1);
+        }
+        return std::ldexp(1.0, exponent);
+    }
     /// The root, which lies within that of a double, and no more where it is a double itself.
     static number enclosure(const interval& root) {
         using traits = number_traits<double>;

@@ -160,6 +160,10 @@ class root_isolation {
     point upper_bound() const { return unlikely_root(right_.upper); }
     point lower_bound() const { return -unlikely_root(left_.upper); }
 
+    /// Between 0 and the positive or the negative roots, strictly.
+    point least_positive() const { return unlikely_root(right_.lower - 1); }
+    point greatest_negative() const { return -unlikely_root(left_.lower - 1); }
+
     /// Appends the roots in [low, high], low <= high, in ascending order.
     void isolate(const point& low, const point& high, std::vector<interval>& roots) const {
         const std::size_t first = roots.size();
