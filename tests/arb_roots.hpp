@@ -7,8 +7,8 @@
 
 #include "tests/flint_polynomial.hpp"
 
-/// The number of distinct real roots, of which all are enclosed to 32 bits, as are the complex ones:
-/// arb isolates no others alone.
+/// The number of distinct real roots, of which all are enclosed to 32 bits, as are the complex
+/// ones: arb isolates no others alone.
 inline std::size_t isolate_by_arb(const flint_polynomial& p) {
     fmpz_poly_t f;
     fmpz_poly_init(f);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <errbound/integer_polynomial.hpp>
@@ -24,8 +25,12 @@ class polynomial {
 
     /// Identically zero.
     polynomial() = default;
-    polynomial(std::initializer_list<Coefficient> c) : c_(c) {}
-    explicit polynomial(std::vector<Coefficient> c) : c_(std::move(c)) {}
+    polynomial(std::initializer_list<Coefficient> c) : polynomial(std::vector<Coefficient>(c)) {}
+    explicit polynomial(std::vector<Coefficient> c) : c_(std::move(c)) {
+        if constexpr (std::is_floating_point_v<Coefficient>)
+            assert(
+                std::all_of(c_.begin(), c_.end(), [](Coefficient x) { return std::isfinite(x); }));
+    }
 
     /// In ascending order.
     const std::vector<Coefficient>& coefficients() const { return c_; }

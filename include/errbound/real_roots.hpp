@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <errbound/bernstein.hpp>
@@ -65,6 +66,7 @@ class real_roots {
 
     /// The roots in [a, b], a <= b, which may be infinite.
     real_roots(staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
+        assert(a <= b);
         if (p_.is_zero()) {
             everywhere_ = true;
             return;
