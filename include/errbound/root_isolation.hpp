@@ -300,12 +300,13 @@ class root_isolation {
             roots.push_back({low, high});
             return;
         }
-        // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
         const int low_exponent = floor_log2(low), high_exponent = floor_log2(high);
+        if (variations == 2 && !roots_at_ends && high_exponent - low_exponent < 40 &&
+            add_pair(p, low, high, nearby_values(b), halvings, roots))
+            return;
+        // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
         const bool by_exponent = high_exponent - low_exponent >= 12;
         if (!by_exponent && !roots_at_ends) {
-            if (variations == 2 && add_pair(p, low, high, nearby_values(b), halvings, roots))
-                return;
             if (fixed_row<4> row(b); row.ends_are_certain()) {
                 b = {};
                 on_part(p, low, high, std::move(row), halvings, roots);
