@@ -11,6 +11,7 @@
 #include <errbound/dyadic.hpp>
 #include <errbound/prime_field.hpp>
 #include <errbound/sign.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -202,12 +203,14 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 /// Square-free polynomials f_1, f_2, ... of positive degree: a root of multiplicity m of p, which
 /// is not constant, is a root of f_1 to f_m and of no other. Each divides the one before it.
 ///
-/// Cost where p has no multiple roots: that of Euclid's algorithm modulo one prime.
+/// `most` limits their number. Cost where p has no multiple roots: that of Euclid's algorithm
+/// modulo one prime.
 template <exact_number Integer>
-std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p) {
+std::vector<integer_form<Integer>> squarefree_chain(
+    integer_form<Integer> p, std::size_t most = std::numeric_limits<std::size_t>::max()) {
     make_primitive(p);
     std::vector<integer_form<Integer>> chain;
-    while (p.size() > 1) {
+    while (p.size() > 1 && chain.size() < most) {
         if (detail::surely_squarefree(p)) {
             chain.push_back(std::move(p));
             break;

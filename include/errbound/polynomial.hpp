@@ -78,7 +78,7 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
         if (!others.empty() && a < b) {
             const root_filter<tight> filter(others, a, b);
             if (filter.decides()) return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
-            return real_roots<integer>(staged<integer>(p), a, b, filter.parts()).size();
+            return real_roots<integer>::count(staged<integer>(p), a, b, filter.parts());
         }
     }
     const real_roots<integer> roots(staged<integer>(p), a, b);

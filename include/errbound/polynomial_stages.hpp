@@ -92,6 +92,8 @@ class staged_polynomial {
   public:
     using number = floating_coefficient;
 
+    /// Identically zero.
+    staged_polynomial() = default;
     /// Of finite doubles, which are exact; integers are made of them when asked for.
     explicit staged_polynomial(const std::vector<double>& coefficients)
         : floating_(floating_coefficients(coefficients)) {}

@@ -80,12 +80,16 @@ class real_roots {
         }
         if (a <= 0 && 0 <= b) add_zero();
     }
-    /// The same for a < b and p not zero, where root_filter was asked for the roots other than 0.
-    real_roots(staged_polynomial<Integer> p, double a, double b,
-               const std::vector<filtered_part>& parts)
-        : p_(std::move(p)), zeros_(p_.divide_by_x()) {
-        add(parts);
-        if (a <= 0 && 0 <= b) add_zero();
+    /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
+    /// other than 0 and left some of these parts open.
+    static std::size_t count(staged_polynomial<Integer> p, double a, double b,
+                             const std::vector<filtered_part>& parts) {
+        real_roots roots;
+        roots.p_ = std::move(p);
+        const int zeros = roots.p_.divide_by_x();
+        roots.exact_.emplace(roots.p_.exact(), 1);
+        roots.add(parts);
+        return roots.size() + (zeros > 0 && a <= 0 && 0 <= b);
     }
 
     /// Whether the polynomial is identically zero: all points are roots, and none is listed.
@@ -136,6 +140,8 @@ class real_roots {
     }
 
   private:
+    real_roots() = default;
+
     const root_isolation<Integer>& exact() {
         if (!exact_) exact_.emplace(p_.exact());
         return *exact_;

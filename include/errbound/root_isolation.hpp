@@ -147,7 +147,10 @@ class root_isolation {
     using point = dyadic<Integer>;
     using interval = isolating_interval<Integer>;
 
-    explicit root_isolation(const form& p) : chain_(squarefree_chain(p)) {
+    /// Multiplicities are told if they are at most this.
+    explicit root_isolation(const form& p,
+                            std::size_t multiplicities = std::numeric_limits<std::size_t>::max())
+        : chain_(squarefree_chain(p, multiplicities)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
         right_ = half_line(squarefree());
         left_ = half_line(mirrored(squarefree()));

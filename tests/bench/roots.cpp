@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ccd/report/machine.hpp"
 #include "harness.hpp"
 #include "tests/flint_polynomial.hpp"
 #include "tests/polynomial_families.hpp"
@@ -55,7 +56,7 @@ struct contest {
         });
     }
     bench::cell nanoseconds(const bench::timing& t) const {
-        return bench::number(1e9 * t.median / static_cast<double>(others.size()), 0);
+        return bench::number(1e9 * t.minimum / static_cast<double>(others.size()), 0);
     }
 
     /// ns per polynomial: counted, isolated, counted by FLINT; and the ratio of the counts.
@@ -68,7 +69,7 @@ struct contest {
                                           }},
                                          repeats);
         return {nanoseconds(timings[0]), nanoseconds(timings[1]), nanoseconds(timings[2]),
-                bench::number(timings[2].median / timings[0].median, 1)};
+                bench::number(timings[2].minimum / timings[0].minimum, 1)};
     }
 #ifdef ERRBOUND_HAS_ARB
     /// ns per polynomial isolated by arb, and how often that isolated by errbound.
@@ -80,7 +81,7 @@ struct contest {
                                                   bench::keep(isolate_by_arb(*p));
                                           }},
                                          repeats);
-        return {nanoseconds(timings[1]), bench::number(timings[1].median / timings[0].median, 0)};
+        return {nanoseconds(timings[1]), bench::number(timings[1].minimum / timings[0].minimum, 0)};
     }
 #endif
 };
@@ -133,8 +134,9 @@ void run(bool quick) {
     columns.push_back({"arb", "arb isolates"});
     columns.push_back({"arb_ratio", "arb/isolate"});
 #endif
-    out.table("roots", {}, "distinct real roots on the whole line, ns per polynomial", columns,
-              rows);
+    out.table("roots", {},
+              "distinct real roots on the whole line, ns per polynomial (least of some passes)",
+              columns, rows);
 }
 
 }  // namespace
@@ -145,6 +147,9 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: errbound_roots_bench [--quick]\n");
         return 2;
     }
+    const ccd::report::machine here = ccd::report::this_machine();
+    std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
+                here.load, here.compiler.c_str(), here.flags.c_str());
     run(quick);
     return 0;
 }
