@@ -258,6 +258,15 @@ TEST(Roots, BeyondTheRangeOfDouble) {
     const polynomial<double> tiny{-0x1p-801, 0x1p+329};
     EXPECT_EQ(count_roots<integer>(tiny, 0, number_traits<double>::underflow_unit()), 1U);
     EXPECT_EQ(count_roots<integer>(tiny, number_traits<double>::underflow_unit(), 1), 0U);
+    // Signs at such roots, too (refinement in doubles once went on for ever there).
+    const polynomial<double> x{0.0, 1.0}, beside{-number_traits<double>::underflow_unit(), 1.0};
+    auto roots = isolate_roots<integer>(tiny, -infinity, infinity);
+    EXPECT_EQ(roots.sign_at(x, 0), sign_type::positive);
+    EXPECT_EQ(roots.sign_at(beside, 0), sign_type::negative);
+    EXPECT_EQ(roots.sign_at(tiny, 0), sign_type::zero);
+    roots.refine(0, number_traits<double>::underflow_unit());
+    EXPECT_LE(roots[0].high - roots[0].low,
+              dyadic<integer>::from(number_traits<double>::underflow_unit()));
 }
 
 TEST(Roots, MultiplicitiesAndRootsAtEnds) {

@@ -244,7 +244,8 @@ class real_roots {
         const double x = approximate_root(low, high, before == sign_type::negative);
         bool narrowed = false;
         for (const bool left : {true, false}) {
-            double distance = number_traits<double>::epsilon() * std::abs(x);
+            double distance = std::max(number_traits<double>::epsilon() * std::abs(x),
+                                       number_traits<double>::underflow_unit());
             for (;; distance *= 16) {
                 const double t = left ? x - distance : x + distance;
                 if (!(low < t && t < high)) break;
