@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/polynomial_families.hpp"
+#include "tests/tarski.hpp"
 
 namespace {
 
@@ -33,85 +34,6 @@ int polynomials() {
     const char* const asked = std::getenv("ERRBOUND_ROOTS_POLYNOMIALS");
     return asked != nullptr ? std::atoi(asked) : 120;
 }
-
-/// The truth: Tarski's query, by the sign variations of the signed remainders of p and p'·g, all
-/// divided by the last of them. From low to high they lose as many as g's signs at the distinct
-/// roots of p in (low, high] add up to, if neither end is a root or g is 1. (Basu, Pollack, Roy,
-/// Algorithms in Real Algebraic Geometry, Theorem 2.61; g = 1: Sturm.)
-class tarski {
-  public:
-    tarski(form p, const form& g) {
-        trim(p);
-        form second = p.size() > 1 ? generator::product(derivative(p), g) : form{};
-        trim(second);
-        chain_.push_back(std::move(p));
-        while (!second.empty()) {
-            form rest = negative_remainder(chain_.back(), second);
-            chain_.push_back(std::move(second));
-            second = std::move(rest);
-        }
-        form last = chain_.back();
-        make_primitive(last);
-        for (form& f : chain_) f = divided(f, last);
-    }
-    int between(const dyadic<integer>& low, const dyadic<integer>& high) const {
-        return variations_at(low) - variations_at(high);
-    }
-    /// On the whole line.
-    int everywhere() const {
-        const auto at_end = [&](bool right) {
-            return variations([&](const form& f) {
-                return right || f.size() % 2 == 1 ? f.back() : integer(-f.back());
-            });
-        };
-        return at_end(false) - at_end(true);
-    }
-    bool is_root(const dyadic<integer>& x) const { return value(chain_[0], x) == 0; }
-    int in_closed(const dyadic<integer>& low, const dyadic<integer>& high) const {
-        return between(low, high) + is_root(low);
-    }
-
-  private:
-    static integer value(const form& p, const dyadic<integer>& x) {
-        integer sum = 0, power = 1;
-        const int e = std::min(x.exponent(), 0);
-        const integer m = x.in_units(e);
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            sum += (p[i] * power) << static_cast<unsigned>(-e * static_cast<int>(p.size() - 1 - i));
-            power *= m;
-        }
-        return sum;
-    }
-    template <class Value>
-    int variations(const Value& value_of) const {
-        int count = 0, last = 0;
-        for (const form& f : chain_) {
-            const int s = integer(value_of(f)).sign();
-            if (s == 0) continue;
-            if (s == -last) ++count;
-            last = s;
-        }
-        return count;
-    }
-    int variations_at(const dyadic<integer>& x) const {
-        return variations([&](const form& f) { return value(f, x); });
-    }
-    static form negative_remainder(form a, const form& b) {
-        const integer lead = abs(b.back());
-        while (a.size() >= b.size()) {
-            const integer factor = b.back() < 0 ? integer(-a.back()) : a.back();
-            const std::size_t shift = a.size() - b.size();
-            for (integer& c : a) c *= lead;
-            for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] -= factor * b[i];
-            trim(a);
-        }
-        make_primitive(a);
-        for (integer& c : a) c = -c;
-        return a;
-    }
-
-    std::vector<form> chain_;
-};
 
 std::string text(const sample& s) {
     std::string all;
@@ -336,6 +258,15 @@ TEST(Roots, BeyondTheRangeOfDouble) {
     const polynomial<double> tiny{-0x1p-801, 0x1p+329};
     EXPECT_EQ(count_roots<integer>(tiny, 0, number_traits<double>::underflow_unit()), 1U);
     EXPECT_EQ(count_roots<integer>(tiny, number_traits<double>::underflow_unit(), 1), 0U);
+    // Signs at such roots, too (refinement in doubles once went on for ever there).
+    const polynomial<double> x{0.0, 1.0}, beside{-number_traits<double>::underflow_unit(), 1.0};
+    auto roots = isolate_roots<integer>(tiny, -infinity, infinity);
+    EXPECT_EQ(roots.sign_at(x, 0), sign_type::positive);
+    EXPECT_EQ(roots.sign_at(beside, 0), sign_type::negative);
+    EXPECT_EQ(roots.sign_at(tiny, 0), sign_type::zero);
+    roots.refine(0, number_traits<double>::underflow_unit());
+    EXPECT_LE(roots[0].high - roots[0].low,
+              dyadic<integer>::from(number_traits<double>::underflow_unit()));
 }
 
 TEST(Roots, MultiplicitiesAndRootsAtEnds) {
@@ -367,6 +298,151 @@ TEST(Roots, RationalCoefficientsAndOtherIntegers) {
               sign_type::zero);
     EXPECT_EQ(roots.sign_at(polynomial<cpp_rational>{cpp_rational(-1, 3), cpp_rational(1)}, 1),
               sign_type::positive);
+}
+
+// Ends and coefficients that are easily mistaken: points, both zeros, subnormal and huge numbers.
+TEST(Roots, PointsAsIntervals) {
+    const polynomial<double> p{0.0, -0.75, 1.0};  // 0 and 3/4
+    for (const double x : {0.0, -0.0, 0.75}) EXPECT_EQ(count_roots<integer>(p, x, x), 1U) << x;
+    EXPECT_EQ(count_roots<integer>(p, -0.0, 0.0), 1U);
+    EXPECT_EQ(count_roots<integer>(p, 0.0, -0.0), 1U);
+    EXPECT_EQ(count_roots<integer>(p, -0.0, 0.75), 2U);
+    EXPECT_EQ(count_roots<integer>(p, -1, -0.0), 1U);
+    const double least = number_traits<double>::underflow_unit();
+    for (const double x : {0.5, -0.75, std::nextafter(0.75, 1), least, -least})
+        EXPECT_EQ(count_roots<integer>(p, x, x), 0U) << x;
+    EXPECT_EQ(sign_on<integer>(p, 0.75, 0.75), (occurring_signs{false, true, false}));
+    EXPECT_EQ(sign_on<integer>(p, 0.5, 0.5), (occurring_signs{true, false, false}));
+    EXPECT_TRUE(root_where_nonnegative<integer>(p, {polynomial{-0.75, 1.0}}, 0.75, 0.75));
+    EXPECT_FALSE(root_where_nonnegative<integer>(p, {polynomial{-0.75, 1.0}}, -0.0, 0.0));
+    // At a point that is a multiple root, of a multiple of its polynomial by the largest double.
+    const double most = std::numeric_limits<double>::max();
+    const polynomial<double> square{most, -2 * (most / 2), most / 4};  // largest·(1 − x/2)²
+    const auto double_root = isolate_roots<integer>(square, 2, 2);
+    ASSERT_EQ(double_root.size(), 1U);
+    EXPECT_EQ(double_root[0].multiplicity, 2);
+}
+
+TEST(Roots, SubnormalAndHugeCoefficients) {
+    generator make(11);
+    const double least = number_traits<double>::underflow_unit();
+    for (int k = 0; k < 400; ++k) {
+        // Small integer coefficients times a power of two have the same roots.
+        std::vector<double> c;
+        form whole;
+        for (int i = 0; i <= 1 + k % 7; ++i) {
+            const int n = make.small(9);
+            c.push_back(n);
+            whole.emplace_back(n);
+        }
+        if (c.back() == 0) c.back() = 1, whole.back() = 1;
+        const std::size_t truth = count_roots(polynomial<integer>(whole), -infinity, infinity);
+        ASSERT_EQ(truth, tarski(whole, {1}).everywhere());
+        for (const double factor : {least, 2 * least, 0x1p-1000, 0x1p+1000, 0x1p+1020}) {
+            std::vector<double> scaled = c;
+            for (double& x : scaled) x *= factor;
+            ASSERT_EQ(count_roots<integer>(polynomial<double>(scaled), -infinity, infinity), truth)
+                << factor;
+        }
+        // With huge and subnormal coefficients side by side, roots go to 0 or infinity.
+        std::vector<double> mixed = c;
+        for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] *= i % 2 == 0 ? 0x1p+1015 : least;
+        const sample s = generator::of_doubles(mixed);
+        ASSERT_EQ(count_roots<integer>(polynomial<double>(s.doubles), -infinity, infinity),
+                  tarski(s.whole, {1}).everywhere())
+            << text(s);
+    }
+}
+
+// Ends of intervals at roots of all multiplicities, where filter and Descartes' rule see nothing.
+TEST(Roots, EndsAtRoots) {
+    generator make(12);
+    for (int k = 0; k < 1500; ++k) {
+        form p{1};
+        std::vector<int> roots;  // times 4
+        for (int i = 1 + k % 5; i > 0; --i) {
+            roots.push_back(make.small(12));
+            for (int m = 1 + std::abs(make.small(2)); m > 0; --m)
+                p = generator::product(p, form{integer(-roots.back()), integer(4)});
+        }
+        std::sort(roots.begin(), roots.end());
+        roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+        const auto pick = [&] {
+            return roots[static_cast<std::size_t>(std::abs(make.small(100))) % roots.size()];
+        };
+        const int x = pick(), y = pick(), low = std::min(x, y), high = std::max(x, y);
+        const auto inside =
+            std::count_if(roots.begin(), roots.end(), [&](int r) { return low <= r && r <= high; });
+        const polynomial<integer> f(p);
+        ASSERT_EQ(count_roots(f, low / 4.0, high / 4.0), inside) << text({p});
+        const auto found = isolate_roots(f, low / 4.0, infinity);
+        ASSERT_EQ(found.size(),
+                  std::count_if(roots.begin(), roots.end(), [&](int r) { return low <= r; }))
+            << text({p});
+        ASSERT_TRUE(found[0].is_point());
+    }
+}
+
+// Degrees on both sides of root_filter::most_degree.
+TEST_P(Families, DegreesUpTo60) {
+    if (GetParam() == family::wide) GTEST_SKIP() << "thousands of bits";
+    generator make(400 + static_cast<unsigned>(GetParam()));
+    for (int degree = 31; degree <= 60; degree += polynomials() < 120 ? 29 : 5) {
+        const sample s = make.make(GetParam(), degree);
+        const tarski sturm(s.whole, {1});
+        ASSERT_EQ(count(s, -infinity, infinity), sturm.everywhere()) << text(s);
+        const auto low = dyadic<integer>::from(-1), high = dyadic<integer>::from(0.5);
+        const auto part = isolate(s, -1, 0.5);
+        ASSERT_EQ(part.size(), sturm.in_closed(low, high)) << text(s);
+    }
+}
+
+// One library's polynomial at the roots of another's.
+TEST(Roots, MixedNumberTypes) {
+    using boost::multiprecision::cpp_int;
+    using boost::multiprecision::cpp_rational;
+    using boost::multiprecision::mpq_rational;
+    using boost::multiprecision::mpz_int;
+    const auto expect_signs = [](auto roots) {  // of x² − 2
+        ASSERT_EQ(roots.size(), 2U);
+        const auto at_both = [&](const auto& g, sign_type left, sign_type right) {
+            EXPECT_EQ(roots.sign_at(g, 0), left);
+            EXPECT_EQ(roots.sign_at(g, 1), right);
+        };
+        constexpr auto negative = sign_type::negative, positive = sign_type::positive;
+        at_both(polynomial<float>{-1.4142135F, 1}, negative, positive);  // below √2
+        at_both(polynomial<double>{-1.4142135623730951, 1}, negative, negative);
+        at_both(polynomial<int>{-2, 0, 1}, sign_type::zero, sign_type::zero);
+        at_both(polynomial<cpp_int>{-4, 0, 0, 0, 1}, sign_type::zero, sign_type::zero);
+        at_both(polynomial<mpz_int>{mpz_int(-3), mpz_int(2)}, negative, negative);
+        at_both(polynomial<cpp_rational>{cpp_rational(-7, 5), cpp_rational(1)}, negative, positive);
+        at_both(polynomial<mpq_rational>{mpq_rational(17, 12), mpq_rational(-1)}, positive,
+                positive);
+        at_both(polynomial<double>{}, sign_type::zero, sign_type::zero);
+    };
+    expect_signs(isolate_roots<cpp_int>(polynomial<float>{-2, 0, 1}, -infinity, infinity));
+    expect_signs(isolate_roots<mpz_int>(polynomial<double>{-2, 0, 1}, -10, 10));
+    expect_signs(isolate_roots<integer>(polynomial<int>{-2, 0, 1}, -infinity, 3));
+    expect_signs(isolate_roots(polynomial<cpp_int>{-6, 0, 3}, -infinity, infinity));
+    expect_signs(isolate_roots(polynomial<cpp_rational>{cpp_rational(-2, 3), 0, cpp_rational(1, 3)},
+                               -infinity, infinity));
+    expect_signs(isolate_roots(polynomial<mpq_rational>{-2, 0, 1}, -infinity, infinity));
+    expect_signs(isolate_roots<mpz_int>(polynomial<cpp_int>{-2, 0, 1}, -infinity, infinity));
+}
+
+TEST(Roots, PreconditionsAreAsserted) {
+#ifdef NDEBUG
+    GTEST_SKIP() << "assertions are off";
+#else
+    const polynomial<double> p{-2.0, 0.0, 1.0};
+    EXPECT_DEATH(count_roots<integer>(p, 1, 0), "a <= b");
+    EXPECT_DEATH(count_roots<integer>(p, std::nan(""), 0), "a <= b");
+    EXPECT_DEATH(isolate_roots<integer>(p, 0, std::nan("")), "a <= b");
+    EXPECT_DEATH(sign_on<integer>(p, 1, 0), "a <= b");
+    EXPECT_DEATH(root_where_nonnegative<integer>(p, {}, 1, 0), "a <= b");
+    EXPECT_DEATH((polynomial<double>{1.0, std::nan("")}), "finite");
+    EXPECT_DEATH((polynomial<float>{1.0F, HUGE_VALF}), "finite");
+#endif
 }
 
 // Of more than root_filter::most_degree: integers alone.

@@ -63,7 +63,10 @@ class dyadic {
     static dyadic from(double x) {
         if (x == 0) return {};
         const decomposed d(x);
-        return {Integer(d.mantissa), d.exponent};
+        dyadic exact;
+        exact.numerator_ = Integer(d.mantissa);
+        exact.exponent_ = d.exponent;
+        return exact;
     }
     static dyadic power_of_two(int exponent) { return {Integer(1), exponent}; }
 
@@ -95,6 +98,7 @@ class dyadic {
                                           : std::strong_ordering::greater;
     }
     friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
+    friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
     /// ⌊log2 |x|⌋ for x not zero.
     friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
 
@@ -107,6 +111,15 @@ class dyadic {
     Integer numerator_;
     int exponent_ = 0;
 };
+
+/// a/b to about this many bits, for a and b not zero.
+template <exact_number Integer>
+dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int bits) {
+    const int shift = bits + floor_log2(b.numerator()) - floor_log2(a.numerator());
+    const Integer n = shift > 0 ? Integer(a.numerator() << static_cast<unsigned>(shift))
+                                : Integer(a.numerator() >> static_cast<unsigned>(-shift));
+    return {Integer(n / b.numerator()), a.exponent() - b.exponent() - shift};
+}
 
 /// (a + b)/2
 template <exact_number Integer>

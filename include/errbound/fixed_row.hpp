@@ -52,8 +52,22 @@ class fixed_row {
         return b_[i] > fixed_integer<Words>(error_) ? 1 : 0;
     }
     bool ends_are_certain() const { return sign(0) != 0 && sign(b_.size() - 1) != 0; }
-    int variations() const {
-        return certain_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
+    /// As most_sign_variations counts.
+    int most_variations() const {
+        return most_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
+    }
+
+    /// In the row's unit.
+    std::vector<double> nearby_values() const {
+        std::vector<double> values;
+        values.reserve(b_.size());
+        for (const auto& x : b_) {
+            const auto size = x.negative() ? -x : x;
+            double sum = 0;
+            for (int i = Words; i-- > 0;) sum = sum * 0x1p64 + static_cast<double>(size[i]);
+            values.push_back(x.negative() ? -sum : sum);
+        }
+        return values;
     }
 
     /// Of the two halves, by de Casteljau. A midpoint inherits at most the error of its ends, and

@@ -11,6 +11,7 @@
 #include <errbound/dyadic.hpp>
 #include <errbound/prime_field.hpp>
 #include <errbound/sign.hpp>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -54,13 +55,18 @@ integer_form<Integer> mirrored(integer_form<Integer> p) {
 template <class Integer>
 integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
     integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
+    Integer term;  // kept, so that it allocates once
     for (std::size_t k = quotient.size(); k-- > 0;) {
-        const Integer& head = a[k + b.size() - 1];
         Integer& factor = quotient[k];
-        factor = head / b.back();
-        if (factor * b.back() != head) return {};
+        factor = a[k + b.size() - 1];
         if (factor == 0) continue;
-        for (std::size_t i = 0; i < b.size(); ++i) a[i + k] -= factor * b[i];
+        factor /= b.back();
+        for (std::size_t i = b.size(); i-- > 0;) {
+            term = factor;
+            term *= b[i];
+            a[i + k] -= term;
+            if (i + 1 == b.size() && a[i + k] != 0) return {};
+        }
     }
     for (const Integer& c : a)
         if (c != 0) return {};
@@ -75,11 +81,14 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     const int e = std::min(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
+    Integer term;  // kept, so that it allocates once
     unsigned shift = 0;
     for (std::size_t i = p.size() - 1; i-- > 0;) {
         shift += static_cast<unsigned>(-e);
         sum *= m;
-        sum += Integer(p[i] << shift);
+        term = p[i];
+        term <<= shift;
+        sum += term;
     }
     return {std::move(sum), -static_cast<int>(shift)};
 }
@@ -92,16 +101,24 @@ sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
 
 namespace detail {
 
+/// x modulo the field's prime.
+template <class Integer>
+std::uint64_t residue(const Integer& x, const prime_field& field) {
+    const auto p = static_cast<std::int64_t>(field.modulus());
+    std::int64_t rest = 0;
+    if (x < p && -p < x)
+        rest = static_cast<std::int64_t>(x);
+    else
+        rest = static_cast<std::int64_t>(Integer(x % Integer(p)));
+    return static_cast<std::uint64_t>(rest < 0 ? rest + p : rest);
+}
+
 /// The coefficients' residues, each divided by R: those of a multiple of p, in Montgomery's form.
 template <class Integer>
 std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_field& field) {
-    const Integer modulus(field.modulus());
     std::vector<std::uint64_t> r;
     r.reserve(p.size());
-    for (const Integer& c : p) {
-        const Integer rest = c % modulus;
-        r.push_back(static_cast<std::uint64_t>(Integer(rest < 0 ? rest + modulus : rest)));
-    }
+    for (const Integer& c : p) r.push_back(residue(c, field));
     return r;
 }
 
@@ -112,28 +129,38 @@ struct remainders {
     integer_form<Integer> p;
     Integer modulus = 1;
 
-    /// Adds residues modulo another prime. False if no coefficient changed.
-    bool add(const std::vector<std::uint64_t>& r, const prime_field& field) {
-        const Integer prime(field.modulus());
-        const auto residue = [&](const Integer& x) {
-            const Integer rest = x % prime;
-            return static_cast<std::uint64_t>(Integer(rest < 0 ? rest + prime : rest));
-        };
-        const auto inverse = field.inverse(field.to_form(residue(modulus)));
-        const Integer next = modulus * prime, half = next / 2;
+    /// Adds residues modulo another prime.
+    void add(const std::vector<std::uint64_t>& r, const prime_field& field) {
+        const auto inverse = field.inverse(field.to_form(residue(modulus, field)));
+        const Integer next = modulus * Integer(field.modulus()), half = next / 2;
         p.resize(r.size());
-        bool changed = false;
         for (std::size_t i = 0; i < r.size(); ++i) {
-            const auto missing = field.multiply(field.subtract(r[i], residue(p[i])), inverse);
+            const auto missing =
+                field.multiply(field.subtract(r[i], residue(p[i], field)), inverse);
             if (missing == 0) continue;
-            changed = true;
             p[i] += modulus * Integer(missing);
             if (p[i] > half) p[i] -= next;
         }
         modulus = next;
-        return changed;
+    }
+    /// Whether the modulus is likely to be large enough: all coefficients are far below it.
+    bool settled() const {
+        const Integer bound = modulus >> 12U;
+        return std::all_of(p.begin(), p.end(),
+                           [&](const Integer& c) { return c < bound && -bound < c; });
     }
 };
+
+/// Whether p, primitive, is found to have no multiple roots.
+template <class Integer>
+bool surely_squarefree(const integer_form<Integer>& p) {
+    const prime_field field(large_prime(0));
+    auto image = residues(p, field);
+    if (image.back() == 0) return false;
+    auto slope = derivative(field, image);
+    return slope.size() + 1 == p.size() &&
+           common_factor(field, std::move(image), std::move(slope)).size() == 1;
+}
 
 }  // namespace detail
 
@@ -153,8 +180,8 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
     if (a.empty()) return b;
     const Integer lead = gcd(a.back(), b.back());
     detail::remainders<Integer> found;
-    for (std::uint64_t prime = first_prime;; prime = prime_before(prime)) {
-        const prime_field field(prime);
+    for (std::size_t k = 0;; ++k) {
+        const prime_field field(large_prime(k));
         auto a_image = detail::residues(a, field), b_image = detail::residues(b, field);
         if (a_image.back() == 0 || b_image.back() == 0) continue;
         auto image = common_factor(field, std::move(a_image), std::move(b_image));
@@ -162,9 +189,11 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         if (!found.p.empty() && image.size() > found.p.size()) continue;
         if (image.size() < found.p.size()) found = {};
         // Its last coefficient becomes `lead`, a multiple of that of the divisor sought.
-        const std::uint64_t lead_residue = detail::residues(integer_form<Integer>{lead}, field)[0];
-        for (auto& c : image) c = field.multiply(c, lead_residue);
-        if (found.add(image, field)) continue;
+        const std::uint64_t factor =
+            field.multiply(detail::residue(lead, field), field.inverse(image.back()));
+        for (auto& c : image) c = field.multiply(c, factor);
+        found.add(image, field);
+        if (!found.settled()) continue;
         integer_form<Integer> divisor = found.p;
         make_primitive(divisor);
         if (!divided(a, divisor).empty() && !divided(b, divisor).empty()) return divisor;
@@ -173,11 +202,19 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 
 /// Square-free polynomials f_1, f_2, ... of positive degree: a root of multiplicity m of p, which
 /// is not constant, is a root of f_1 to f_m and of no other. Each divides the one before it.
+///
+/// `most` limits their number. Cost where p has no multiple roots: that of Euclid's algorithm
+/// modulo one prime.
 template <exact_number Integer>
-std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p) {
+std::vector<integer_form<Integer>> squarefree_chain(
+    integer_form<Integer> p, std::size_t most = std::numeric_limits<std::size_t>::max()) {
     make_primitive(p);
     std::vector<integer_form<Integer>> chain;
-    while (p.size() > 1) {
+    while (p.size() > 1 && chain.size() < most) {
+        if (detail::surely_squarefree(p)) {
+            chain.push_back(std::move(p));
+            break;
+        }
         auto multiple = common_factor(p, derivative(p));
         chain.push_back(multiple.size() > 1 ? divided(p, multiple) : std::move(p));
         p = std::move(multiple);

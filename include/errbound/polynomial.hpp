@@ -1,22 +1,24 @@
 // Real roots and signs of polynomials of any degree, always exact.
 //
-//   using integer = boost::multiprecision::cpp_int;      // or GMP's; with
-//   errbound/multiprecision.hpp const errbound::polynomial p{-2.0, 0.0, 1.0};         // x² − 2:
-//   coefficients ascend auto roots = errbound::isolate_roots<integer>(p, 0, 10); roots.refine(0,
-//   1e-30);                               // roots[0].low < √2 < roots[0].high
-//   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);    // of x − 1.5 at √2: negative
+//   using integer = boost::multiprecision::cpp_int;  // or GMP's; with errbound/multiprecision.hpp
+//   const errbound::polynomial p{-2.0, 0.0, 1.0};    // x² − 2: coefficients ascend
+//   auto roots = errbound::isolate_roots<integer>(p, 0, 10);
+//   roots.refine(0, 1e-30);                          // roots[0].low < √2 < roots[0].high
+//   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);  // of x − 1.5 at √2: negative
 //
 // Coefficients: double or float, which are exact numbers; integers or rationals of unbounded size;
 // or tracked numbers, with answers that say so where the coefficients' errors leave them open.
-// Intervals are closed; their ends are doubles, also infinite ones.
+// Intervals are closed; their ends are doubles, also infinite ones, or the same number twice.
+// Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN).
 //
 // Each question is asked in floating point with certified bounds first, then in integers.
 // Allocates. Time and memory are bounded by degree and size of the coefficients; where the first
-// stage decides, by some hundred additions times degree².
+// stage decides, by some hundred additions times degree². docs/polynomials.md tells more.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <errbound/bsc.hpp>
@@ -24,6 +26,7 @@
 #include <errbound/real_roots.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -66,12 +69,17 @@ auto isolate_roots(const polynomial<C>& p, double a, double b) {
 template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     using integer = detail::integer_for_t<Integer, C>;
+    assert(a <= b);
     if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
         // No intervals are made, and no integers copied, where the filter decides.
         const auto c = floating_coefficients(p.coefficients());
-        if (!c.empty() && a < b && !(c[0].value() == 0 && a <= 0 && 0 <= b))
-            if (const root_filter<tight> filter(c, a, b); filter.decides())
-                return filter.parts().size();
+        const std::size_t zeros = leading_zeros(c);
+        const std::span others(c.begin() + static_cast<std::ptrdiff_t>(zeros), c.end());
+        if (!others.empty() && a < b) {
+            const root_filter<tight> filter(others, a, b);
+            if (filter.decides()) return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
+            return real_roots<integer>::count(staged<integer>(p), a, b, filter.parts());
+        }
     }
     const real_roots<integer> roots(staged<integer>(p), a, b);
     return roots.everywhere() ? infinitely_many : roots.size();
@@ -82,6 +90,7 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
+    assert(a <= b);
     const root_filter<Rule> filter(p.coefficients(), a, b);
     if (!filter.decides()) return {};
     return filter.parts().size();
@@ -166,6 +175,7 @@ template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {
     using integer = detail::integer_for_t<Integer, C>;
+    assert(a <= b);
     auto root_of = staged<integer>(f);
     std::vector<staged_polynomial<integer>> constraints;
     for (const polynomial<C>& p : g) constraints.push_back(staged<integer>(p));

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <errbound/integer_polynomial.hpp>
 #include <errbound/number_traits.hpp>
 #include <errbound/rules/tight.hpp>
@@ -23,8 +25,12 @@ class polynomial {
 
     /// Identically zero.
     polynomial() = default;
-    polynomial(std::initializer_list<Coefficient> c) : c_(c) {}
-    explicit polynomial(std::vector<Coefficient> c) : c_(std::move(c)) {}
+    polynomial(std::initializer_list<Coefficient> c) : polynomial(std::vector<Coefficient>(c)) {}
+    explicit polynomial(std::vector<Coefficient> c) : c_(std::move(c)) {
+        if constexpr (std::is_floating_point_v<Coefficient>)
+            assert(
+                std::all_of(c_.begin(), c_.end(), [](Coefficient x) { return std::isfinite(x); }));
+    }
 
     /// In ascending order.
     const std::vector<Coefficient>& coefficients() const { return c_; }
@@ -72,12 +78,22 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     return c;
 }
 
+/// How many coefficients at the beginning are exactly zero: the multiplicity of the root 0.
+inline std::size_t leading_zeros(const std::vector<floating_coefficient>& c) {
+    const auto first = std::find_if(c.begin(), c.end(), [](const floating_coefficient& x) {
+        return x.value() != 0 || x.error() != 0;
+    });
+    return static_cast<std::size_t>(first - c.begin());
+}
+
 /// One polynomial for both stages: exact, and in floating point with error bounds.
 template <exact_number Integer>
 class staged_polynomial {
   public:
     using number = floating_coefficient;
 
+    /// Identically zero.
+    staged_polynomial() = default;
     /// Of finite doubles, which are exact; integers are made of them when asked for.
     explicit staged_polynomial(const std::vector<double>& coefficients)
         : floating_(floating_coefficients(coefficients)) {}
@@ -103,11 +119,9 @@ class staged_polynomial {
 
     /// Divides by x as often as that goes; how often.
     int divide_by_x() {
-        const auto first = std::find_if(floating_.begin(), floating_.end(), [](const number& c) {
-            return c.value() != 0 || c.error() != 0;
-        });
-        const auto count = first - floating_.begin();
-        floating_.erase(floating_.begin(), first);
+        const auto count = static_cast<std::ptrdiff_t>(leading_zeros(floating_));
+        if (count == 0) return 0;
+        floating_.erase(floating_.begin(), floating_.begin() + count);
         if (!exact_.empty()) exact_.erase(exact_.begin(), exact_.begin() + count);
         return static_cast<int>(count);
     }

@@ -5,6 +5,8 @@
 // multiplication without trial division, Math. Comp. 44, 1985.)
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -33,6 +35,14 @@ class prime_field {
     /// a·b/R
     constexpr word multiply(word a, word b) const {
         const double_word t = double_word(a) * b;
+        const word m = static_cast<word>(t) * negative_inverse_;
+        const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
+        return r >= p_ ? r - p_ : r;
+    }
+    /// (a·b − c·d)/R
+    constexpr word multiply_and_subtract(word a, word b, word c, word d) const {
+        // Below 2p², so that the sum is below 2p² + pR and the quotient below 3p/2.
+        const double_word t = double_word(a) * b + double_word(c) * (p_ - d);
         const word m = static_cast<word>(t) * negative_inverse_;
         const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
         return r >= p_ ? r - p_ : r;
@@ -74,29 +84,56 @@ constexpr bool is_prime(std::uint64_t n) {
     return true;
 }
 
-/// The largest prime below 2^62.
-inline constexpr std::uint64_t first_prime = (std::uint64_t(1) << 62) - 57;
-static_assert(is_prime(first_prime));
+/// The largest primes below 2^62.
+inline constexpr std::array large_primes = [] {
+    std::array<std::uint64_t, 4> primes{57, 87, 117, 143};
+    for (auto& p : primes) p = (std::uint64_t(1) << 62) - p;
+    return primes;
+}();
+static_assert(std::all_of(large_primes.begin(), large_primes.end(), is_prime));
 
 constexpr std::uint64_t prime_before(std::uint64_t p) {
     do p -= 2;
     while (!is_prime(p));
     return p;
 }
+/// The k-th of all that count down from there.
+constexpr std::uint64_t large_prime(std::size_t k) {
+    if (k < large_primes.size()) return large_primes[k];
+    std::uint64_t p = large_primes.back();
+    for (std::size_t i = large_primes.size(); i <= k; ++i) p = prime_before(p);
+    return p;
+}
 
-/// The monic greatest common divisor modulo p, of polynomials in the power basis whose last
-/// coefficients are not 0. In and out: residues in Montgomery's form.
+/// The derivative modulo p, in Montgomery's form as the polynomial is.
+inline std::vector<std::uint64_t> derivative(const prime_field& field,
+                                             const std::vector<std::uint64_t>& p) {
+    std::vector<std::uint64_t> d;
+    if (p.size() > 1) d.reserve(p.size() - 1);
+    std::uint64_t power = 0;
+    for (std::size_t i = 1; i < p.size(); ++i) {
+        power = field.add(power, field.one());
+        d.push_back(field.multiply(p[i], power));
+    }
+    while (!d.empty() && d.back() == 0) d.pop_back();
+    return d;
+}
+
+/// A multiple, not zero, of the greatest common divisor modulo p, of polynomials in the power basis
+/// whose last coefficients are not 0. In and out: residues in Montgomery's form.
 inline std::vector<std::uint64_t> common_factor(const prime_field& field,
                                                 std::vector<std::uint64_t> a,
                                                 std::vector<std::uint64_t> b) {
+    if (a.size() < b.size()) std::swap(a, b);
     while (!b.empty()) {
-        const std::uint64_t inverse = field.inverse(b.back());
-        for (auto& c : b) c = field.multiply(c, inverse);
+        if (b.size() == 1) return b;
         while (a.size() >= b.size()) {
-            const std::uint64_t factor = a.back();
+            const std::uint64_t lead = b.back(), factor = a.back();
             const std::size_t shift = a.size() - b.size();
-            for (std::size_t i = 0; i < b.size(); ++i)
-                a[i + shift] = field.subtract(a[i + shift], field.multiply(factor, b[i]));
+            a.pop_back();
+            for (std::size_t i = 0; i < shift; ++i) a[i] = field.multiply(a[i], lead);
+            for (std::size_t i = 0; i + 1 < b.size(); ++i)
+                a[i + shift] = field.multiply_and_subtract(a[i + shift], lead, factor, b[i]);
             while (!a.empty() && a.back() == 0) a.pop_back();
         }
         std::swap(a, b);

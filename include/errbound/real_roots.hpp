@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <errbound/bernstein.hpp>
@@ -65,17 +66,30 @@ class real_roots {
 
     /// The roots in [a, b], a <= b, which may be infinite.
     real_roots(staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
+        assert(a <= b);
         if (p_.is_zero()) {
             everywhere_ = true;
             return;
         }
         zeros_ = p_.divide_by_x();
         if (a == b) {
-            if (a != 0) exact().isolate(point::from(a), point::from(a), intervals_);
+            if (a != 0 && possibly_zero(floating_sign_at(number(a))))
+                exact().isolate(point::from(a), point::from(a), intervals_);
         } else {
-            add(root_filter<tight>(p_.floating(), a, b));
+            add(root_filter<tight>(p_.floating(), a, b).parts());
         }
         if (a <= 0 && 0 <= b) add_zero();
+    }
+    /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
+    /// other than 0 and left some of these parts open.
+    static std::size_t count(staged_polynomial<Integer> p, double a, double b,
+                             const std::vector<filtered_part>& parts) {
+        real_roots roots;
+        roots.p_ = std::move(p);
+        const int zeros = roots.p_.divide_by_x();
+        roots.exact_.emplace(roots.p_.exact(), 1);
+        roots.add(parts);
+        return roots.size() + (zeros > 0 && a <= 0 && 0 <= b);
     }
 
     /// Whether the polynomial is identically zero: all points are roots, and none is listed.
@@ -126,15 +140,17 @@ class real_roots {
     }
 
   private:
+    real_roots() = default;
+
     const root_isolation<Integer>& exact() {
         if (!exact_) exact_.emplace(p_.exact());
         return *exact_;
     }
 
-    void add(const root_filter<tight>& filter) {
-        const auto& parts = filter.parts();
+    void add(const std::vector<filtered_part>& parts) {
+        intervals_.reserve(parts.size() + 1);
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
-        decided_by_filter_ = filter.decides();
+        decided_by_filter_ = !exact_;
     }
     /// The filter's part i, together with its neighbours if it is not known.
     void add(const std::vector<filtered_part>& parts, std::size_t& i) {
@@ -160,6 +176,11 @@ class real_roots {
             const bool beyond = std::isfinite(other) && (bound < point::from(other)) == (x > 0);
             return beyond ? point::from(other) : bound;
         };
+        const auto quick_from = exact_place(part, part.from), quick_to = exact_place(part, part.to);
+        if (quick_from && quick_to && std::isfinite(*quick_from) && std::isfinite(*quick_to)) {
+            const auto [low, high] = std::minmax(*quick_from, *quick_to);
+            return {point::from(low), point::from(high)};
+        }
         const point at0 = end(part.at0, part.at1), at1 = end(part.at1, part.at0);
         const point from = at0 + (at1 - at0) * point::from(part.from),
                     to = at0 + (at1 - at0) * point::from(part.to);
@@ -170,13 +191,36 @@ class real_roots {
     void add_zero() {
         if (zeros_ == 0) return;
         const point zero;
-        for (interval& root : intervals_)
-            while (root.low <= zero && zero <= root.high) exact().refine(root);
+        const point radius = point::from(rootless_radius());
+        for (interval& root : intervals_) {
+            if (root.low.is_zero()) root.low = radius.is_zero() ? exact().least_positive() : radius;
+            if (root.high.is_zero())
+                root.high = radius.is_zero() ? exact().greatest_negative() : -radius;
+        }
         const auto next = std::find_if(intervals_.begin(), intervals_.end(),
                                        [&](const interval& root) { return zero < root.low; });
         intervals_.insert(next, interval{zero, zero, zeros_});
     }
 
+    /// Some t >= 0 without root of p_ in [−t, t], if t > 0: with |c_i| t^i < |c_0|/2^i for i >= 1,
+    /// the sum of all these is less than |c_0|.
+    double rootless_radius() const {
+        const std::vector<number>& c = p_.floating();
+        const double first = std::abs(c[0].value()) - c[0].error();
+        if (!(first > 0)) return 0;
+        int exponent = std::numeric_limits<double>::max_exponent - 1;
+        for (std::size_t i = 1; i < c.size(); ++i) {
+            const double size = std::abs(c[i].value()) + c[i].error();
+            if (size == 0) continue;
+            // Below 2^(ilogb + 2), whatever the rounding of these two.
+            const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
+            const int degree = static_cast<int>(i);
+            const int root =
+                quotient >= 0 ? quotient / degree : -((degree - 1 - quotient) / degree);
+            exponent = std::min(exponent, root - 1);
+        }
+        return std::ldexp(1.0, exponent);
+    }
     /// The root, which lies within that of a double, and no more where it is a double itself.
     static number enclosure(const interval& root) {
         using traits = number_traits<double>;
@@ -200,7 +244,8 @@ class real_roots {
         const double x = approximate_root(low, high, before == sign_type::negative);
         bool narrowed = false;
         for (const bool left : {true, false}) {
-            double distance = number_traits<double>::epsilon() * std::abs(x);
+            double distance = std::max(number_traits<double>::epsilon() * std::abs(x),
+                                       number_traits<double>::underflow_unit());
             for (;; distance *= 16) {
                 const double t = left ? x - distance : x + distance;
                 if (!(low < t && t < high)) break;

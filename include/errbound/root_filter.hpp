@@ -10,12 +10,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <errbound/error_free.hpp>
 #include <errbound/number_traits.hpp>
 #include <errbound/sign_variations.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,6 +40,18 @@ struct filtered_part {
     /// nothing is known of it. (Neighbours that are not known either touch it.)
     bool has_one_root;
 };
+
+/// The x of the part's u if that is a double, and found to be one.
+inline std::optional<double> exact_place(const filtered_part& part, double u) {
+    if (u == 0) return part.at0;
+    if (u == 1) return part.at1;
+    const auto width = two_sum(part.at1, -part.at0);
+    const auto offset = two_product(width.value, u);
+    const auto x = two_sum(part.at0, offset.value);
+    const bool exact = width.error == 0 && offset.error == 0 && x.error == 0 &&
+                       product_error_is_exact(width.value, u, offset);
+    return exact ? std::optional(x.value) : std::nullopt;
+}
 
 namespace detail {
 
@@ -81,7 +96,7 @@ struct tracked_row {
         return (value[j] > error[j] ? 1 : 0) - (value[j] < -error[j] ? 1 : 0);
     }
     int variations(std::size_t count) const {
-        return certain_sign_variations(count, [this](std::size_t j) { return sign(j); });
+        return most_sign_variations(count, [this](std::size_t j) { return sign(j); });
     }
 
   private:
@@ -102,10 +117,10 @@ class root_filter {
     /// Up to this degree n, binomials are exact in double, and so are their products with n.
     static constexpr std::size_t most_degree = 50;
     static constexpr int most_halvings = 200;
-    /// Ends of parts of at least half this share are exact in double, and at most most_rows parts
-    /// are on the way.
+    /// Ends of parts of at least half this share of their distance from at0 are exact in double.
     static constexpr double narrowest = 0x1p-46;
-    static constexpr std::size_t most_rows = 50;
+    /// Of parts on the way.
+    static constexpr std::size_t most_rows = 64;
 
     /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
     /// may be infinite. Coefficients ascend in the power basis; empty means zero.
@@ -265,9 +280,13 @@ class root_filter {
                 --count;
                 continue;
             }
+            if (changes == 2 && add_pair(from, to, whole.sign(0))) {
+                --count;
+                continue;
+            }
             // Ends of an uncertain sign stay so however often the part is halved.
             if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == most_halvings ||
-                to - from < narrowest) {
+                count == most_rows || to - from < narrowest * to) {
                 parts_.push_back({at0_, at1_, from, to, false});
                 --count;
                 continue;
@@ -286,6 +305,51 @@ class root_filter {
             spans[k] = {half, to};
             spans[count++] = {from, half};
         }
+    }
+
+    /// Two close roots would take many halvings to part. Where at most two are left, a point
+    /// between them is tried: the extremum, as far as plain doubles find it. If the sign there is
+    /// not `outside`, that of both ends, there is one on either side; if it is uncertain, no
+    /// halving will tell more. Tried after 4, 8, 16, ... halvings; false if nothing comes of it.
+    bool add_pair(double from, double to, int outside) {
+        const int halvings = -std::ilogb(to - from);
+        if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
+        const double u = extremum(from, to);
+        if (!(from < u && u < to)) return false;
+        const number low(at0_), x = low + (number(at1_) - low) * number(u);
+        number value = c_.back();
+        for (std::size_t i = c_.size() - 1; i-- > 0;) value = value * x + c_[i];
+        const sign_type s = sign_of(value);
+        if (s == (outside < 0 ? sign_type::negative : sign_type::positive)) return false;
+        if (is_strict(s)) {
+            parts_.push_back({at0_, at1_, from, u, true});
+            parts_.push_back({at0_, at1_, u, to, true});
+        } else {
+            parts_.push_back({at0_, at1_, from, to, false});
+        }
+        return true;
+    }
+    /// A zero of the derivative, by Newton's method from the middle; NaN if it fails. Of 46 bits,
+    /// so that it mostly belongs to a point that is a double.
+    double extremum(double from, double to) const {
+        const double width = at1_ - at0_;
+        double u = from + (to - from) / 2;
+        for (int i = 0; i < 8; ++i) {
+            const double x = at0_ + width * u;
+            double value = 0, slope = 0, half_curvature = 0;
+            for (std::size_t k = c_.size(); k-- > 0;) {
+                half_curvature = half_curvature * x + slope;
+                slope = slope * x + value;
+                value = value * x + c_[k].value();
+            }
+            const double step = slope / (2 * half_curvature * width);
+            u -= step;
+            if (std::abs(step) <= 0x1p-30 * u) {
+                const double much = u * 129;  // as by errbound/error_free.hpp's split
+                return much - (much - u);
+            }
+        }
+        return std::numeric_limits<double>::quiet_NaN();
     }
 
     std::array<number, most_degree + 1> first_;

@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/fixed_row.hpp>
 #include <errbound/integer_polynomial.hpp>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -50,6 +52,21 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     return exponent;
 }
 
+/// The numbers 1/C(n, i), times the least common multiple of the C(n, i). For n <= 40, 64 bits hold
+/// them (the multiple is lcm(1, ..., n + 1)/(n + 1)).
+template <class Number>
+std::vector<Number> inverse_binomials(std::size_t n) {
+    using std::gcd;
+    std::vector<Number> binomials{Number(1)};
+    Number multiple = 1;
+    for (std::size_t i = 1; i <= n; ++i) {
+        binomials.push_back(Number(binomials.back() * Number(n - i + 1) / Number(i)));
+        multiple *= binomials[i] / Number(gcd(multiple, binomials[i]));
+    }
+    for (Number& b : binomials) b = multiple / b;
+    return binomials;
+}
+
 /// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
 template <class Integer>
 integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
@@ -63,24 +80,28 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
         const std::size_t power = e >= 0 ? i : n - i;
         p[i] <<= static_cast<unsigned>(power) * static_cast<unsigned>(e >= 0 ? e : -e);
     }
+    Integer term;  // kept, so that it allocates once
     if (start != 0)
         for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = n; j-- > i;) p[j] += p[j + 1] * start;
-    // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u. The
-    // multiple of the divisions' least common denominator keeps all in integers.
-    std::vector<Integer> binomials{Integer(1)};
-    Integer denominator = 1;
-    for (std::size_t i = 1; i <= n; ++i) {
-        binomials.push_back(Integer(binomials.back() * Integer(n - i + 1) / Integer(i)));
-        denominator *= binomials[i] / gcd(denominator, binomials[i]);
-    }
-    Integer power = 1;
-    for (std::size_t i = 0; i <= n; ++i) {
-        p[i] *= denominator / binomials[i];
-        if (length == 1) continue;
-        p[i] *= power;
-        power *= length;
-    }
+            for (std::size_t j = n; j-- > i;) {
+                term = p[j + 1];
+                term *= start;
+                p[j] += term;
+            }
+    // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u.
+    const auto weigh = [&](const auto& weights) {
+        Integer power = 1;
+        for (std::size_t i = 0; i <= n; ++i) {
+            p[i] *= Integer(weights[i]);
+            if (length == 1) continue;
+            p[i] *= power;
+            power *= length;
+        }
+    };
+    if (n <= 40)
+        weigh(inverse_binomials<std::uint64_t>(n));
+    else
+        weigh(inverse_binomials<Integer>(n));
     for (std::size_t i = 1; i <= n; ++i)
         for (std::size_t j = n; j >= i; --j) p[j] += p[j - 1];
     return p;
@@ -101,6 +122,23 @@ std::pair<integer_form<Integer>, integer_form<Integer>> halves(integer_form<Inte
     return {std::move(left), std::move(b)};
 }
 
+/// A zero in (0, 1) of the derivative of the form with these control values, by Newton's method in
+/// plain doubles from the middle; what is not there if that leaves (0, 1).
+inline double extremum(const std::vector<double>& b) {
+    const std::size_t n = b.size() - 1;
+    std::vector<double> slopes(n);
+    double t = 0.5;
+    for (int i = 0; i < 8 && 0 < t && t < 1; ++i) {
+        for (std::size_t j = 0; j < n; ++j) slopes[j] = b[j + 1] - b[j];
+        for (std::size_t left = n; left > 2; --left)
+            for (std::size_t j = 0; j + 1 < left; ++j)
+                slopes[j] = (1 - t) * slopes[j] + t * slopes[j + 1];
+        const double bend = slopes[1] - slopes[0];
+        t -= (slopes[0] + t * bend) / (bend * static_cast<double>(n - 1));
+    }
+    return t;
+}
+
 /// The roots of one polynomial p with p(0) ≠ 0, and what is asked at them.
 template <exact_number Integer>
 class root_isolation {
@@ -109,7 +147,10 @@ class root_isolation {
     using point = dyadic<Integer>;
     using interval = isolating_interval<Integer>;
 
-    explicit root_isolation(const form& p) : chain_(squarefree_chain(p)) {
+    /// Multiplicities are told if they are at most this.
+    explicit root_isolation(const form& p,
+                            std::size_t multiplicities = std::numeric_limits<std::size_t>::max())
+        : chain_(squarefree_chain(p, multiplicities)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
         right_ = half_line(squarefree());
         left_ = half_line(mirrored(squarefree()));
@@ -121,6 +162,10 @@ class root_isolation {
     /// All roots lie between these, strictly.
     point upper_bound() const { return unlikely_root(right_.upper); }
     point lower_bound() const { return -unlikely_root(left_.upper); }
+
+    /// Between 0 and the positive or the negative roots, strictly.
+    point least_positive() const { return unlikely_root(right_.lower - 1); }
+    point greatest_negative() const { return -unlikely_root(left_.lower - 1); }
 
     /// Appends the roots in [low, high], low <= high, in ascending order.
     void isolate(const point& low, const point& high, std::vector<interval>& roots) const {
@@ -243,62 +288,112 @@ class root_isolation {
         const point least = unlikely_root(line.lower - 1), greatest = unlikely_root(line.upper);
         if (low < least) low = least;
         if (greatest < high) high = greatest;
-        if (low < high) on_part(line.p, low, high, control_values_on(line.p, low, high), roots);
+        if (low < high) on_part(line.p, low, high, control_values_on(line.p, low, high), 0, roots);
     }
 
-    /// b: control values on the part.
-    static void on_part(const form& p, const point& low, const point& high, form b,
+    /// b: control values on the part, which came of this many halvings.
+    static void on_part(const form& p, const point& low, const point& high, form b, int halvings,
                         std::vector<interval>& roots) {
         const int variations = sign_variations(b.size(), [&b](std::size_t i) {
             return b[i] == 0 ? 0 : b[i] > 0 ? 1 : -1;
         });
         if (variations == 0) return;
-        if (variations == 1 && b.front() != 0 && b.back() != 0) {
+        const bool roots_at_ends = b.front() == 0 || b.back() == 0;
+        if (variations == 1 && !roots_at_ends) {
             roots.push_back({low, high});
             return;
         }
-        // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
         const int low_exponent = floor_log2(low), high_exponent = floor_log2(high);
+        if (variations == 2 && !roots_at_ends && high_exponent - low_exponent < 40 &&
+            add_pair(p, low, high, nearby_values(b), halvings, roots))
+            return;
+        // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
         const bool by_exponent = high_exponent - low_exponent >= 12;
-        const point half = by_exponent
-                               ? unlikely_root(low_exponent + (high_exponent - low_exponent) / 2)
-                               : middle(low, high);
-        if (!by_exponent && b.front() != 0 && b.back() != 0) {
+        if (!by_exponent && !roots_at_ends) {
             if (fixed_row<4> row(b); row.ends_are_certain()) {
                 b = {};
-                on_part(p, low, high, std::move(row), roots);
+                on_part(p, low, high, std::move(row), halvings, roots);
                 return;
             }
         }
+        const point half = by_exponent
+                               ? unlikely_root(low_exponent + (high_exponent - low_exponent) / 2)
+                               : middle(low, high);
         auto parts = by_exponent ? std::pair{control_values_on(p, low, half),
                                              control_values_on(p, half, high)}
                                  : halves(std::move(b));
         b = {};
         const bool half_is_root = parts.second.front() == 0;
-        on_part(p, low, half, std::move(parts.first), roots);
+        on_part(p, low, half, std::move(parts.first), halvings + 1, roots);
         if (half_is_root) roots.push_back({half, half});
-        on_part(p, half, high, std::move(parts.second), roots);
+        on_part(p, half, high, std::move(parts.second), halvings + 1, roots);
     }
 
     /// The same by cut coefficients; back to all their bits where those kept do not tell.
     static void on_part(const form& p, const point& low, const point& high, fixed_row<4> row,
-                        std::vector<interval>& roots) {
+                        int halvings, std::vector<interval>& roots) {
         if (!row.ends_are_certain()) {
-            on_part(p, low, high, control_values_on(p, low, high), roots);
+            on_part(p, low, high, control_values_on(p, low, high), halvings, roots);
             return;
         }
-        const int variations = row.variations();
+        const int variations = row.most_variations();
         if (variations == 0) return;
         if (variations == 1) {
             roots.push_back({low, high});
             return;
         }
+        if (variations == 2 && halvings > 0 &&
+            add_pair(p, low, high, row.nearby_values(), halvings, roots))
+            return;
         const point half = middle(low, high);
         auto parts = std::move(row).halves();
-        on_part(p, low, half, std::move(parts.first), roots);
+        on_part(p, low, half, std::move(parts.first), halvings + 1, roots);
         if (parts.second.sign(0) == 0 && sign_at(p, half) == sign_type::zero)
             roots.push_back({half, half});
-        on_part(p, half, high, std::move(parts.second), roots);
+        on_part(p, half, high, std::move(parts.second), halvings + 1, roots);
+    }
+
+    /// Two close roots, or two that are not real, would take many halvings to part. Where at most
+    /// two are left, the part is split at the extremum between them instead, which Newton's method
+    /// finds to more and more bits: they lie on either side of it, or in neither of the circles
+    /// that have its sides as diameters, so that no sign change is left. Tried after 0, 8, 16, 32,
+    /// ... halvings; false if nothing comes of it. b: control values in doubles, not 0 at the ends.
+    static bool add_pair(const form& p, const point& low, const point& high,
+                         const std::vector<double>& b, int halvings, std::vector<interval>& roots) {
+        if (halvings % 8 != 0 || (halvings & (halvings - 1)) != 0) return false;
+        const double t = extremum(b);
+        if (!(0 < t && t < 1)) return false;
+        const sign_type inside = b[0] < 0 ? sign_type::positive : sign_type::negative;
+        const form slope = derivative(p), curvature = derivative(slope);
+        point x = low + (high - low) * point::from(t);
+        for (int bits = 64;; bits *= 2) {
+            const point value = value_at(p, x);
+            if (value.is_zero()) return false;
+            if (sign_of(value) == inside) {
+                roots.push_back({low, x});
+                roots.push_back({x, high});
+                return true;
+            }
+            const point rise = value_at(slope, x), bend = value_at(curvature, x);
+            // By its parabola, the extremum is on the same side as p(x) if p·p'' > p'²/2.
+            if (bits > 256 || rise.is_zero() || bend.is_zero() ||
+                rise * rise < magnitude(value * bend))
+                break;
+            x = x - quotient(rise, bend, bits);
+            if (!(low < x && x < high)) return false;
+        }
+        on_part(p, low, x, control_values_on(p, low, x), halvings + 1, roots);
+        on_part(p, x, high, control_values_on(p, x, high), halvings + 1, roots);
+        return true;
+    }
+    static std::vector<double> nearby_values(const form& b) {
+        int unit = 0;
+        for (const Integer& c : b)
+            if (c != 0) unit = std::max(unit, floor_log2(c));
+        std::vector<double> values;
+        values.reserve(b.size());
+        for (const Integer& c : b) values.push_back(nearby_double(c, -unit));
+        return values;
     }
 
     std::vector<form> chain_;

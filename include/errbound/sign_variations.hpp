@@ -19,24 +19,26 @@ int sign_variations(std::size_t count, const Sign& sign) {
     return changes;
 }
 
-/// The same where 0 means that a sign is uncertain: 0 or 1 if the number is certain, and both ends'
-/// signs are, otherwise 2. One uncertain sign between opposite ones does not matter.
+/// The same where 0 means that a sign is uncertain: the largest number that there can be, 3
+/// standing for all above 2 and for an uncertain sign at an end. 0 and 1 are the number itself,
+/// whose parity the ends' signs tell. (Uncertain signs between opposite ones add two for each two
+/// of them; between equal ones already the first adds two.)
 template <class Sign>
-int certain_sign_variations(std::size_t count, const Sign& sign) {
-    int last = sign(0), changes = 0, open = 0;
-    if (last == 0) return 2;
+int most_sign_variations(std::size_t count, const Sign& sign) {
+    int last = sign(0), most = 0, open = 0;
+    if (last == 0) return 3;
     for (std::size_t i = 1; i < count; ++i) {
         const int s = sign(i);
         if (s == 0) {
             ++open;
             continue;
         }
-        if (open > (s == last ? 0 : 1)) return 2;
-        if (s != last && ++changes > 1) return 2;
+        most += s == last ? (open + 1) / 2 * 2 : open / 2 * 2 + 1;
+        if (most > 2) return 3;
         open = 0;
         last = s;
     }
-    return open > 0 ? 2 : changes;
+    return open > 0 ? 3 : most;
 }
 
 }  // namespace errbound

@@ -1,16 +1,22 @@
-// ns per polynomial for counting and isolating real roots, beside FLINT's count of them, by family
-// and degree. FLINT 2.9 counts exactly, by Sturm's theorem, but does not isolate.
+// ns per polynomial for counting and isolating real roots, by family and degree, beside FLINT's
+// count of them and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not
+// isolate; arb, its companion, isolates all complex roots.
 #include <cstdio>
 #include <cstdlib>
 #include <errbound/polynomial.hpp>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string_view>
 #include <vector>
 
+#include "ccd/report/machine.hpp"
 #include "harness.hpp"
 #include "tests/flint_polynomial.hpp"
 #include "tests/polynomial_families.hpp"
+#ifdef ERRBOUND_HAS_ARB
+#include "tests/arb_roots.hpp"
+#endif
 
 namespace {
 
@@ -33,32 +39,51 @@ struct contest {
         others.push_back(std::make_unique<flint_polynomial>(s.whole));
     }
 
-    /// ns per polynomial: counted, isolated, counted by FLINT; medians.
+    template <class Ask>
+    std::function<void()> pass(const Ask& ask) const {
+        return [this, ask] {
+            for (const auto& p : whole) bench::keep(ask(p));
+            for (const auto& p : doubles) bench::keep(ask(p));
+        };
+    }
+    std::function<void()> counted() const {
+        return pass(
+            [](const auto& p) { return errbound::count_roots<integer>(p, -infinity, infinity); });
+    }
+    std::function<void()> isolated() const {
+        return pass([](const auto& p) {
+            return errbound::isolate_roots<integer>(p, -infinity, infinity).size();
+        });
+    }
+    bench::cell nanoseconds(const bench::timing& t) const {
+        return bench::number(1e9 * t.minimum / static_cast<double>(others.size()), 0);
+    }
+
+    /// ns per polynomial: counted, isolated, counted by FLINT; and the ratio of the counts.
     std::vector<bench::cell> cells(int repeats) const {
         if (others.empty()) return {bench::none(), bench::none(), bench::none(), bench::none()};
-        const auto pass = [this](const auto& ask) {
-            return [this, ask] {
-                for (const auto& p : whole) bench::keep(ask(p));
-                for (const auto& p : doubles) bench::keep(ask(p));
-            };
-        };
-        const auto timings =
-            bench::race({pass([](const auto& p) {
-                             return errbound::count_roots<integer>(p, -infinity, infinity);
-                         }),
-                         pass([](const auto& p) {
-                             return errbound::isolate_roots<integer>(p, -infinity, infinity).size();
-                         }),
-                         [this] {
-                             for (const auto& p : others) bench::keep(p->distinct_real_roots());
-                         }},
-                        repeats);
-        std::vector<bench::cell> row;
-        for (const auto& t : timings)
-            row.push_back(bench::number(1e9 * t.median / static_cast<double>(others.size()), 0));
-        row.push_back(bench::number(timings[2].median / timings[0].median, 1));
-        return row;
+        const auto timings = bench::race({counted(), isolated(),
+                                          [this] {
+                                              for (const auto& p : others)
+                                                  bench::keep(p->distinct_real_roots());
+                                          }},
+                                         repeats);
+        return {nanoseconds(timings[0]), nanoseconds(timings[1]), nanoseconds(timings[2]),
+                bench::number(timings[2].minimum / timings[0].minimum, 1)};
     }
+#ifdef ERRBOUND_HAS_ARB
+    /// ns per polynomial isolated by arb, and how often that isolated by errbound.
+    std::vector<bench::cell> arb_cells(int repeats) const {
+        if (others.empty()) return {bench::none(), bench::none()};
+        const auto timings = bench::race({isolated(),
+                                          [this] {
+                                              for (const auto& p : others)
+                                                  bench::keep(isolate_by_arb(*p));
+                                          }},
+                                         repeats);
+        return {nanoseconds(timings[1]), bench::number(timings[1].minimum / timings[0].minimum, 0)};
+    }
+#endif
 };
 
 bool decided_by_filter(const polynomial_families::sample& s) {
@@ -76,12 +101,14 @@ void run(bool quick) {
         for (const int degree : {2, 3, 5, 8, 12, 20, 30}) {
             if (f == family::wide && degree > 8) continue;
             polynomial_families::generator make(1);
-            contest all, decided;
+            contest all, decided, few;
             const int polynomials = quick ? 5 : 200;
             for (int k = 0; k < polynomials; ++k) {
                 const auto s = make.make(f, degree);
                 all.add(s);
                 if (decided_by_filter(s)) decided.add(s);
+                // arb takes up to milliseconds, and seconds for exponents of any size.
+                if (k < 8 && f != family::wide) few.add(s);
             }
             std::vector<bench::cell> row{
                 bench::word(polynomial_families::names[static_cast<int>(f)]),
@@ -90,22 +117,26 @@ void run(bool quick) {
             const int repeats = quick ? 1 : 5;
             for (const contest* c : {&decided, &all})
                 for (auto& cell : c->cells(repeats)) row.push_back(cell);
+#ifdef ERRBOUND_HAS_ARB
+            for (auto& cell : few.arb_cells(1)) row.push_back(cell);
+#endif
             rows.push_back(row);
         }
     }
-    out.table("roots", {}, "distinct real roots on the whole line, ns per polynomial",
-              {{"family", "family", true},
-               {"degree", "degree"},
-               {"decided", "decided by filter"},
-               {"decided_count", "those: count"},
-               {"decided_isolate", "isolate"},
-               {"decided_flint", "FLINT count"},
-               {"decided_ratio", "FLINT/count"},
-               {"count", "all: count"},
-               {"isolate", "isolate"},
-               {"flint", "FLINT count"},
-               {"ratio", "FLINT/count"}},
-              rows);
+    std::vector<bench::column> columns{
+        {"family", "family", true},       {"degree", "degree"},
+        {"decided", "decided by filter"}, {"decided_count", "those: count"},
+        {"decided_isolate", "isolate"},   {"decided_flint", "FLINT count"},
+        {"decided_ratio", "FLINT/count"}, {"count", "all: count"},
+        {"isolate", "isolate"},           {"flint", "FLINT count"},
+        {"ratio", "FLINT/count"}};
+#ifdef ERRBOUND_HAS_ARB
+    columns.push_back({"arb", "arb isolates"});
+    columns.push_back({"arb_ratio", "arb/isolate"});
+#endif
+    out.table("roots", {},
+              "distinct real roots on the whole line, ns per polynomial (least of some passes)",
+              columns, rows);
 }
 
 }  // namespace
@@ -116,6 +147,9 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: errbound_roots_bench [--quick]\n");
         return 2;
     }
+    const ccd::report::machine here = ccd::report::this_machine();
+    std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
+                here.load, here.compiler.c_str(), here.flags.c_str());
     run(quick);
     return 0;
 }

@@ -1,0 +1,69 @@
+// For people who decide on algebraic numbers: the real roots of a polynomial that is known for
+// fooling floating point, isolated exactly.
+//
+// Wilkinson's: (x − 1)(x − 2)···(x − 20) with the coefficient −210 of x^19 less by 2^-23. Ten of
+// the twenty roots are then complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstddef>
+#include <cstdio>
+#include <errbound/multiprecision.hpp>
+#include <errbound/polynomial.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+using integer = boost::multiprecision::cpp_int;
+using rational = boost::multiprecision::cpp_rational;
+
+// Sign changes between neighbours on [0, 25] in steps of 1e-5, each value by Horner's rule in
+// double: what one would try first. Near roots the signs are those of rounding errors.
+int sign_changes_in_double(const std::vector<rational>& p) {
+    std::vector<double> c;
+    for (const rational& x : p) c.push_back(x.convert_to<double>());
+    int changes = 0, last = 0;
+    for (int k = 0; k <= 2500000; ++k) {
+        double value = 0;
+        for (std::size_t i = c.size(); i-- > 0;) value = value * (k / 1e5) + c[i];
+        const int sign = (value > 0) - (value < 0);
+        if (sign != 0 && sign == -last) ++changes;
+        if (sign != 0) last = sign;
+    }
+    return changes;
+}
+
+int main() {
+    std::vector<rational> c{1};  // ascending
+    for (int k = 1; k <= 20; ++k) {
+        c.insert(c.begin(), 0);
+        for (std::size_t i = 0; i + 1 < c.size(); ++i) c[i] -= k * c[i + 1];
+    }
+    c[19] -= rational(1, 1 << 23);
+
+    std::printf("Values in double change sign %d times\n", sign_changes_in_double(c));
+
+    const errbound::polynomial<rational> p(c);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    auto roots = errbound::isolate_roots(p, -infinity, infinity);
+    std::printf("Real roots: %zu\n", roots.size());
+    for (std::size_t k = 0; k < roots.size(); ++k) {
+        roots.refine(k, 1e-10);
+        std::printf("%14.10f\n", roots[k].low.to_double());
+    }
+
+    // One root to 30 digits: its interval's lower end, n·2^e, in units of 10^-30.
+    const std::size_t last = roots.size() - 1;
+    roots.refine(last, 1e-31);
+    const auto& low = roots[last].low;
+    integer digits = low.numerator() * boost::multiprecision::pow(integer(10), 30);
+    digits =
+        low.exponent() < 0 ? integer(digits >> -low.exponent()) : integer(digits << low.exponent());
+    std::string text = digits.str();
+    std::printf("The largest: %s\n", text.insert(text.size() - 30, ".").c_str());
+
+    // Another polynomial's sign there; and whether it vanishes, which no number of digits tells.
+    const char* const names[] = {"negative", "zero", "positive"};
+    const errbound::polynomial<double> g{-20.846908101482256, 1.0};  // x less about that root
+    std::printf("x - 20.846908101482256 there: %s\n",
+                names[static_cast<int>(roots.sign_at(g, last))]);
+    std::printf("p itself there: %s\n", names[static_cast<int>(roots.sign_at(p, last))]);
+}
