@@ -145,8 +145,8 @@ TYPED_TEST(Predicates, ConstantsHold) {
     attack<TypeParam, 3, 4>(errbound::orient3d, surface::flat);
     attack<TypeParam, 2, 4>(errbound::incircle, surface::round);
     attack<TypeParam, 3, 5>(errbound::insphere, surface::round);
-    attack<TypeParam, 3, 4>(errbound::power_incircle, surface::round);
-    attack<TypeParam, 4, 5>(errbound::power_insphere, surface::round);
+    attack<TypeParam, 3, 4>(errbound::power_incircle, surface::weighted);
+    attack<TypeParam, 4, 5>(errbound::power_insphere, surface::weighted);
 }
 
 struct with_members {

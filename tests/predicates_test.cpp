@@ -26,15 +26,17 @@ TYPED_TEST(Predicates, OfTheirOwnExpression) {
     const std::integral_constant<std::size_t, 5> five;
     const std::integral_constant<std::size_t, 6> six;
     const std::integral_constant<std::size_t, 8> eight;
-    run(errbound::power_incircle, three, four, surface::round);
-    run(errbound::power_insphere, four, five, surface::round);
-    run(errbound::compare_distances2d, two, three, surface::round);
-    run(errbound::compare_distances3d, three, three, surface::round);
-    run(errbound::segments_intersect3d, three, four, surface::flat);
-    run(errbound::segment_intersects_triangle, three, five, surface::flat);
-    run(errbound::orient2d_line_line, two, six, surface::flat);
-    run(errbound::orient3d_line_plane, three, eight, surface::flat);
-    run(errbound::compare_x_line_line, two, eight, surface::flat);
+    run(errbound::power_incircle, three, four, surface::weighted);
+    run(errbound::power_insphere, four, five, surface::weighted);
+    run(errbound::compare_distances2d, two, three, surface::centred);
+    run(errbound::compare_distances3d, three, three, surface::centred);
+    for (const surface s : {surface::flat, surface::concurrent}) {
+        run(errbound::segments_intersect3d, three, four, s);
+        run(errbound::segment_intersects_triangle, three, five, s);
+    }
+    run(errbound::orient2d_line_line, two, six, surface::concurrent);
+    run(errbound::orient3d_line_plane, three, eight, surface::concurrent);
+    run(errbound::compare_x_line_line, two, eight, surface::concurrent);
 }
 
 TEST(Signs, AreThoseOfThePicture) {
