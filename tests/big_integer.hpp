@@ -5,6 +5,7 @@
 #include <gmp.h>
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -12,7 +13,7 @@
 class big_integer {
   public:
     big_integer() : value_(taken()) { mpz_set_ui(value_, 0); }
-    big_integer(int x) : value_(taken()) { mpz_set_si(value_, x); }
+    big_integer(std::int64_t x) : value_(taken()) { mpz_set_si(value_, x); }
     /// x·2^−unit, a whole number.
     big_integer(double x, int unit) : value_(taken()) {
         int exponent;
@@ -39,22 +40,22 @@ class big_integer {
         return *this;
     }
     friend big_integer operator+(const big_integer& a, const big_integer& b) {
-        big_integer r(nullptr);
+        big_integer r{unset()};
         mpz_add(r.value_, a.value_, b.value_);
         return r;
     }
     friend big_integer operator-(const big_integer& a, const big_integer& b) {
-        big_integer r(nullptr);
+        big_integer r{unset()};
         mpz_sub(r.value_, a.value_, b.value_);
         return r;
     }
     friend big_integer operator*(const big_integer& a, const big_integer& b) {
-        big_integer r(nullptr);
+        big_integer r{unset()};
         mpz_mul(r.value_, a.value_, b.value_);
         return r;
     }
     big_integer operator-() const {
-        big_integer r(nullptr);
+        big_integer r{unset()};
         mpz_neg(r.value_, value_);
         return r;
     }
@@ -76,7 +77,8 @@ class big_integer {
     }
 
   private:
-    explicit big_integer(std::nullptr_t) : value_(taken()) {}
+    struct unset {};
+    explicit big_integer(unset) : value_(taken()) {}
 
     struct free_values {
         std::vector<mpz_ptr> free;
