@@ -8,8 +8,10 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <random>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -26,6 +28,19 @@ enum class surface : std::uint8_t {
 
 template <class T, std::size_t Dimension, std::size_t Count>
 using points = std::array<std::array<T, Dimension>, Count>;
+
+/// As hexadecimal floats.
+template <class T, std::size_t D, std::size_t N>
+std::string text_of(const points<T, D, N>& p) {
+    std::string text;
+    char number[40];
+    for (const auto& point : p)
+        for (const T x : point) {
+            std::snprintf(number, sizeof number, " %a", static_cast<double>(x));
+            text += number;
+        }
+    return text;
+}
 
 using generator = std::mt19937_64;
 
@@ -293,7 +308,7 @@ points<T, D, N> stretched(generator& random, surface s) {
         for (std::size_t i = 0; i < D; ++i) point[i] = std::ldexp(point[i], e[i]);
     if (random() % 2 == 0) {
         T& one = p[random() % N][random() % D];
-        one = std::ldexp(one, between(random, -most, most));
+        one = std::ldexp(one, between(random, -most, most - 8));  // together without overflow
     }
     return p;
 }

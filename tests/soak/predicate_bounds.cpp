@@ -53,7 +53,7 @@ bound_findings attack(const Entry& entry, predicate_inputs::generator& random,
         ++found.attempts;
         found.used = std::max(found.used, a.used);
         if (a.violated && ++found.violations <= 3)
-            std::fprintf(stderr, "bound violated:%s\n", text_of(p).c_str());
+            std::fprintf(stderr, "bound violated:%s\n", predicate_inputs::text_of(p).c_str());
         return a.used;
     };
     for (std::uint64_t climb = 0; found.attempts < attempts; ++climb) {

@@ -6,8 +6,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
-#include <string>
+#include <string_view>
 #include <thread>
 #include <tuple>
 #include <vector>
@@ -62,18 +63,6 @@ void for_each_predicate(const predicate_run& run, const Job& job, const Show& sh
         timed(entry, "double", double());
     };
     std::apply([&](const auto&... entry) { (both(entry), ...); }, predicate_list::all);
-}
-
-/// As hexadecimal floats.
-std::string text_of(const auto& points) {
-    std::string text;
-    char number[40];
-    for (const auto& p : points)
-        for (const auto x : p) {
-            std::snprintf(number, sizeof number, " %a", static_cast<double>(x));
-            text += number;
-        }
-    return text;
 }
 
 }  // namespace soak

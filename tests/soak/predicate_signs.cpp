@@ -60,7 +60,7 @@ class comparison {
         constexpr std::uint64_t most_shown = 3;  // of a chunk
         if (++found_.wrong <= most_shown)
             std::fprintf(stderr, "wrong %s, %d for %d:%s\n", how, static_cast<int>(found) - 1,
-                         static_cast<int>(right) - 1, text_of(p).c_str());
+                         static_cast<int>(right) - 1, predicate_inputs::text_of(p).c_str());
     }
 
     const Entry& entry_;
