@@ -138,10 +138,13 @@ points<T, D, N> near(generator& random, surface s) {
         const T radius = uniform<T>(random, T(0.25), T(0.75));
         std::normal_distribution<T> normal;
         for (auto& point : p) {
-            T length = 0;
-            for (std::size_t k = 0; k < space<D>(s); ++k)
-                point[k] = normal(random), length += point[k] * point[k];
-            length = std::sqrt(length);
+            T length;
+            do {  // floats can all be zero
+                length = 0;
+                for (std::size_t k = 0; k < space<D>(s); ++k)
+                    point[k] = normal(random), length += point[k] * point[k];
+                length = std::sqrt(length);
+            } while (length == 0);
             for (std::size_t k = 0; k < space<D>(s); ++k)
                 point[k] = center[k] + radius * point[k] / length;
         }
