@@ -31,10 +31,7 @@ struct plain_signs {
         return sign_of(errbound::forms::area(a, b, c));
     }
     static sign_type incircle(const point& a, const point& b, const point& c, const point& d) {
-        using errbound::forms::squared_distance2d;
-        return sign_of(errbound::forms::lifted_area(a, b, c, d, squared_distance2d(a, d),
-                                                    squared_distance2d(b, d),
-                                                    squared_distance2d(c, d)));
+        return sign_of(errbound::forms::lifted_area(a, b, c, d, errbound::forms::unweighted));
     }
 };
 

@@ -1,4 +1,4 @@
-// What tests of predicates share: each against rationals, every stage alone and all together.
+// What tests of predicates share: each against an oracle, every stage alone and all together.
 // ERRBOUND_PREDICATE_INPUTS: inputs per predicate and family.
 #pragma once
 
@@ -8,14 +8,13 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <errbound/multiprecision.hpp>
 #include <errbound/predicate.hpp>
 #include <string>
 #include <tuple>
 
-#include "predicate_inputs.hpp"
+#include "predicate_list.hpp"
 
 namespace predicate_check {
 
@@ -49,17 +48,6 @@ auto over_rationals(const errbound::predicate_type<Shape, F, Options>&) {
     };
 }
 
-inline std::string replay(const auto& points) {
-    std::string text;
-    char number[40];
-    for (const auto& p : points)
-        for (const auto x : p) {
-            std::snprintf(number, sizeof number, " %a", static_cast<double>(x));
-            text += number;
-        }
-    return text;
-}
-
 template <class T, std::size_t D, std::size_t N, class Predicate, class Exact>
 errbound::predicate_report compare(const Predicate& predicate, const Exact& exact, surface s) {
     predicate_inputs::generator random(7);
@@ -71,11 +59,12 @@ errbound::predicate_report compare(const Predicate& predicate, const Exact& exac
             const sign_type right = exact(p);
             std::apply(
                 [&](const auto&... q) {
-                    ASSERT_EQ(predicate(report, q...), right) << family.name << replay(p);
+                    ASSERT_EQ(predicate(report, q...), right)
+                        << family.name << predicate_inputs::text_of(p);
                     for (std::size_t k = 0; k < errbound::predicate_stage_count; ++k) {
                         const sign_type found = predicate.by(static_cast<predicate_stage>(k), q...);
                         ASSERT_TRUE(found == right || found == sign_type::uncertain)
-                            << family.name << ", stage " << k << replay(p);
+                            << family.name << ", stage " << k << predicate_inputs::text_of(p);
                     }
                 },
                 p);
@@ -86,5 +75,11 @@ errbound::predicate_report compare(const Predicate& predicate, const Exact& exac
     EXPECT_EQ(decided, all);
     return report;
 }
-/// The same, where the inputs are degenerate in all the ways that take all stages.
+/// A listed predicate against its oracle.
+template <class T, class Entry>
+errbound::predicate_report compare_entry(const Entry& entry, surface s) {
+    return compare<T, Entry::dimension, Entry::count>(
+        entry.predicate, [&](const auto& p) { return predicate_list::right_sign(entry, p); }, s);
+}
+
 }  // namespace predicate_check

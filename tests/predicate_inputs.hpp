@@ -1,24 +1,46 @@
 // Inputs of predicates: as they come, nearly degenerate, exactly degenerate, and of every size.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <random>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace predicate_inputs {
 
-/// What makes points degenerate: they lie on a line or plane, or on a circle or sphere.
-enum class surface : std::uint8_t { flat, round };
+/// What makes points degenerate.
+enum class surface : std::uint8_t {
+    flat,        ///< they lie on a line or plane
+    round,       ///< on a circle or sphere
+    weighted,    ///< the same, with a last coordinate that is a weight
+    centred,     ///< the same, but the first is the centre
+    concurrent,  ///< on lines, or a line and planes, that meet in one point
+};
 
 template <class T, std::size_t Dimension, std::size_t Count>
 using points = std::array<std::array<T, Dimension>, Count>;
+
+/// As hexadecimal floats.
+template <class T, std::size_t D, std::size_t N>
+std::string text_of(const points<T, D, N>& p) {
+    std::string text;
+    char number[40];
+    for (const auto& point : p)
+        for (const T x : point) {
+            std::snprintf(number, sizeof number, " %a", static_cast<double>(x));
+            text += number;
+        }
+    return text;
+}
 
 using generator = std::mt19937_64;
 
@@ -47,91 +69,169 @@ points<T, D, N> any_uniform(generator& random, surface) {
     return p;
 }
 
-/// On a line, plane, circle or sphere in [−1, 1], rounded and jittered by up to two units in the
-/// last place.
+/// Each point in turn is drawn until it is unlike all before it.
+template <class Points, class Draw>
+void fill_distinct(Points& p, const Draw& draw) {
+    for (auto q = p.begin(); q != p.end(); ++q) do
+            *q = draw(static_cast<std::size_t>(q - p.begin()));
+        while (std::find(p.begin(), q, *q) != q);
+}
+
+/// Flat and concurrent points: multiples of steps, added to an origin. `times` gives as many
+/// factors as there can be steps.
+template <class T, std::size_t D, std::size_t N, class Step, class Times>
+points<T, D, N> on_flats(surface s, const std::array<T, D>& origin, const Step& step,
+                         const Times& times) {
+    // In groups that span a flat each: a line and, if it comes out even, planes, else lines.
+    constexpr std::size_t plane = D < 3 ? 1 : D - 1;
+    const std::size_t later = (N - 2) % D == 0 ? plane : 1;
+    std::array<std::array<T, D>, D> steps;
+    std::size_t dimension = 0, group_end = 0;
+    points<T, D, N> p;
+    fill_distinct(p, [&](std::size_t i) {
+        if (i >= group_end) {
+            dimension = s == surface::flat ? plane : i == 0 ? 1 : later;
+            group_end = s == surface::flat ? N : i + dimension + 1;
+            for (std::size_t k = 0; k < dimension; ++k) steps[k] = step();
+        }
+        std::array<T, D> point = origin;
+        const std::array<T, D> factors = times();
+        for (std::size_t k = 0; k < dimension; ++k)
+            for (std::size_t j = 0; j < D; ++j) point[j] += factors[k] * steps[k][j];
+        return point;
+    });
+    return p;
+}
+
+/// The last coordinates become a multiple of another: equally high over the paraboloid, but for a
+/// plane.
+template <class T, std::size_t D, std::size_t N>
+void add_weights(generator& random, points<T, D, N>& p) {
+    const auto axis = static_cast<std::size_t>(between(random, 0, int(D) - 2));
+    const int factor = between(random, 0, 3);
+    for (auto& point : p) point[D - 1] = std::ldexp(point[axis], factor);
+}
+/// Of how many coordinates the round points are.
+template <std::size_t D>
+std::size_t space(surface s) {
+    return s == surface::weighted ? D - 1 : D;
+}
+constexpr bool is_flat(surface s) {
+    return s == surface::flat || s == surface::concurrent;
+}
+
+/// On the surface in [−1, 1], rounded and jittered by up to two units in the last place.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> near(generator& random, surface s) {
+    const auto vector = [&](T most) {
+        std::array<T, D> v;
+        for (T& x : v) x = uniform<T>(random, -most, most);
+        return v;
+    };
     points<T, D, N> p;
-    if (s == surface::flat) {
-        std::array<T, D> slope;
-        for (T& m : slope) m = uniform<T>(random, T(-0.5), T(0.5));
-        for (auto& point : p) {
-            T last = slope[D - 1] / 2;
-            for (std::size_t k = 0; k + 1 < D; ++k) {
-                point[k] = uniform<T>(random);
-                last += slope[k] * point[k] / T(D - 1);
-            }
-            point[D - 1] = last;
-        }
+    if (is_flat(s)) {
+        p = on_flats<T, D, N>(
+            s, vector(T(0.25)), [&] { return vector(T(0.75) / T(D < 3 ? 1 : D - 1)); },
+            [&] { return vector(1); });
     } else {
-        std::array<T, D> center;
-        for (T& c : center) c = uniform<T>(random, T(-0.25), T(0.25));
+        const auto center = vector(T(0.25));
         const T radius = uniform<T>(random, T(0.25), T(0.75));
         std::normal_distribution<T> normal;
         for (auto& point : p) {
-            T length = 0;
-            for (T& x : point) x = normal(random), length += x * x;
-            length = std::sqrt(length);
-            for (std::size_t k = 0; k < D; ++k) point[k] = center[k] + radius * point[k] / length;
+            T length;
+            do {  // floats can all be zero
+                length = 0;
+                for (std::size_t k = 0; k < space<D>(s); ++k)
+                    point[k] = normal(random), length += point[k] * point[k];
+                length = std::sqrt(length);
+            } while (length == 0);
+            for (std::size_t k = 0; k < space<D>(s); ++k)
+                point[k] = center[k] + radius * point[k] / length;
         }
+        if (s == surface::weighted) add_weights<T, D, N>(random, p);
+        if (s == surface::centred) p[0] = center;
     }
     for (auto& point : p)
         for (T& x : point) x = jittered(random, x, 2);
     return p;
 }
 
-/// Small integers, exactly zero.
+/// Small integers, different points, exactly zero.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> grid(generator& random, surface s) {
+    const auto vector = [&](int low, int high) {
+        std::array<T, D> v;
+        for (T& x : v) x = static_cast<T>(between(random, low, high));
+        return v;
+    };
+    if (is_flat(s))
+        return on_flats<T, D, N>(
+            s, vector(-7, 7),
+            [&] {
+                std::array<T, D> step;
+                do step = vector(-7, 7);
+                while (step == std::array<T, D>{});
+                return step;
+            },
+            [&] { return vector(-7, 7); });
+    // The corners of a box, and its mirror images in the diagonals.
+    const auto size = vector(1, 20), center = vector(-20, 20);
     points<T, D, N> p;
-    if (s == surface::flat) {  // integer combinations of D − 1 steps
-        std::array<std::array<int, D>, D> step;
-        for (auto& v : step)
-            for (int& x : v) x = between(random, -7, 7);
-        for (auto& point : p) {
-            std::array<int, D> x = step[D - 1];
-            for (std::size_t k = 0; k + 1 < D; ++k) {
-                const int times = between(random, -7, 7);
-                for (std::size_t i = 0; i < D; ++i) x[i] += times * step[k][i];
-            }
-            for (std::size_t i = 0; i < D; ++i) point[i] = static_cast<T>(x[i]);
+    fill_distinct(p, [&](std::size_t) {
+        std::array<T, D> point{};
+        const auto turn = random();
+        for (std::size_t k = 0; k < space<D>(s); ++k) {
+            const T x = size[(k + turn) % space<D>(s)];
+            point[k] = center[k] + (random() % 2 == 0 ? x : -x);
         }
-    } else {  // the corners of a box, moved, and its mirror images in the diagonals
-        std::array<int, D> size, center;
-        for (int& x : size) x = between(random, 1, 20);
-        for (int& x : center) x = between(random, -20, 20);
-        for (auto& point : p) {
-            const auto turn = static_cast<std::size_t>(between(random, 0, D - 1));
-            for (std::size_t i = 0; i < D; ++i) {
-                const int x = size[(i + turn) % D];
-                point[i] = static_cast<T>(center[i] + (between(random, 0, 1) == 0 ? x : -x));
-            }
-        }
-    }
+        return point;
+    });
+    if (s == surface::weighted) add_weights<T, D, N>(random, p);
+    if (s == surface::centred) p[0] = center;
     return p;
 }
 
-/// Exactly zero, with coordinate differences that do not fit the number type: coordinates of one
-/// point are those of the others in another order, or have equal ones.
+/// Different points, exactly zero, with coordinate differences that do not fit the number type.
 template <std::floating_point T, std::size_t D, std::size_t N>
 points<T, D, N> deep(generator& random, surface s) {
+    constexpr int digits = std::numeric_limits<T>::digits;
+    // Small whole steps from zero; factors of so few bits that all coordinates are exact, on one
+    // exponent for each point.
+    if (is_flat(s))
+        return on_flats<T, D, N>(
+            s, {},
+            [&] {
+                std::array<T, D> step;
+                for (T& x : step)
+                    x = static_cast<T>(between(random, 1, 7) * (random() % 2 ? 1 : -1));
+                return step;
+            },
+            [&] {
+                const int exponent = between(random, -12, 0);
+                std::array<T, D> factors;
+                for (T& x : factors)
+                    x = std::ldexp(std::trunc(std::ldexp(uniform<T>(random), digits - 4)),
+                                   exponent - digits + 1);
+                return factors;
+            });
+    // The corners of a box around zero, and its mirror images in the diagonals. The centre is any
+    // point on the long diagonal, then of one corner's mirror images.
+    std::array<T, D> size;
+    for (T& x : size) x = std::ldexp(uniform<T>(random), between(random, -8, 0));
     points<T, D, N> p;
-    const auto any = [&] { return std::ldexp(uniform<T>(random), between(random, -8, 0)); };
-    if (s == surface::flat) {
-        for (auto& point : p) {
-            for (T& x : point) x = any();
-            point[D - 1] = point[0];
-        }
-    } else {
-        std::array<T, D> size;
-        for (T& x : size) x = any();
-        for (auto& point : p) {
-            const auto turn = static_cast<std::size_t>(between(random, 0, D - 1));
-            for (std::size_t i = 0; i < D; ++i)
-                point[i] =
-                    between(random, 0, 1) == 0 ? size[(i + turn) % D] : -size[(i + turn) % D];
-        }
-    }
+    fill_distinct(p, [&](std::size_t i) {
+        std::array<T, D> point{};
+        const auto turn = random();
+        if (s == surface::centred && i == 0)
+            point.fill(std::ldexp(uniform<T>(random), between(random, -8, 0)));
+        else
+            for (std::size_t k = 0; k < space<D>(s); ++k) {
+                const T x = size[(k + turn) % space<D>(s)];
+                point[k] = s == surface::centred || random() % 2 == 0 ? x : -x;
+            }
+        return point;
+    });
+    if (s == surface::weighted) add_weights<T, D, N>(random, p);
     return p;
 }
 
@@ -161,27 +261,40 @@ points<T, D, N> few_values(generator& random, surface s) {
     return p;
 }
 
-/// One of the families above, times a power of two from all that there are: through the windows of
-/// underflow and overflow of each predicate.
+/// One of the families that are timed.
 template <std::floating_point T, std::size_t D, std::size_t N>
-points<T, D, N> scaled(generator& random, surface s) {
-    points<T, D, N> p;
+points<T, D, N> any_timed(generator& random, surface s) {
     switch (random() % 4) {
         case 0:
-            p = any_uniform<T, D, N>(random, s);
-            break;
+            return any_uniform<T, D, N>(random, s);
         case 1:
-            p = near<T, D, N>(random, s);
-            break;
+            return near<T, D, N>(random, s);
         case 2:
-            p = grid<T, D, N>(random, s);
-            break;
+            return grid<T, D, N>(random, s);
         default:
-            p = deep<T, D, N>(random, s);
-            break;
+            return deep<T, D, N>(random, s);
     }
+}
+/// These times a power of two from all that there are.
+template <std::floating_point T, std::size_t D, std::size_t N>
+points<T, D, N> scaled(generator& random, surface s) {
+    points<T, D, N> p = any_timed<T, D, N>(random, s);
     using limits = std::numeric_limits<T>;
     const int e = between(random, limits::min_exponent - limits::digits, limits::max_exponent - 9);
+    for (auto& point : p)
+        for (T& x : point) x = std::ldexp(x, e);
+    return p;
+}
+/// These where products of some coordinates begin to underflow or to overflow.
+template <std::floating_point T, std::size_t D, std::size_t N>
+points<T, D, N> in_windows(generator& random, surface s) {
+    points<T, D, N> p = any_timed<T, D, N>(random, s);
+    using limits = std::numeric_limits<T>;
+    const int factors = between(random, 1, 7);
+    const int window = (random() % 2 == 0 ? limits::min_exponent : limits::max_exponent) / factors;
+    const int width = limits::digits / factors + 8;
+    const int e =
+        std::min(between(random, window - width, window + width), limits::max_exponent - 9);
     for (auto& point : p)
         for (T& x : point) x = std::ldexp(x, e);
     return p;
@@ -198,7 +311,7 @@ points<T, D, N> stretched(generator& random, surface s) {
         for (std::size_t i = 0; i < D; ++i) point[i] = std::ldexp(point[i], e[i]);
     if (random() % 2 == 0) {
         T& one = p[random() % N][random() % D];
-        one = std::ldexp(one, between(random, -most, most));
+        one = std::ldexp(one, between(random, -most, most - 8));  // together without overflow
     }
     return p;
 }
@@ -210,13 +323,14 @@ struct family {
 };
 /// The first four are timed.
 template <std::floating_point T, std::size_t D, std::size_t N>
-inline constexpr std::array<family<T, D, N>, 8> families{{{"uniform", any_uniform<T, D, N>},
+inline constexpr std::array<family<T, D, N>, 9> families{{{"uniform", any_uniform<T, D, N>},
                                                           {"near", near<T, D, N>},
                                                           {"grid", grid<T, D, N>},
                                                           {"deep", deep<T, D, N>},
                                                           {"any bits", any_bits<T, D, N>},
                                                           {"few values", few_values<T, D, N>},
                                                           {"scaled", scaled<T, D, N>},
+                                                          {"in windows", in_windows<T, D, N>},
                                                           {"stretched", stretched<T, D, N>}}};
 
 }  // namespace predicate_inputs

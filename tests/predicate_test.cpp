@@ -1,8 +1,6 @@
 // The machinery of predicates, on orient2d, orient3d, incircle and insphere: signs against
-// determinants in rationals, on inputs of all kinds and sizes; constants; what points can be.
-#include <algorithm>
+// determinants in whole numbers, on inputs of all kinds and sizes; constants; what points can be.
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <errbound/predicates.hpp>
 #include <limits>
@@ -16,57 +14,13 @@ namespace {
 
 using namespace predicate_check;
 
-/// By Laplace expansion along the last column.
-template <std::size_t N>
-rational determinant(const std::array<std::array<rational, N>, N>& m) {
-    if constexpr (N == 1) {
-        return m[0][0];
-    } else {
-        rational sum = 0;
-        for (std::size_t i = 0; i < N; ++i) {
-            std::array<std::array<rational, N - 1>, N - 1> minor;
-            for (std::size_t row = 0; row + 1 < N; ++row)
-                for (std::size_t column = 0; column + 1 < N; ++column)
-                    minor[row][column] = m[row < i ? row : row + 1][column];
-            const rational term = m[i][N - 1] * determinant(minor);
-            sum += (i + N - 1) % 2 == 0 ? term : rational(-term);
-        }
-        return sum;
-    }
-}
-
-/// What the predicates are: determinants of the points' coordinates, for the round ones their
-/// squared lengths, and 1. (The signs are those of the head of errbound/predicates.hpp.)
-template <class T, std::size_t D, std::size_t N>
-sign_type flat_sign(const predicate_inputs::points<T, D, N>& p) {
-    std::array<std::array<rational, N>, N> m;
-    for (std::size_t i = 0; i < N; ++i) {
-        for (std::size_t k = 0; k < D; ++k) m[i][k] = p[i][k];
-        m[i][D] = 1;
-    }
-    return errbound::sign_of(determinant(m));
-}
-template <class T, std::size_t D, std::size_t N>
-sign_type round_sign(const predicate_inputs::points<T, D, N>& p) {
-    std::array<std::array<rational, N>, N> m;
-    for (std::size_t i = 0; i < N; ++i) {
-        m[i][D] = 0;
-        for (std::size_t k = 0; k < D; ++k) {
-            m[i][k] = p[i][k];
-            m[i][D] += m[i][k] * m[i][k];
-        }
-        m[i][D + 1] = 1;
-    }
-    return errbound::sign_of(determinant(m));
-}
-
-template <class T, std::size_t D, std::size_t N, class Predicate, class Exact>
-void compare_in_all_stages(const Predicate& predicate, const Exact& exact, surface s) {
-    const auto report = compare<T, D, N>(predicate, exact, s);
+template <class T, class Entry>
+void compare_in_all_stages(const Entry& entry) {
+    const auto report = compare_entry<T>(entry, entry.surfaces[0]);
     for (const auto stage : {predicate_stage::static_filter, predicate_stage::short_integers,
                              predicate_stage::two_word_integers, predicate_stage::long_integers})
         EXPECT_GT(report[stage], 0u);
-    if (Predicate::coordinate_bits(127) < 61) {
+    if (entry.predicate.coordinate_bits(127) < 61) {
         EXPECT_GT(report[predicate_stage::exact_doubles], 0u);
         EXPECT_GT(report[predicate_stage::word_integers], 0u);
     }
@@ -78,20 +32,16 @@ using number_types = testing::Types<float, double>;
 TYPED_TEST_SUITE(Predicates, number_types);
 
 TYPED_TEST(Predicates, Orient2d) {
-    compare_in_all_stages<TypeParam, 2, 3>(errbound::orient2d, flat_sign<TypeParam, 2, 3>,
-                                           surface::flat);
+    compare_in_all_stages<TypeParam>(std::get<0>(predicate_list::all));
 }
 TYPED_TEST(Predicates, Orient3d) {
-    compare_in_all_stages<TypeParam, 3, 4>(errbound::orient3d, flat_sign<TypeParam, 3, 4>,
-                                           surface::flat);
+    compare_in_all_stages<TypeParam>(std::get<1>(predicate_list::all));
 }
 TYPED_TEST(Predicates, Incircle) {
-    compare_in_all_stages<TypeParam, 2, 4>(errbound::incircle, round_sign<TypeParam, 2, 4>,
-                                           surface::round);
+    compare_in_all_stages<TypeParam>(std::get<2>(predicate_list::all));
 }
 TYPED_TEST(Predicates, Insphere) {
-    compare_in_all_stages<TypeParam, 3, 5>(errbound::insphere, round_sign<TypeParam, 3, 5>,
-                                           surface::round);
+    compare_in_all_stages<TypeParam>(std::get<3>(predicate_list::all));
 }
 
 // The constants next to Shewchuk's A-filters (1997), in units of 2^-53: 3 + 16e, 7 + 56e, 10 + 96e
@@ -114,7 +64,8 @@ static_assert(errbound::orient2d(point2{0, 0}, point2{0.1, 0.3}, point2{0x1p-90,
 static_assert(errbound::orient2d(point2{0, 0}, point2{1, 0x1p-1074}, point2{0x1p1000, 0x1p-74}) ==
               sign_type::zero);
 
-/// No value is further from the exact one than its bound and the last rounding.
+/// No value of a semi-static filter is further from the exact one than its bound and the last
+/// rounding. (Those of static ones: tests/soak.)
 template <class T, std::size_t D, std::size_t N, class Predicate>
 void attack(const Predicate&, surface s) {
     predicate_inputs::generator random(11);
@@ -137,10 +88,7 @@ void attack(const Predicate&, surface s) {
                     worst,
                     rational((error - last) / rational(x.bound)).template convert_to<double>());
         }
-    EXPECT_GT(worst,
-              Predicate::has_semi_static_filter
-                  ? 1e-4
-                  : 0.01);  // the bound is no more than it needs to be by orders of magnitude
+    EXPECT_GT(worst, 1e-4);  // the bound is no more than it needs to be by many orders of magnitude
     std::printf("used up at most %.3f of the bound\n", worst);
 }
 /// Of degree 6, with whole constants, and coordinates that stand for themselves.
@@ -154,14 +102,9 @@ static_assert(!errbound::incircle.has_semi_static_filter &&
               !errbound::segment_intersects_triangle.has_semi_static_filter &&
               !errbound::power_insphere.has_semi_static_filter);
 
-TYPED_TEST(Predicates, ConstantsHold) {
+TYPED_TEST(Predicates, SemiStaticBoundsHold) {
     attack<TypeParam, 2, 2>(sextic, surface::flat);
-    attack<TypeParam, 2, 3>(errbound::orient2d, surface::flat);
-    attack<TypeParam, 3, 4>(errbound::orient3d, surface::flat);
-    attack<TypeParam, 2, 4>(errbound::incircle, surface::round);
     attack<TypeParam, 3, 5>(errbound::insphere, surface::round);
-    attack<TypeParam, 3, 4>(errbound::power_incircle, surface::round);
-    attack<TypeParam, 4, 5>(errbound::power_insphere, surface::round);
 }
 
 struct with_members {
@@ -238,7 +181,7 @@ struct tracked_options : errbound::predicate_options {
 TEST(Options, NameABoundRule) {
     const auto orient = errbound::predicate<errbound::points<2, 2, 2>, tracked_options>(
         [](const auto& a, const auto& b, const auto& c) { return errbound::forms::area(a, b, c); });
-    const auto report = compare<double, 2, 3>(orient, flat_sign<double, 2, 3>, surface::flat);
+    const auto report = compare<double, 2, 3>(orient, over_rationals(orient), surface::flat);
     EXPECT_GT(report[predicate_stage::tracked], 0u);
 }
 

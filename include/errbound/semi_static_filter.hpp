@@ -45,17 +45,20 @@ struct semi_static {
 
     /// |value| <= bound(M) leaves the sign open.
     constexpr T bound(T largest) const {
-        const T size = 2 * mass * power<Degree>(largest) +
-                       2 * allowances * filtered<T, 0, 0, true>::allowance;
+        const T size =
+            2 * mass * power<Degree>(largest) + 2 * allowances * filtered<T, 0, 0, true>::allowance;
         return filter_constant<T>(Roundings) / 2 * size;
     }
 
   private:
     template <int Exponent>
     static constexpr T power(T x) {
-        if constexpr (Exponent == 1) return x;
-        else if constexpr (Exponent % 2 == 0) return power<Exponent / 2>(x * x);
-        else return power<Exponent - 1>(x) * x;
+        if constexpr (Exponent == 1)
+            return x;
+        else if constexpr (Exponent % 2 == 0)
+            return power<Exponent / 2>(x * x);
+        else
+            return power<Exponent - 1>(x) * x;
     }
 };
 
@@ -104,8 +107,8 @@ template <class X, class Y>
 constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y& y) {
     static_assert(X::degree == Y::degree, "errbound: the expression was taken for homogeneous");
     constexpr int roundings = (X::roundings > Y::roundings ? X::roundings : Y::roundings) + 1;
-    return semi_static<typename X::value_type, roundings, X::degree>{
-        value, x.mass + y.mass, x.allowances + y.allowances};
+    return semi_static<typename X::value_type, roundings, X::degree>{value, x.mass + y.mass,
+                                                                     x.allowances + y.allowances};
 }
 template <class X, class Y>
 constexpr auto semi_static_product(const X& x, const Y& y) {
@@ -133,9 +136,8 @@ constexpr auto operator*(const X& x, const Y& y) {
 template <semi_static_operand X>
 constexpr auto operator*(const X& x, int c) {
     const auto factor = filtered_constant<typename X::value_type>(c);
-    return as_semi_static(x) *
-           semi_static<typename X::value_type, decltype(factor)::roundings, 0>{factor.value,
-                                                                              factor.size, 0};
+    return as_semi_static(x) * semi_static<typename X::value_type, decltype(factor)::roundings, 0>{
+                                   factor.value, factor.size, 0};
 }
 template <semi_static_operand X>
 constexpr auto operator*(int c, const X& x) {
