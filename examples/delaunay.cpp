@@ -28,7 +28,7 @@ struct plain_signs {
         return x > 0 ? sign_type::positive : x < 0 ? sign_type::negative : sign_type::zero;
     }
     static sign_type orient2d(const point& a, const point& b, const point& c) {
-        return sign_of(errbound::forms::area(a, b, c));
+        return sign_of(errbound::forms::area(a.data(), b.data(), c.data()));
     }
     static sign_type incircle(const point& a, const point& b, const point& c, const point& d) {
         return sign_of(errbound::forms::lifted_area(a, b, c, d, errbound::forms::unweighted));

@@ -101,11 +101,12 @@ std::string flaws(const std::vector<point>& points, const std::vector<face>& fac
 
     const std::vector<edge> edges = sorted_edges(faces);
     std::size_t unmatched = 0, flat = 0, outside = 0, layers = 0;
-    for (const auto& [from, to] : edges) {
-        const auto twins = std::ranges::equal_range(edges, edge{to, from});
-        const auto same = std::ranges::equal_range(edges, edge{from, to});
-        unmatched += twins.size() != 1 || same.size() != 1;
-    }
+    const auto count = [&](const edge& e) {
+        const auto [first, last] = std::equal_range(edges.begin(), edges.end(), e);
+        return last - first;
+    };
+    for (const auto& [from, to] : edges)
+        unmatched += count({from, to}) != 1 || count({to, from}) != 1;
     const auto sum = [&](const face& f, std::size_t k) -> integer {
         return exact[f[0]][k] + exact[f[1]][k] + exact[f[2]][k];
     };

@@ -15,9 +15,9 @@ for header in errbound/*.hpp errbound/rules/*.hpp; do
         errbound/eigen.hpp | errbound/multiprecision.hpp) continue ;;
     esac
     echo "#include <$header>" >"$work/use.cpp"
-    "$compiler" -std=c++20 -fsyntax-only -Wall -Wextra -Wconversion -Werror -I. \
+    "$compiler" -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I. \
         -MD -MF "$work/use.d" "$work/use.cpp"
-    if grep -E '/(boost|eigen3|Eigen|xsimd|tbb|gmp[^/]*\.h)' "$work/use.d"; then
+    if grep -E '/(boost|eigen3|Eigen|xsimd|gmp[^/]*\.h)' "$work/use.d"; then
         echo "$header includes more than the standard library"
         exit 1
     fi
