@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
 #include <utility>
@@ -68,6 +69,12 @@ TEST(Batch, OfOnePointAgainstMany) {
         EXPECT_EQ(signs[i], i < 50    ? sign_type::positive
                             : i == 50 ? sign_type::zero
                                       : sign_type::negative);
+}
+TEST(Batch, OfRangesThatAreNotContiguous) {
+    const std::deque<std::array<double, 2>> a(100, {0, 0}), b(100, {1, 0}), c(100, {0, 1});
+    std::vector<sign_type> signs(a.size());
+    errbound::batch_signs(errbound::orient2d, signs, a, b, c);
+    for (const sign_type s : signs) EXPECT_EQ(s, sign_type::positive);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <errbound/sign.hpp>
 
@@ -53,8 +54,8 @@ class expression_count {
     /// A coordinate.
     constexpr explicit expression_count(detail::counting_run& run)
         : run_(&run), bits_(run.coordinate_bits), degree_(1) {}
-    /// A whole number in the expression.
-    constexpr expression_count(int) : bits_(32) {}
+    /// A whole number in the expression. No other type: 0.5 would become 0.
+    constexpr expression_count(std::same_as<int> auto) : bits_(32) {}
 
     friend constexpr expression_count operator+(const expression_count& x,
                                                 const expression_count& y) {
@@ -71,6 +72,22 @@ class expression_count {
                                                 const expression_count& y) {
         return {x.run_ != nullptr ? x.run_ : y.run_, x.bits_ + y.bits_, x.degree_ + y.degree_,
                 x.roundings_ + y.roundings_ + 1};
+    }
+    template <class X>
+    friend constexpr expression_count operator/(const expression_count& x, const X&) {
+        static_assert(!sizeof(X),
+                      "errbound: a predicate's expression has only +, - and *: multiply by what "
+                      "you would divide by, and by its sign");
+        return x;
+    }
+    template <class X>
+    friend constexpr bool operator<(const expression_count&, const X&) {
+        static_assert(!sizeof(X), "errbound: a predicate's expression compares by sign_of(a - b)");
+        return false;
+    }
+    template <class X>
+    friend constexpr bool operator>(const expression_count& x, const X& y) {
+        return x < y;
     }
     constexpr expression_count operator-() const { return {run_, bits_, degree_, roundings_}; }
     friend constexpr sign_type sign_of(const expression_count& x) {

@@ -89,7 +89,8 @@ struct predicate_report {
 struct predicate_options {
     /// Bound rule of the tracked stage; void: no such stage.
     using tracked_rule = void;
-    /// Exact number type of the last stage, constructible from double; void: long_integer.
+    /// Exact number type of the last stage, constructible from double; void: long_integer. For
+    /// Boost.Multiprecision's see predicate_type::value.
     using exact_type = void;
     /// Whether terms of different degree are never added, so that powers of two scale coordinates
     /// without changing a sign. It is found out for all expressions but those with too many
@@ -117,6 +118,31 @@ constexpr auto coordinate_of(const Point& p, int i) {
             return i == 0 ? p.x : i == 1 ? p.y : p.z;
         else
             return i == 0 ? p.x : p.y;
+    }
+}
+
+/// How many coordinates a point is known to have; 0 if its type does not tell.
+template <class Point>
+constexpr std::size_t known_dimension() {
+    if constexpr (std::is_arithmetic_v<Point> || requires { Point::SizeAtCompileTime; }) {
+        if constexpr (std::is_arithmetic_v<Point>)
+            return 1;
+        else
+            return Point::SizeAtCompileTime > 0 ? std::size_t{Point::SizeAtCompileTime} : 0;
+    } else if constexpr (std::is_array_v<Point>) {
+        return std::extent_v<Point>;
+    } else if constexpr (requires { std::tuple_size<Point>::value; }) {
+        return std::tuple_size_v<Point>;
+    } else if constexpr (requires(const Point& p) { p[0]; }) {
+        return 0;
+    } else {
+        return requires(const Point& p) {
+            p.z();
+        }
+        || requires(const Point& p) {
+            p.z;
+        }
+        ? 3 : 2;
     }
 }
 
@@ -166,11 +192,15 @@ struct listed_scalars {
         return make(list[first + static_cast<std::size_t>(i)]);
     }
 };
+/// Not for constant expressions: an expression that gets here does not compile.
+inline void coordinate_that_the_point_lacks() {}
 /// Coordinates that only count.
+template <class Shape>
 struct counted_scalars {
     counting_run& run;
-    template <std::size_t>
-    constexpr expression_count at(int) const {
+    template <std::size_t Argument>
+    constexpr expression_count at(int i) const {
+        if (i < 0 || (i > 0 && i >= Shape::dimensions[Argument])) coordinate_that_the_point_lacks();
         return expression_count(run);
     }
 };
@@ -214,7 +244,7 @@ constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
 template <class Shape, class F>
 constexpr expression_counts counts_of(int coordinate_bits) {
     return count_expression(coordinate_bits, [](counting_run& run) {
-        (void)conclude(evaluate<Shape>(F(), counted_scalars{run}));
+        (void)conclude(evaluate<Shape>(F(), counted_scalars<Shape>{run}));
     });
 }
 
@@ -239,8 +269,9 @@ class predicate_type {
     /// Whether there is a semi-static filter: what it saves grows with the degree.
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 &&
-        !std::is_same_v<sign_type, decltype(detail::evaluate<Shape>(
-                                       F(), std::declval<const detail::counted_scalars&>()))>;
+        !std::is_same_v<sign_type,
+                        decltype(detail::evaluate<Shape>(
+                            F(), std::declval<const detail::counted_scalars<Shape>&>()))>;
     /// So many bits may coordinates have for no result to take more than `bits`.
     static constexpr int coordinate_bits(int bits) {
         const int excess = counts.bits - bits;
@@ -294,6 +325,8 @@ class predicate_type {
         return detail::evaluate<Shape>(F(), scalars{{p...}});
     }
     /// The expression's value over a number type of one's own, constructible from a coordinate.
+    /// Boost.Multiprecision's types: without expression templates (et_off), which do not outlive
+    /// the statements of an expression.
     template <class Number, class... Points>
     static constexpr auto value(const Points&... p) {
         const auto make = [](const auto& x) { return Number(x); };
@@ -326,11 +359,20 @@ class predicate_type {
     static constexpr std::size_t listed_size = Shape::size + mixed;
     using coordinate_list = std::array<double, listed_size>;
 
+    template <class... Points, std::size_t... I>
+    static constexpr bool has_dimensions(std::index_sequence<I...>) {
+        return sizeof...(Points) != Shape::count ||
+               ((known_dimension<Points>() == 0 ||
+                 static_cast<int>(known_dimension<Points>()) >= Shape::dimensions[I]) &&
+                ...);
+    }
     template <class... Points>
     struct number {
         static_assert(sizeof...(Points) == Shape::count,
                       "errbound: as many points as the predicate's shape says");
         using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
+        static_assert(has_dimensions<Points...>(std::index_sequence_for<Points...>()),
+                      "errbound: a point has fewer coordinates than the predicate's shape says");
         static_assert((std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> &&
                        ...) &&
                           sizeof(type) <= sizeof(double),
@@ -350,9 +392,11 @@ class predicate_type {
     template <class... Points>
     static constexpr coordinate_list listed(const Points&... p) {
         coordinate_list list{};
+        // A copy: device code does not see static members.
+        constexpr auto dimensions = Shape::dimensions;
         std::size_t i = 0, argument = 0;
         const auto add = [&](const auto& point) {
-            const int dimension = Shape::dimensions[argument++];
+            const int dimension = dimensions[argument++];
             for (int k = 0; k < (dimension == 0 ? 1 : dimension); ++k)
                 list[i++] = coordinate_of(point, k);
         };

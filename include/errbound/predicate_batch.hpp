@@ -44,6 +44,12 @@ namespace detail {
 
 inline constexpr std::size_t block_size = 64;
 
+/// A range that must not be copied.
+template <class Range>
+struct range_view {
+    const Range& range;
+    constexpr decltype(auto) operator[](std::size_t i) const { return range[i]; }
+};
 /// Where i of a range is: compilers see through pointers better than through containers.
 template <class Range>
 constexpr auto indexable(const Range& range) {
@@ -52,7 +58,7 @@ constexpr auto indexable(const Range& range) {
     else if constexpr (std::is_trivially_copyable_v<Range>)
         return range;
     else
-        return [&range](std::size_t i) -> decltype(auto) { return range[i]; };
+        return range_view<Range>{range};
 }
 
 /// Signs of block_size inputs by the first filter; true if all are certain. In floating point to

@@ -134,13 +134,13 @@ constexpr auto operator*(const X& x, const Y& y) {
 }
 /// By a whole number. (Sums with one are of mixed degree, and not for this filter.)
 template <semi_static_operand X>
-constexpr auto operator*(const X& x, int c) {
+constexpr auto operator*(const X& x, std::same_as<int> auto c) {
     const auto factor = filtered_constant<typename X::value_type>(c);
     return as_semi_static(x) * semi_static<typename X::value_type, decltype(factor)::roundings, 0>{
                                    factor.value, factor.size, 0};
 }
 template <semi_static_operand X>
-constexpr auto operator*(int c, const X& x) {
+constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
 

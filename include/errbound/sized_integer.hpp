@@ -12,6 +12,7 @@
 
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <errbound/fixed_integer.hpp>
@@ -188,27 +189,27 @@ template <sized_operand X, sized_operand Y>
     return detail::sum_of<true>(x, y);
 }
 template <sized_operand X>
-[[gnu::always_inline]] constexpr auto operator+(const X& x, int c) {
+[[gnu::always_inline]] constexpr auto operator+(const X& x, std::same_as<int> auto c) {
     return x + sized_constant<typename X::level>(c, x.unit);
 }
 template <sized_operand X>
-[[gnu::always_inline]] constexpr auto operator+(int c, const X& x) {
+[[gnu::always_inline]] constexpr auto operator+(std::same_as<int> auto c, const X& x) {
     return x + c;
 }
 template <sized_operand X>
-[[gnu::always_inline]] constexpr auto operator-(const X& x, int c) {
+[[gnu::always_inline]] constexpr auto operator-(const X& x, std::same_as<int> auto c) {
     return x - sized_constant<typename X::level>(c, x.unit);
 }
 template <sized_operand X>
-[[gnu::always_inline]] constexpr auto operator-(int c, const X& x) {
+[[gnu::always_inline]] constexpr auto operator-(std::same_as<int> auto c, const X& x) {
     return sized_constant<typename X::level>(c, x.unit) - x;
 }
 template <sized_operand X>
-[[gnu::always_inline]] constexpr auto operator*(const X& x, int c) {
+[[gnu::always_inline]] constexpr auto operator*(const X& x, std::same_as<int> auto c) {
     return x * sized_constant<typename X::level>(c, x.unit);
 }
 template <sized_operand X>
-[[gnu::always_inline]] constexpr auto operator*(int c, const X& x) {
+[[gnu::always_inline]] constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
 

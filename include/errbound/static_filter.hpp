@@ -160,27 +160,27 @@ constexpr auto operator*(const X& x, const Y& y) {
     return detail::filtered_product(as_filtered(x), as_filtered(y));
 }
 template <filtered_operand X>
-constexpr auto operator+(const X& x, int c) {
+constexpr auto operator+(const X& x, std::same_as<int> auto c) {
     return as_filtered(x) + filtered_constant<typename X::value_type>(c);
 }
 template <filtered_operand X>
-constexpr auto operator+(int c, const X& x) {
+constexpr auto operator+(std::same_as<int> auto c, const X& x) {
     return x + c;
 }
 template <filtered_operand X>
-constexpr auto operator-(const X& x, int c) {
+constexpr auto operator-(const X& x, std::same_as<int> auto c) {
     return as_filtered(x) - filtered_constant<typename X::value_type>(c);
 }
 template <filtered_operand X>
-constexpr auto operator-(int c, const X& x) {
+constexpr auto operator-(std::same_as<int> auto c, const X& x) {
     return filtered_constant<typename X::value_type>(c) - as_filtered(x);
 }
 template <filtered_operand X>
-constexpr auto operator*(const X& x, int c) {
+constexpr auto operator*(const X& x, std::same_as<int> auto c) {
     return as_filtered(x) * filtered_constant<typename X::value_type>(c);
 }
 template <filtered_operand X>
-constexpr auto operator*(int c, const X& x) {
+constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
 

@@ -226,9 +226,9 @@ set_of<Form> make_spread_set(int bits, int spread, std::size_t inputs) {
     return {make, Form::degenerate, inputs, 0};
 }
 
-constexpr const char* stage_names[] = {"static filter",  "tracked",       "exact doubles",
-                                       "short integers", "word integers", "two-word integers",
-                                       "long integers"};
+constexpr const char* stage_names[] = {"semi-static filter", "static filter",  "tracked",
+                                       "exact doubles",      "short integers", "word integers",
+                                       "two-word integers",  "long integers"};
 static_assert(std::size(stage_names) == errbound::predicate_stage_count);
 
 template <class Form, predicate_stage Stage>

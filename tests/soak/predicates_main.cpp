@@ -9,8 +9,9 @@
 
 namespace {
 
-constexpr const char* stage_names[] = {"static filter", "tracked",   "doubles", "short",
-                                       "word",          "two words", "long"};
+constexpr const char* stage_names[] = {
+    "semi-static filter", "static filter", "tracked", "doubles", "short", "word",
+    "two words",          "long"};
 static_assert(std::size(stage_names) == errbound::predicate_stage_count);
 
 std::string number(double x, int digits) {
