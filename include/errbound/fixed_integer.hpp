@@ -71,7 +71,9 @@ constexpr word sign_word(word w) {
 /// r += a·b for a magnitude of n words; returns what goes beyond the n words of r.
 [[gnu::always_inline]] constexpr word add_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
+#ifndef __CUDACC__
 #pragma GCC unroll 4
+#endif
     for (int j = 0; j < n; ++j) {
         auto sum = double_word(a) * b[j] + r[j];
         sum += carry;

@@ -4,4 +4,6 @@
 constexpr auto half = errbound::predicate<errbound::points<0, 0>>(
     [](const auto& x, const auto& y) { return 0.5 * x - y; });
 
-int main() { return half(1.0, 2.0) == errbound::sign_type::zero; }
+int main() {
+    return half(1.0, 2.0) == errbound::sign_type::zero;
+}
