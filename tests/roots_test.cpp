@@ -258,9 +258,12 @@ TEST(Roots, BeyondTheRangeOfDouble) {
     const polynomial<double> tiny{-0x1p-801, 0x1p+329};
     EXPECT_EQ(count_roots<integer>(tiny, 0, number_traits<double>::underflow_unit()), 1U);
     EXPECT_EQ(count_roots<integer>(tiny, number_traits<double>::underflow_unit(), 1), 0U);
-    // Signs at such roots, too (refinement in doubles once went on for ever there).
+    // Signs at such roots, too (refinement in doubles once went on for ever at the negative one).
+    auto negative = isolate_roots<integer>(
+        polynomial{0x1.02893816ff1dp-793, 0x1.3e4c9556630d8p+474}, -infinity, infinity);
     const polynomial<double> x{0.0, 1.0}, beside{-number_traits<double>::underflow_unit(), 1.0};
     auto roots = isolate_roots<integer>(tiny, -infinity, infinity);
+    EXPECT_EQ(negative.sign_at(x, 0), sign_type::negative);
     EXPECT_EQ(roots.sign_at(x, 0), sign_type::positive);
     EXPECT_EQ(roots.sign_at(beside, 0), sign_type::negative);
     EXPECT_EQ(roots.sign_at(tiny, 0), sign_type::zero);
