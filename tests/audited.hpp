@@ -20,7 +20,7 @@ struct audit {
         return state;
     }
 
-    /// error: |value − exact| in units of `unit`·degree, shifted so that all are whole.
+    /// `exact` is in units of 2^(unit·degree).
     template <class Filtered>
     void check(const Filtered& x, big_integer exact, int degree) {
         using T = typename Filtered::value_type;

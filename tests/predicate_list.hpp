@@ -22,7 +22,8 @@ struct entry {
     Predicate predicate;
     Oracle oracle;
     std::array<surface, 2> surfaces;
-    /// Shewchuk's A-filter's, in units of u, where there is one (1997, figures 21 and following).
+    /// Shewchuk's A-filter's, in units of u, where there is one (static_filter.hpp names the
+    /// source).
     int constant_of_shewchuk = 0;
 };
 template <std::size_t Dimension, std::size_t Count, class Predicate, class Oracle>

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <climits>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/sign.hpp>
 #include <span>
 
@@ -161,7 +163,7 @@ inline int segments_intersect3d(const std::array<point3, 4>& p) {
 
 /// p + t(q − p), for t in [0, 1], in the triangle's barycentric coordinates.
 inline int segment_intersects_triangle(const std::array<point3, 5>& x) {
-    const auto& [p, q, a, b, c] = x;
+    const point3 &p = x[0], &q = x[1], &a = x[2], &b = x[3], &c = x[4];
     const point3 ab = difference(b, a), ac = difference(c, a), n = cross(ab, ac);
     if (is_zero(n)) {
         // The longest of its edges is what the triangle is.
@@ -212,14 +214,16 @@ inline int compare_x_line_line(const std::array<point2, 8>& p) {
                  n = meeting_point(p[4], p[5], p[6], p[7]);
     return sign(m[0] * n[2] - n[0] * m[2]) * sign(m[2]) * sign(n[2]);
 }
-/// The plane's function f of a point gives f(a)·b − f(b)·a, over f(a) − f(b).
+/// Points a, b of the line, three of its plane, three more: the plane's function f of a point gives
+/// f(a)·b − f(b)·a, over f(a) − f(b).
 inline int orient3d_line_plane(const std::array<point3, 8>& x) {
-    const auto& [a, b, p, q, r, s, t, u] = x;
-    const big_integer at_a = orient3d({p, q, r, a}), at_b = orient3d({p, q, r, b});
+    const point3 &a = x[0], &b = x[1];
+    const big_integer at_a = orient3d({x[2], x[3], x[4], a});
+    const big_integer at_b = orient3d({x[2], x[3], x[4], b});
     const big_integer w = at_a - at_b;
     const auto m = [&](std::size_t k) { return at_a * b[k] - at_b * a[k]; };
     const auto row = [](const point3& y) { return point<4>{y[0], y[1], y[2], 1}; };
-    return sign(determinant({m(0), m(1), m(2), w}, row(s), row(t), row(u))) * sign(w);
+    return sign(determinant({m(0), m(1), m(2), w}, row(x[5]), row(x[6]), row(x[7]))) * sign(w);
 }
 
 }  // namespace predicate_oracle

@@ -304,12 +304,22 @@ void exact_stages_alone(const run_options& o, report& out) {
 }
 
 /// A double for expressions that ask for signs.
-struct plain_double {
-    double value;
-    friend plain_double operator+(plain_double a, plain_double b) { return {a.value + b.value}; }
-    friend plain_double operator-(plain_double a, plain_double b) { return {a.value - b.value}; }
-    friend plain_double operator*(plain_double a, plain_double b) { return {a.value * b.value}; }
-    friend sign_type sign_of(plain_double a) { return plain_sign(a.value); }
+class plain_double {
+  public:
+    explicit plain_double(double value) : value_(value) {}
+    friend plain_double operator+(plain_double a, plain_double b) {
+        return plain_double(a.value_ + b.value_);
+    }
+    friend plain_double operator-(plain_double a, plain_double b) {
+        return plain_double(a.value_ - b.value_);
+    }
+    friend plain_double operator*(plain_double a, plain_double b) {
+        return plain_double(a.value_ * b.value_);
+    }
+    friend sign_type sign_of(plain_double a) { return plain_sign(a.value_); }
+
+  private:
+    double value_;
 };
 
 template <class Entry>

@@ -26,9 +26,9 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
 
 /// Progress for those who wait; tables come at the end.
 template <class Findings>
-void say(const char* part, const Findings& f) {
-    std::fprintf(stderr, "%s: %s, %s: %.0f s\n", part, std::string(f.predicate).c_str(),
-                 std::string(f.number_type).c_str(), f.seconds);
+void say(const char* part, const Findings& f, std::uint64_t wrong) {
+    std::fprintf(stderr, "%s: %s, %s: %s wrong, %.0f s\n", part, std::string(f.predicate).c_str(),
+                 std::string(f.number_type).c_str(), std::to_string(wrong).c_str(), f.seconds);
 }
 
 /// Whether all signs are right.
@@ -38,7 +38,7 @@ bool signs(const soak::predicate_run& run) {
     rows[0].emplace_back("seconds");
     bool right = true;
     soak::compare_signs(run, [&](const soak::sign_findings& f) {
-        say("signs", f);
+        say("signs", f, f.wrong);
         right = right && f.wrong == 0 && f.uncertain == 0;
         auto& row = rows.emplace_back(std::vector<std::string>{
             std::string(f.predicate), std::string(f.number_type), std::to_string(f.inputs),
@@ -59,7 +59,7 @@ bool bounds(const soak::predicate_run& run) {
                               "violations", "bound used up", "seconds"}};
     bool hold = true;
     soak::attack_bounds(run, [&](const soak::bound_findings& f) {
-        say("bounds", f);
+        say("bounds", f, f.violations);
         hold = hold && f.violations == 0;
         rows.push_back({std::string(f.predicate), std::string(f.number_type), number(f.constant, 5),
                         f.constant_of_shewchuk == 0 ? "" : std::to_string(f.constant_of_shewchuk),
