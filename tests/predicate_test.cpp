@@ -82,7 +82,8 @@ void attack(const Predicate&, surface s) {
             const rational error = abs(rational(rational(x.value) - right));
             const rational last =
                 abs(rational(x.value)) * rational(errbound::number_traits<T>::unit_roundoff());
-            ASSERT_LE(error, rational(x.bound) + last) << family.name << replay(p);
+            ASSERT_LE(error, rational(x.bound) + last)
+                << family.name << predicate_inputs::text_of(p);
             if (error > last)
                 worst = std::max(
                     worst,
