@@ -40,6 +40,7 @@
 #include <errbound/sized_integer.hpp>
 #include <errbound/static_filter.hpp>
 #include <errbound/tracked.hpp>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -419,7 +420,11 @@ class predicate_type {
             return sign_type::uncertain;
         }
         if constexpr (has_semi_static_filter) {
-            if (!std::is_constant_evaluated()) {
+            // Products of smaller coordinates are all subnormal, which is slow, and decides
+            // nothing.
+            const int exponent = static_cast<int>(largest >> 52) - 1021;
+            const bool in_range = exponent * counts.degree > std::numeric_limits<T>::min_exponent;
+            if (!std::is_constant_evaluated() && in_range) {
                 const sign_type s = by_filter<T>(list);
                 if (certain(s)) return counted(s, static_filter);
             }
