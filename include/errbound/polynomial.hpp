@@ -9,7 +9,8 @@
 // Coefficients: double or float, which are exact numbers; integers or rationals of unbounded size;
 // or tracked numbers, with answers that say so where the coefficients' errors leave them open.
 // Intervals are closed; their ends are doubles, also infinite ones, or the same number twice.
-// Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN).
+// Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN); widths are
+// positive.
 //
 // Each question is asked in floating point with certified bounds first, then in integers.
 // Allocates. Time and memory are bounded by degree and size of the coefficients; where the first

@@ -33,7 +33,8 @@ class polynomial {
     }
 
     /// In ascending order.
-    const std::vector<Coefficient>& coefficients() const { return c_; }
+    const std::vector<Coefficient>& coefficients() const& { return c_; }
+    std::vector<Coefficient> coefficients() && { return std::move(c_); }
 
   private:
     std::vector<Coefficient> c_;
@@ -136,12 +137,16 @@ template <class Integer, class C>
 staged_polynomial<Integer> staged(const polynomial<C>& p) {
     const std::vector<C>& c = p.coefficients();
     if constexpr (std::is_floating_point_v<C>) {
-        static_assert(std::numeric_limits<C>::digits <= std::numeric_limits<double>::digits);
+        static_assert(std::numeric_limits<C>::digits <= std::numeric_limits<double>::digits,
+                      "errbound: floating-point coefficients are float or double");
         return staged_polynomial<Integer>(std::vector<double>(c.begin(), c.end()));
     } else if constexpr (std::numeric_limits<C>::is_integer) {
         return staged_polynomial<Integer>(integer_form<Integer>(c.begin(), c.end()));
     } else {
-        static_assert(exact_number<C>);
+        static_assert(
+            exact_number<C>,
+            "errbound: coefficients are float, double or exact numbers; tracked ones go to "
+            "count_roots(p, a, b), which names no type");
         Integer common = 1;
         for (const C& x : c) common = lcm(common, Integer(denominator(x)));
         integer_form<Integer> whole;

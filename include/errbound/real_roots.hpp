@@ -95,19 +95,27 @@ class real_roots {
     /// Whether the polynomial is identically zero: all points are roots, and none is listed.
     bool everywhere() const { return everywhere_; }
     std::size_t size() const { return intervals_.size(); }
-    const interval& operator[](std::size_t k) const { return intervals_[k]; }
+    const interval& operator[](std::size_t k) const {
+        assert(k < size());
+        return intervals_[k];
+    }
     /// Whether no integers were needed to isolate the roots.
     bool decided_by_filter() const { return decided_by_filter_; }
 
     /// Narrows root k's interval to at most this width > 0.
     void refine(std::size_t k, const point& width) {
+        assert(k < size() && sign_of(width) == sign_type::positive);
         if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
         if (width < intervals_[k].high - intervals_[k].low) exact().refine(intervals_[k], width);
     }
-    void refine(std::size_t k, double width) { refine(k, point::from(width)); }
+    void refine(std::size_t k, double width) {
+        assert(0 < width && std::isfinite(width));
+        refine(k, point::from(width));
+    }
 
     /// The sign of g at root k, exactly.
     sign_type sign_at(staged_polynomial<Integer>& g, std::size_t k) {
+        assert(k < size());
         interval& root = intervals_[k];
         const auto by_values = [&] { return sign_of(value_at(g.floating(), enclosure(root))); };
         sign_type s = by_values();

@@ -53,6 +53,9 @@ void run_scene(const std::string& name, const bench::options& o, bench::report& 
 int main(int argc, char** argv) try {
     CLI::App app{"Times exact and the other methods; prints tables."};
     app.name("./run bench");
+    app.footer(
+        "./run bench also takes, as its first argument, --predicates or --roots: those beside "
+        "other\nlibraries; and --native: these by a build for this processor beside these.");
     bench::options o;
     std::string json, commit = "unknown";
     app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");

@@ -380,7 +380,7 @@ void without_peers(const run_options& o, report& out) {
 
 int main(int argc, char** argv) {
     CLI::App app{"Predicates beside others that decide them: ns per call, wrong signs."};
-    app.name("errbound_predicates_bench");
+    app.name("./run bench --predicates");
     bench::run_options o;
     app.add_flag("--quick", o.quick, "Fewer inputs and repeats: shows that all works");
     app.add_option("--predicate", o.predicate, "Only those whose name holds this");

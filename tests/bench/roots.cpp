@@ -144,7 +144,7 @@ void run(bool quick) {
 int main(int argc, char** argv) {
     const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
     if (argc > 1 && !quick) {
-        std::fprintf(stderr, "usage: errbound_roots_bench [--quick]\n");
+        std::fprintf(stderr, "usage: ./run bench --roots [--quick]\n");
         return 2;
     }
     const ccd::report::machine here = ccd::report::this_machine();
