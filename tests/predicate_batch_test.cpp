@@ -70,6 +70,33 @@ TEST(Batch, OfOnePointAgainstMany) {
                             : i == 50 ? sign_type::zero
                                       : sign_type::negative);
 }
+/// Points that are computed when they are asked for.
+struct scaled_points {
+    std::vector<std::array<double, 2>> points;
+    double factor;
+    std::array<double, 2> operator[](std::size_t i) const {
+        return {factor * points[i][0], factor * points[i][1]};
+    }
+};
+TEST(Batch, OfComputedPoints) {
+    // The factor's products are rounded before their differences, by kernels with fused
+    // multiply-add too: points that coincide when rounded do.
+    predicate_inputs::generator random(3);
+    scaled_points a{{}, 1 + 0x1.3p-20};
+    std::vector<std::array<double, 2>> b, c;
+    for (int i = 0; i < 6400; ++i) {
+        a.points.push_back(
+            {predicate_inputs::uniform<double>(random), predicate_inputs::uniform<double>(random)});
+        b.push_back(a[static_cast<std::size_t>(i)]);
+        c.push_back({predicate_inputs::uniform<double>(random), 0.5});
+    }
+    std::vector<sign_type> signs(b.size());
+    errbound::batch_signs(errbound::orient2d, signs, a, b, c);
+    for (std::size_t i = 0; i < signs.size(); ++i) {
+        EXPECT_EQ(signs[i], sign_type::zero);
+        EXPECT_EQ(errbound::orient2d(a[i], b[i], c[i]), sign_type::zero);
+    }
+}
 TEST(Batch, OfRangesThatAreNotContiguous) {
     const std::deque<std::array<double, 2>> a(100, {0, 0}), b(100, {1, 0}), c(100, {0, 1});
     std::vector<sign_type> signs(a.size());

@@ -161,6 +161,38 @@ static_assert(above_parabola(point2{0x1p600, 0x1p1000}) == sign_type::negative);
 static_assert(above_parabola(point2{0x1p-600, -1}) == sign_type::negative);
 static_assert(above_parabola(point2{-0x1p-1074, -1}) == sign_type::positive);
 
+/// It asks for signs of several degrees, and the longest number is not of the highest.
+constexpr auto cubic_if_real =
+    errbound::predicate<errbound::points<0, 0, 0>>([](const auto& a, const auto& b, const auto& c) {
+        const sign_type s = sign_of(b * b - 4 * a * c);
+        if (s != sign_type::positive) return s;
+        return sign_of(a * a * a - b * b * c);
+    });
+/// No coordinates are short enough for two words.
+constexpr auto with_many_constants = errbound::predicate<errbound::points<0, 0, 0, 0>>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d) {
+        return (2 * (2 * (2 * (2 * (2 * a))))) * (b * c * d) - a * b * c * d;
+    });
+TYPED_TEST(Predicates, OfSeveralDegreesAndManyConstants) {
+    using T = TypeParam;
+    compare<T, 1, 3>(
+        cubic_if_real,
+        [](const auto& p) {
+            const rational a = p[0][0], b = p[1][0], c = p[2][0];
+            const sign_type s = errbound::sign_of(rational(b * b - 4 * a * c));
+            return s != sign_type::positive ? s
+                                            : errbound::sign_of(rational(a * a * a - b * b * c));
+        },
+        surface::flat);
+    compare<T, 1, 4>(
+        with_many_constants,
+        [](const auto& p) {
+            return errbound::sign_of(
+                rational(rational(31) * p[0][0] * p[1][0] * p[2][0] * p[3][0]));
+        },
+        surface::flat);
+}
+
 TYPED_TEST(Predicates, OfAnyDegree) {
     using T = TypeParam;
     const auto report = compare<T, 2, 2>(sextic, over_rationals(sextic), surface::flat);

@@ -466,6 +466,19 @@ TEST(Roots, HighDegrees) {
 
 // What tracked coefficients leave open is said to be open; the rest is right for each polynomial
 // within them.
+TEST(Roots, TrackedCoefficientsThatAreZero) {
+    using number = tracked<double>;
+    const polynomial<number> x{number(0), number(1)}, also{number(0), number(0), number(2)};
+    EXPECT_EQ(count_roots(x, 0, 1), 1U);
+    EXPECT_EQ(count_roots(x, -1, 1), 1U);
+    EXPECT_EQ(count_roots(x, 0, 0), 1U);
+    EXPECT_EQ(count_roots(x, 2, 2), 0U);
+    EXPECT_EQ(count_roots(x, 1, 2), 0U);
+    EXPECT_EQ(count_roots(also, 0, infinity), 1U);
+    EXPECT_EQ(count_roots(polynomial<number>{number(0)}, 0, 1), infinitely_many);
+    const polynomial<number> near{number::within(0, 1), number(1)};
+    EXPECT_EQ(count_roots(near, 0.5, 0.5), std::nullopt);
+}
 TEST(Roots, TrackedCoefficients) {
     using number = tracked<double>;
     generator make(9);

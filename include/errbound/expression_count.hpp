@@ -13,14 +13,21 @@
 namespace errbound {
 
 struct expression_counts {
-    int roundings = 0;   ///< that bear on a sign: errbound/static_filter.hpp
-    int bits = 0;        ///< of the longest number whose sign is asked, for the coordinates' given
-    int degree = 0;      ///< of that number
-    bool mixed = false;  ///< terms of different degree are added
+    int roundings = 0;  ///< that bear on a sign: errbound/static_filter.hpp
+    /// Of the longest number of each degree whose sign is asked, for the coordinates' bits given;
+    /// 0: none.
+    static constexpr int most_degree = 63;
+    std::array<int, most_degree + 1> bits{};
+    int degree = 0;        ///< the highest of these numbers
+    bool mixed = false;    ///< terms of different degree are added
     bool complete = true;  ///< all branches were seen
 };
 
 namespace detail {
+
+/// Not for constant expressions: an expression that gets to one of them does not compile.
+inline void degree_that_is_too_high() {}
+inline void too_many_signs() {}
 
 /// One run: the signs that it is told, and what it asks.
 struct counting_run {
@@ -94,10 +101,11 @@ class expression_count {
         auto& run = *x.run_;
         const int roundings = x.roundings_ == 0 ? 0 : x.roundings_ - 1;
         run.counts.roundings = larger(run.counts.roundings, roundings);
-        if (x.bits_ > run.counts.bits) {
-            run.counts.bits = x.bits_;
-            run.counts.degree = x.degree_;
-        }
+        if (x.degree_ > expression_counts::most_degree) detail::degree_that_is_too_high();
+        int& bits = run.counts.bits[static_cast<std::size_t>(x.degree_)];
+        bits = larger(bits, x.bits_);
+        run.counts.degree = larger(run.counts.degree, x.degree_);
+        if (run.asked == detail::counting_run::most_signs) detail::too_many_signs();
         return run.told[run.asked++];
     }
 

@@ -9,8 +9,8 @@
 // Coefficients: double or float, which are exact numbers; integers or rationals of unbounded size;
 // or tracked numbers, with answers that say so where the coefficients' errors leave them open.
 // Intervals are closed; their ends are doubles, also infinite ones, or the same number twice.
-// Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN); widths are
-// positive.
+// Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN, and not both the
+// same infinity); widths are positive and finite.
 //
 // Each question is asked in floating point with certified bounds first, then in integers.
 // Allocates. Time and memory are bounded by degree and size of the coefficients; where the first
@@ -70,7 +70,7 @@ auto isolate_roots(const polynomial<C>& p, double a, double b) {
 template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
     using integer = detail::integer_for_t<Integer, C>;
-    assert(a <= b);
+    assert(is_interval(a, b));
     if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
         // No intervals are made, and no integers copied, where the filter decides.
         const auto c = floating_coefficients(p.coefficients());
@@ -91,10 +91,21 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
-    assert(a <= b);
-    const root_filter<Rule> filter(p.coefficients(), a, b);
+    assert(is_interval(a, b));
+    // The filter is asked for roots other than 0.
+    std::span others(p.coefficients());
+    while (!others.empty() && others[0].value() == 0 && others[0].error() == 0)
+        others = others.subspan(1);
+    if (others.empty()) return infinitely_many;
+    const bool zero = others.size() < p.coefficients().size() && a <= 0 && 0 <= b;
+    if (a == b) {
+        const sign_type s =
+            zero ? sign_type::zero : sign_of(value_at(p.coefficients(), tracked<double, Rule>(a)));
+        return certain(s) ? std::optional<std::size_t>(s == sign_type::zero) : std::nullopt;
+    }
+    const root_filter<Rule> filter(others, a, b);
     if (!filter.decides()) return {};
-    return filter.parts().size();
+    return filter.parts().size() + zero;
 }
 
 /// The greatest common divisor, primitive over the integers.
@@ -176,7 +187,7 @@ template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {
     using integer = detail::integer_for_t<Integer, C>;
-    assert(a <= b);
+    assert(is_interval(a, b));
     auto root_of = staged<integer>(f);
     std::vector<staged_polynomial<integer>> constraints;
     for (const polynomial<C>& p : g) constraints.push_back(staged<integer>(p));

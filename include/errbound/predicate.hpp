@@ -23,12 +23,13 @@
 //
 // Promised, for finite coordinates, under rounding to nearest and gradual underflow
 // (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
-// overflow included. `uncertain` where a coordinate is not finite. No exceptions, no global state.
-// Usable in constant expressions; in device code up to the two-word integers.
-// Cost: the filters 1 to 2 times the expression in floating point, the integers some ten
-// times that, and in the full range up to 30 µs and some 100 KiB of stack for a degree of 5.
+// overflow included. `uncertain` where a coordinate that counts is not finite. No exceptions, no
+// global state. Usable in constant expressions; in device code up to the two-word integers. Cost:
+// the filters 1 to 2 times the expression in floating point, the integers some ten times that, and
+// in the full range up to 30 µs and some 100 KiB of stack for a degree of 5.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -166,23 +167,33 @@ constexpr auto view(const Scalars& scalars) {
         return point_view<Scalars, Argument>{scalars};
 }
 
+/// Coordinate i of a point, as a filter may use it: where it is not stored but computed, a product
+/// in it must not be fused with the difference that uses it, since all stages must see one number.
+template <class T, bool Stored, class Point>
+constexpr T settled_coordinate(const Point& p, int i) {
+    const T x = coordinate_of(p, i);
+    if constexpr (Stored)
+        return x;
+    else
+        return rounded(x);
+}
 /// Coordinates, where they are, for the static filter.
-template <class T, class... Points>
+template <class T, bool Stored, class... Points>
 struct filtered_scalars {
     std::tuple<const Points&...> points;
     template <std::size_t Argument>
     constexpr filtered_coordinate<T> at(int i) const {
-        return {coordinate_of(std::get<Argument>(points), i)};
+        return {settled_coordinate<T, Stored>(std::get<Argument>(points), i)};
     }
 };
 /// The same for the semi-static one.
-template <class T, class... Points>
+template <class T, bool Stored, class... Points>
 struct semi_static_scalars {
     std::tuple<const Points&...> points;
     T* largest;
     template <std::size_t Argument>
     constexpr semi_static_coordinate<T> at(int i) const {
-        return {coordinate_of(std::get<Argument>(points), i), largest};
+        return {settled_coordinate<T, Stored>(std::get<Argument>(points), i), largest};
     }
 };
 /// Coordinates one after the other, made into scalars by a function, which may refer to them.
@@ -244,11 +255,16 @@ constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
     return conclude(evaluate<Shape>(f, listed_scalars<Shape, List, Make>{list, make}));
 }
 
+/// Not for constant expressions either: such an expression could not pass on `uncertain`.
+inline void expression_that_asks_for_signs_must_return_one() {}
 /// What the expression asks for coordinates of this many bits.
 template <class Shape, class F>
 constexpr expression_counts counts_of(int coordinate_bits) {
     return count_expression(coordinate_bits, [](counting_run& run) {
-        (void)conclude(evaluate<Shape>(F(), counted_scalars<Shape>{run}));
+        const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run});
+        if (!std::is_same_v<decltype(x), const sign_type> && run.asked > 0)
+            expression_that_asks_for_signs_must_return_one();
+        (void)conclude(x);
     });
 }
 
@@ -260,6 +276,7 @@ class predicate_type {
                   "errbound: a predicate's expression must not have captures or members");
 
   public:
+    using shape = Shape;
     using options = Options;
 
     /// Of coordinates that fit a word.
@@ -278,8 +295,13 @@ class predicate_type {
                             F(), std::declval<const detail::counted_scalars<Shape>&>()))>;
     /// So many bits may coordinates have for no result to take more than `bits`.
     static constexpr int coordinate_bits(int bits) {
-        const int excess = counts.bits - bits;
-        return word_bits - (excess <= 0 ? 0 : (excess + counts.degree - 1) / counts.degree);
+        int least = word_bits;
+        for (int degree = 0; degree <= expression_counts::most_degree; ++degree) {
+            const int excess = counts.bits[static_cast<std::size_t>(degree)] - bits;
+            if (excess <= 0) continue;
+            least = std::min(least, degree == 0 ? 0 : word_bits - (excess + degree - 1) / degree);
+        }
+        return least;
     }
 
     /// The sign. Points: anything that coordinate_of takes, of float or double.
@@ -304,17 +326,18 @@ class predicate_type {
         }
         return later_stages<number_of<Points...>>(listed(p...), &report);
     }
-    /// What the first filter finds out, or the sign_type of an expression that branches.
-    template <class... Points>
+    /// What the first filter finds out, or the sign_type of an expression that branches. Stored:
+    /// coordinates are read from memory, so that nothing can be fused with their differences.
+    template <bool Stored = false, class... Points>
     static constexpr auto estimate(const Points&... p) {
         using T = number_of<Points...>;
         if constexpr (has_semi_static_filter) {
             T largest = 0;
             const auto x = detail::evaluate<Shape>(
-                F(), detail::semi_static_scalars<T, Points...>{{p...}, &largest});
+                F(), detail::semi_static_scalars<T, Stored, Points...>{{p...}, &largest});
             return detail::sign_estimate<T>{x.value, x.bound(largest)};
         } else {
-            const auto x = filtered(p...);
+            const auto x = filtered<Stored>(p...);
             if constexpr (std::is_same_v<decltype(x), const sign_type>)
                 return x;
             else
@@ -323,9 +346,9 @@ class predicate_type {
     }
     /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or
     /// the sign_type of an expression that branches.
-    template <class... Points>
+    template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
-        using scalars = detail::filtered_scalars<number_of<Points...>, Points...>;
+        using scalars = detail::filtered_scalars<number_of<Points...>, Stored, Points...>;
         return detail::evaluate<Shape>(F(), scalars{{p...}});
     }
     /// The expression's value over a number type of one's own, constructible from a coordinate.
@@ -354,7 +377,9 @@ class predicate_type {
         if (stage == long_integers) return by_any(list);
         word_coordinates<listed_size> words(list, largest);
         if (!words.fit) return sign_type::uncertain;
-        return stage == short_integers ? by_short(words) : by_words(words);
+        if (stage == word_integers) return by_words(words);
+        if constexpr (short_bits >= 1) return by_short(words);
+        return sign_type::uncertain;
     }
 
   private:
@@ -433,8 +458,10 @@ class predicate_type {
             }
         }
         if constexpr (!std::is_void_v<typename Options::tracked_rule>) {
-            const sign_type s = by_tracked<T>(list);
-            if (certain(s)) return counted(s, tracked);
+            if (!std::is_constant_evaluated()) {
+                const sign_type s = by_tracked<T>(list);
+                if (certain(s)) return counted(s, tracked);
+            }
         }
         // Where two words hold all results of one-word coordinates, doubles would gain nothing.
         if constexpr (short_bits < word_bits) {
@@ -443,7 +470,10 @@ class predicate_type {
         }
         word_coordinates<listed_size> words(list, largest);
         if (words.fit) {
-            if (words.least_bits() <= short_bits) return counted(by_short(words), short_integers);
+            if constexpr (short_bits >= 1) {
+                if (words.least_bits() <= short_bits)
+                    return counted(by_short(words), short_integers);
+            }
             return counted(by_words(words), word_integers);
         }
         const sign_type s = by_two_words(list);

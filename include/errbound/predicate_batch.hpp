@@ -16,7 +16,9 @@
 #include <errbound/predicate.hpp>
 #include <ranges>
 #include <span>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace errbound {
 
@@ -44,32 +46,76 @@ namespace detail {
 
 inline constexpr std::size_t block_size = 64;
 
-/// A range that must not be copied.
-template <class Range>
-struct range_view {
-    const Range& range;
-    constexpr decltype(auto) operator[](std::size_t i) const { return range[i]; }
+/// Whether coordinates of such points are read from memory, not computed by a function of theirs.
+template <class Point>
+inline constexpr bool has_stored_coordinates =
+    std::is_arithmetic_v<Point> || std::is_array_v<Point>;
+template <class T, std::size_t N>
+inline constexpr bool has_stored_coordinates<std::array<T, N>> = true;
+
+/// A block of coordinates that a range computes, or that no pointer leads to. They are rounded when
+/// they are written here: kernels of instruction sets with fused multiply-add would otherwise fuse
+/// products in them with their differences.
+template <class T, int Dimension, class Range>
+class computed_block {
+    static constexpr std::size_t rows = Dimension == 0 ? 1 : Dimension;
+
+  public:
+    explicit computed_block(const Range& range) : range_(range) {}
+    coordinate_arrays<T, rows> at(std::size_t first) {
+        coordinate_arrays<T, rows> block{{}, block_size};
+        for (std::size_t k = 0; k < rows; ++k) block.coordinates[k] = rows_[k].data();
+        for (std::size_t i = 0; i < block_size; ++i)
+            for (std::size_t k = 0; k < rows; ++k)
+                rows_[k][i] = coordinate_of(range_[first + i], static_cast<int>(k));
+        return block;
+    }
+
+  private:
+    const Range& range_;
+    std::array<std::array<T, block_size>, rows> rows_;
 };
-/// Where i of a range is: compilers see through pointers better than through containers.
-template <class Range>
-constexpr auto indexable(const Range& range) {
-    if constexpr (std::ranges::contiguous_range<Range>)
-        return std::ranges::data(range);
-    else if constexpr (std::is_trivially_copyable_v<Range>)
-        return range;
-    else
-        return range_view<Range>{range};
+/// Where the coordinates are, for the kernels.
+template <class Point>
+struct stored_block {
+    const Point* points;
+    const Point* at(std::size_t first) const { return points + first; }
+};
+template <class T, std::size_t Dimension>
+struct stored_arrays_block {
+    coordinate_arrays<T, Dimension> arrays;
+    coordinate_arrays<T, Dimension> at(std::size_t first) const {
+        coordinate_arrays<T, Dimension> block{{}, block_size};
+        for (std::size_t k = 0; k < Dimension; ++k)
+            block.coordinates[k] = arrays.coordinates[k] + first;
+        return block;
+    }
+};
+template <class T, int Dimension, class Range>
+auto blocks_of(const Range& range) {
+    if constexpr (std::ranges::contiguous_range<Range>) {
+        using point = std::ranges::range_value_t<Range>;
+        if constexpr (has_stored_coordinates<point>)
+            return stored_block<point>{std::ranges::data(range)};
+        else
+            return computed_block<T, Dimension, Range>(range);
+    } else {
+        return computed_block<T, Dimension, Range>(range);
+    }
+}
+template <class T, int Dimension, class U, std::size_t N>
+auto blocks_of(const coordinate_arrays<U, N>& arrays) {
+    return stored_arrays_block<U, N>{arrays};
 }
 
 /// Signs of block_size inputs by the first filter; true if all are certain. In floating point to
 /// the end, so that it is all of one width.
 template <class Predicate, class... Ranges>
-[[gnu::always_inline]] inline bool filter_block(sign_type* signs, std::size_t first,
-                                                const Ranges&... p) {
-    using T = decltype(Predicate::estimate(p[first]...).value);
+[[gnu::always_inline]] inline bool filter_block(sign_type* signs, const Ranges&... p) {
+    using T = decltype(Predicate::estimate(p[0]...).value);
     std::array<T, block_size> codes;
     for (std::size_t i = 0; i < block_size; ++i) {
-        const auto x = Predicate::estimate(p[first + i]...);
+        const auto x = Predicate::template estimate<true>(p[i]...);
         const T size = number_traits<T>::abs(x.value);
         // Instruction sets with fused multiply-add may use it: static_filter.hpp asks for this
         // then.
@@ -90,21 +136,19 @@ static_assert(static_cast<int>(sign_type::negative) == 0 &&
               static_cast<int>(sign_type::uncertain) == 3);
 
 template <class Predicate, class... Ranges>
-[[gnu::flatten, gnu::noinline]] bool filter_block_baseline(sign_type* signs, std::size_t first,
-                                                           const Ranges&... p) {
-    return filter_block<Predicate>(signs, first, p...);
+[[gnu::flatten, gnu::noinline]] bool filter_block_baseline(sign_type* signs, const Ranges&... p) {
+    return filter_block<Predicate>(signs, p...);
 }
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__CUDACC__)
 template <class Predicate, class... Ranges>
 [[gnu::target("avx2"), gnu::flatten, gnu::noinline]] bool filter_block_avx2(sign_type* signs,
-                                                                            std::size_t first,
                                                                             const Ranges&... p) {
-    return filter_block<Predicate>(signs, first, p...);
+    return filter_block<Predicate>(signs, p...);
 }
 template <class Predicate, class... Ranges>
 [[gnu::target("avx512f,avx512dq,avx512vl,avx512bw"), gnu::flatten, gnu::noinline]] bool
-filter_block_avx512(sign_type* signs, std::size_t first, const Ranges&... p) {
-    return filter_block<Predicate>(signs, first, p...);
+filter_block_avx512(sign_type* signs, const Ranges&... p) {
+    return filter_block<Predicate>(signs, p...);
 }
 template <class Predicate, class... Ranges>
 auto best_filter_block() {
@@ -121,13 +165,18 @@ auto best_filter_block() {
 }
 #endif
 
-template <class Predicate, class... Ranges>
-void batch_over(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
+template <class Predicate, class... Ranges, std::size_t... I>
+void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::index_sequence<I...>,
+                const Ranges&... p) {
     std::size_t first = 0;
-    if constexpr (!std::is_same_v<decltype(Predicate::estimate(p[first]...)), sign_type>) {
-        const auto filter = best_filter_block<Predicate, Ranges...>();
+    using estimate = decltype(Predicate::estimate(p[first]...));
+    if constexpr (!std::is_same_v<estimate, sign_type>) {
+        using T = decltype(estimate::value);
+        std::tuple blocks{blocks_of<T, Predicate::shape::dimensions[I]>(p)...};
+        const auto filter =
+            best_filter_block<Predicate, decltype(std::get<I>(blocks).at(first))...>();
         for (; first + block_size <= signs.size(); first += block_size) {
-            if (filter(&signs[first], first, p...)) [[likely]]
+            if (filter(&signs[first], std::get<I>(blocks).at(first)...)) [[likely]]
                 continue;
             for (std::size_t i = first; i < first + block_size; ++i)
                 if (!certain(signs[i])) signs[i] = predicate(p[i]...);
@@ -139,11 +188,12 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, const Ra
 }  // namespace detail
 
 /// signs[i] becomes the predicate's sign of point i of each range: anything indexed by numbers, of
-/// at least signs.size() points; contiguous ranges and coordinate_arrays are vectorised over.
+/// at least signs.size() points. Contiguous ranges of arrays, and coordinate_arrays, are read where
+/// they are; coordinates of others are copied first, 64 points at a time.
 /// Expressions that branch go one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
-    detail::batch_over(predicate, signs, detail::indexable(p)...);
+    detail::batch_over(predicate, signs, std::index_sequence_for<Ranges...>(), p...);
 }
 
 }  // namespace errbound

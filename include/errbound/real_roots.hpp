@@ -34,6 +34,12 @@ integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
             p.h.begin() + static_cast<std::ptrdiff_t>(last)};
 }
 
+/// Whether [a, b] is one: with numbers in it.
+inline bool is_interval(double a, double b) {
+    return a <= b && a < number_traits<double>::infinity() &&
+           b > -number_traits<double>::infinity();
+}
+
 /// The number of roots of the polynomial that is identically zero.
 inline constexpr std::size_t infinitely_many = std::numeric_limits<std::size_t>::max();
 
@@ -66,7 +72,7 @@ class real_roots {
 
     /// The roots in [a, b], a <= b, which may be infinite.
     real_roots(staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
-        assert(a <= b);
+        assert(is_interval(a, b));
         if (p_.is_zero()) {
             everywhere_ = true;
             return;
