@@ -231,6 +231,17 @@ TEST(Tracked, OverflowAndUnderflowEndUncertain) {
     check_range<errbound::none>();
 }
 
+TEST(Tracked, SafeKnowsNothingBeyondTheOperationsThatItCounts) {
+    tracked<double, errbound::safe> x = 1.0;
+    for (int i = 0; i < 29; ++i) x *= x;
+    EXPECT_TRUE(std::isfinite(x.error()));
+    for (int i = 0; i < 40; ++i) x *= x;  // 2^69 operations
+    EXPECT_TRUE(std::isinf(x.error()));
+    const tracked<double, errbound::safe> c = 0.1;
+    EXPECT_EQ(sign_of(x * (c - c)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(x), sign_type::uncertain);
+}
+
 TEST(Tracked, ARuleMayKnowMoreThanItsError) {
     using errbound::interval;
     using errbound::residual;

@@ -46,7 +46,8 @@ struct safe {
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
         const T x = T(b.operations) * traits::epsilon();
-        if (!(x <= 1) || !traits::is_finite(value)) return traits::infinity();
+        if (!(x <= 1) || b.operations == too_many || !traits::is_finite(value))
+            return traits::infinity();
         if (b.operations == 0) return T(0);
         return enlarged<T>(b.magnitude * enlarged<T>(x * (1 + x)) + traits::underflow_unit());
     }
@@ -92,8 +93,10 @@ struct safe {
     }
 
   private:
-    /// k + 1, saturated far above the k whose error() is infinite.
-    static constexpr int counted(int k) { return k < (1 << 29) ? k + 1 : k; }
+    /// From here on k is not counted any more, and nothing is known. Two of it fit an int.
+    static constexpr int too_many = 1 << 29;
+    /// k + 1
+    static constexpr int counted(int k) { return k < too_many - 1 ? k + 1 : too_many; }
 
     template <class T>
     static constexpr T enlarged(const T& x) {
