@@ -14,6 +14,22 @@ From Coq Require Import Reals ZArith Lia Lra Psatz.
 From Flocq Require Import Core Relative Plus_error.
 Open Scope R_scope.
 
+(** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
+Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 ->
+  (1 + e) ^ n <= 1 + INR n * e + (INR n * e) * (INR n * e).
+Proof.
+  intros P. induction n as [| n IH]; intros H.
+  - simpl. lra.
+  - rewrite S_INR in *. rewrite <- tech_pow_Rmult. set (x := INR n * e) in *.
+    replace ((INR n + 1) * e) with (x + e) in * by (unfold x; ring).
+    assert (0 <= x) by (apply Rmult_le_pos; auto; apply pos_INR).
+    assert (IH' : (1 + e) ^ n <= 1 + x + x * x) by (apply IH; lra).
+    apply Rle_trans with ((1 + e) * (1 + x + x * x)).
+    + apply Rmult_le_compat_l; lra.
+    + assert (x * x <= x) by nra.
+      assert (0 <= e * (x + e - x * x)) by (apply Rmult_le_pos; lra). nra.
+Qed.
+
 Section Format.
 
 Variables p emin : Z.

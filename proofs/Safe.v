@@ -296,22 +296,6 @@ Proof.
     + right. ring.
 Qed.
 
-(** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
-Lemma growth_quadratic e n : 0 <= e -> INR n * e <= 1 ->
-  (1 + e) ^ n <= 1 + INR n * e + (INR n * e) * (INR n * e).
-Proof.
-  intros P. induction n as [| n IH]; intros H.
-  - simpl. lra.
-  - rewrite S_INR in *. rewrite <- tech_pow_Rmult. set (x := INR n * e) in *.
-    replace ((INR n + 1) * e) with (x + e) in * by (unfold x; ring).
-    assert (0 <= x) by (apply Rmult_le_pos; auto; apply pos_INR).
-    assert (IH' : (1 + e) ^ n <= 1 + x + x * x) by (apply IH; lra).
-    apply Rle_trans with ((1 + e) * (1 + x + x * x)).
-    + apply Rmult_le_compat_l; lra.
-    + assert (x * x <= x) by nra.
-      assert (0 <= e * (x + e - x * x)) by (apply Rmult_le_pos; lra). nra.
-Qed.
-
 Hypothesis emin_2p : (emin <= 2 - 2 * p)%Z.
 
 Lemma error_sound a x B k bound :
@@ -358,7 +342,7 @@ Proof.
     assert (Grow : growth k - 1 <= s * (1 + s)).
     { unfold growth. assert (I : INR (Z.to_nat k) = IZR k).
       { rewrite INR_IZR_INZ, Z2Nat.id; auto. }
-      generalize (growth_quadratic eps (Z.to_nat k)). rewrite I. fold s. intros Q.
+      generalize (power_quadratic eps (Z.to_nat k)). rewrite I. fold s. intros Q.
       specialize (Q ltac:(lra) S1). lra. }
     apply Rle_trans with (B * y).
     { apply Rle_trans with (1 := H). apply Rmult_le_compat_l; lra. }
