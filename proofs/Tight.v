@@ -30,6 +30,9 @@ Definition rounding (v : R) : R := fl (Rabs v * fl (eps * fl (1 + eps))).
 Definition inflated (bound : R) : R := fl (bound * fl (1 + fl (8 * eps))).
 Definition is_zero (a sa : R) : bool := Req_bool a 0 && Req_bool sa 0.
 
+Definition tight_exact (a : R) : R := fl (a - a).
+(** For error >= 0. *)
+Definition tight_within (a error : R) : R := fl (error + fl (a - a)).
 Definition tight_add (v sa sb : R) : R := inflated (fl (rounding v + fl (sa + sb))).
 Definition tight_multiply (v a sa b sb : R) : R :=
   if is_zero a sa || is_zero b sb then rounding v
@@ -580,6 +583,17 @@ Proof.
     assert (0 <= 10 - 81 * e + e * e * (220 - 320 * e)) by nra.
     nra.
   - apply Rmult_le_compat_l; [lra | apply power_6_lower; lra].
+Qed.
+
+Theorem tight_exact_sound x : Rabs (x - x) <= tight_exact x.
+Proof.
+  unfold tight_exact. replace (x - x) with 0 by ring. rewrite Rabs_R0, rnd_0. lra.
+Qed.
+Theorem tight_within_sound a x error :
+  number error -> Rabs (a - x) <= error -> Rabs (a - x) <= tight_within a error.
+Proof.
+  intros N H. unfold tight_within. replace (a - a) with 0 by ring.
+  now rewrite rnd_0, Rplus_0_r, rnd_exact.
 Qed.
 
 (** The code's bounds are numbers, so that results may be operands. *)
