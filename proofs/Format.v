@@ -176,7 +176,8 @@ Qed.
 
 (** The rule's term for its own rounding: fl(|v| c), c >= eps, is at least the error of a sum that
     was rounded to v; of a product or quotient, together with h. *)
-Lemma ulp_covered v c : eps <= c -> smallest_normal <= Rabs v -> ulp radix2 format v <= rnd (Rabs v * c).
+Lemma ulp_covered v c :
+  eps <= c -> smallest_normal <= Rabs v -> ulp radix2 format v <= rnd (Rabs v * c).
 Proof.
   intros C V. apply rnd_above.
   - apply generic_format_ulp; auto with typeclass_instances.

@@ -606,7 +606,7 @@ Proof.
   replace (64 * INR (n + 3) * u) with (64 * (INR n * u + 3 * u)) in H
     by (rewrite plus_INR; simpl; ring).
   assert (Pt : 0 <= INR n * u) by (apply Rmult_le_pos; lra).
-  generalize (power_1 n) (power_1 (2 * n + 6)). 
+  generalize (power_1 n) (power_1 (2 * n + 6)).
   generalize dependent (INR n * u). generalize (power n) (power (2 * n + 6)).
   intros A B t H Pt PA PB HA HB. specialize (HA ltac:(lra) ltac:(lra)).
   specialize (HB ltac:(lra) ltac:(lra)).

@@ -579,7 +579,7 @@ Proof.
   - replace ((1 + 16 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e))
       with (1 + e * (10 - 81 * e + e * e * (220 - 320 * e))) by ring.
     assert (e * e <= e * / 8) by nra. assert (0 <= e * e) by nra.
-    assert (180 * (e * e) <= e * e * (220 - 320 * e)) by nra. 
+    assert (180 * (e * e) <= e * e * (220 - 320 * e)) by nra.
     assert (0 <= 10 - 81 * e + e * e * (220 - 320 * e)) by nra.
     nra.
   - apply Rmult_le_compat_l; [lra | apply power_6_lower; lra].
