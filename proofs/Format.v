@@ -1,0 +1,332 @@
+(** The floating-point format, its roundings, and what one operation costs.
+
+    A format is radix 2, precision p, smallest positive number eta = 2^emin (Flocq's FLT: gradual
+    underflow). There is no largest number here: a computation that overflows nowhere gives the same
+    numbers with one and without; what happens where it does is not part of these files.
+    "direction" is any of the ways to round to a neighbour (up, down, to zero, to nearest); what
+    holds for nearest only says so. Notation, that of the C++ headers:
+        eps = 2^(1-p)     the largest relative error of a rounding in any direction
+        u   = 2^-p        to nearest
+        eta = 2^emin      the smallest positive number
+        smallest_normal = 2^(emin+p-1); its ulp, and that of all below, is eta. *)
+
+From Coq Require Import Reals ZArith Lia Lra Psatz.
+From Flocq Require Import Core Relative Plus_error.
+Open Scope R_scope.
+
+(** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
+Lemma power_quadratic e n : 0 <= e -> INR n * e <= 1 ->
+  (1 + e) ^ n <= 1 + INR n * e + (INR n * e) * (INR n * e).
+Proof.
+  intros P. induction n as [| n IH]; intros H.
+  - simpl. lra.
+  - rewrite S_INR in *. rewrite <- tech_pow_Rmult. set (x := INR n * e) in *.
+    replace ((INR n + 1) * e) with (x + e) in * by (unfold x; ring).
+    assert (0 <= x) by (apply Rmult_le_pos; auto; apply pos_INR).
+    assert (IH' : (1 + e) ^ n <= 1 + x + x * x) by (apply IH; lra).
+    apply Rle_trans with ((1 + e) * (1 + x + x * x)).
+    + apply Rmult_le_compat_l; lra.
+    + assert (x * x <= x) by nra.
+      assert (0 <= e * (x + e - x * x)) by (apply Rmult_le_pos; lra). nra.
+Qed.
+
+Section Format.
+
+Variables p emin : Z.
+Context {p_positive : Prec_gt_0 p}.
+
+Notation format := (FLT_exp emin p).
+Definition number (x : R) : Prop := generic_format radix2 format x.
+Definition eps : R := bpow radix2 (1 - p).
+Definition u : R := bpow radix2 (- p).
+Definition eta : R := bpow radix2 emin.
+Definition smallest_normal : R := bpow radix2 (emin + p - 1).
+
+Lemma eps_positive : 0 < eps.
+Proof. apply bpow_gt_0. Qed.
+Lemma u_positive : 0 < u.
+Proof. apply bpow_gt_0. Qed.
+Lemma eta_positive : 0 < eta.
+Proof. apply bpow_gt_0. Qed.
+Lemma smallest_normal_positive : 0 < smallest_normal.
+Proof. apply bpow_gt_0. Qed.
+
+Lemma eps_2u : eps = 2 * u.
+Proof.
+  unfold eps, u. replace (1 - p)%Z with (1 + - p)%Z by lia. now rewrite bpow_plus.
+Qed.
+
+Lemma smallest_normal_eps : smallest_normal * eps = eta.
+Proof. unfold smallest_normal, eps, eta. rewrite <- bpow_plus. f_equal. lia. Qed.
+
+Lemma eta_le_smallest_normal : eta <= smallest_normal.
+Proof. apply bpow_le. unfold Prec_gt_0 in p_positive. lia. Qed.
+
+(** eps <= 2^(1-k) from k bits on. *)
+Lemma eps_le (k : Z) : (k <= p)%Z -> eps <= bpow radix2 (1 - k).
+Proof. intros H. apply bpow_le. lia. Qed.
+
+Lemma number_0 : number 0.
+Proof. apply generic_format_0. Qed.
+Lemma number_power (e : Z) : (emin <= e)%Z -> number (bpow radix2 e).
+Proof. apply generic_format_FLT_bpow. exact p_positive. Qed.
+Lemma number_eta : number eta.
+Proof. apply number_power. lia. Qed.
+Lemma number_smallest_normal : number smallest_normal.
+Proof. apply number_power. unfold Prec_gt_0 in p_positive. lia. Qed.
+Lemma number_opp x : number x -> number (- x).
+Proof. apply generic_format_opp. Qed.
+Lemma number_abs x : number x -> number (Rabs x).
+Proof. apply generic_format_abs. Qed.
+
+(** Integers times a power of two, of at most p bits. *)
+Lemma number_integer (n e : Z) :
+  (emin <= e)%Z -> (Z.abs n <= 2 ^ p)%Z -> number (IZR n * bpow radix2 e).
+Proof.
+  intros He Hn. unfold Prec_gt_0 in p_positive.
+  destruct (Z.eq_dec (Z.abs n) (2 ^ p)) as [E | E].
+  - destruct (Z.abs_spec n) as [[_ A] | [_ A]].
+    + rewrite <- A, E. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
+      rewrite <- bpow_plus. apply number_power. lia.
+    + replace n with (- Z.abs n)%Z by lia. rewrite E, opp_IZR, <- Ropp_mult_distr_l.
+      apply number_opp. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
+      rewrite <- bpow_plus. apply number_power. lia.
+  - apply generic_format_FLT. exists (Float radix2 n e); simpl; auto.
+    change 2%Z with (radix_val radix2) in E. simpl in *. lia.
+Qed.
+
+Section Rounding.
+
+Variable direction : R -> Z.
+Context {direction_valid : Valid_rnd direction}.
+
+(** The rounded value of a real number: fl(x). *)
+Definition rnd (x : R) : R := round radix2 format direction x.
+
+Lemma rnd_number x : number (rnd x).
+Proof. apply generic_format_round; auto with typeclass_instances. Qed.
+Lemma rnd_exact x : number x -> rnd x = x.
+Proof. intros H. apply round_generic; auto with typeclass_instances. Qed.
+Lemma rnd_le x y : x <= y -> rnd x <= rnd y.
+Proof. apply round_le; auto with typeclass_instances. Qed.
+Lemma rnd_0 : rnd 0 = 0.
+Proof. apply rnd_exact, number_0. Qed.
+Lemma rnd_above x y : number x -> x <= y -> x <= rnd y.
+Proof. intros N H. rewrite <- (rnd_exact x N). now apply rnd_le. Qed.
+Lemma rnd_below x y : number y -> x <= y -> rnd x <= y.
+Proof. intros N H. rewrite <- (rnd_exact y N). now apply rnd_le. Qed.
+Lemma rnd_nonnegative x : 0 <= x -> 0 <= rnd x.
+Proof. apply rnd_above, number_0. Qed.
+Lemma rnd_abs_above x y : number x -> x <= Rabs y -> x <= Rabs (rnd y).
+Proof. apply abs_round_ge_generic; auto with typeclass_instances. Qed.
+Lemma rnd_abs_below x y : number y -> Rabs x <= y -> Rabs (rnd x) <= y.
+Proof. apply abs_round_le_generic; auto with typeclass_instances. Qed.
+
+(** One rounding in any direction: within eps of the exact result, or within eta where that is
+    smaller than the smallest normal number. *)
+Lemma relative_error_any x : smallest_normal <= Rabs x -> Rabs (rnd x - x) <= eps * Rabs x.
+Proof.
+  intros H. unfold eps. replace (1 - p)%Z with (- p + 1)%Z by lia.
+  apply Rlt_le, relative_error_FLT; auto with typeclass_instances.
+Qed.
+Lemma absolute_error_any x : Rabs x < smallest_normal -> Rabs (rnd x - x) <= eta.
+Proof.
+  intros H. unfold eta. rewrite <- (ulp_FLT_small radix2 emin p x).
+  - apply error_le_ulp; auto with typeclass_instances.
+  - apply Rlt_le_trans with (1 := H). apply bpow_le. lia.
+Qed.
+
+(** What the proofs need of a rounding: r is its largest relative error, h its largest error below
+    the smallest normal number. *)
+Record rounding_error (r h : R) : Prop := {
+  error_relative : forall x, smallest_normal <= Rabs x -> Rabs (rnd x - x) <= r * Rabs x;
+  error_absolute : forall x, Rabs x < smallest_normal -> Rabs (rnd x - x) <= h;
+  error_r : 0 <= r <= eps;
+  error_r_1 : r < 1;
+  error_h : 0 <= h <= eta
+}.
+
+Lemma rounding_error_any : (2 <= p)%Z -> rounding_error eps eta.
+Proof.
+  intros P. split.
+  - apply relative_error_any.
+  - apply absolute_error_any.
+  - generalize eps_positive; lra.
+  - apply Rle_lt_trans with (1 := eps_le 2 P). simpl. lra.
+  - generalize eta_positive; lra.
+Qed.
+
+(** Sums that underflow are exact: up to 2^p eta, and that is twice the smallest normal number. *)
+Lemma sum_exact x y :
+  number x -> number y -> Rabs (x + y) <= bpow radix2 (p + emin) -> number (x + y).
+Proof. apply FLT_format_plus_small. exact p_positive. Qed.
+
+Lemma twice_smallest_normal : bpow radix2 (p + emin) = 2 * smallest_normal.
+Proof.
+  unfold smallest_normal. replace (p + emin)%Z with (1 + (emin + p - 1))%Z by lia.
+  now rewrite bpow_plus.
+Qed.
+
+Lemma sum_exact_below x y :
+  number x -> number y -> Rabs (x + y) < smallest_normal -> rnd (x + y) = x + y.
+Proof.
+  intros X Y H. apply rnd_exact, sum_exact; auto. rewrite twice_smallest_normal.
+  generalize smallest_normal_positive. lra.
+Qed.
+
+(** The rule's term for its own rounding: fl(|v| c), c >= eps, is at least the error of a sum that
+    was rounded to v; of a product or quotient, together with h. *)
+Lemma ulp_covered v c :
+  eps <= c -> smallest_normal <= Rabs v -> ulp radix2 format v <= rnd (Rabs v * c).
+Proof.
+  intros C V. apply rnd_above.
+  - apply generic_format_ulp; auto with typeclass_instances.
+  - apply Rle_trans with (Rabs v * eps).
+    + apply ulp_FLT_le; auto.
+    + apply Rmult_le_compat_l; auto. apply Rabs_pos.
+Qed.
+
+Lemma rounding_of_normal s c :
+  eps <= c -> smallest_normal <= Rabs s -> Rabs (rnd s - s) <= rnd (Rabs (rnd s) * c).
+Proof.
+  intros C S. apply Rle_trans with (ulp radix2 format (rnd s)).
+  - apply error_le_ulp_round; auto with typeclass_instances.
+  - apply ulp_covered; auto. apply rnd_abs_above; auto. apply number_smallest_normal.
+Qed.
+
+Lemma rounding_term_nonnegative v c : 0 <= c -> 0 <= rnd (Rabs v * c).
+Proof. intros C. apply rnd_nonnegative. apply Rmult_le_pos; auto. apply Rabs_pos. Qed.
+
+Lemma rounding_of_sum x y c :
+  number x -> number y -> eps <= c ->
+  Rabs (rnd (x + y) - (x + y)) <= rnd (Rabs (rnd (x + y)) * c).
+Proof.
+  intros X Y C. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
+  - rewrite (sum_exact_below x y X Y S) at 1.
+    replace (x + y - (x + y)) with 0 by ring. rewrite Rabs_R0.
+    apply rounding_term_nonnegative. generalize eps_positive; lra.
+  - now apply rounding_of_normal.
+Qed.
+
+Lemma rounding_of_any s c r h :
+  rounding_error r h -> eps <= c -> Rabs (rnd s - s) <= rnd (Rabs (rnd s) * c) + h.
+Proof.
+  intros E C. destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
+  - generalize (error_absolute r h E s S).
+    assert (0 <= rnd (Rabs (rnd s) * c)).
+    { apply rounding_term_nonnegative. generalize eps_positive; lra. }
+    lra.
+  - generalize (rounding_of_normal s c C S) (error_h r h E). lra.
+Qed.
+
+(** Lower ends of what a rounding leaves of a number that is not negative. *)
+Section Lower.
+
+Variables r h : R.
+Hypothesis E : rounding_error r h.
+
+Lemma rnd_relative x : smallest_normal <= x -> x * (1 - r) <= rnd x.
+Proof.
+  intros H. generalize smallest_normal_positive; intros M.
+  assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
+  generalize (error_relative r h E x). rewrite A. intros B. specialize (B H).
+  apply Rabs_le_inv in B. lra.
+Qed.
+
+Lemma rnd_absolute x : 0 <= x -> x < smallest_normal -> x - h <= rnd x <= x + h.
+Proof.
+  intros P H. assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
+  generalize (error_absolute r h E x). rewrite A. intros B. specialize (B H).
+  apply Rabs_le_inv in B. lra.
+Qed.
+
+(** Of any number: one of both is lost. *)
+Lemma rnd_lower x : 0 <= x -> x * (1 - r) - h <= rnd x.
+Proof.
+  intros P. generalize (error_r r h E) (error_r_1 r h E) (error_h r h E); intros.
+  destruct (Rlt_or_le x smallest_normal) as [S | S].
+  - generalize (rnd_absolute x P S). nra.
+  - generalize (rnd_relative x S). lra.
+Qed.
+
+Lemma rnd_normal x : smallest_normal <= x -> smallest_normal <= rnd x.
+Proof. apply rnd_above, number_smallest_normal. Qed.
+
+Lemma rnd_subnormal x : rnd x < smallest_normal -> x < smallest_normal.
+Proof.
+  intros H. apply Rnot_le_lt. intros C. apply rnd_normal in C. lra.
+Qed.
+
+(** A sum of numbers that are not negative loses r of itself; nothing below the smallest normal
+    number. *)
+Lemma sum_relative x y :
+  number x -> number y -> 0 <= x -> 0 <= y -> (x + y) * (1 - r) <= rnd (x + y).
+Proof.
+  intros X Y PX PY. destruct (Rlt_or_le (x + y) smallest_normal) as [S | S].
+  - rewrite sum_exact_below; auto.
+    + generalize (error_r r h E). nra.
+    + rewrite Rabs_pos_eq; lra.
+  - now apply rnd_relative.
+Qed.
+
+Lemma sum_subnormal x y :
+  number x -> number y -> 0 <= x -> 0 <= y -> rnd (x + y) < smallest_normal ->
+  rnd (x + y) = x + y.
+Proof.
+  intros X Y PX PY H. apply rnd_subnormal in H. apply sum_exact_below; auto.
+  rewrite Rabs_pos_eq; lra.
+Qed.
+
+(** The error of a sum in units of the exact sum. *)
+Lemma sum_error x y : number x -> number y -> Rabs (rnd (x + y) - (x + y)) <= r * Rabs (x + y).
+Proof.
+  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
+  - rewrite sum_exact_below; auto. replace (x + y - (x + y)) with 0 by ring.
+    rewrite Rabs_R0. apply Rmult_le_pos. apply (error_r r h E). apply Rabs_pos.
+  - now apply (error_relative r h E).
+Qed.
+
+(** Multiplying by a factor f >= 1 loses nothing below the smallest normal number. *)
+Lemma scaled_up x f : number x -> 0 <= x -> 1 <= f -> x <= rnd (x * f).
+Proof. intros X P H. apply rnd_above; auto. nra. Qed.
+
+Lemma inflated_relative x f :
+  number x -> smallest_normal <= x -> 1 <= f -> x * f * (1 - r) <= rnd (x * f).
+Proof.
+  intros X P H. apply rnd_relative. generalize smallest_normal_positive. nra.
+Qed.
+
+End Lower.
+End Rounding.
+
+(** Rounding to nearest, ties to even. *)
+Notation nearest := (Znearest (fun n => negb (Z.even n))).
+Definition rnd_nearest (x : R) : R := rnd nearest x.
+
+Lemma rounding_error_nearest : (1 <= p)%Z -> rounding_error nearest u (eta / 2).
+Proof.
+  intros P. split.
+  - intros x H. replace u with (/ 2 * bpow radix2 (- p + 1)).
+    + apply relative_error_N_FLT; auto.
+    + rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
+  - intros x H. replace (eta / 2) with (/ 2 * ulp radix2 format x).
+    + apply error_le_half_ulp; auto with typeclass_instances.
+    + unfold eta. rewrite ulp_FLT_small; auto. field.
+      apply Rlt_le_trans with (1 := H). apply bpow_le. lia.
+  - rewrite eps_2u. generalize u_positive. lra.
+  - generalize (eps_le 1 P) eps_2u u_positive. simpl. lra.
+  - generalize eta_positive. lra.
+Qed.
+
+(** In units of the result: x is at most (1 + u) fl(x). *)
+Lemma nearest_relative_to_result x :
+  smallest_normal <= Rabs x -> Rabs (rnd_nearest x - x) <= u * Rabs (rnd_nearest x).
+Proof.
+  intros H. replace u with (/ 2 * bpow radix2 (- p + 1)).
+  - apply relative_error_N_FLT_round; auto.
+  - rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
+Qed.
+
+End Format.
+
+Notation nearest := (Znearest (fun n => negb (Z.even n))).

@@ -1,0 +1,716 @@
+(** Bound rule `tight` (include/errbound/rules/tight.hpp): TightBound, as the C++ code computes it.
+
+    A number x is known by a value a and a bound sa, |a - x| <= sa. Results:
+        tight_add_sound, tight_subtract_sound, tight_multiply_sound, tight_divide_sound
+    rounding in any one direction, from 5 bits on;
+        tight_add_sound_nearest, ... _multiply_..., ... _divide_...
+    rounding to nearest, ties to even, from 3 bits on. Both need u to be a number (emin <= -p), as
+    it is in every IEEE format. *)
+
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
+Open Scope R_scope.
+
+Section Tight.
+
+Variables p emin : Z.
+Context {p_positive : Prec_gt_0 p}.
+Variable direction : R -> Z.
+Context {direction_valid : Valid_rnd direction}.
+
+Notation fl := (rnd p emin direction).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
+
+(** The code, in its order of evaluation. *)
+Definition rounding (v : R) : R := fl (Rabs v * fl (eps * fl (1 + eps))).
+Definition inflated (bound : R) : R := fl (bound * fl (1 + fl (8 * eps))).
+Definition is_zero (a sa : R) : bool := Req_bool a 0 && Req_bool sa 0.
+
+Definition tight_exact (a : R) : R := fl (a - a).
+(** For error >= 0. *)
+Definition tight_within (a error : R) : R := fl (error + fl (a - a)).
+Definition tight_add (v sa sb : R) : R := inflated (fl (rounding v + fl (sa + sb))).
+Definition tight_multiply (v a sa b sb : R) : R :=
+  if is_zero a sa || is_zero b sb then rounding v
+  else
+    let inherited := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb))) in
+    inflated (fl (fl (rounding v + inherited) + fl (4 * eta))).
+(** None: the result is unknown (the bound is infinite). *)
+Definition tight_divide (v a sa b sb : R) : option R :=
+  let distance := fl (Rabs b - sb) in
+  if negb (Rlt_bool 0 distance) then None
+  else if is_zero a sa then Some (rounding v)
+  else
+    let quotient := inflated (fl (Rabs v + eta)) in
+    let lost := if Rlt_bool 0 sb then fl (4 * eta) else 0 in
+    let inherited := fl (fl (fl (sa + fl (quotient * sb)) + lost) / distance) in
+    Some (inflated (fl (fl (rounding v + inflated inherited) + fl (4 * eta)))).
+
+(** The format's facts, for this direction. *)
+Let rnd_exact := Format.rnd_exact p emin direction.
+Let rnd_number := Format.rnd_number p emin direction.
+Let rnd_le := Format.rnd_le p emin direction.
+Let rnd_above := Format.rnd_above p emin direction.
+Let rnd_below := Format.rnd_below p emin direction.
+Let rnd_nonnegative := Format.rnd_nonnegative p emin direction.
+Let rnd_0 := Format.rnd_0 p emin direction.
+Let rnd_subnormal := Format.rnd_subnormal p emin direction.
+Let sum_subnormal := Format.sum_subnormal p emin direction.
+Let scaled_up := Format.scaled_up p emin direction.
+
+(** The proof, from what one rounding does: off by r of the result, or by h below the smallest
+    normal number. *)
+Section Proof.
+
+Hypothesis p_3 : (3 <= p)%Z.
+Hypothesis emin_p : (emin <= - p)%Z.
+Variables r h : R.
+Hypothesis E : rounding_error p emin direction r h.
+Let sum_relative := Format.sum_relative p emin direction r h E.
+Let rnd_absolute := Format.rnd_absolute p emin direction r h E.
+Let rnd_lower := Format.rnd_lower p emin direction r h E.
+Let rnd_relative := Format.rnd_relative p emin direction r h E.
+Let sum_error := Format.sum_error p emin direction r h E.
+Let inflated_relative := Format.inflated_relative p emin direction r h E.
+Let f := 1 + 8 * eps.
+Let q := 1 - r.
+Hypothesis f_q6 : 1 <= f * (q * q * q * q * q * q).
+Hypothesis h_f : h * (2 + f) <= 4 * eta.
+
+Lemma f_1 : 1 <= f.
+Proof. unfold f. generalize (eps_positive p). lra. Qed.
+Lemma q_1 : 0 < q <= 1.
+Proof. unfold q. generalize (error_r _ _ _ _ _ E) (error_r_1 _ _ _ _ _ E). lra. Qed.
+
+Lemma number_1 : number 1.
+Proof. change 1 with (bpow radix2 0). apply number_power; auto. unfold Prec_gt_0 in *. lia. Qed.
+Lemma number_eps : number eps.
+Proof. apply number_power; auto. lia. Qed.
+Lemma number_4_eta : number (4 * eta).
+Proof.
+  replace (4 * eta) with (bpow radix2 (2 + emin)).
+  - apply number_power; auto. lia.
+  - rewrite bpow_plus. reflexivity.
+Qed.
+
+(** The factor 1 + 8 eps is a number, also for three bits (it is 3 there). *)
+Lemma number_f : number f.
+Proof.
+  unfold f, Format.eps. destruct (Z.eq_dec p 3) as [P | P].
+  - rewrite P at 2. replace (1 + 8 * bpow radix2 (1 - 3)) with (IZR 3 * bpow radix2 0).
+    + apply number_integer; auto; try lia. rewrite P. simpl. lia.
+    + simpl. lra.
+  - replace (1 + 8 * bpow radix2 (1 - p)) with (IZR (2 ^ (p - 4) + 1) * bpow radix2 (4 - p)).
+    + apply number_integer; auto; try lia.
+      assert (1 <= 2 ^ (p - 4))%Z by (apply (Z.pow_le_mono_r 2 0); lia).
+      rewrite Z.abs_eq by lia. replace p with (p - 4 + 4)%Z at 2 by lia.
+      rewrite Z.pow_add_r by lia. simpl (2 ^ 4)%Z. lia.
+    + rewrite plus_IZR, Rmult_plus_distr_r.
+      change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus.
+      replace (p - 4 + (4 - p))%Z with 0%Z by lia.
+      replace (4 - p)%Z with (3 + (1 - p))%Z by lia. rewrite bpow_plus. simpl. lra.
+Qed.
+
+Lemma inflated_exact x : inflated x = fl (x * f).
+Proof.
+  unfold inflated. rewrite (rnd_exact (8 * eps)).
+  - now rewrite (rnd_exact (1 + 8 * eps) number_f).
+  - replace (8 * eps) with (bpow radix2 (3 + (1 - p))).
+    + apply number_power; auto. lia.
+    + rewrite bpow_plus. reflexivity.
+Qed.
+
+(** The rule's rounding term is at least the error of its operation. *)
+Lemma rounding_factor : eps <= fl (eps * fl (1 + eps)).
+Proof.
+  assert (1 <= fl (1 + eps)).
+  { apply rnd_above; auto using number_1. generalize (eps_positive p). lra. }
+  apply rnd_above; auto using number_eps. generalize (eps_positive p). nra.
+Qed.
+Lemma rounding_nonnegative v : 0 <= rounding v.
+Proof.
+  apply rounding_term_nonnegative; auto. generalize (eps_positive p) rounding_factor. lra.
+Qed.
+Lemma rounding_sum x y :
+  number x -> number y -> Rabs (fl (x + y) - (x + y)) <= rounding (fl (x + y)).
+Proof. intros. apply rounding_of_sum; auto. apply rounding_factor. Qed.
+Lemma rounding_any s : Rabs (fl s - s) <= rounding (fl s) + h.
+Proof. apply rounding_of_any with r; auto. apply rounding_factor. Qed.
+Lemma rounding_0 : rounding (fl 0) = 0.
+Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l by auto. now apply rnd_0. Qed.
+
+(** Fewer roundings than six. *)
+Lemma f_q5 : 1 <= f * (q * q * q * q * q).
+Proof.
+  apply Rle_trans with (1 := f_q6). generalize f_1 q_1; intros.
+  replace (f * (q * q * q * q * q * q)) with (f * (q * q * q * q * q) * q) by ring.
+  assert (0 <= f * (q * q * q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
+Qed.
+Lemma f_q4 : 1 <= f * (q * q * q * q).
+Proof.
+  apply Rle_trans with (1 := f_q5). generalize f_1 q_1; intros.
+  replace (f * (q * q * q * q * q)) with (f * (q * q * q * q) * q) by ring.
+  assert (0 <= f * (q * q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
+Qed.
+Lemma f_q3 : 1 <= f * (q * q * q).
+Proof.
+  apply Rle_trans with (1 := f_q4). generalize f_1 q_1; intros.
+  replace (f * (q * q * q * q)) with (f * (q * q * q) * q) by ring.
+  assert (0 <= f * (q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
+Qed.
+
+(** A sum of three, inflated, is at least the exact sum: nothing is lost below the smallest normal
+    number, and the factor pays for three roundings above. *)
+Lemma inflated_sum_left x y z :
+  number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z ->
+  x + y + z <= inflated (fl (fl (x + y) + z)).
+Proof.
+  intros X Y Z PX PY PZ. rewrite inflated_exact. generalize f_1 q_1 f_q3; intros.
+  assert (N : 0 <= fl (x + y)) by (apply rnd_nonnegative; auto; lra).
+  set (s := fl (fl (x + y) + z)).
+  assert (S : number s) by (apply rnd_number; auto).
+  assert (NS : fl (x + y) <= s) by (apply rnd_above; [apply rnd_number | lra]).
+  destruct (Rlt_or_le s smallest_normal) as [C | C].
+  - apply Rle_trans with s.
+    + unfold s. rewrite (sum_subnormal _ z); auto using rnd_number.
+      rewrite (sum_subnormal x y); auto; lra.
+    + apply scaled_up; auto. lra.
+  - apply Rle_trans with (s * f * q).
+    + generalize (sum_relative x y X Y PX PY).
+      generalize (sum_relative (fl (x + y)) z
+                    (rnd_number _) Z N PZ).
+      fold s q. intros A B.
+      assert (D : (x + y + z) * (q * q) <= s).
+      { apply Rle_trans with ((fl (x + y) + z) * q); auto.
+        replace ((x + y + z) * (q * q)) with (((x + y) * q + z * q) * q) by ring.
+        apply Rmult_le_compat_r; nra. }
+      apply Rle_trans with ((x + y + z) * (q * q) * (f * q)).
+      * replace ((x + y + z) * (q * q) * (f * q)) with ((x + y + z) * (f * (q * q * q))) by ring.
+        nra.
+      * replace (s * f * q) with (s * (f * q)) by ring. apply Rmult_le_compat_r; auto. nra.
+    + apply inflated_relative; auto.
+Qed.
+Lemma inflated_sum_right x y z :
+  number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z ->
+  x + (y + z) <= inflated (fl (x + fl (y + z))).
+Proof.
+  intros. rewrite (Rplus_comm x (fl _)), (Rplus_comm x).
+  now apply inflated_sum_left.
+Qed.
+
+Lemma add_sound a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a + b) - (x + y)) <= tight_add (fl (a + b)) sa sb.
+Proof.
+  intros A B SA SB HA HB.
+  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+  assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
+  apply Rle_trans with (rounding (fl (a + b)) + (sa + sb)).
+  - replace (fl (a + b) - (x + y)) with ((fl (a + b) - (a + b)) + ((a - x) + (b - y))) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+    + now apply rounding_sum.
+    + apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  - apply inflated_sum_right; auto using rounding_nonnegative. apply rnd_number; auto.
+Qed.
+
+(** What the operands' bounds make of an exact product. *)
+Lemma product_inherits a x sa b y sb :
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (a * b - x * y) <= Rabs a * sb + sa * (Rabs b + sb).
+Proof.
+  intros HA HB.
+  replace (a * b - x * y) with (a * (b - y) + (a - x) * y) by ring.
+  apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_mult. apply Rplus_le_compat.
+  - apply Rmult_le_compat_l; auto. apply Rabs_pos.
+  - apply Rmult_le_compat; auto using Rabs_pos.
+    replace y with (b - (b - y)) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra.
+Qed.
+
+Lemma is_zero_true a sa : is_zero a sa = true -> a = 0 /\ sa = 0.
+Proof.
+  unfold is_zero. intros H. apply andb_prop in H. destruct H as [H1 H2]. split.
+  - revert H1. now case Req_bool_spec.
+  - revert H2. now case Req_bool_spec.
+Qed.
+Lemma within_0 a x : Rabs (a - x) <= 0 -> a = x.
+Proof.
+  intros H. generalize (Rabs_pos (a - x)); intros. enough (a - x = 0) by lra.
+  destruct (Req_dec (a - x) 0); auto. apply Rabs_no_R0 in H1. lra.
+Qed.
+
+Lemma multiply_sound a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a * b) - x * y) <= tight_multiply (fl (a * b)) a sa b sb.
+Proof.
+  intros A B SA SB HA HB.
+  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+  assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
+  unfold tight_multiply. cbv zeta.
+  destruct (is_zero a sa || is_zero b sb) eqn:Zero.
+  { (* an exact zero *)
+    apply orb_prop in Zero.
+    assert (Z0 : a * b = 0 /\ x * y = 0).
+    { destruct Zero as [Zero | Zero]; apply is_zero_true in Zero; destruct Zero as [Z1 Z2].
+      - rewrite Z2 in HA. apply within_0 in HA. rewrite <- HA, Z1. lra.
+      - rewrite Z2 in HB. apply within_0 in HB. rewrite <- HB, Z1. lra. }
+    destruct Z0 as [-> ->]. rewrite rounding_0, rnd_0 by auto.
+    rewrite Rminus_0_r, Rabs_R0. lra. }
+  rewrite (rnd_exact (4 * eta) number_4_eta).
+  set (v := fl (a * b)). set (R := rounding v).
+  set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
+  set (I := fl (P1 + P2)).
+  generalize (Rabs_pos a) (Rabs_pos b) (eta_positive emin) (error_h _ _ _ _ _ E)
+    (error_r _ _ _ _ _ E) f_1 q_1; intros.
+  assert (NR : number R) by (apply rnd_number; auto).
+  assert (PR : 0 <= R) by apply rounding_nonnegative.
+  assert (Nt : number t) by (apply rnd_number; auto).
+  assert (N1 : number P1) by (apply rnd_number; auto).
+  assert (N2 : number P2) by (apply rnd_number; auto).
+  assert (NI : number I) by (apply rnd_number; auto).
+  assert (Pt : 0 <= t) by (apply rnd_nonnegative; auto; lra).
+  assert (Pos1 : 0 <= P1) by (apply rnd_nonnegative; auto; apply Rmult_le_pos; lra).
+  assert (Pos2 : 0 <= P2) by (apply rnd_nonnegative; auto; apply Rmult_le_pos; lra).
+  assert (PI : 0 <= I) by (apply rnd_nonnegative; auto; lra).
+  set (K := Rabs a * sb). set (T := sa * (Rabs b + sb)).
+  assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
+  assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
+  assert (Ht : T * q <= sa * t).
+  { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto.
+    apply sum_relative; auto. now apply number_abs. }
+  (* the exact bound *)
+  apply Rle_trans with (R + h + (K + T)).
+  { replace (v - x * y) with ((v - a * b) + (a * b - x * y)) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+    - apply rounding_any.
+    - now apply product_inherits. }
+  rewrite inflated_exact.
+  set (S := fl (fl (R + I) + 4 * eta)).
+  assert (NS : number S) by (apply rnd_number; auto).
+  assert (PRI : 0 <= fl (R + I)) by (apply rnd_nonnegative; auto; lra).
+  assert (LRI : fl (R + I) <= S).
+  { apply rnd_above; [apply rnd_number | lra]. }
+  assert (LI : I <= fl (R + I)) by (apply rnd_above; auto; lra).
+  assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
+  destruct (Rlt_or_le S smallest_normal) as [C | C].
+  - (* all sums are exact; what the products lost is at most 4 eta *)
+    apply Rle_trans with S; [| apply scaled_up; auto; lra].
+    assert (EI : I = P1 + P2).
+    { apply (sum_subnormal P1 P2); auto. fold I. lra. }
+    assert (ER : fl (R + I) = R + I).
+    { apply (sum_subnormal R I); auto. lra. }
+    assert (ES : S = fl (R + I) + 4 * eta).
+    { apply (sum_subnormal _ (4 * eta)); auto using number_4_eta, rnd_number.
+      lra. }
+    assert (C1 : K < smallest_normal).
+    { apply rnd_subnormal. change (fl K) with P1. lra. }
+    assert (C2 : sa * t < smallest_normal).
+    { apply rnd_subnormal. fold P2. lra. }
+    assert (D1 : K - h <= P1) by (apply rnd_absolute; auto).
+    assert (D2 : sa * t - h <= P2).
+    { apply rnd_absolute; auto. apply Rmult_le_pos; lra. }
+    enough (T - eta <= sa * t) by lra.
+    destruct (Rle_or_lt T smallest_normal) as [CT | CT].
+    + assert (T * r <= eta).
+      { rewrite <- (smallest_normal_eps p emin). apply Rmult_le_compat; lra. }
+      unfold q in Ht. lra.
+    + (* then the product would not be that small *)
+      exfalso.
+      assert (smallest_normal * q <= T * q) by (apply Rmult_le_compat_r; lra).
+      assert (smallest_normal * r <= eta).
+      { rewrite <- (smallest_normal_eps p emin). apply Rmult_le_compat_l; lra. }
+      unfold q in *. lra.
+  - (* six roundings at most *)
+    apply Rle_trans with (S * f * q); [| apply inflated_relative; auto].
+    generalize (rnd_lower K PK). change (fl K) with P1. fold q. intros D1.
+    generalize (rnd_lower (sa * t) ltac:(apply Rmult_le_pos; lra)).
+    fold P2 q. intros D2.
+    generalize (sum_relative P1 P2 N1 N2 Pos1 Pos2). fold I q. intros D3.
+    generalize (sum_relative R I NR NI PR PI). fold q. intros D4.
+    generalize (sum_relative (fl (R + I)) (4 * eta)
+                  (rnd_number _) number_4_eta PRI ltac:(lra)).
+    fold S q. intros D5.
+    assert (G : (R + (K + T)) * (q * q * q * q * q) + 2 * eta * q <= S).
+    { apply Rle_trans with (2 := D5).
+      apply Rle_trans with ((((R + ((K * q - h) + (T * q * q - h)) * q) * q) + 4 * eta) * q).
+      - assert (q * q <= 1) by nra. assert (0 <= q * q) by nra.
+        assert (Q3 : q * q * q <= 1) by nra. assert (0 <= q * q * q) by nra.
+        assert (R * (q * q * q * q * q) <= R * (q * q)).
+        { apply Rmult_le_compat_l; auto.
+          replace (q * q * q * q * q) with (q * q * (q * q * q)) by ring. nra. }
+        assert (K * (q * q * q * q * q) <= K * (q * q * q * q)).
+        { apply Rmult_le_compat_l; auto.
+          assert (0 <= q * q * q * q) by (repeat apply Rmult_le_pos; lra). nra. }
+        assert (h * (q * q * q) <= eta * q).
+        { apply Rle_trans with (eta * (q * q * q)); [apply Rmult_le_compat_r; lra |].
+          replace (eta * (q * q * q)) with (eta * q * (q * q)) by ring.
+          assert (0 <= eta * q) by (apply Rmult_le_pos; lra). nra. }
+        lra.
+      - apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat_r.
+        apply Rle_trans with (2 := D4). apply Rmult_le_compat_r; [lra |].
+        apply Rplus_le_compat_l. apply Rle_trans with (2 := D3).
+        apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat; auto.
+        apply Rle_trans with (2 := D2). apply Rplus_le_compat_r, Rmult_le_compat_r; lra. }
+    generalize f_q6 f_q3; intros.
+    apply Rle_trans with (((R + (K + T)) * (q * q * q * q * q) + 2 * eta * q) * (f * q)).
+    + replace (((R + (K + T)) * (q * q * q * q * q) + 2 * eta * q) * (f * q))
+        with ((R + (K + T)) * (f * (q * q * q * q * q * q)) + 2 * eta * (f * (q * q))) by ring.
+      assert (1 <= f * (q * q)).
+      { replace (f * (q * q * q)) with (f * (q * q) * q) in * by ring.
+        assert (0 <= f * (q * q)) by (repeat apply Rmult_le_pos; lra). nra. }
+      nra.
+    + replace (S * f * q) with (S * (f * q)) by ring. apply Rmult_le_compat_r; auto.
+      apply Rmult_le_pos; lra.
+Qed.
+
+(** The printed rule's bound of an exact quotient, multiplied out. *)
+Lemma quotient_inherits a x sa b y sb :
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> 0 < Rabs b - sb ->
+  Rabs (a / b - x / y) <= (sa + Rabs (a / b) * sb) / (Rabs b - sb).
+Proof.
+  intros HA HB D.
+  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+  assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
+  assert (Y : Rabs b - sb <= Rabs y).
+  { assert (Rabs b <= Rabs (b - y) + Rabs y).
+    { replace b with ((b - y) + y) at 1 by ring. apply Rabs_triang. }
+    lra. }
+  assert (B0 : b <> 0).
+  { intros ->. rewrite Rabs_R0 in D. lra. }
+  assert (Y0 : y <> 0).
+  { intros ->. rewrite Rabs_R0 in Y. lra. }
+  replace (a / b - x / y) with (((a - x) + a / b * (y - b)) * / y) by (field; auto).
+  rewrite Rabs_mult, Rabs_inv. apply Rmult_le_compat.
+  - apply Rabs_pos.
+  - apply Rlt_le, Rinv_0_lt_compat, Rabs_pos_lt; auto.
+  - apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_mult.
+    rewrite (Rabs_minus_sym y b). apply Rplus_le_compat; auto.
+    apply Rmult_le_compat_l; auto. apply Rabs_pos.
+  - apply Rinv_le; auto.
+Qed.
+
+(** The code's own bound of |a/b|. *)
+Lemma quotient_covered s : Rabs s <= inflated (fl (Rabs (fl s) + eta)).
+Proof.
+  rewrite inflated_exact. set (w := fl (Rabs (fl s) + eta)).
+  generalize (eta_positive emin) (error_h _ _ _ _ _ E) (error_r _ _ _ _ _ E) f_1 q_1 f_q3
+    (Rabs_pos s) (Rabs_pos (fl s)); intros.
+  assert (N : number (Rabs (fl s))) by (apply number_abs, rnd_number).
+  assert (W : number w) by apply rnd_number.
+  assert (PW : 0 <= w) by (apply rnd_nonnegative; lra).
+  assert (B : Rabs s <= Rabs (fl s) + Rabs (fl s - s)).
+  { rewrite Rabs_minus_sym. replace s with ((s - fl s) + fl s) at 1 by ring.
+    generalize (Rabs_triang (s - fl s) (fl s)). lra. }
+  destruct (Rlt_or_le w smallest_normal) as [C | C].
+  - apply Rle_trans with w; [| apply scaled_up; auto; lra].
+    unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
+    enough (Rabs (fl s - s) <= h) by lra.
+    apply (error_absolute _ _ _ _ _ E). apply Rnot_le_lt. intros S.
+    apply (rnd_abs_above p emin direction) in S; auto using number_smallest_normal.
+    assert (Rabs (fl s) <= w) by (apply rnd_above; auto; lra). lra.
+  - apply Rle_trans with (w * f * q); [| apply inflated_relative; auto].
+    assert (A : Rabs s * q <= Rabs (fl s) + eta).
+    { destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
+      - generalize (error_absolute _ _ _ _ _ E s S). intros. nra.
+      - generalize (error_relative _ _ _ _ _ E s S). intros. unfold q. lra. }
+    generalize (sum_relative (Rabs (fl s)) eta N (number_eta p emin)
+                  (Rabs_pos _) ltac:(lra)). fold w q. intros G.
+    assert (K : Rabs s * (q * q) <= w).
+    { apply Rle_trans with (2 := G). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
+    apply Rle_trans with (Rabs s * (q * q) * (f * q)).
+    + replace (Rabs s * (q * q) * (f * q)) with (Rabs s * (f * (q * q * q))) by ring. nra.
+    + replace (w * f * q) with (w * (f * q)) by ring. apply Rmult_le_compat_r; auto.
+      apply Rmult_le_pos; lra.
+Qed.
+
+Lemma divide_sound a x sa b y sb bound :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  tight_divide (fl (a / b)) a sa b sb = Some bound ->
+  y <> 0 /\ Rabs (fl (a / b) - x / y) <= bound.
+Proof.
+  intros A B SA SB HA HB HT.
+  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+  assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
+  generalize (eta_positive emin) (error_h _ _ _ _ _ E) (error_r _ _ _ _ _ E) f_1 q_1; intros.
+  revert HT. unfold tight_divide. cbv zeta. set (d := fl (Rabs b - sb)). set (D := Rabs b - sb).
+  destruct (Rlt_bool_spec 0 d) as [Pd | Pd]; simpl; [| discriminate].
+  assert (PD : 0 < D).
+  { apply Rnot_le_lt. intros C. apply (rnd_below _ 0) in C; auto using number_0.
+    fold d in C. unfold D in C. fold d in C. lra. }
+  assert (Y : y <> 0).
+  { intros ->. unfold D in PD. rewrite Rminus_0_r in HB. lra. }
+  assert (dD : d <= D * (1 + r)).
+  { generalize (sum_error (Rabs b) (- sb) ltac:(now apply number_abs) ltac:(now apply number_opp)).
+    change (Rabs b + - sb) with D. change (fl D) with d. rewrite (Rabs_pos_eq D) by lra.
+    intros G. apply Rabs_le_inv in G. lra. }
+  destruct (is_zero a sa) eqn:Zero.
+  { (* an exact zero *)
+    intros G. injection G as <-. apply is_zero_true in Zero. destruct Zero as [Z1 Z2].
+    rewrite Z2 in HA. apply within_0 in HA. rewrite <- HA, Z1. unfold Rdiv.
+    rewrite !Rmult_0_l, rounding_0, rnd_0, Rminus_0_r, Rabs_R0. split; auto. lra. }
+  rewrite (rnd_exact (4 * eta) number_4_eta).
+  set (v := fl (a / b)). set (R := rounding v). set (k := inflated (fl (Rabs v + eta))).
+  set (lost := if Rlt_bool 0 sb then 4 * eta else 0).
+  set (N := fl (fl (sa + fl (k * sb)) + lost)). set (I := fl (N / d)).
+  set (Z := (sa + Rabs (a / b) * sb) / D).
+  intros G. injection G as <-. split; auto.
+  generalize (Rabs_pos (a / b)); intros.
+  assert (PZ : 0 <= Z).
+  { apply Rmult_le_pos. nra. now apply Rlt_le, Rinv_0_lt_compat. }
+  assert (HK : Rabs (a / b) <= k) by apply quotient_covered.
+  (* the numerator *)
+  assert (HN : (sa + Rabs (a / b) * sb) * (q * q * q) <= N).
+  { unfold N, lost. destruct (Rlt_bool_spec 0 sb) as [S | S].
+    - assert (PP : 0 <= fl (k * sb)) by (apply rnd_nonnegative; nra).
+      generalize (rnd_lower (k * sb) ltac:(nra)). fold q. intros D1.
+      generalize (sum_relative sa (fl (k * sb)) SA (rnd_number _) PA PP). fold q. intros D2.
+      generalize (sum_relative (fl (sa + fl (k * sb))) (4 * eta) (rnd_number _) number_4_eta
+                    ltac:(apply rnd_nonnegative; lra) ltac:(lra)). fold q. intros D3.
+      apply Rle_trans with (2 := D3).
+      apply Rle_trans with (((sa + (Rabs (a / b) * sb * q - h)) * q + 4 * eta) * q).
+      + set (T := Rabs (a / b) * sb). assert (0 <= T) by (apply Rmult_le_pos; lra).
+        replace ((sa + T) * (q * q * q)) with ((sa + T) * (q * q) * q) by ring.
+        apply Rmult_le_compat_r; [lra |].
+        assert (sa * (q * q) <= sa * q) by (apply Rmult_le_compat_l; nra).
+        assert (h * q <= eta) by nra. lra.
+      + apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat_r.
+        apply Rle_trans with (2 := D2). apply Rmult_le_compat_r; [lra |].
+        apply Rplus_le_compat_l. apply Rle_trans with (2 := D1).
+        apply Rplus_le_compat_r, Rmult_le_compat_r; [lra |].
+        apply Rmult_le_compat_r; lra.
+    - assert (E0 : sb = 0) by lra. rewrite E0, !Rmult_0_r, !Rplus_0_r.
+      rewrite rnd_0, !Rplus_0_r, (rnd_exact sa SA), (rnd_exact sa SA).
+      assert (q * q <= 1) by nra. assert (q * q * q <= 1) by nra. nra. }
+  assert (PN : 0 <= N).
+  { apply Rle_trans with (2 := HN). apply Rmult_le_pos. nra. repeat apply Rmult_le_pos; lra. }
+  (* and the quotient by the distance *)
+  assert (HI : Z * (q * q * q * q) <= N / d).
+  { apply Rle_trans with ((sa + Rabs (a / b) * sb) * (q * q * q) / (D * (1 + r))).
+    - unfold Z.
+      replace ((sa + Rabs (a / b) * sb) * (q * q * q) / (D * (1 + r)))
+        with ((sa + Rabs (a / b) * sb) / D * (q * q * q) * / (1 + r)) by (field; lra).
+      fold Z. replace (Z * (q * q * q * q)) with (Z * (q * q * q) * q) by ring.
+      apply Rmult_le_compat_l.
+      + apply Rmult_le_pos; auto. repeat apply Rmult_le_pos; lra.
+      + apply Rmult_le_reg_r with (1 + r); [lra |]. rewrite Rinv_l by lra. unfold q. nra.
+    - apply Rmult_le_compat; auto.
+      + apply Rmult_le_pos. nra. repeat apply Rmult_le_pos; lra.
+      + apply Rlt_le, Rinv_0_lt_compat. nra.
+      + apply Rinv_le; auto. }
+  assert (PI : 0 <= N / d).
+  { apply Rmult_le_pos; auto. now apply Rlt_le, Rinv_0_lt_compat. }
+  assert (NI : number I) by apply rnd_number.
+  assert (PIr : 0 <= I) by now apply rnd_nonnegative.
+  assert (HJ : Z - h * (1 + f) <= inflated I).
+  { rewrite inflated_exact. generalize f_q6 f_q5 f_q4; intros.
+    destruct (Rlt_or_le I smallest_normal) as [C | C].
+    - assert (D1 : N / d - h <= I).
+      { apply rnd_absolute; auto. }
+      assert (D2 : Z * f * (q * q * q * q) - h * f <= I * f).
+      { replace (Z * f * (q * q * q * q) - h * f) with ((Z * (q * q * q * q) - h) * f) by ring.
+        apply Rmult_le_compat_r; lra. }
+      assert (PIf : 0 <= I * f) by (apply Rmult_le_pos; lra).
+      destruct (Rlt_or_le (I * f) smallest_normal) as [Cf | Cf].
+      + assert (I * f - h <= fl (I * f)) by (apply rnd_absolute; auto).
+        assert (Z <= Z * f * (q * q * q * q)).
+        { replace (Z * f * (q * q * q * q)) with (Z * (f * (q * q * q * q))) by ring. nra. }
+        lra.
+      + assert (D3 : I * f * q <= fl (I * f)) by (apply rnd_relative; auto).
+        assert ((Z * f * (q * q * q * q) - h * f) * q <= I * f * q) by
+          (apply Rmult_le_compat_r; lra).
+        assert (Z <= Z * f * (q * q * q * q) * q).
+        { replace (Z * f * (q * q * q * q) * q) with (Z * (f * (q * q * q * q * q))) by ring. nra. }
+        assert (0 <= h * f) by (apply Rmult_le_pos; lra).
+        assert (h * f * q <= h * f) by nra. lra.
+    - apply Rle_trans with (I * f * q); [| apply inflated_relative; auto].
+      assert (D1 : N / d * q <= I).
+      { destruct (Rlt_or_le (N / d) smallest_normal) as [Cd | Cd].
+        - apply Rle_trans with smallest_normal; auto. nra.
+        - now apply rnd_relative. }
+      assert (D2 : Z * (q * q * q * q) * q * (f * q) <= I * (f * q)).
+      { apply Rmult_le_compat_r. apply Rmult_le_pos; lra.
+        apply Rle_trans with (2 := D1). apply Rmult_le_compat_r; lra. }
+      replace (Z * (q * q * q * q) * q * (f * q)) with (Z * (f * (q * q * q * q * q * q))) in D2
+        by ring.
+      replace (I * f * q) with (I * (f * q)) by ring.
+      assert (0 <= h * (1 + f)) by (apply Rmult_le_pos; lra).
+      assert (Z <= Z * (f * (q * q * q * q * q * q))) by nra. lra. }
+  (* all together *)
+  apply Rle_trans with (R + inflated I + 4 * eta).
+  - apply Rle_trans with (R + h + Z).
+    + replace (v - x / y) with ((v - a / b) + (a / b - x / y)) by ring.
+      apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+      * apply rounding_any.
+      * now apply quotient_inherits.
+    + lra.
+  - apply inflated_sum_left; try apply rnd_number; auto using number_4_eta; try lra.
+    + apply rounding_nonnegative.
+    + rewrite inflated_exact. apply rnd_nonnegative. apply Rmult_le_pos; lra.
+Qed.
+
+End Proof.
+
+(** The factor 1 + 8 eps pays for six roundings: by eps each from 5 bits on, by u from 3 on. *)
+Lemma power_6_lower e : 0 <= e <= 1 -> 1 - 6 * e + 15 * e * e - 20 * e * e * e <= (1 - e) ^ 6.
+Proof.
+  intros H. replace ((1 - e) ^ 6) with (1 - 6 * e + 15 * e * e - 20 * e * e * e
+    + e * e * e * e * (15 - 6 * e + e * e)) by ring.
+  assert (0 <= e * e * e * e) by (repeat apply Rmult_le_pos; lra). nra.
+Qed.
+Lemma six_roundings_any e : 0 <= e <= / 16 -> 1 <= (1 + 8 * e) * (1 - e) ^ 6.
+Proof.
+  intros H. apply Rle_trans with ((1 + 8 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e)).
+  - replace ((1 + 8 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e))
+      with (1 + e * (2 - 33 * e + e * e * (100 - 160 * e))) by ring.
+    assert (0 <= e * e * (100 - 160 * e)) by (repeat apply Rmult_le_pos; nra).
+    nra.
+  - apply Rmult_le_compat_l; [lra | apply power_6_lower; lra].
+Qed.
+Lemma six_roundings_nearest e : 0 <= e <= / 8 -> 1 <= (1 + 16 * e) * (1 - e) ^ 6.
+Proof.
+  intros H. apply Rle_trans with ((1 + 16 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e)).
+  - replace ((1 + 16 * e) * (1 - 6 * e + 15 * e * e - 20 * e * e * e))
+      with (1 + e * (10 - 81 * e + e * e * (220 - 320 * e))) by ring.
+    assert (e * e <= e * / 8) by nra. assert (0 <= e * e) by nra.
+    assert (180 * (e * e) <= e * e * (220 - 320 * e)) by nra.
+    assert (0 <= 10 - 81 * e + e * e * (220 - 320 * e)) by nra.
+    nra.
+  - apply Rmult_le_compat_l; [lra | apply power_6_lower; lra].
+Qed.
+
+Theorem tight_exact_sound x : Rabs (x - x) <= tight_exact x.
+Proof.
+  unfold tight_exact. replace (x - x) with 0 by ring. rewrite Rabs_R0, rnd_0. lra.
+Qed.
+Theorem tight_within_sound a x error :
+  number error -> Rabs (a - x) <= error -> Rabs (a - x) <= tight_within a error.
+Proof.
+  intros N H. unfold tight_within. replace (a - a) with 0 by ring.
+  now rewrite rnd_0, Rplus_0_r, rnd_exact.
+Qed.
+
+(** The code's bounds are numbers, so that results may be operands. *)
+Theorem tight_add_number v sa sb : number (tight_add v sa sb).
+Proof. apply rnd_number. Qed.
+Theorem tight_multiply_number v a sa b sb : number (tight_multiply v a sa b sb).
+Proof. unfold tight_multiply. destruct (_ || _); apply rnd_number. Qed.
+Theorem tight_divide_number v a sa b sb bound :
+  tight_divide v a sa b sb = Some bound -> number bound.
+Proof.
+  unfold tight_divide. cbv zeta. destruct (negb _); [discriminate |].
+  destruct (is_zero a sa); intros G; injection G as <-; apply rnd_number.
+Qed.
+
+End Tight.
+
+(** The theorems: what the code returns bounds the error of what it computed. *)
+Section Sound.
+
+Variables p emin : Z.
+Context {p_positive : Prec_gt_0 p}.
+Hypothesis emin_p : (emin <= - p)%Z.
+Notation number := (number p emin).
+
+Section Any_direction.
+
+Hypothesis p_5 : (5 <= p)%Z.
+Variable direction : R -> Z.
+Context {direction_valid : Valid_rnd direction}.
+Notation fl := (rnd p emin direction).
+
+Lemma eps_16 : 0 <= eps p <= / 16.
+Proof. generalize (eps_positive p) (eps_le p 5 p_5). simpl. lra. Qed.
+Let error : rounding_error p emin direction (eps p) (eta emin) :=
+  rounding_error_any p emin direction ltac:(lia).
+Lemma any_q6 : 1 <= (1 + 8 * eps p) * ((1 - eps p) * (1 - eps p) * (1 - eps p) *
+                                        (1 - eps p) * (1 - eps p) * (1 - eps p)).
+Proof. apply Rle_trans with (1 := six_roundings_any _ eps_16). right. ring. Qed.
+Lemma any_h : eta emin * (2 + (1 + 8 * eps p)) <= 4 * eta emin.
+Proof. generalize eps_16 (eta_positive emin). nra. Qed.
+
+Theorem tight_add_sound a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a + b) - (x + y)) <= tight_add p emin direction (fl (a + b)) sa sb.
+Proof. apply (add_sound p emin direction ltac:(lia) emin_p _ _ error any_q6). Qed.
+
+Theorem tight_subtract_sound a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a - b) - (x - y)) <= tight_add p emin direction (fl (a - b)) sa sb.
+Proof.
+  intros. apply tight_add_sound; auto using number_opp.
+  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
+Qed.
+
+Theorem tight_multiply_sound a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a * b) - x * y) <= tight_multiply p emin direction (fl (a * b)) a sa b sb.
+Proof. apply (multiply_sound p emin direction ltac:(lia) emin_p _ _ error any_q6). Qed.
+
+Theorem tight_divide_sound a x sa b y sb bound :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  tight_divide p emin direction (fl (a / b)) a sa b sb = Some bound ->
+  y <> 0 /\ Rabs (fl (a / b) - x / y) <= bound.
+Proof. apply (divide_sound p emin direction ltac:(lia) emin_p _ _ error any_q6 any_h). Qed.
+
+End Any_direction.
+
+Section To_nearest.
+
+Hypothesis p_3 : (3 <= p)%Z.
+Notation fl := (rnd p emin nearest).
+
+Lemma u_8 : 0 <= u p <= / 8.
+Proof.
+  generalize (u_positive p) (eps_le p 3 p_3) (eps_2u p). simpl. lra.
+Qed.
+Let error : rounding_error p emin nearest (u p) (eta emin / 2) :=
+  rounding_error_nearest p emin ltac:(lia).
+Lemma nearest_q6 : 1 <= (1 + 8 * eps p) * ((1 - u p) * (1 - u p) * (1 - u p) *
+                                            (1 - u p) * (1 - u p) * (1 - u p)).
+Proof.
+  rewrite eps_2u. apply Rle_trans with (1 := six_roundings_nearest _ u_8). right. ring.
+Qed.
+Lemma nearest_h : eta emin / 2 * (2 + (1 + 8 * eps p)) <= 4 * eta emin.
+Proof. rewrite eps_2u. generalize u_8 (eta_positive emin). nra. Qed.
+
+Theorem tight_add_sound_nearest a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a + b) - (x + y)) <= tight_add p emin nearest (fl (a + b)) sa sb.
+Proof. apply (add_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
+
+Theorem tight_subtract_sound_nearest a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a - b) - (x - y)) <= tight_add p emin nearest (fl (a - b)) sa sb.
+Proof.
+  intros. apply tight_add_sound_nearest; auto using number_opp.
+  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
+Qed.
+
+Theorem tight_multiply_sound_nearest a x sa b y sb :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a * b) - x * y) <= tight_multiply p emin nearest (fl (a * b)) a sa b sb.
+Proof. apply (multiply_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
+
+Theorem tight_divide_sound_nearest a x sa b y sb bound :
+  number a -> number b -> number sa -> number sb ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  tight_divide p emin nearest (fl (a / b)) a sa b sb = Some bound ->
+  y <> 0 /\ Rabs (fl (a / b) - x / y) <= bound.
+Proof. apply (divide_sound p emin nearest p_3 emin_p _ _ error nearest_q6 nearest_h). Qed.
+
+End To_nearest.
+End Sound.
