@@ -438,11 +438,15 @@ TEST(Roots, PreconditionsAreAsserted) {
     GTEST_SKIP() << "assertions are off";
 #else
     const polynomial<double> p{-2.0, 0.0, 1.0};
-    EXPECT_DEATH(count_roots<integer>(p, 1, 0), "a <= b");
-    EXPECT_DEATH(count_roots<integer>(p, std::nan(""), 0), "a <= b");
-    EXPECT_DEATH(isolate_roots<integer>(p, 0, std::nan("")), "a <= b");
-    EXPECT_DEATH(sign_on<integer>(p, 1, 0), "a <= b");
-    EXPECT_DEATH(root_where_nonnegative<integer>(p, {}, 1, 0), "a <= b");
+    EXPECT_DEATH(count_roots<integer>(p, 1, 0), "is_interval");
+    EXPECT_DEATH(count_roots<integer>(p, std::nan(""), 0), "is_interval");
+    EXPECT_DEATH(isolate_roots<integer>(p, 0, std::nan("")), "is_interval");
+    EXPECT_DEATH(sign_on<integer>(p, 1, 0), "is_interval");
+    EXPECT_DEATH(root_where_nonnegative<integer>(p, {}, 1, 0), "is_interval");
+    EXPECT_DEATH((void)count_roots<integer>(p, infinity, infinity), "is_interval");
+    auto roots = isolate_roots<integer>(polynomial{-2.0, 0.0, 1.0}, 0, 2);
+    EXPECT_DEATH(roots.refine(0, 0.0), "width");
+    EXPECT_DEATH(roots.refine(1, 0.5), "size");
     EXPECT_DEATH((polynomial<double>{1.0, std::nan("")}), "finite");
     EXPECT_DEATH((polynomial<float>{1.0F, HUGE_VALF}), "finite");
 #endif
