@@ -5,7 +5,7 @@
         safe_exact_sound, safe_within_sound, safe_add_sound, safe_subtract_sound,
         safe_multiply_sound: the result is known by what the code returns;
         safe_error_sound: the error that the code reports is one.
-    They ask for counts below 2^29, where the code stops to count; see proofs/README.md. *)
+    They ask for counts below 2^29, where the code stops to count and reports no finite error. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
@@ -27,7 +27,8 @@ Notation smallest_normal := (smallest_normal p emin).
 
 (** The code, in its order of evaluation. *)
 Definition enlarged (x : R) : R := fl (x * fl (1 + fl (4 * eps))).
-Definition counted (k : Z) : Z := if (k <? 2 ^ 29)%Z then (k + 1)%Z else k.
+Definition too_many : Z := (2 ^ 29)%Z.
+Definition counted (k : Z) : Z := if (k <? too_many - 1)%Z then (k + 1)%Z else too_many.
 Definition is_zero (a : R) (k : Z) : bool := Req_bool a 0 && (k =? 0)%Z.
 
 Definition safe_exact (a : R) : R * Z := (Rabs a, 0%Z).
@@ -42,9 +43,15 @@ Definition safe_multiply (a Ba : R) (ka : Z) (b Bb : R) (kb : Z) : R * Z :=
 (** None: infinite. *)
 Definition safe_error (B : R) (k : Z) : option R :=
   let x := fl (fl (IZR k) * eps) in
-  if negb (Rle_bool x 1) then None
+  if negb (Rle_bool x 1) || (k =? too_many)%Z then None
   else if (k =? 0)%Z then Some 0
   else Some (enlarged (fl (fl (B * enlarged (fl (x * fl (1 + x)))) + eta))).
+
+Lemma counted_below k : (k < 2 ^ 29)%Z -> counted k = (k + 1)%Z.
+Proof.
+  unfold counted, too_many. change (2 ^ 29)%Z with 536870912%Z.
+  intros. destruct (Z.ltb_spec k (536870912 - 1)); lia.
+Qed.
 
 (** What (B, k) says. *)
 Definition growth (k : Z) : R := (1 + eps) ^ Z.to_nat k.
@@ -199,8 +206,8 @@ Lemma add_sound a x Ba ka b y Bb kb :
 Proof.
   intros A B KA KB Few. generalize (known_value _ _ _ _ KA) (known_value _ _ _ _ KB); intros VA VB.
   destruct KA as (NA & PA & XA & HA). destruct KB as (NB & PB & XB & HB). cbn [fst snd] in *.
-  unfold known, safe_add, counted. cbn [fst snd].
-  rewrite (proj2 (Z.ltb_lt _ _) Few).
+  unfold known, safe_add. cbn [fst snd].
+  rewrite (counted_below _ Few).
   generalize (Rabs_pos x) (Rabs_pos y); intros.
   assert (S : Ba + Bb <= enlarged (fl (Ba + Bb))) by (apply enlarged_sum; auto; lra).
   repeat split; try lia.
@@ -252,7 +259,7 @@ Proof.
         subst y. lra. }
     destruct Z0 as [-> ->]. rewrite rnd_0. unfold known. simpl.
     rewrite Rminus_0_r, Rabs_R0. repeat split; try lia; try lra. apply number_0. }
-  unfold known, counted. cbn [fst snd]. rewrite (proj2 (Z.ltb_lt _ _) Few).
+  unfold known. cbn [fst snd]. rewrite (counted_below _ Few).
   set (B' := Rmax (enlarged (fl (Ba * Bb))) smallest_normal).
   assert (PP : 0 <= Ba * Bb) by (apply Rmult_le_pos; lra).
   assert (M : smallest_normal <= B') by apply Rmax_r.
@@ -302,6 +309,9 @@ Lemma error_sound a x B k bound :
   known a x (B, k) -> safe_error B k = Some bound -> Rabs (a - x) <= bound.
 Proof.
   intros (NB & Pk & XB & H). cbn [fst snd] in *. unfold safe_error. cbv zeta.
+  destruct (k =? too_many)%Z.
+  { rewrite orb_true_r. discriminate. }
+  rewrite orb_false_r.
   generalize (Rabs_pos x) (eps_positive p) g_1 q_1 (error_h _ _ _ _ _ E); intros PB Pe G1 Q1 Ph.
   destruct (Z.le_gt_cases k (2 ^ p)) as [K | K].
   - assert (Nk : number (IZR k)).

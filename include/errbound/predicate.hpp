@@ -24,7 +24,7 @@
 // Promised, for finite coordinates, under rounding to nearest and gradual underflow
 // (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
 // overflow included. `uncertain` where a coordinate that counts is not finite. No exceptions, no
-// global state. Usable in constant expressions; in device code up to the two-word integers. Cost:
+// global state. Usable in constant expressions; in device code (compiled, not yet run). Cost:
 // the filters 1 to 2 times the expression in floating point, the integers some ten times that, and
 // in the full range up to 30 µs and some 100 KiB of stack for a degree of 5.
 #pragma once

@@ -93,15 +93,13 @@ struct stored_arrays_block {
 };
 template <class T, int Dimension, class Range>
 auto blocks_of(const Range& range) {
-    if constexpr (std::ranges::contiguous_range<Range>) {
-        using point = std::ranges::range_value_t<Range>;
-        if constexpr (has_stored_coordinates<point>)
-            return stored_block<point>{std::ranges::data(range)};
-        else
-            return computed_block<T, Dimension, Range>(range);
-    } else {
+    if constexpr (requires {
+                      requires has_stored_coordinates<std::ranges::range_value_t<Range>>;
+                  } &&
+                  std::ranges::contiguous_range<Range>)
+        return stored_block<std::ranges::range_value_t<Range>>{std::ranges::data(range)};
+    else
         return computed_block<T, Dimension, Range>(range);
-    }
 }
 template <class T, int Dimension, class U, std::size_t N>
 auto blocks_of(const coordinate_arrays<U, N>& arrays) {
