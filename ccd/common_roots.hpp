@@ -40,7 +40,7 @@ struct common_roots {
     const quadratic_form<Words>* quadratic = nullptr;
 
     /// Keeps a pointer into f. Cost: comparisons, and if no f has one sign, some ten products.
-    explicit common_roots(const std::array<quadratic_form<Words>, 3>& f) {
+    explicit constexpr common_roots(const std::array<quadratic_form<Words>, 3>& f) {
         using errbound::sign_of;
         using errbound::sign_type;
         std::array<const quadratic_form<Words>*, 3> moving{};  // those not identically zero

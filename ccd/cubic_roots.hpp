@@ -33,8 +33,9 @@ struct inner_sign_changes {
     bool opposite = false;  ///< the number is odd: just inside the ends, the signs are opposite
     errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
 
+    constexpr inner_sign_changes() = default;
     template <int Words>
-    explicit inner_sign_changes(const cubic_form<Words>& y) {
+    explicit constexpr inner_sign_changes(const cubic_form<Words>& y) {
         auto last = errbound::sign_type::zero;
         for (const auto& h : y.h) {
             const auto sign = sign_of(h);
@@ -54,14 +55,16 @@ struct inner_sign_changes {
 /// three distinct real roots t/s, infinity included, negative if there is one and a complex pair.
 /// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
 template <int Words>
-errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(const cubic_form<Words>& y) {
+constexpr errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(
+    const cubic_form<Words>& y) {
     return {{y[1] * y[1] - thrice(y[0] * y[2]), y[1] * y[2] - thrice(thrice(y[0] * y[3])),
              y[2] * y[2] - thrice(y[1] * y[3])}};
 }
 
 /// All numbers, in floating point, times one power of two.
 template <int Words, std::size_t N>
-std::array<double, N> approximated(const std::array<errbound::fixed_integer<Words>, N>& x) {
+constexpr std::array<double, N> approximated(
+    const std::array<errbound::fixed_integer<Words>, N>& x) {
     int bits = 0;
     for (const auto& number : x) bits = std::max(bits, number.bit_length());
     std::array<double, N> r;
@@ -72,7 +75,7 @@ std::array<double, N> approximated(const std::array<errbound::fixed_integer<Word
 
 /// A root in [0, 1] of a cubic, given by scaled Bernstein coefficients whose ends have opposite
 /// signs (or are zero): by Newton's method, and bisection where that leaves the interval known.
-inline double estimated_root(const std::array<double, 4>& h) {
+constexpr double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52;
     constexpr int most_steps = 60;
     const bool rising = h[3] > h[0];
@@ -121,17 +124,17 @@ struct root_bracket {
     int bits;
     errbound::fixed_integer<Words + 3 * T> y_low, y_high;
 
-    bool is_root() const { return low == high; }
-    std::int64_t width() const { return (high - low).low_word(); }
+    constexpr bool is_root() const { return low == high; }
+    constexpr std::int64_t width() const { return (high - low).low_word(); }
     /// high − low < 2^width_bits()
-    int width_bits() const {
+    constexpr int width_bits() const {
         return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(width())));
     }
 };
 
 /// The estimated place of a part's root, if its ends have opposite signs.
 template <int Words>
-dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
+constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     const int bits = std::min(part.level + 48, 62), to_bits = bits - part.level;
     const double place = std::ldexp(estimated_root(approximated(part.y.h)), to_bits);
     return {(part.index << to_bits) + static_cast<std::int64_t>(place), bits};
@@ -140,9 +143,9 @@ dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
 /// A bracket around `place` for the part's root, where signs at the part's ends are opposite;
 /// nothing if the root is far from there. Numerators of `place` have at most 64·T − 2 bits.
 template <int Words, int T>
-std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
-                                                   const cubic_part<Words>& part,
-                                                   const dyadic_point<T>& place) {
+constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
+                                                             const cubic_part<Words>& part,
+                                                             const dyadic_point<T>& place) {
     using number = errbound::fixed_integer<T>;
     using errbound::sign_type;
     const auto end = number::shifted(1, place.bits);
@@ -176,8 +179,8 @@ std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
 /// The root's place to as many bits more as doubles know of it: the root of the cubic that has the
 /// bracket's end values and slopes, that is of y itself.
 template <int Words, int T>
-dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
-                                  const root_bracket<Words, T>& bracket) {
+constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
+                                            const root_bracket<Words, T>& bracket) {
     using number = errbound::fixed_integer<Words + 3 * T>;
     const auto end = errbound::fixed_integer<T>::shifted(1, bracket.bits);
     // dy/dt, at most twice as large as y's coefficients may be.

@@ -10,7 +10,7 @@ namespace ccd {
 
 /// True if some coordinate axis parts v from the edge the same way at t = 0 and at t = 1, and
 /// therefore, the motion being linear, throughout.
-inline bool parted(const vertex_edge<double>& q) {
+constexpr bool parted(const vertex_edge<double>& q) {
     bool apart = false;
     for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z}) {
         const double v0 = q.v.t0.*axis, v1 = q.v.t1.*axis;

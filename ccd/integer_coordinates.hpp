@@ -19,7 +19,7 @@ struct axis_extent {
     bool finite = true;
 
     template <class Points>
-    axis_extent(const Points& points, double point<double>::*axis) {
+    constexpr axis_extent(const Points& points, double point<double>::*axis) {
         int last = std::numeric_limits<int>::max();
         double low0 = points[0].t0.*axis, high0 = low0, low1 = points[0].t1.*axis, high1 = low1;
         for (const auto& p : points) {
@@ -45,16 +45,16 @@ struct integer_units {
     axis_extent x, y, z;
 
     template <class Query>
-    explicit integer_units(const Query& query) : integer_units(points_of(query), 0) {}
+    explicit constexpr integer_units(const Query& query) : integer_units(points_of(query), 0) {}
 
-    bool finite() const { return x.finite && y.finite && z.finite; }
+    constexpr bool finite() const { return x.finite && y.finite && z.finite; }
     /// Coordinates of one axis at one end of the step differ by less than 2^bits() units.
-    int bits() const { return std::max({x.bits, y.bits, z.bits}); }
+    constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
 
     /// The query in integers of Words words, modulo their width: differences at one end of the step
     /// are right if bits() < 64·Words.
     template <int Words, class Query>
-    auto converted(const Query& query) const {
+    constexpr auto converted(const Query& query) const {
         return transformed_points(query, [this](const point<double>& p) {
             return point<errbound::fixed_integer<Words>>{in_units<Words>(p.x, x.unit),
                                                          in_units<Words>(p.y, y.unit),
@@ -64,13 +64,13 @@ struct integer_units {
 
   private:
     template <class Points>
-    integer_units(const Points& points, int)
+    constexpr integer_units(const Points& points, int)
         : x(points, &point<double>::x),
           y(points, &point<double>::y),
           z(points, &point<double>::z) {}
 
     template <int Words>
-    static errbound::fixed_integer<Words> in_units(double coordinate, int unit) {
+    static constexpr errbound::fixed_integer<Words> in_units(double coordinate, int unit) {
         const errbound::binary_double d(coordinate);
         const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
         const auto size = errbound::fixed_integer<Words>::shifted(

@@ -25,6 +25,7 @@
 #include <array>
 #include <ccd/forms.hpp>
 #include <ccd/verdict.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
 #include <errbound/fixed_integer.hpp>
@@ -43,12 +44,12 @@ template <int Words, template <class, int> class Forms>
 class interior_contact {
   public:
     /// y = forms.y(). Differences of coordinates are below 2^units.x.bits and so on.
-    interior_contact(const Forms<errbound::fixed_integer<Words>, 1>& forms,
-                     const cubic_form<3 * Words>& y, const integer_units& units)
+    constexpr interior_contact(const Forms<errbound::fixed_integer<Words>, 1>& forms,
+                               const cubic_form<3 * Words>& y, const integer_units& units)
         : forms_(forms), y_(y), units_(units) {}
 
     /// Whether Y = 0 and all G_i > 0 at some t in [0, 1].
-    outcome operator()() {
+    constexpr outcome operator()() {
         if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
         if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
         const inner_sign_changes roots(y_);
@@ -59,7 +60,7 @@ class interior_contact {
         }
         part whole{{}, roots, 0, 0};
         std::copy(y_.h.begin(), y_.h.end(), whole.y.h.begin());
-        return on_part(whole);
+        return by_halving(whole);
     }
 
   private:
@@ -72,7 +73,7 @@ class interior_contact {
     static constexpr int most_end_words = 4;
 
     template <class Values>
-    static bool all_positive(const Values& forms_at_a_time) {
+    static constexpr bool all_positive(const Values& forms_at_a_time) {
         const auto g = forms_at_a_time.inside();
         return std::all_of(g.begin(), g.end(), [](const auto& form) { return form[0] > 0; });
     }
@@ -80,7 +81,7 @@ class interior_contact {
     /// Asks at a multiple root of Y, if there is one inside, and finds out whether there are other
     /// roots to ask at, in which case the answer is `uncertain`. The Hessian's discriminant has 12W
     /// words (2^20.2·D^12), G at its root 28W (2^47·D^28).
-    outcome at_multiple_root() {
+    constexpr outcome at_multiple_root() {
         const auto h = hessian(y_);
         const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
         distinct_ = discriminant != sign_type::zero;
@@ -101,15 +102,41 @@ class interior_contact {
     /// Whether there are roots on the part that are not a double root. An odd number of sign
     /// changes says so, and any number if Y has three real roots: Descartes' count is then exact.
     /// Otherwise an even number stems from a complex pair or the double root.
-    bool any_root(const inner_sign_changes& roots) const {
+    constexpr bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
 
-    outcome on_part(const part& whole) const {
+    /// Parts with roots wait, the earliest last: halves have no more sign changes together than the
+    /// whole, so there are never more of them than the cubic's three.
+    constexpr outcome by_halving(const part& whole) const {
+        std::array<part, 3> waiting;
+        std::size_t count = 0;
+        waiting[count++] = whole;
+        auto found = outcome::separate;
+        while (count > 0) {
+            const part last = waiting[--count];
+            const auto known = without_halving(last);
+            if (known == outcome::collides) return outcome::collides;
+            if (known) {
+                if (known == outcome::uncertain) found = outcome::uncertain;
+                continue;
+            }
+            const auto wait = [&](const cubic_form<3 * Words + 2>& y, std::int64_t index) {
+                const inner_sign_changes roots(y);
+                if (any_root(roots)) waiting[count++] = {y, roots, index, last.level + 1};
+            };
+            wait(reversed(left_half(reversed(last.y))), 2 * last.index + 1);
+            wait(left_half(last.y), 2 * last.index);
+        }
+        return found;
+    }
+
+    /// The answer on a part; nothing if its halves are to be asked.
+    constexpr std::optional<outcome> without_halving(const part& whole) const {
         if (!any_root(whole.roots)) return outcome::separate;
         if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {
             const auto found = near(whole, estimated_place(whole));
-            if (found) return *found;
+            if (found) return found;
         }
         // There is a root; if all over the part G_i have the signs asked for, its place matters
         // not.
@@ -121,21 +148,13 @@ class interior_contact {
             const number<1> t(2 * whole.index + 1);
             if (all_positive(forms_at(forms_, end - t, t))) return outcome::collides;
         }
-        auto found = outcome::separate;
-        for (const bool right : {false, true}) {
-            const auto y = right ? reversed(left_half(reversed(whole.y))) : left_half(whole.y);
-            const auto in_half =
-                on_part({y, inner_sign_changes(y), 2 * whole.index + right, whole.level + 1});
-            if (in_half == outcome::collides) return in_half;
-            if (in_half == outcome::uncertain) found = in_half;
-        }
-        return found;
+        return {};
     }
 
     /// Decides by a bracket near that place of the part's only root (but for a double root);
     /// nothing if no bracket holds it.
     template <int T>
-    std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
+    constexpr std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
         const auto bracket = bracket_near(y_, whole, place);
         if (!bracket) return {};
         if (bracket->is_root()) {
@@ -157,7 +176,7 @@ class interior_contact {
     /// Whether N = 0 inside the bracket: a root of Y without contact, and the only one there if Y
     /// has no multiple roots.
     template <int T>
-    bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
+    constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
         const auto end = number<T>::shifted(1, bracket.bits);
         const auto &low = bracket.low, &high = bracket.high;
         const std::array<quadratic_form<2 * Words>, 3> n{forms_.n.x, forms_.n.y, forms_.n.z};
@@ -179,7 +198,7 @@ class interior_contact {
     /// `uncertain`. More is not known of the root, so the differences at low, times 2^bits, are cut
     /// to T words, one unit for each axis.
     template <int T>
-    outcome throughout(const number<T>& low, int bits, int width_bits) const {
+    constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {
         using known = bounded_integer<T>;
         const auto s = number<T>::shifted(1, bits) - low;
         const auto component = [&](const linear_form<Words>& x, const axis_extent& axis) {

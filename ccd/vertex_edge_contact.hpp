@@ -27,7 +27,8 @@ constexpr errbound::fixed_integer<Words> magnitude(const errbound::fixed_integer
 
 /// Whether b <= 0 at some root of f in (0, 1), for an f whose coefficients have both signs.
 template <int Words>
-bool nonpositive_at_a_root(const quadratic_form<Words>& f, const quadratic_form<Words>& b) {
+constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
+                                     const quadratic_form<Words>& b) {
     using errbound::sign_of;
     using errbound::sign_type;
     using errbound::value_at;
@@ -66,7 +67,7 @@ bool nonpositive_at_a_root(const quadratic_form<Words>& f, const quadratic_form<
 /// below 2^(64·Words − 3). Cost: some 40 products of words, and up to a few hundred if W × E has a
 /// root in [0, 1] in all three components.
 template <int Words>
-bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
+constexpr bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
     using errbound::sign_of;
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);

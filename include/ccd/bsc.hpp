@@ -20,7 +20,7 @@ namespace ccd {
 /// `collides` too: then some root of Y has all weights strictly positive, so that the normal does
 /// not vanish there. Cost: at most a few thousand operations, no allocation, never throws.
 template <class Rule, class T, template <class> class Query>
-verdict decide_bsc(const Query<T>& query) {
+constexpr verdict decide_bsc(const Query<T>& query) {
     const auto [scaled, finite] = tracked_query<Rule>(query);
     if (!finite) return {outcome::uncertain, cause::range};
     const auto forms = forms_of(scaled);

@@ -36,7 +36,7 @@ struct distance_bounds {
 
 /// |w(t)|₂ is least where w·w' = 0; a rounded place costs a few ε of the sizes. `w` in power form.
 template <class Scalar>
-auto least_distance(const vector_form<Scalar, 1>& w) {
+constexpr auto least_distance(const vector_form<Scalar, 1>& w) {
     using T = typename Scalar::value_type;
     using traits = errbound::number_traits<T>;
     T along = 0, speed = 0, size = 0, error = 0;
@@ -73,7 +73,7 @@ struct plain_form {
     T size = 0;   ///< the sum of the coefficients' sizes
 
     template <class Scalar>
-    explicit plain_form(const errbound::bernstein<Scalar, N>& form) {
+    explicit constexpr plain_form(const errbound::bernstein<Scalar, N>& form) {
         using traits = errbound::number_traits<T>;
         for (int i = 0; i <= N; ++i) {
             p[i] = form[i].value();
@@ -82,7 +82,7 @@ struct plain_form {
         }
         error += 8 * traits::epsilon() * size;
     }
-    T operator()(T t) const {
+    constexpr T operator()(T t) const {
         T value = p[N];
         for (int i = N - 1; i >= 0; --i) value = value * t + p[i];
         return value;
@@ -94,8 +94,8 @@ struct plain_form {
 /// False only if the vertex is never within `reach` of the edge. `e`: from the edge's first end to
 /// its second; `w0`, `w1`: from each end to the vertex; all in power form. `off_line` raises τ.
 template <class Scalar, class T = typename Scalar::value_type>
-bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scalar, 1>& w0,
-               const vector_form<Scalar, 1>& w1, T reach, T off_line) {
+constexpr bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scalar, 1>& w0,
+                         const vector_form<Scalar, 1>& w1, T reach, T off_line) {
     using traits = errbound::number_traits<T>;
     using quadratic = detail::plain_form<T, 2>;
     using linear = detail::plain_form<T, 1>;

@@ -70,7 +70,7 @@ struct tolerances {
     using scalar = errbound::tracked<T, Rule>;
 
     template <class Query>
-    explicit tolerances(const Query&) {}
+    explicit constexpr tolerances(const Query&) {}
 
     /// False if the tolerances do not hold for this query.
     static constexpr bool usable = true;
@@ -85,22 +85,22 @@ struct tolerances {
     static constexpr T off_line = 0;
 
     /// a − b at the start of the step; of one point's positions, its displacement.
-    static scalar difference(const scalar& a, const scalar& b) { return a - b; }
-    static scalar displacement(const scalar& a, const scalar& b) { return a - b; }
+    static constexpr scalar difference(const scalar& a, const scalar& b) { return a - b; }
+    static constexpr scalar displacement(const scalar& a, const scalar& b) { return a - b; }
 
     /// The time t, or all of [t − w, t + w].
-    static scalar time(T t, T w) { return scalar::within(t, w); }
+    static constexpr scalar time(T t, T w) { return scalar::within(t, w); }
     /// What the inside forms may change by within w, beside what time(t, w) says.
     static constexpr T drift(T) { return 0; }
 
     /// ν for the bound μ of |f| and edges at least `length` long: minimises μ/ν + r.
-    static T smallest_normal(T mu, T length) {
+    static constexpr T smallest_normal(T mu, T length) {
         const T for_any = std::cbrt(mu) * std::cbrt(mu);
         const T for_long = std::sqrt(mu * length);
         return length > 0 && mu / for_long < mu / for_any ? for_long : for_any;
     }
     /// A lower bound of the longest edge's length, if it may be used.
-    static T known_length(T length) { return length; }
+    static constexpr T known_length(T length) { return length; }
 };
 
 /// What counts as too close to tell, from one bound B on all coordinate differences during the step
@@ -116,7 +116,7 @@ struct tolerances<T, errbound::safe> {
 
     /// B = E + 2V, E the largest difference of coordinates at t = 0.
     template <class Query>
-    explicit tolerances(const Query& query) {
+    explicit constexpr tolerances(const Query& query) {
         point<T> low, high;
         bool first = true;
         T displacement = 0;
@@ -146,20 +146,20 @@ struct tolerances<T, errbound::safe> {
     }
 
     /// Rounded once, so off by at most εB.
-    scalar difference(const scalar& a, const scalar& b) const {
+    constexpr scalar difference(const scalar& a, const scalar& b) const {
         return scalar::within(a.value() - b.value(), traits::epsilon() * b_);
     }
-    scalar displacement(const scalar& a, const scalar& b) const {
+    constexpr scalar displacement(const scalar& a, const scalar& b) const {
         return scalar::within(a.value() - b.value(), traits::epsilon() * v_);
     }
 
-    static scalar time(T t, T) { return scalar(t); }
+    static constexpr scalar time(T t, T) { return scalar(t); }
     /// An inside form is the scalar product of two cross products of differences, each of size at
     /// most B and speed at most 2V: 12 terms of four factors.
-    T drift(T w) const { return 48 * b_ * b_ * b_ * 2 * v_ * w; }
+    constexpr T drift(T w) const { return 48 * b_ * b_ * b_ * 2 * v_ * w; }
 
-    T smallest_normal(T, T) const { return normal_; }
-    static T known_length(T) { return 0; }
+    constexpr T smallest_normal(T, T) const { return normal_; }
+    static constexpr T known_length(T) { return 0; }
 
   private:
     T b_, v_, normal_;
@@ -167,7 +167,7 @@ struct tolerances<T, errbound::safe> {
 
 /// The value's sign if it holds within `drift` too.
 template <class Scalar, class T>
-sign_type sign_within(const Scalar& x, T drift) {
+constexpr sign_type sign_within(const Scalar& x, T drift) {
     const T e = x.error() + drift;
     if (x.value() > e) return sign_type::positive;
     return x.value() < -e ? sign_type::negative : sign_type::uncertain;
@@ -175,7 +175,7 @@ sign_type sign_within(const Scalar& x, T drift) {
 
 /// A bound on |x|.
 template <class Scalar>
-auto upper_magnitude(const Scalar& x) {
+constexpr auto upper_magnitude(const Scalar& x) {
     return number_traits<typename Scalar::value_type>::abs(x.value()) + x.error();
 }
 
@@ -186,10 +186,10 @@ class solver {
     using scalar = errbound::tracked<T, Rule>;
     using traits = number_traits<T>;
 
-    explicit solver(const Query<scalar>& query)
+    explicit constexpr solver(const Query<scalar>& query)
         : query_(query), limits_(query), forms_(power_forms(query, limits_)) {}
 
-    verdict decide() {
+    constexpr verdict decide() {
         if (!limits_.usable) return {outcome::uncertain, cause::range};
         const auto f = forms_.y();
         errbound::bernstein<T, 3> plain;
@@ -215,8 +215,8 @@ class solver {
     using limits = tolerances<T, Rule>;
 
     /// q − p in power form: the position at t = 0 and the displacement.
-    static vector_form<scalar, 1> motion(const moving_point<scalar>& q,
-                                         const moving_point<scalar>& p, const limits& l) {
+    static constexpr vector_form<scalar, 1> motion(const moving_point<scalar>& q,
+                                                   const moving_point<scalar>& p, const limits& l) {
         const auto along = [&](scalar point<scalar>::*axis) {
             return errbound::bernstein<scalar, 1>{
                 {l.difference(q.t0.*axis, p.t0.*axis),
@@ -224,17 +224,17 @@ class solver {
         };
         return {along(&point<scalar>::x), along(&point<scalar>::y), along(&point<scalar>::z)};
     }
-    static auto power_forms(const vertex_face<scalar>& q, const limits& l) {
+    static constexpr auto power_forms(const vertex_face<scalar>& q, const limits& l) {
         return vertex_face_forms<scalar>(motion(q.f1, q.f0, l), motion(q.f2, q.f0, l),
                                          motion(q.v, q.f0, l));
     }
-    static auto power_forms(const edge_edge<scalar>& q, const limits& l) {
+    static constexpr auto power_forms(const edge_edge<scalar>& q, const limits& l) {
         return edge_edge_forms<scalar>(motion(q.a1, q.a0, l), motion(q.b1, q.b0, l),
                                        motion(q.b0, q.a0, l));
     }
 
     template <int N>
-    static scalar at(const errbound::bernstein<scalar, N>& p, T t) {
+    static constexpr scalar at(const errbound::bernstein<scalar, N>& p, T t) {
         return value_at(p, scalar(T(1)), scalar(t));
     }
 
@@ -244,7 +244,8 @@ class solver {
     /// f', at an end or at its vertex, less all errors of its coefficients and what evaluation and
     /// the vertex' own rounding (second order) can add. Neither rests on where the true f' has its
     /// vertex.
-    T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p, T q) const {
+    constexpr T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p,
+                         T q) const {
         const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };
         const scalar at_p = at(slope, p), at_q = at(slope, q);
         const scalar half_length = (scalar(q) - scalar(p)) * scalar(T(0.5));
@@ -262,9 +263,9 @@ class solver {
         return low >= 0 ? T(0) : low < 0 ? -low * (q - p) * (1 + T(0x1p-10)) : traits::infinity();
     }
 
-    verdict on_piece(const errbound::bernstein<scalar, 3>& f,
-                     const errbound::bernstein<T, 3>& plain,
-                     const errbound::bernstein<scalar, 2>& slope, T vertex, T p, T q) {
+    constexpr verdict on_piece(const errbound::bernstein<scalar, 3>& f,
+                               const errbound::bernstein<T, 3>& plain,
+                               const errbound::bernstein<scalar, 2>& slope, T vertex, T p, T q) {
         constexpr verdict none{outcome::separate, cause::none};
         const scalar at_p = at(f, p), at_q = at(f, q);
         const T direction = at_q.value() >= at_p.value() ? 1 : -1;
@@ -303,7 +304,7 @@ class solver {
     }
 
     /// Step 3 of the proof: reports the root, or leaves it to the proximity tests.
-    verdict at_root(const scalar& f, T slack, T root) {
+    constexpr verdict at_root(const scalar& f, T slack, T root) {
         const auto now = forms_at(forms_, scalar(T(1)), scalar(root));
         const std::array<scalar, 3> n{now.n.x[0], now.n.y[0], now.n.z[0]};
         T longest = 0, error = 0;
@@ -335,7 +336,7 @@ class solver {
 
     /// The longer of b and c at one time, in the largest coordinate.
     template <class Forms>
-    static T longest_edge(const Forms& now) {
+    static constexpr T longest_edge(const Forms& now) {
         T longest = 0;
         for (const auto* e : {&now.b, &now.c})
             for (const auto* x : {&e->x, &e->y, &e->z})
@@ -343,7 +344,7 @@ class solver {
         return longest;
     }
 
-    bool any_proximity() const {
+    constexpr bool any_proximity() const {
         if (!traits::is_finite(reach_)) return true;
         for (const auto& edge : vertex_edge_queries(query_)) {
             const auto e = motion(edge.e1, edge.e0, limits_), w = motion(edge.v, edge.e0, limits_);
@@ -367,7 +368,7 @@ class solver {
 /// and `collides`: then f changes its sign within a window in which all inside forms are positive.
 /// Cost: bounded, no allocation, never throws; some microseconds where it comes to proximity.
 template <class Rule, class T, template <class> class Query>
-verdict decide_safeccd(const Query<T>& query) {
+constexpr verdict decide_safeccd(const Query<T>& query) {
     const auto [scaled, finite] = tracked_query<Rule>(query);
     if (!finite) return {outcome::uncertain, cause::range};
     return safeccd::solver<T, Rule, Query>(scaled).decide();

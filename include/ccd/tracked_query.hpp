@@ -14,7 +14,7 @@ namespace ccd {
 /// (errbound::is_tracked).
 template <class Rule, class T, template <class> class Query,
           class Scalar = errbound::tracked<T, Rule>>
-std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {
+constexpr std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {
     using traits = errbound::number_traits<T>;
     T largest = 0;
     bool finite = true;

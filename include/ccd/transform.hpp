@@ -61,12 +61,15 @@ constexpr auto transformed(const Query& q, const F& f) {
 /// `f` called with each of the query's coordinates.
 template <class Query, class F>
 constexpr void for_each_coordinate(const Query& q, const F& f) {
-    for (const auto& p : points_of(q))
-        for (const auto& x : {p.t0, p.t1}) {
-            f(x.x);
-            f(x.y);
-            f(x.z);
-        }
+    const auto at_position = [&f](const auto& x) {
+        f(x.x);
+        f(x.y);
+        f(x.z);
+    };
+    for (const auto& p : points_of(q)) {
+        at_position(p.t0);
+        at_position(p.t1);
+    }
 }
 
 /// The contacts of a vertex with an edge on the border of the face.

@@ -181,7 +181,7 @@ constexpr std::pair<bernstein<S, N>, bernstein<S, N>> halves(const bernstein<S, 
 /// The form times a power of two that brings its largest coefficient near 1, so that products of
 /// many forms neither underflow nor overflow. Signs are kept; exact numbers are left alone.
 template <class S, int N>
-bernstein<S, N> normalized(const bernstein<S, N>& p) {
+constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
     if constexpr (is_tracked<S>) {
         using T = typename S::value_type;
         using traits = number_traits<T>;

@@ -23,6 +23,10 @@
 #include <array>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
+#include <optional>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 
 namespace errbound {
 
@@ -76,7 +80,7 @@ class conjunction {
 template <class S>
 struct linear_root {
     S s, t;
-    explicit linear_root(const bernstein<S, 1>& l)
+    explicit constexpr linear_root(const bernstein<S, 1>& l)
         : s(sign_of(l[0]) == sign_type::positive ? S(-l[1]) : l[1]),
           t(sign_of(l[0]) == sign_type::positive ? l[0] : S(-l[0])) {}
 };
@@ -103,7 +107,8 @@ struct linear_signs {
 /// Y has the strict sign `before` left of it and the opposite one right of it.
 /// Proof: if Y(t_l) has the sign `before`, the root lies right of t_l, where l has the sign l(1).
 template <class S>
-sign_type sign_at_crossing(const cubic<S>& y, sign_type before, const bernstein<S, 1>& l) {
+constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
+                                     const bernstein<S, 1>& l) {
     const linear_signs ends(l);
     if (!ends.opposite()) return ends.inside();
     const linear_root<S> r(l);
@@ -119,7 +124,8 @@ sign_type sign_at_crossing(const cubic<S>& y, sign_type before, const bernstein<
 /// the increasing d tells: d(t_l) < 0 left, so both roots are right of it. If Y(t_l)'s sign is
 /// uncertain, d(t_l) still tells it from the root on the other side of the extremum.
 template <class S>
-sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const bernstein<S, 1>& l) {
+constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
+                                  const bernstein<S, 1>& l) {
     const linear_signs ends(l);
     if (!ends.opposite()) return {ends.inside(), ends.inside()};
     const linear_root<S> r(l);
@@ -145,7 +151,7 @@ sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const berns
 /// (A world may count an end value as strict that is zero in truth. J then vanishes at the root, so
 /// that no certain sign of J but zero can come out and nothing is concluded wrongly.)
 template <class S>
-bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
+constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
                              y[0] * g[3] - g[0] * y[3], y[0] * g[4]};
     return normalized(bernstein<S, 2>{
@@ -157,7 +163,7 @@ bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
 template <class S>
 struct decomposition {
     bernstein<S, 1> m, r;
-    decomposition(const cubic<S>& y, const bernstein<S, 2>& j)
+    constexpr decomposition(const cubic<S>& y, const bernstein<S, 2>& j)
         : m(normalized(bernstein<S, 1>{{y[0] * j[2], y[3] * j[0]}})) {
         const S jj = j[0] * j[2];
         // m before normalisation is what the identity needs.
@@ -170,8 +176,8 @@ struct decomposition {
 /// sign J from those of M and R; where M vanishes at the root, the root is M's and J is asked
 /// there.
 template <class S>
-sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
-                   const bernstein<S, 2>& j) {
+constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
+                             const bernstein<S, 2>& j) {
     if (m != sign_type::zero) return -(m * r);
     if (!linear_signs(m_form).opposite()) return sign_type::uncertain;
     const linear_root<S> root(m_form);
@@ -180,7 +186,8 @@ sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
 
 /// The sign of the quartic g at the only inner root of Y (as in sign_at_crossing).
 template <class S>
-sign_type sign_at_crossing(const cubic<S>& y, sign_type before, const bernstein<S, 4>& g) {
+constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
+                                     const bernstein<S, 4>& g) {
     const sign_type hull = sign_inside(g);
     if (certain(hull)) return hull;
     const bernstein<S, 2> j = reduced(y, g);
@@ -193,7 +200,8 @@ sign_type sign_at_crossing(const cubic<S>& y, sign_type before, const bernstein<
 
 /// The signs of the quartic g at the two inner roots of Y (as in signs_at_pair).
 template <class S>
-sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const bernstein<S, 4>& g) {
+constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
+                                  const bernstein<S, 4>& g) {
     const sign_type hull = sign_inside(g);
     if (certain(hull)) return {hull, hull};
     const bernstein<S, 2> j = reduced(y, g);
@@ -209,7 +217,7 @@ sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d, const berns
 /// quadratics A (y0, 2y1/3, y2/3) and B, so at t_ex Y = A = B. Cancelling s² of A by D leaves
 /// d0·Y(t_ex) = t·M(t_ex), cancelling t² of B leaves d2·Y(t_ex) = s·M'(t_ex), with linear M, M'.
 template <class S>
-sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
+constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
     const auto sign_at = [&d](const bernstein<S, 1>& form) {
         const bernstein<S, 1> l = normalized(form);
@@ -239,7 +247,7 @@ sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
 
 /// A root of Y exactly at an end of the part, if it can be there: the G_i are asked at that end.
 template <class S, std::size_t M>
-existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
+constexpr existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
     if (!possibly_zero(y_end)) return existence::no;
     conjunction all(y_end == sign_type::zero);
     for (std::size_t i = 0; i < M && !all.excluded(); ++i)
@@ -249,8 +257,8 @@ existence at_end(sign_type y_end, const quartics<S, M>& g, int coefficient) {
 
 /// One inner root at which Y leaves the strict sign `before`.
 template <class S, std::size_t M>
-existence at_crossing(const cubic<S>& y, sign_type before, bool root_is_certain,
-                      const quartics<S, M>& g) {
+constexpr existence at_crossing(const cubic<S>& y, sign_type before, bool root_is_certain,
+                                const quartics<S, M>& g) {
     conjunction all(root_is_certain);
     for (std::size_t i = 0; i < M && !all.excluded(); ++i)
         all.require_nonnegative(sign_at_crossing(y, before, g[i]));
@@ -259,8 +267,8 @@ existence at_crossing(const cubic<S>& y, sign_type before, bool root_is_certain,
 
 /// Two inner roots, or a double one, of a convex Y that is positive at both ends.
 template <class S, std::size_t M>
-existence at_pair(const cubic<S>& y, const bernstein<S, 2>& d, bool ends_are_certain,
-                  const quartics<S, M>& g) {
+constexpr existence at_pair(const cubic<S>& y, const bernstein<S, 2>& d, bool ends_are_certain,
+                            const quartics<S, M>& g) {
     const sign_type d0 = sign_of(d[0]), d2 = sign_of(d[2]);
     if (certainly_nonnegative(d0) || certainly_nonpositive(d2)) return existence::no;  // monotone
     // Uncertain d0 or d2: either Y is monotone and there is no root, or d0 < 0 < d2 holds, so
@@ -280,7 +288,7 @@ existence at_pair(const cubic<S>& y, const bernstein<S, 2>& d, bool ends_are_cer
 
 /// Y strictly increasing on (0, 1): at most one root, at an end or inner.
 template <class S, std::size_t M>
-existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
+constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
     if (possibly_negative(y0) && possibly_positive(y3))
@@ -290,7 +298,8 @@ existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
 
 /// Y convex and not constant on [0, 1]: every world of end signs.
 template <class S, std::size_t M>
-existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<S, M>& g) {
+constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
+                              const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
@@ -323,60 +332,111 @@ existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d, const quartics<
 
 /// Whether the coefficients alone exclude a root with all G_i >= 0.
 template <class S, std::size_t M>
-bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
+constexpr bool excluded_by_hull(const cubic<S>& y, const quartics<S, M>& g) {
     if (certainly_rootless(y)) return true;
     for (const bernstein<S, 4>& form : g)
         if (sign_throughout(form) == sign_type::negative) return true;
     return false;
 }
 
-/// Y with the known curvature: `curvature` is the strict sign of Y'' on (0, 1), or uncertain.
+/// Y and all G_i on a part of the step.
 template <class S, std::size_t M>
-existence on_part(const cubic<S>& y, const quartics<S, M>& g, sign_type curvature,
-                  int halvings_left) {
-    if (excluded_by_hull(y, g)) return existence::no;
-    const bernstein<S, 2> d = derivative(y);
-    const sign_type slope = sign_inside(d);
-    if (slope == sign_type::positive) return on_increasing(y, g);
-    if (slope == sign_type::negative) return on_increasing(-y, g);
-    if (slope == sign_type::zero)  // Y is constant
-        return possibly_zero(sign_of(y[0])) ? existence::maybe_root : existence::no;
+struct part {
+    cubic<S> y;
+    quartics<S, M> g;
+};
 
+/// The answer where it does not take the sign of Y''. d = Y'.
+template <class S, std::size_t M>
+constexpr std::optional<existence> without_curvature(const part<S, M>& p,
+                                                     const bernstein<S, 2>& d) {
+    if (excluded_by_hull(p.y, p.g)) return existence::no;
+    switch (sign_inside(d)) {
+        case sign_type::positive:
+            return on_increasing(p.y, p.g);
+        case sign_type::negative:
+            return on_increasing(-p.y, p.g);
+        case sign_type::zero:  // Y is constant
+            return possibly_zero(sign_of(p.y[0])) ? existence::maybe_root : existence::no;
+        default:
+            return {};
+    }
+}
+
+/// Y whose second derivative has the strict sign `curvature` on (0, 1).
+template <class S, std::size_t M>
+constexpr existence of_curvature(const part<S, M>& p, const bernstein<S, 2>& d,
+                                 sign_type curvature) {
+    return curvature == sign_type::positive ? on_convex(p.y, d, p.g) : on_convex(-p.y, -d, p.g);
+}
+
+/// The two parts that `parts_of` makes of each form.
+template <class S, std::size_t M, class PartsOf>
+constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const PartsOf& parts_of) {
+    std::pair<part<S, M>, part<S, M>> parts;
+    const auto parts_of_y = parts_of(p.y);
+    parts.first.y = normalized(parts_of_y.first);
+    parts.second.y = normalized(parts_of_y.second);
+    for (std::size_t i = 0; i < M; ++i) {
+        const auto parts_of_g = parts_of(p.g[i]);
+        parts.first.g[i] = normalized(parts_of_g.first);
+        parts.second.g[i] = normalized(parts_of_g.second);
+    }
+    return parts;
+}
+
+/// The answer on a part as it is, or split at its inflection; nothing if the sign of Y'' is
+/// uncertain where it matters.
+template <class S, std::size_t M>
+constexpr std::optional<existence> without_halving(const part<S, M>& p) {
+    const bernstein<S, 2> d = derivative(p.y);
+    if (const auto known = without_curvature(p, d)) return known;
     const bernstein<S, 1> second = derivative(d);
     const linear_signs ends(second);
-    if (!certain(curvature) && !ends.opposite()) curvature = ends.inside();
-    if (curvature == sign_type::positive) return on_convex(y, d, g);
-    if (curvature == sign_type::negative) return on_convex(-y, -d, g);
-    const auto parts_of = [&y, &g](const auto& form_parts_of) {
-        struct {
-            cubic<S> y_left, y_right;
-            quartics<S, M> g_left, g_right;
-        } parts;
-        const auto parts_of_y = form_parts_of(y);
-        parts.y_left = normalized(parts_of_y.first);
-        parts.y_right = normalized(parts_of_y.second);
-        for (std::size_t i = 0; i < M; ++i) {
-            const auto parts_of_g = form_parts_of(g[i]);
-            parts.g_left[i] = normalized(parts_of_g.first);
-            parts.g_right[i] = normalized(parts_of_g.second);
-        }
-        return parts;
-    };
-    if (ends.opposite()) {
-        const linear_root<S> inflection(second);
-        const auto parts =
-            parts_of([&](const auto& form) { return split(form, inflection.s, inflection.t); });
-        const existence left = on_part(parts.y_left, parts.g_left, ends.at0, 0);
-        if (left == existence::yes) return left;
-        return either(left, on_part(parts.y_right, parts.g_right, ends.at1, 0));
+    if (!ends.opposite()) {
+        const sign_type curvature = ends.inside();
+        if (curvature == sign_type::positive || curvature == sign_type::negative)
+            return of_curvature(p, d, curvature);
+        return {};
     }
-    if (halvings_left == 0) return existence::maybe_root;
-    const auto parts = parts_of([](const auto& form) { return halves(form); });
-    const existence left =
-        on_part(parts.y_left, parts.g_left, sign_type::uncertain, halvings_left - 1);
-    // A "maybe" ends the search: an undecidable query must not visit all 2^max_halvings parts.
-    if (left != existence::no) return left;
-    return on_part(parts.y_right, parts.g_right, sign_type::uncertain, halvings_left - 1);
+    const linear_root<S> inflection(second);
+    const auto parts =
+        divided(p, [&](const auto& form) { return split(form, inflection.s, inflection.t); });
+    const auto on_side = [](const part<S, M>& side, sign_type curvature) {
+        const bernstein<S, 2> slope = derivative(side.y);
+        const auto known = without_curvature(side, slope);
+        return known ? *known : of_curvature(side, slope, curvature);
+    };
+    const existence left = on_side(parts.first, ends.at0);
+    if (left == existence::yes) return left;
+    return either(left, on_side(parts.second, ends.at1));
+}
+
+/// The answer on a part, by up to max_halvings of it.
+template <class S, std::size_t M>
+constexpr existence by_halving(const part<S, M>& whole) {
+    std::array<part<S, M>, max_halvings + 1> waiting;  // the earliest last
+    std::array<int, max_halvings + 1> halvings;        // that led to each
+    std::size_t count = 1;
+    waiting[0] = whole;
+    halvings[0] = 0;
+    while (count > 0) {
+        const std::size_t last = count - 1;
+        if (const auto found = without_halving(waiting[last])) {
+            // A "maybe" ends the search: an undecidable query must not visit all 2^max_halvings
+            // parts.
+            if (*found != existence::no) return *found;
+            --count;
+            continue;
+        }
+        if (halvings[last] == max_halvings) return existence::maybe_root;
+        const auto parts = divided(waiting[last], [](const auto& form) { return halves(form); });
+        waiting[last] = parts.second;
+        waiting[count] = parts.first;
+        halvings[count] = ++halvings[last];
+        ++count;
+    }
+    return existence::no;
 }
 
 }  // namespace bsc
@@ -388,12 +448,15 @@ existence on_part(const cubic<S>& y, const quartics<S, M>& g, sign_type curvatur
 /// at a root of y, or no such t exists. For Y ≡ 0 the answer is `no` or `maybe_root`.
 /// Cost: bounded; some hundred operations of S in the common cases, at most a few thousand.
 template <class S, class MakeConstraints>
-existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
+constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
     const bsc::cubic<S> cubic = normalized(y);
     if (certainly_rootless(cubic)) return existence::no;
-    auto g = make_g();
-    for (auto& form : g) form = normalized(form);
-    return bsc::on_part(cubic, g, sign_type::uncertain, bsc::max_halvings);
+    const auto g = make_g();
+    bsc::part<S, std::tuple_size_v<std::remove_cvref_t<decltype(g)>>> whole{cubic, {}};
+    for (std::size_t i = 0; i < g.size(); ++i) whole.g[i] = normalized(g[i]);
+    // Apart, since few queries need the memory of halving.
+    const auto found = bsc::without_halving(whole);
+    return found ? *found : bsc::by_halving(whole);
 }
 
 }  // namespace errbound

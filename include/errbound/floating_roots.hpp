@@ -33,7 +33,7 @@ requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<
 /// −c1/c2 by |δ/(4·c2·q)| and q is at least |c1|/2, and at least √|c0·c2| where that is larger and
 /// the roots are real.
 template <class T>
-std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
+constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     using traits = number_traits<T>;
     const T m = traits::max(traits::abs(c0), traits::max(traits::abs(c1), traits::abs(c2)));
     c0 /= m, c1 /= m, c2 /= m;  // 0/0 = NaN if all are zero
@@ -52,7 +52,7 @@ struct piece_ends {
 
 /// The ends of the pieces of [0, 1] on which f rises or falls, but for rounding.
 template <class T>
-piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
+constexpr piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
     const auto slope = power_derivative(f);
     std::array<T, 3> turns = quadratic_roots(slope[0], slope[1], slope[2]);
     if (turns[1] < turns[0]) std::swap(turns[0], turns[1]);
@@ -68,7 +68,7 @@ piece_ends<T> monotone_pieces(const bernstein<T, 3>& f) {
 /// Newton step that leaves the bracket, or is more than half as long as the one before, becomes a
 /// halving of the bracket: so every two steps halve one of them, and 2·digits of them are enough.
 template <class T, int N>
-T guarded_newton(const bernstein<T, N>& p, T low, T high) {
+constexpr T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     const bernstein<T, N - 1> slope = power_derivative(p);
     const bool rising = value_at(p, T(1), low) < 0;
     T t = low + (high - low) / 2, last_step = high - low;

@@ -38,9 +38,9 @@ struct number_traits {
     static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }
     static constexpr bool is_finite(const T& x) { return abs(x) <= largest(); }
     /// x·2^e, rounded once.
-    static T scale(const T& x, int e) { return std::ldexp(x, e); }
+    static constexpr T scale(const T& x, int e) { return std::ldexp(x, e); }
     /// e with 2^(e−1) <= |x| < 2^e, for x finite and not zero.
-    static int exponent(const T& x) {
+    static constexpr int exponent(const T& x) {
         int e = 0;
         (void)std::frexp(x, &e);
         return e;

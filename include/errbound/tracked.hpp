@@ -82,7 +82,7 @@ class tracked {
     constexpr tracked& operator/=(const tracked& b) { return *this = *this / b; }
 
     /// x·2^e: exact unless it underflows, and then the bound says so.
-    friend tracked scale(const tracked& x, int e) {
+    friend constexpr tracked scale(const tracked& x, int e) {
         const T v = number_traits<T>::scale(x.value_, e);
         return {v, Rule::template scale<T>(v, x.as_operand(), e)};
     }

@@ -99,7 +99,7 @@ struct interval {
     }
     /// Scaling by a power of two is exact unless it underflows.
     template <class T>
-    static bound<T> scale(const T& v, operand<T, interval> a, int e) {
+    static constexpr bound<T> scale(const T& v, operand<T, interval> a, int e) {
         using traits = number_traits<T>;
         const T lower = traits::scale(a.bound.lower, e), upper = traits::scale(a.bound.upper, e);
         const bool lossless = e >= 0 || (traits::scale(lower, -e) == a.bound.lower &&

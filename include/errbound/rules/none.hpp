@@ -43,7 +43,7 @@ struct none {
         return {};
     }
     template <class T>
-    static bound<T> scale(const T&, operand<T, none>, int) {
+    static constexpr bound<T> scale(const T&, operand<T, none>, int) {
         return {};
     }
 };

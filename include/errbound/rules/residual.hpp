@@ -131,7 +131,7 @@ struct residual {
     /// Scaling by a power of two is exact unless it underflows: then value, correction and
     /// remainder are each off by at most η/2.
     template <class T>
-    static bound<T> scale(const T& v, operand<T, residual> a, int e) {
+    static constexpr bound<T> scale(const T& v, operand<T, residual> a, int e) {
         using traits = number_traits<T>;
         const T correction = traits::scale(a.bound.correction, e);
         const T remainder = traits::scale(a.bound.remainder, e);

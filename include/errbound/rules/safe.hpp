@@ -82,7 +82,7 @@ struct safe {
     /// (B·2^e, k) is exact unless it underflows; B is then kept at the smallest normal number and
     /// one more in k pays.
     template <class T>
-    static bound<T> scale(const T& v, operand<T, safe> a, int e) {
+    static constexpr bound<T> scale(const T& v, operand<T, safe> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.magnitude, e);
         if (e >= 0 ||

@@ -78,7 +78,7 @@ struct sharp {
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
     /// by at most η/2.
     template <class T>
-    static bound<T> scale(const T& v, operand<T, sharp> a, int e) {
+    static constexpr bound<T> scale(const T& v, operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.error, e);
         const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&

@@ -81,7 +81,7 @@ struct tight {
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
     /// by less than η.
     template <class T>
-    static bound<T> scale(const T& v, operand<T, tight> a, int e) {
+    static constexpr bound<T> scale(const T& v, operand<T, tight> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.error, e);
         const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&

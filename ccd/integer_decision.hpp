@@ -1,0 +1,59 @@
+// The decision of one query in integers of a given fixed width. Internal: ccd/integers.hpp says what
+// it promises; this is what host and device code share.
+#pragma once
+
+#include <ccd/forms.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
+#include <errbound/fixed_integer.hpp>
+
+#include "ccd/features.hpp"
+#include "ccd/integer_coordinates.hpp"
+#include "ccd/interior_contact.hpp"
+#include "ccd/vertex_edge_contact.hpp"
+
+namespace ccd {
+
+/// The most bits that coordinates may differ by (integer_units::bits) for Words words to carry
+/// through all forms: ccd/vertex_edge_contact.hpp and ccd/interior_contact.hpp say how.
+constexpr int extent_limit(int words) {
+    return 64 * words - 3;
+}
+
+namespace detail {
+
+/// VF and EE: the union that the head of ccd/reference.cpp states, vertex/edge contacts first.
+/// Every contact has Y = 0.
+template <int Words, template <class> class Query>
+constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query, const Query<double>& original,
+               const integer_units& units) {
+    const auto forms = forms_of(query);
+    const auto y = forms.y();
+    if (certainly_rootless(y)) return outcome::separate;
+    const auto edges = vertex_edge_queries(query);
+    const auto original_edges = vertex_edge_queries(original);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (!parted(original_edges[i]) && contact(edges[i])) return outcome::collides;
+    return interior_contact(forms, y, units)();
+}
+template <int Words>
+constexpr outcome contact_of(const vertex_edge<errbound::fixed_integer<Words>>& query, const vertex_edge<double>& original,
+               const integer_units&) {
+    return !parted(original) && contact(query) ? outcome::collides : outcome::separate;
+}
+template <int Words>
+constexpr outcome contact_of(const vertex_vertex<errbound::fixed_integer<Words>>& query, const vertex_vertex<double>&,
+               const integer_units&) {
+    return contact(query) ? outcome::collides : outcome::separate;
+}
+
+}  // namespace detail
+
+/// Decides in integers of Words words. units = integer_units(query), with at most
+/// extent_limit(Words) bits; `uncertain` is rare.
+template <int Words, template <class> class Query>
+constexpr outcome decide_in_words(const Query<double>& query, const integer_units& units) {
+    return detail::contact_of<Words>(units.converted<Words>(query), query, units);
+}
+
+}  // namespace ccd
