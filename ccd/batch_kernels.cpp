@@ -418,47 +418,16 @@ struct rounded_columns {
     }
 };
 
-/// By how much an axis parts the features at one end of the step, if it does.
-struct gap {
-    float_pack above, below;
-};
-template <class Indices>
-gap gap_between(const float_pack (&x)[4]) {
-    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
-        return {x[0] - max(max(x[1], x[2]), x[3]), min(min(x[1], x[2]), x[3]) - x[0]};
-    else
-        return {min(x[2], x[3]) - max(x[0], x[1]), min(x[0], x[1]) - max(x[2], x[3])};
-}
-template <class Indices>
-float_pack parted_by(const float_pack (&start)[4], const float_pack (&end)[4]) {
-    const gap g0 = gap_between<Indices>(start), g1 = gap_between<Indices>(end);
-    return max(min(g0.above, g1.above), min(g0.below, g1.below));
-}
-
-/// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly parts the features of the queries from
-/// `lane` on throughout the step: static_filter::parted in single precision.
+/// Whether an axis certainly parts the features of the queries from `lane` on.
 template <class Indices>
 xsimd::batch_bool<float, xsimd::default_arch> parted(const rounded_columns& columns,
                                                      std::size_t lane) {
-    float_pack coordinate[3][2][4], along = float_pack(-1.0f), across = float_pack(-1.0f);
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t p = 0; p < 4; ++p)
-            for (std::size_t end = 0; end < 2; ++end)
-                coordinate[k][end][p] = columns.load(6 * p + 3 * end + k, lane);
-        along = max(along, parted_by<Indices>(coordinate[k][0], coordinate[k][1]));
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto &u = coordinate[k], &v = coordinate[(k + 1) % 3];
-        float_pack sum[2][4], difference[2][4];
+    float_pack coordinates[3][2][4];
+    for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t end = 0; end < 2; ++end)
-            for (std::size_t p = 0; p < 4; ++p) {
-                sum[end][p] = u[end][p] + v[end][p];
-                difference[end][p] = u[end][p] - v[end][p];
-            }
-        across = max(across, parted_by<Indices>(sum[0], sum[1]));
-        across = max(across, parted_by<Indices>(difference[0], difference[1]));
-    }
-    return (along > float_pack(0.0f)) | (across > float_pack(rounded_positions::margin));
+            for (std::size_t p = 0; p < 4; ++p)
+                coordinates[k][end][p] = columns.load(6 * p + 3 * end + k, lane);
+    return rounded_axes::parted<Indices>(coordinates);
 }
 
 /// Writes those of the queries first, first + 1, ... that no axis certainly parts to `left`;

@@ -1,5 +1,5 @@
-// The decision of one query in integers of a given fixed width. Internal: ccd/integers.hpp says what
-// it promises; this is what host and device code share.
+// The decision of one query in integers of a given fixed width. Internal: ccd/integers.hpp says
+// what it promises; this is what host and device code share.
 #pragma once
 
 #include <ccd/forms.hpp>
@@ -25,8 +25,8 @@ namespace detail {
 /// VF and EE: the union that the head of ccd/reference.cpp states, vertex/edge contacts first.
 /// Every contact has Y = 0.
 template <int Words, template <class> class Query>
-constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query, const Query<double>& original,
-               const integer_units& units) {
+constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
+                             const Query<double>& original, const integer_units& units) {
     const auto forms = forms_of(query);
     const auto y = forms.y();
     if (certainly_rootless(y)) return outcome::separate;
@@ -37,13 +37,13 @@ constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
     return interior_contact(forms, y, units)();
 }
 template <int Words>
-constexpr outcome contact_of(const vertex_edge<errbound::fixed_integer<Words>>& query, const vertex_edge<double>& original,
-               const integer_units&) {
+constexpr outcome contact_of(const vertex_edge<errbound::fixed_integer<Words>>& query,
+                             const vertex_edge<double>& original, const integer_units&) {
     return !parted(original) && contact(query) ? outcome::collides : outcome::separate;
 }
 template <int Words>
-constexpr outcome contact_of(const vertex_vertex<errbound::fixed_integer<Words>>& query, const vertex_vertex<double>&,
-               const integer_units&) {
+constexpr outcome contact_of(const vertex_vertex<errbound::fixed_integer<Words>>& query,
+                             const vertex_vertex<double>&, const integer_units&) {
     return contact(query) ? outcome::collides : outcome::separate;
 }
 

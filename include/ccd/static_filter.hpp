@@ -118,7 +118,7 @@ struct sizes {
     /// False if a difference is too large: then no test may be believed.
     mask<S> usable;
 
-    explicit sizes(const coplanarity_forms<S>& f) {
+    explicit constexpr sizes(const coplanarity_forms<S>& f) {
         using std::abs, std::max;
         const auto largest = [](const auto& b, const auto& c, const auto& p) {
             S m = abs(b[0]);
@@ -133,11 +133,11 @@ struct sizes {
 
     /// Bounds |ĥ − h| of the control values of Y, and of every G_i.
     template <template <class> class Forms>
-    S error_of_y() const {
+    constexpr S error_of_y() const {
         return x * y * z * S(y_constants<Forms>.relative) + S(y_constants<Forms>.absolute);
     }
     template <template <class> class Forms>
-    S error_of_g() const {
+    constexpr S error_of_g() const {
         using std::max;
         const S area = max(max(x * y, y * z), z * x);
         return area * area * S(g_constants<Forms>.relative) + S(g_constants<Forms>.absolute);
@@ -149,7 +149,8 @@ namespace detail {
 /// Whether the projections part the features the same way at both ends of the step; `project`
 /// takes a difference and an end, and is off by at most margin/2.
 template <class S, class Project>
-mask<S> parted_along(const vertex_face_forms<S>& f, const S& margin, const Project& project) {
+constexpr mask<S> parted_along(const vertex_face_forms<S>& f, const S& margin,
+                               const Project& project) {
     using std::max, std::min;
     const auto at = [&](int end) {
         const S b = project(f.b, end), c = project(f.c, end), v = project(f.p, end);
@@ -161,7 +162,8 @@ mask<S> parted_along(const vertex_face_forms<S>& f, const S& margin, const Proje
     return (start.first & end.first) | (start.second & end.second);
 }
 template <class S, class Project>
-mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin, const Project& project) {
+constexpr mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin,
+                               const Project& project) {
     using std::max, std::min;
     const auto at = [&](int end) {
         const S a1 = project(f.b, end), b0 = project(f.p, end), b1 = b0 + project(f.c, end);
@@ -180,7 +182,7 @@ inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon(
 
 /// The first three axes of `parted`.
 template <class S, class Forms>
-mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
+constexpr mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
     const auto along = [&](const S& size, const auto& project) {
         return detail::parted_along<S>(f, size * S(detail::margin), project);
     };
@@ -192,7 +194,7 @@ mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
 
 /// The other six.
 template <class S, class Forms>
-mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
+constexpr mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
     const auto along = [&](const S& size, const auto& u, const auto& v) {
         const S e = size * S(detail::margin);
         const mask<S> sum = detail::parted_along<S>(
@@ -224,20 +226,20 @@ mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
 /// rounded once more, of twice the size: 8ε(1 + ε)(m_x + m_y). The bound's own addition rounds too,
 /// by ε(m_x + m_y): 9.2ε serves all. Sums lose nothing to underflow.
 template <class S, class Forms>
-mask<S> parted(const Forms& f, const sizes<S>& m) {
+constexpr mask<S> parted(const Forms& f, const sizes<S>& m) {
     return parted_by_coordinates<S>(f, m) | parted_by_diagonals<S>(f, m);
 }
 
 /// All control values certainly positive (`above`), or negative (`below`).
 template <class S, int N>
-mask<S> above(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> above(const errbound::control_values<S, N>& c, const S& error) {
     using std::min;
     S least = c[0];
     for (int i = 1; i <= N; ++i) least = min(least, c[i]);
     return least > error;
 }
 template <class S, int N>
-mask<S> below(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> below(const errbound::control_values<S, N>& c, const S& error) {
     using std::max;
     S greatest = c[0];
     for (int i = 1; i <= N; ++i) greatest = max(greatest, c[i]);
@@ -246,7 +248,7 @@ mask<S> below(const errbound::control_values<S, N>& c, const S& error) {
 
 /// The largest control value's size.
 template <class S, int N>
-S size_of(const errbound::control_values<S, N>& c) {
+constexpr S size_of(const errbound::control_values<S, N>& c) {
     using std::abs, std::max;
     S size = abs(c[0]);
     for (int i = 1; i <= N; ++i) size = max(size, abs(c[i]));
@@ -255,7 +257,7 @@ S size_of(const errbound::control_values<S, N>& c) {
 
 /// The end values certainly differ in sign: a root is certain.
 template <class S, int N>
-mask<S> changes_sign(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> changes_sign(const errbound::control_values<S, N>& c, const S& error) {
     const S& start = c[0];
     const S& end = c[N];
     const mask<S> starts_above = start > error, starts_below = start < -error;
@@ -265,7 +267,7 @@ mask<S> changes_sign(const errbound::control_values<S, N>& c, const S& error) {
 
 /// No control value has a certain sign, nor will any of a part's.
 template <class S, int N>
-mask<S> within_error(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> within_error(const errbound::control_values<S, N>& c, const S& error) {
     return size_of(c) <= error;
 }
 
@@ -291,7 +293,7 @@ struct whole_step {
     part_forms<S, constraints> forms;
     form_errors<S> errors;
 
-    whole_step(const Forms<S>& f, const sizes<S>& m) {
+    constexpr whole_step(const Forms<S>& f, const sizes<S>& m) {
         using std::max;
         const S y_error = m.template error_of_y<Forms>();
         const S g_error = m.template error_of_g<Forms>();
@@ -307,7 +309,7 @@ struct whole_step {
     }
 
     /// Some G_i is certainly negative throughout.
-    mask<S> outside() const {
+    constexpr mask<S> outside() const {
         mask<S> found = below(forms.g[0], errors.g);
         for (std::size_t i = 1; i < constraints; ++i) found = found | below(forms.g[i], errors.g);
         return found;
