@@ -1,5 +1,5 @@
-// The cull by axes in single precision: positions rounded once for all queries, compared in sums and
-// differences of their coordinates. Internal; host, SIMD and device code share it.
+// The cull by axes in single precision: positions rounded once for all queries, compared in sums
+// and differences of their coordinates. Internal; host, SIMD and device code share it.
 //
 // All coordinates are mapped to about [−1, 1] by one translation per axis and one scale for all,
 // and rounded to float: X̃ = fl((x − c)·s). Each of these operations preserves order though not

@@ -1,5 +1,5 @@
-// The last floating-point stage of `exact`, one query at a time: Y and the G_i on ever smaller parts
-// of the step. Internal; host and device code share it.
+// The last floating-point stage of `exact`, one query at a time: Y and the G_i on ever smaller
+// parts of the step. Internal; host and device code share it.
 #pragma once
 
 #include <array>

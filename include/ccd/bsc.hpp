@@ -16,14 +16,17 @@
 
 namespace ccd {
 
-/// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
-/// `collides` too: then some root of Y has all weights strictly positive, so that the normal does
-/// not vanish there. Cost: at most a few thousand operations, no allocation, never throws.
-template <class Rule, class T, template <class> class Query>
-constexpr verdict decide_bsc(const Query<T>& query) {
-    const auto [scaled, finite] = tracked_query<Rule>(query);
-    if (!finite) return {outcome::uncertain, cause::range};
-    const auto forms = forms_of(scaled);
+/// Whether the signs of Y's coefficients show that the points are never coplanar: decide_bsc_of's
+/// first test, which suffices for most queries.
+template <class Scalar, template <class> class Query>
+constexpr bool never_coplanar(const Query<Scalar>& query) {
+    return certainly_rootless(normalized(forms_of(query).y()));
+}
+
+/// Decides a vertex_face or edge_edge query over tracked numbers near 1 in size (or 0).
+template <class Scalar, template <class> class Query>
+constexpr verdict decide_bsc_of(const Query<Scalar>& query) {
+    const auto forms = forms_of(query);
     switch (errbound::root_with_nonnegative(forms.y(), [&] { return forms.inside(); })) {
         case errbound::existence::no:
             return {outcome::separate, cause::none};
@@ -34,6 +37,16 @@ constexpr verdict decide_bsc(const Query<T>& query) {
         default:
             return {outcome::uncertain, cause::inside};
     }
+}
+
+/// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
+/// `collides` too: then some root of Y has all weights strictly positive, so that the normal does
+/// not vanish there. Cost: at most a few thousand operations, no allocation, never throws.
+template <class Rule, class T, template <class> class Query>
+constexpr verdict decide_bsc(const Query<T>& query) {
+    const auto [scaled, finite] = tracked_query<Rule>(query);
+    if (!finite) return {outcome::uncertain, cause::range};
+    return decide_bsc_of(scaled);
 }
 
 }  // namespace ccd

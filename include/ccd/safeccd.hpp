@@ -104,7 +104,8 @@ struct tolerances {
 };
 
 /// What counts as too close to tell, from one bound B on all coordinate differences during the step
-/// and the bound V on displacements: Wang 2014, with e = ε.
+/// and the bound V on displacements: Wang 2014, with e = ε + 2σ/B where coordinates are known to
+/// within σ.
 template <class T>
 struct tolerances<T, errbound::safe> {
     using scalar = errbound::tracked<T, errbound::safe>;
@@ -121,6 +122,7 @@ struct tolerances<T, errbound::safe> {
         bool first = true;
         T displacement = 0;
         const auto widen = [&](T& l, T& h, const scalar& x0, const scalar& x1) {
+            sigma_ = traits::max(sigma_, traits::max(x0.error(), x1.error()));
             l = first ? x0.value() : std::min(l, x0.value());
             h = first ? x0.value() : std::max(h, x0.value());
             displacement = traits::max(displacement, traits::abs(x1.value() - x0.value()));
@@ -135,22 +137,23 @@ struct tolerances<T, errbound::safe> {
         // One part in a million pays for the roundings here and for coordinates that underflowed
         // when the query was scaled, unless all differences are of their size.
         constexpr T enlarged = 1 + T(0x1p-20);
-        v_ = displacement * enlarged;
-        b_ = (extent + 2 * displacement) * enlarged;
+        v_ = (displacement + 2 * sigma_) * enlarged;
+        b_ = (extent + 2 * displacement + 6 * sigma_) * enlarged;
         usable = b_ >= std::sqrt(traits::smallest_normal());
-        const T root_e = std::sqrt(traits::epsilon()), fourth_root_e = std::sqrt(root_e);
+        const T root_e = std::sqrt(traits::epsilon() + 2 * sigma_ / b_),
+                fourth_root_e = std::sqrt(root_e);
         root = 64 * b_ * b_ * b_ * root_e * fourth_root_e;
         normal_ = 64 * b_ * b_ * root_e;
         normal_per_length = 4 * b_ * fourth_root_e;
         off_line = 725 * b_ * b_ * root_e;
     }
 
-    /// Rounded once, so off by at most εB.
+    /// Rounded once, so off by at most εB, beside what the coordinates are off by.
     constexpr scalar difference(const scalar& a, const scalar& b) const {
-        return scalar::within(a.value() - b.value(), traits::epsilon() * b_);
+        return scalar::within(a.value() - b.value(), traits::epsilon() * b_ + 2 * sigma_);
     }
     constexpr scalar displacement(const scalar& a, const scalar& b) const {
-        return scalar::within(a.value() - b.value(), traits::epsilon() * v_);
+        return scalar::within(a.value() - b.value(), traits::epsilon() * v_ + 2 * sigma_);
     }
 
     static constexpr scalar time(T t, T) { return scalar(t); }
@@ -162,7 +165,7 @@ struct tolerances<T, errbound::safe> {
     static constexpr T known_length(T) { return 0; }
 
   private:
-    T b_, v_, normal_;
+    T b_, v_, normal_, sigma_ = 0;
 };
 
 /// The value's sign if it holds within `drift` too.
@@ -364,6 +367,12 @@ class solver {
 
 }  // namespace safeccd
 
+/// Decides a vertex_face or edge_edge query over tracked numbers near 1 in size (or 0).
+template <class Rule, class T, template <class> class Query>
+constexpr verdict decide_safeccd_of(const Query<errbound::tracked<T, Rule>>& query) {
+    return safeccd::solver<T, Rule, Query>(query).decide();
+}
+
 /// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
 /// and `collides`: then f changes its sign within a window in which all inside forms are positive.
 /// Cost: bounded, no allocation, never throws; some microseconds where it comes to proximity.
@@ -371,7 +380,7 @@ template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_safeccd(const Query<T>& query) {
     const auto [scaled, finite] = tracked_query<Rule>(query);
     if (!finite) return {outcome::uncertain, cause::range};
-    return safeccd::solver<T, Rule, Query>(scaled).decide();
+    return decide_safeccd_of<Rule>(scaled);
 }
 
 }  // namespace ccd

@@ -1,0 +1,257 @@
+// `exact` on the device: its stages as kernel bodies, and their order. Internal.
+//
+// Each stage reads the numbers of its candidates from one queue and pushes those that it cannot
+// settle to the next: so the threads of a warp do the same work, and one hard candidate holds up
+// none of the easy ones. The first stage reads only floats; later ones read the few that are left
+// again, which is less than handing their differences on.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/cuda.hpp>
+#include <ccd/static_filter.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/control_values.hpp>
+#include <errbound/number_traits.hpp>
+#include <limits>
+
+#include "ccd/cuda/launch.hpp"
+#include "ccd/cuda/queries.hpp"
+#include "ccd/integer_decision.hpp"
+#include "ccd/rounded_axes.hpp"
+#include "ccd/subdivision.hpp"
+
+namespace ccd::cuda {
+
+/// Four floats of a vertex: x y z at one end of the step, and nothing.
+struct alignas(16) rounded_position {
+    float x, y, z, unused;
+};
+
+/// The box around all positions, and whether every coordinate is finite.
+struct scene_extent {
+    rounded_axes::extent box;
+    bool finite;
+
+    static constexpr scene_extent nothing() { return {rounded_axes::extent::nothing(), true}; }
+};
+
+/// For launcher.reduce.
+struct extent_of_vertex {
+    positions at;
+
+    constexpr scene_extent operator()(std::uint32_t v) const {
+        auto e = scene_extent::nothing();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double before = coordinate_before(at, k, v), after = coordinate_after(at, k, v);
+            e.box.widen(k, before);
+            e.box.widen(k, after);
+            e.finite = e.finite && errbound::number_traits<double>::is_finite(before) &&
+                       errbound::number_traits<double>::is_finite(after);
+        }
+        return e;
+    }
+};
+struct hull_of_extents {
+    constexpr scene_extent operator()(scene_extent a, const scene_extent& b) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            a.box.widen(k, b.box.low[k]);
+            a.box.widen(k, b.box.high[k]);
+        }
+        a.finite = a.finite && b.finite;
+        return a;
+    }
+};
+
+/// Rounds a vertex' positions to rows 2v (before) and 2v + 1 (after).
+struct round_vertex {
+    positions at;
+    const scene_extent* scene;
+    rounded_position* rows;
+
+    constexpr void operator()(std::uint32_t v) const {
+        const rounded_axes::frame rounded(scene->box);
+        const auto row = [&](const auto& coordinate) {
+            return rounded_position{rounded(0, coordinate(0)), rounded(1, coordinate(1)),
+                                    rounded(2, coordinate(2)), 0};
+        };
+        rows[2 * std::size_t(v)] =
+            row([&](std::size_t axis) { return coordinate_before(at, axis, v); });
+        rows[2 * std::size_t(v) + 1] =
+            row([&](std::size_t axis) { return coordinate_after(at, axis, v); });
+    }
+};
+
+/// What every stage knows.
+template <class Indices>
+struct exact_stage {
+    using double_query = query_of_kind<Indices, double>;
+    using forms_type = typename query_kind<Indices>::template forms<double>;
+    template <class S>
+    using forms_template = typename query_kind<Indices>::template forms<S>;
+
+    positions at;
+    cuda::candidates<Indices> candidates;
+    outcome* answers;
+    queue open;  ///< what the stage leaves to the next
+
+    constexpr double_query query(std::uint32_t i) const {
+        return query_at<double>(at, indices_of(candidates, i));
+    }
+};
+
+/// All candidates: the cull by axes, in floats. Sets every answer to `separate`.
+template <class Indices>
+struct axes_stage : exact_stage<Indices> {
+    const scene_extent* scene;
+    const rounded_position* rows;
+
+    constexpr void operator()(std::uint32_t i) const {
+        this->answers[i] = outcome::separate;
+        // Comparisons may overlook NaN.
+        if (!scene->finite || !parted(i)) this->open.push(i);
+    }
+
+  private:
+    constexpr bool parted(std::uint32_t i) const {
+        float x[3][2][4];
+        const auto vertices = vertices_of(indices_of(this->candidates, i));
+        for (std::size_t p = 0; p < 4; ++p)
+            for (std::size_t end = 0; end < 2; ++end) {
+                const rounded_position r =
+                    load_aligned(rows + 2 * std::size_t(vertices[p]) + end);
+                x[0][end][p] = r.x, x[1][end][p] = r.y, x[2][end][p] = r.z;
+            }
+        return rounded_axes::parted<Indices>(x);
+    }
+};
+
+/// The coefficients of Y. Candidates whose coordinates are not finite are `uncertain` and leave.
+template <class Indices>
+struct coplanarity_stage : exact_stage<Indices> {
+    using base = exact_stage<Indices>;
+
+    constexpr void operator()(std::uint32_t i) const {
+        const auto query = this->query(i);
+        bool finite = true;
+        for_each_coordinate(query, [&](double x) {
+            finite = finite && errbound::number_traits<double>::is_finite(x);
+        });
+        if (!finite) {
+            this->answers[i] = outcome::uncertain;
+            return;
+        }
+        const typename base::forms_type forms(query);
+        const static_filter::sizes<double> sizes(forms);
+        const auto y = errbound::control_values_of(forms.y());
+        const double error = sizes.template error_of_y<base::template forms_template>();
+        const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
+        if (!sizes.usable || !rootless) this->open.push(i);
+    }
+};
+
+/// The coefficients of the G_i.
+template <class Indices>
+struct inside_stage : exact_stage<Indices> {
+    using base = exact_stage<Indices>;
+
+    constexpr void operator()(std::uint32_t i) const {
+        const typename base::forms_type forms(this->query(i));
+        const static_filter::sizes<double> sizes(forms);
+        const static_filter::whole_step<double, base::template forms_template> whole(forms, sizes);
+        if (!sizes.usable || !whole.outside()) this->open.push(i);
+    }
+};
+
+/// Y and G_i on ever smaller parts of the step.
+template <class Indices>
+struct subdivision_stage : exact_stage<Indices> {
+    using base = exact_stage<Indices>;
+
+    constexpr void operator()(std::uint32_t i) const {
+        const typename base::forms_type forms(this->query(i));
+        const static_filter::sizes<double> sizes(forms);
+        if (sizes.usable) {
+            const static_filter::whole_step<double, base::template forms_template> whole(forms,
+                                                                                         sizes);
+            const outcome found = subdivide(whole);
+            if (found != outcome::uncertain) {
+                this->answers[i] = found;
+                return;
+            }
+        }
+        this->open.push(i);
+    }
+};
+
+/// Integers of Words words. What needs more goes to `open`, what stays uncertain to `left`.
+template <class Indices, int Words>
+struct integer_stage : exact_stage<Indices> {
+    queue left;
+
+    constexpr void operator()(std::uint32_t i) const {
+        const auto query = this->query(i);
+        const integer_units units(query);
+        if (units.bits() > extent_limit(Words)) {
+            this->open.push(i);
+            return;
+        }
+        const outcome found = decide_in_words<Words>(query, units);
+        this->answers[i] = found;
+        if (found == outcome::uncertain) left.push(i);
+    }
+};
+
+/// How far the candidates of one call have come: a queue's size for each stage.
+struct exact_counters {
+    std::uint32_t coplanarity, inside, subdivision, one_word, two_words, left;
+};
+
+/// Scratch memory of one call.
+struct exact_memory {
+    exact_counters* counters;
+    scene_extent* scene;
+    rounded_position* rows;
+    std::uint32_t *first, *second;  ///< queues' items, in turn
+    std::uint32_t* left;
+
+    exact_memory(arena& from, std::size_t vertices, std::size_t candidates)
+        : counters(from.take<exact_counters>(1)),
+          scene(from.take<scene_extent>(1)),
+          rows(from.take<rounded_position>(2 * vertices)),
+          first(from.take<std::uint32_t>(candidates)),
+          second(from.take<std::uint32_t>(candidates)),
+          left(from.take<std::uint32_t>(candidates)) {}
+};
+
+/// Queues all stages.
+template <class Launcher, class Indices>
+void run_exact(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
+               outcome* answers, const exact_memory& memory) {
+    launcher.set(memory.counters, exact_counters{});
+    launcher.reduce(at.vertices, extent_of_vertex{at}, hull_of_extents{}, scene_extent::nothing(),
+                    memory.scene);
+    launcher.for_each(at.vertices, round_vertex{at, memory.scene, memory.rows});
+
+    exact_counters& sizes = *memory.counters;  // its members' addresses alone are used
+    const queue after_axes{memory.first, &sizes.coplanarity};
+    const queue after_coplanarity{memory.second, &sizes.inside};
+    const queue after_inside{memory.first, &sizes.subdivision};
+    const queue after_subdivision{memory.second, &sizes.one_word};
+    const queue after_one_word{memory.first, &sizes.two_words};
+    const queue left{memory.left, &sizes.left};
+    const auto stage = [&](const queue& open) {
+        return exact_stage<Indices>{at, candidates, answers, open};
+    };
+    launcher.for_each(candidates.count,
+                      axes_stage<Indices>{stage(after_axes), memory.scene, memory.rows});
+    launcher.for_each_queued(after_axes, coplanarity_stage<Indices>{stage(after_coplanarity)});
+    launcher.for_each_queued(after_coplanarity, inside_stage<Indices>{stage(after_inside)});
+    launcher.for_each_queued(after_inside, subdivision_stage<Indices>{stage(after_subdivision)});
+    launcher.for_each_queued(after_subdivision,
+                             integer_stage<Indices, 1>{stage(after_one_word), left});
+    launcher.for_each_queued(after_one_word, integer_stage<Indices, 2>{stage(left), left});
+}
+
+}  // namespace ccd::cuda

@@ -1,0 +1,121 @@
+// How kernel bodies are run: by loops on the host here, by kernels in ccd/cuda/launch.cuh.
+//
+// A body is a small object, all of whose members may be copied to the device, and
+// body(i) does the work for item i. The functions are constexpr, which makes them device code where
+// nvcc compiles them (--expt-relaxed-constexpr), and plain host code elsewhere: so tests run the same
+// bodies, indices and queues without a device.
+//
+// A launcher has:
+//   for_each(n, body)                  body(i) for all i < n, in any order
+//   for_each_queued(queue, body)       body(item) for all items that the queue holds by then
+//   set(p, value)                      *p = value, in the order of the other work
+//   reduce(n, of, combine, start, r)   *r = combination of all of(i) and `start`
+//   exclusive_scan(in, out, n)         out[i] = in[0] + ... + in[i − 1], for i <= n
+//   sort(keys, values, n)              by ascending keys, stable
+//   read(p), read(p, n, to)            waits, then copies from the memory that bodies see
+//   write(p, n, from)                  the other way
+// Those that need memory for themselves take it from `temporary`.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace ccd::cuda {
+
+/// Numbers of candidates, in memory for as many as there may be.
+struct queue {
+    std::uint32_t* items;
+    std::uint32_t* size;
+
+    /// On the device from any thread. Those of a warp that push together share one atomic operation.
+    constexpr void push(std::uint32_t item) const {
+#ifdef __CUDA_ARCH__
+        const unsigned active = __activemask();
+        unsigned lane;
+        asm("mov.u32 %0, %%laneid;" : "=r"(lane));
+        const unsigned before = active & ((1u << lane) - 1);
+        std::uint32_t base = 0;
+        if (before == 0) base = atomicAdd(size, static_cast<unsigned>(__popc(active)));
+        base = __shfl_sync(active, base, __ffs(static_cast<int>(active)) - 1);
+        items[base + static_cast<unsigned>(__popc(before))] = item;
+#else
+        items[(*size)++] = item;
+#endif
+    }
+};
+
+/// A part of one piece of memory after the other. Without memory it only counts.
+class arena {
+  public:
+    static constexpr std::size_t alignment = 256;
+
+    arena() = default;
+    arena(void* data, std::size_t bytes) : data_(static_cast<std::byte*>(data)), bytes_(bytes) {}
+
+    template <class T>
+    T* take(std::size_t count) {
+        const std::size_t begin = used_;
+        used_ += (count * sizeof(T) + alignment - 1) / alignment * alignment;
+        return data_ != nullptr && used_ <= bytes_ ? reinterpret_cast<T*>(data_ + begin) : nullptr;
+    }
+    std::size_t used() const { return used_; }
+
+  private:
+    std::byte* data_ = nullptr;
+    std::size_t bytes_ = 0, used_ = 0;
+};
+
+/// Runs bodies on the host, one after the other, in an order that differs from that of the items.
+class host_launcher {
+  public:
+    template <class Body>
+    void for_each(std::size_t n, const Body& body) const {
+        // Any order must do: here the later half comes first.
+        for (std::size_t i = n / 2; i < n; ++i) body(static_cast<std::uint32_t>(i));
+        for (std::size_t i = 0; i < n / 2; ++i) body(static_cast<std::uint32_t>(i));
+    }
+    template <class Body>
+    void for_each_queued(const queue& items, const Body& body) const {
+        for_each(*items.size, [&](std::uint32_t i) { body(items.items[i]); });
+    }
+    template <class T>
+    void set(T* p, const T& value) const {
+        *p = value;
+    }
+    template <class T, class Of, class Combine>
+    void reduce(std::size_t n, const Of& of, const Combine& combine, const T& start, T* r) const {
+        T all = start;
+        for (std::size_t i = 0; i < n; ++i) all = combine(all, of(static_cast<std::uint32_t>(i)));
+        *r = all;
+    }
+    template <class In, class Out>
+    void exclusive_scan(const In& in, Out* out, std::size_t n) const {
+        Out sum{};
+        for (std::size_t i = 0; i < n; ++i) {
+            const Out next = sum + static_cast<Out>(in(static_cast<std::uint32_t>(i)));
+            out[i] = sum;
+            sum = next;
+        }
+        out[n] = sum;
+    }
+    void sort(std::uint32_t* keys, std::uint32_t* values, std::size_t n) const {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs(n);
+        for (std::size_t i = 0; i < n; ++i) pairs[i] = {keys[i], values[i]};
+        std::ranges::stable_sort(pairs, {}, &std::pair<std::uint32_t, std::uint32_t>::first);
+        for (std::size_t i = 0; i < n; ++i) std::tie(keys[i], values[i]) = pairs[i];
+    }
+    template <class T>
+    void read(const T* p, std::size_t n, T* to) const {
+        std::copy_n(p, n, to);
+    }
+    template <class T>
+    void write(T* p, std::size_t n, const T* from) const {
+        std::copy_n(from, n, p);
+    }
+};
+
+}  // namespace ccd::cuda

@@ -1,0 +1,138 @@
+// The float methods on the device: their stages as kernel bodies, and their order. Internal.
+//
+// In float32: floats first; what they leave uncertain is decided in doubles. BSC asks the
+// coefficients of Y in a stage of its own, since they settle most candidates at a small part of the
+// cost and of the registers of the rest.
+#pragma once
+
+#include <ccd/bsc.hpp>
+#include <ccd/cuda.hpp>
+#include <ccd/safeccd.hpp>
+#include <ccd/single_precision.hpp>
+#include <ccd/tracked_query.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "ccd/cuda/launch.hpp"
+#include "ccd/cuda/queries.hpp"
+
+namespace ccd::cuda {
+
+/// Calls f(query, finite) with a candidate's query over tracked numbers of T.
+template <class Rule, class T, class Indices, class F>
+constexpr auto with_tracked_query(const positions& at, const Indices& indices, const F& f) {
+    const auto apply = [&](const auto& converted) { return f(converted.first, converted.second); };
+    if constexpr (std::is_same_v<T, double>) {
+        return apply(tracked_query<Rule>(query_at<double>(at, indices)));
+    } else {
+        // Floats are exact as they are.
+        return apply(at.in_floats
+                         ? tracked_query<Rule>(query_at<float>(at, indices))
+                         : single_precision_query<Rule>(query_at<double>(at, indices)));
+    }
+}
+
+/// BSC under a rule.
+template <class R>
+struct bsc_method {
+    using rule = R;
+    static constexpr bool coplanarity_first = true;
+
+    template <class Query>
+    static constexpr outcome decide(const Query& query) {
+        return decide_bsc_of(query).outcome;
+    }
+};
+/// SafeCCD under a rule.
+template <class R>
+struct safeccd_method {
+    using rule = R;
+    static constexpr bool coplanarity_first = false;
+
+    template <class Query>
+    static constexpr outcome decide(const Query& query) {
+        return decide_safeccd_of<R>(query).outcome;
+    }
+};
+
+template <class Indices>
+struct method_stage {
+    positions at;
+    cuda::candidates<Indices> candidates;
+    outcome* answers;
+    queue open;  ///< what the stage leaves to the next
+};
+
+/// `separate` where Y's coefficients tell so in T; the others are left open.
+template <class Method, class T, class Indices>
+struct never_coplanar_stage : method_stage<Indices> {
+    constexpr void operator()(std::uint32_t i) const {
+        const auto indices = indices_of(this->candidates, i);
+        const bool separate = with_tracked_query<typename Method::rule, T>(
+            this->at, indices,
+            [](const auto& query, bool finite) { return finite && never_coplanar(query); });
+        if (separate)
+            this->answers[i] = outcome::separate;
+        else
+            this->open.push(i);
+    }
+};
+
+/// The method's answer in T; uncertain ones are left open too, if there is a queue.
+template <class Method, class T, class Indices>
+struct decision_stage : method_stage<Indices> {
+    constexpr void operator()(std::uint32_t i) const {
+        const auto indices = indices_of(this->candidates, i);
+        const outcome found = with_tracked_query<typename Method::rule, T>(
+            this->at, indices, [](const auto& query, bool finite) {
+                return finite ? Method::decide(query) : outcome::uncertain;
+            });
+        this->answers[i] = found;
+        if (this->open.items != nullptr && found == outcome::uncertain) this->open.push(i);
+    }
+};
+
+struct method_counters {
+    std::uint32_t roots, in_doubles;
+};
+
+/// Scratch memory of one call.
+struct method_memory {
+    method_counters* counters;
+    std::uint32_t *first, *second;  ///< queues' items
+
+    method_memory(arena& from, std::size_t candidates)
+        : counters(from.take<method_counters>(1)),
+          first(from.take<std::uint32_t>(candidates)),
+          second(from.take<std::uint32_t>(candidates)) {}
+};
+
+/// Queues all stages, with T = float or double first.
+template <class Method, class T, class Launcher, class Indices>
+void run_method(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
+                outcome* answers, const method_memory& memory) {
+    launcher.set(memory.counters, method_counters{});
+    const queue none{nullptr, nullptr};
+    const queue after_coplanarity{memory.first, &memory.counters->roots};
+    const queue after_floats{memory.second, &memory.counters->in_doubles};
+    const auto stage = [&](const queue& open) {
+        return method_stage<Indices>{at, candidates, answers, open};
+    };
+    constexpr bool doubles_follow = !std::is_same_v<T, double>;
+    const decision_stage<Method, T, Indices> decision{stage(doubles_follow ? after_floats : none)};
+    if constexpr (Method::coplanarity_first) {
+        launcher.for_each(candidates.count,
+                          never_coplanar_stage<Method, T, Indices>{stage(after_coplanarity)});
+        launcher.for_each_queued(after_coplanarity, decision);
+    } else {
+        launcher.for_each(candidates.count, decision);
+    }
+    if constexpr (doubles_follow)
+        launcher.for_each_queued(after_floats,
+                                 decision_stage<Method, double, Indices>{stage(none)});
+}
+
+}  // namespace ccd::cuda

@@ -1,0 +1,90 @@
+// Reads positions and candidates as include/ccd/cuda.hpp describes them. Internal.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/cuda.hpp>
+#include <ccd/forms.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace ccd::cuda {
+
+/// The query of a kind of indices.
+template <class Indices>
+struct query_kind;
+template <>
+struct query_kind<vertex_face_indices> {
+    template <class T>
+    using query = vertex_face<T>;
+    template <class S>
+    using forms = linear_vertex_face_forms<S>;
+};
+template <>
+struct query_kind<edge_edge_indices> {
+    template <class T>
+    using query = edge_edge<T>;
+    template <class S>
+    using forms = linear_edge_edge_forms<S>;
+};
+template <class Indices, class T>
+using query_of_kind = typename query_kind<Indices>::template query<T>;
+
+/// Sixteen bytes by one instruction where there is one.
+template <class T>
+constexpr T load_aligned(const T* p) {
+    static_assert(sizeof(T) == 16);
+#ifdef __CUDA_ARCH__
+    const uint4 bits = __ldg(reinterpret_cast<const uint4*>(p));
+    T x;
+    __builtin_memcpy(&x, &bits, sizeof x);
+    return x;
+#else
+    return *p;
+#endif
+}
+
+/// The vertices of candidate i.
+template <class Indices>
+constexpr Indices indices_of(const candidates<Indices>& c, std::uint32_t i) {
+    if (c.of_rows != nullptr) return load_aligned(c.of_rows + i);
+    if (c.elements == nullptr)
+        return {c.columns[0][i], c.columns[1][i], c.columns[2][i], c.columns[3][i]};
+    const auto& second = c.elements[c.columns[1][i]];
+    if constexpr (std::is_same_v<Indices, vertex_face_indices>) {
+        return {c.columns[0][i], second[0], second[1], second[2]};
+    } else {
+        const edge& first = c.elements[c.columns[0][i]];
+        return {first[0], first[1], second[0], second[1]};
+    }
+}
+
+/// The number at `place`, which double holds exactly.
+constexpr double number_at(const void* numbers, bool in_floats, std::size_t place) {
+    return in_floats ? double(static_cast<const float*>(numbers)[place])
+                     : static_cast<const double*>(numbers)[place];
+}
+
+/// Coordinate `axis` of a vertex at t = 0.
+constexpr double coordinate_before(const positions& p, std::size_t axis, index vertex) {
+    return number_at(p.before.axis[axis], p.in_floats, p.stride * vertex);
+}
+constexpr double coordinate_after(const positions& p, std::size_t axis, index vertex) {
+    return number_at(p.after.axis[axis], p.in_floats, p.stride * vertex);
+}
+
+/// A query's points, in T: double, or float where positions are in floats.
+template <class T, class Indices>
+constexpr query_of_kind<Indices, T> query_at(const positions& p, const Indices& indices) {
+    const auto at = [&](const positions::frame& frame, index v) {
+        const auto number = [&](std::size_t axis) {
+            return static_cast<T>(number_at(frame.axis[axis], p.in_floats, p.stride * v));
+        };
+        return point<T>{number(0), number(1), number(2)};
+    };
+    const auto moving = [&](index v) { return moving_point<T>{at(p.before, v), at(p.after, v)}; };
+    const auto [a, b, c, d] = vertices_of(indices);
+    return {moving(a), moving(b), moving(c), moving(d)};
+}
+
+}  // namespace ccd::cuda

@@ -1,0 +1,206 @@
+// Collision detection on CUDA devices: positions, candidates and answers in device memory.
+//
+// The same functions as on the host, compiled for the device, so the same answers. Present where
+// the library was built with nvcc (target errbound::ccd_cuda); this header needs none of CUDA's.
+// Nothing here allocates, waits or changes the current device unless it says so. Pointers are to
+// memory of the current device unless said otherwise. Calls are safe from several threads on
+// different streams and scratch memory.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/mesh.hpp>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+struct CUstream_st;  // CUDA's; cudaStream_t points to one
+
+namespace ccd::cuda {
+
+/// A cudaStream_t; null is the default stream.
+using stream = CUstream_st*;
+
+/// What went wrong, in CUDA's words or this library's; empty if nothing did.
+struct [[nodiscard]] status {
+    std::string error;
+    explicit operator bool() const { return error.empty(); }  ///< true: no error
+};
+
+/// Whether there is a device to run on; else why not.
+status device_status();
+
+/// What a method computes in first. `float32` keeps every promise for any input: coordinates are
+/// taken relative to one of the query's points, with the error of that as the input's bound, and
+/// what floats cannot decide is decided in doubles, on the device. (`float` promises nothing, and
+/// stays in floats.)
+enum class precision : std::uint8_t { float64, float32 };
+
+/// The methods that run on the device: float, safe, tight, safeccd, safeccd-tight and exact.
+std::span<const method> device_methods();
+
+/// One frame's coordinates: those of vertex v are x[v·stride], y[v·stride] and z[v·stride].
+template <class Real>
+struct coordinates {
+    const Real *x = nullptr, *y = nullptr, *z = nullptr;
+    std::size_t stride = 1;
+
+    /// Rows x y z, contiguous.
+    static constexpr coordinates rows(const Real* xyz) { return {xyz, xyz + 1, xyz + 2, 3}; }
+};
+
+/// Positions of the same vertices at t = 0 and t = 1, in doubles or in floats.
+struct positions {
+    struct frame {
+        const void* axis[3] = {};
+    };
+    frame before, after;
+    std::size_t stride = 1;  ///< in numbers
+    bool in_floats = false;
+    std::size_t vertices = 0;
+
+    constexpr positions() = default;
+    /// The two frames must have the same stride.
+    template <class Real>
+    constexpr positions(const coordinates<Real>& at_start, const coordinates<Real>& at_end,
+                        std::size_t count)
+        : before{{at_start.x, at_start.y, at_start.z}},
+          after{{at_end.x, at_end.y, at_end.z}},
+          stride(at_start.stride),
+          in_floats(sizeof(Real) == sizeof(float)),
+          vertices(at_start.stride == at_end.stride ? count : 0) {}
+};
+
+/// The elements of a pair of Indices: a vertex and a face, or two edges.
+template <class Indices>
+struct pair_elements;
+template <>
+struct pair_elements<vertex_face_indices> {
+    using second = face;
+};
+template <>
+struct pair_elements<edge_edge_indices> {
+    using second = edge;
+};
+
+/// Candidates: rows or columns of vertex indices, or pairs of elements. Indices must be in range:
+/// the device does not look.
+template <class Indices>
+struct candidates {
+    using element = typename pair_elements<Indices>::second;
+
+    const Indices* of_rows = nullptr;
+    const index* columns[4] = {};   ///< of vertex indices, or the first two of elements
+    const element* elements = nullptr;
+    std::size_t count = 0;
+
+    /// Rows of vertex indices; their memory must be aligned to 16 bytes, as CUDA's is.
+    static constexpr candidates rows(const Indices* rows, std::size_t count) {
+        return {rows, {}, nullptr, count};
+    }
+    /// Four columns: v f0 f1 f2, or a0 a1 b0 b1.
+    static constexpr candidates of_columns(const index* a, const index* b, const index* c,
+                                           const index* d, std::size_t count) {
+        return {nullptr, {a, b, c, d}, nullptr, count};
+    }
+    /// Pairs of a vertex and a number of `elements` (faces), or of two numbers of them (edges).
+    static constexpr candidates pairs(const index* first, const index* second,
+                                      const element* elements, std::size_t count) {
+        return {nullptr, {first, second, nullptr, nullptr}, elements, count};
+    }
+};
+
+/// Device memory that a call may write to.
+struct scratch {
+    void* data = nullptr;
+    std::size_t bytes = 0;
+};
+/// How much of it `decide_batch` and `select_colliding` need: 12 bytes a candidate, 32 a vertex and
+/// some kilobytes.
+std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates);
+
+struct batch_options {
+    ccd::method method = method::exact;
+    ccd::cuda::precision precision = precision::float64;
+    cuda::stream stream = nullptr;
+};
+
+/// Decides candidate i into answers[i], as decide() of ccd/method.hpp does in doubles. Only queues
+/// work on the stream. At most 2^32 − 2 candidates.
+///
+/// After `exact`, `uncertain` stands for the few candidates that integers of fixed width cannot
+/// decide (ccd/exact.hpp) and those with coordinates that are not finite; finish() decides the
+/// former. Until then the scratch memory must stay as it is.
+status decide_batch(const positions& positions, const candidates<vertex_face_indices>& candidates,
+                    outcome* answers, scratch memory, const batch_options& options = {});
+status decide_batch(const positions& positions, const candidates<edge_edge_indices>& candidates,
+                    outcome* answers, scratch memory, const batch_options& options = {});
+
+/// What the stages of `exact` were asked, in one call of decide_batch.
+struct stage_counts {
+    std::uint32_t axes = 0, coplanarity = 0, inside = 0, subdivision = 0;
+    std::uint32_t integers_one_word = 0, integers_two_words = 0;
+    std::uint32_t left_open = 0;  ///< decided by finish()
+};
+
+/// Decides what decide_batch of `exact` left open, on the host, and writes the answers. Waits for
+/// the stream. `counts`, if not null, receives what the stages did.
+status finish(const positions& positions, const candidates<vertex_face_indices>& candidates,
+              outcome* answers, scratch memory, const batch_options& options,
+              stage_counts* counts = nullptr);
+status finish(const positions& positions, const candidates<edge_edge_indices>& candidates,
+              outcome* answers, scratch memory, const batch_options& options,
+              stage_counts* counts = nullptr);
+
+/// Writes the numbers of the answers other than `separate`, ascending, to found[0], ...,
+/// found[room − 1] and how many there are to *count, which may exceed `room`: then call again with
+/// more. Only queues work. Scratch memory as above; what decide_batch left there is lost, so finish
+/// first.
+status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
+                        std::size_t room, index* count, scratch memory, stream stream = nullptr);
+
+/// Steps of one mesh on the device: keeps its faces, edges and memory from step to step.
+class mesh_steps {
+  public:
+    /// Pairs in device memory, as vertex indices, in no particular order but always the same one.
+    struct result {
+        const vertex_face_indices* vertex_face = nullptr;
+        std::size_t vertex_face_count = 0;
+        const edge_edge_indices* edge_edge = nullptr;
+        std::size_t edge_edge_count = 0;
+        std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
+        std::size_t finished_on_host = 0;  ///< candidates that `exact` left open
+    };
+
+    /// Faces in host memory, with indices below `vertices` (else std::invalid_argument). Allocates
+    /// and copies on first use, on the stream given then.
+    mesh_steps(std::span<const face> faces, std::size_t vertices);
+    ~mesh_steps();
+
+    /// The pairs that options.method cannot certify as separate, as ccd::step() finds them. The
+    /// result is this object's and lasts until the next call. Coordinates must be finite. Waits for
+    /// the stream some times; allocates where its memory does not suffice.
+    status run(const positions& positions, const batch_options& options, result& found);
+
+  private:
+    struct state;
+    std::unique_ptr<state> state_;
+};
+
+/// ccd::step() on the device: copies both frames there and the pairs back. options.threads and set
+/// are of no use here; of the seconds, those of both phases are taken together as the narrow's.
+status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
+            step_result& result);
+
+/// ccd::decide_batch, from and to host memory, by any of device_methods().
+status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
+              const batch_options& options);
+status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
+              const batch_options& options);
+
+}  // namespace ccd::cuda
