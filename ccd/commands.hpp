@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
+#include "ccd/on_device.hpp"
 #include "ccd/stress/stress.hpp"
 
 namespace ccd::program {
@@ -17,6 +18,7 @@ namespace ccd::program {
 struct query_arguments {
     std::vector<std::filesystem::path> files;
     std::vector<ccd::method> methods;
+    device_choice device;
     std::optional<io::query_kind> kind;  ///< none: from each path
     bool round = false;
     std::optional<std::filesystem::path> verdicts;  ///< with one file and one method only
@@ -29,6 +31,7 @@ void run_query(const query_arguments& arguments);
 struct step_arguments {
     std::filesystem::path before, after;
     ccd::method method = ccd::method::exact;
+    device_choice device;
     int threads = 0;  ///< 0: as many as the machine has cores
     std::optional<instruction_set> set;
     bool explain = false;

@@ -1,6 +1,7 @@
 // The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
 // broke its promise, in `ccd stress` and `ccd report`), 2 bad usage.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <string>
@@ -33,6 +34,27 @@ ccd::instruction_set instruction_set_named(const std::string& name) {
     }
     throw usage_error("--instruction-set: found '" + name + "', expected one of " + known +
                       " (what this build holds and this machine runs)");
+}
+
+device_choice device_named(const std::string& device, const std::string& precision) {
+    if (device == "cpu") {
+        if (!precision.empty())
+            throw usage_error("--precision: found --device cpu, expected --device cuda");
+        return {};
+    }
+    require_device();
+    return {true, precision == "float32" ? cuda::precision::float32 : cuda::precision::float64};
+}
+
+/// Only some methods run on devices.
+void require_on_device(ccd::method m) {
+    const std::vector<ccd::method> possible = methods_on_device();
+    if (std::ranges::find(possible, m) != possible.end()) return;
+    std::string known;
+    for (const ccd::method p : possible)
+        known += (known.empty() ? "" : ", ") + std::string(info(p).name);
+    throw usage_error("--method: found '" + std::string(info(m).name) +
+                      "' with --device cuda, expected one of " + known);
 }
 
 const stress::family* family_named(const std::string& name) {
@@ -71,6 +93,7 @@ struct command_line {
     stress_arguments stress;
     report_arguments report;
     std::string query_methods, query_kind, step_method = "exact", step_set;
+    std::string device = "cpu", precision;
     std::string stress_methods, stress_families, report_methods;
     bool stress_quick = false;
     std::size_t stress_queries = 1000;
@@ -79,6 +102,17 @@ struct command_line {
     CLI::App* stress_command = nullptr;
     CLI::App* report_command = nullptr;
     CLI::App* methods_command = nullptr;
+
+    void add_device_options(CLI::App& command) {
+        command.add_option("--device", device, "Where to decide: cpu, else cuda")
+            ->check(CLI::IsMember({"cpu", "cuda"}))
+            ->capture_default_str();
+        command
+            .add_option("--precision", precision,
+                        "With --device cuda: what methods compute in first, float64 (the default)\n"
+                        "or float32; what floats cannot tell is decided in doubles")
+            ->check(CLI::IsMember({"float64", "float32"}));
+    }
 
     command_line() {
         app.require_subcommand(1);
@@ -108,6 +142,7 @@ struct command_line {
             ->type_name("OUT");
         query_command->add_option("--json", query.json, "Write the table as JSON")
             ->type_name("OUT");
+        add_device_options(*query_command);
 
         step_command = app.add_subcommand("step", "One step of a mesh: the colliding pairs");
         step_command->add_option("FRAME0", step.before, "PLY or OBJ")->required();
@@ -128,6 +163,7 @@ struct command_line {
                                "left out");
         step_command->add_option("--json", step.json, "Write counts and seconds as JSON")
             ->type_name("OUT");
+        add_device_options(*step_command);
 
         stress_command =
             app.add_subcommand("stress",
@@ -197,7 +233,12 @@ struct command_line {
 
     exit_status run() {
         if (query_command->parsed()) {
-            query.methods = methods_named(query_methods, query_command->count("--method") == 0);
+            query.device = device_named(device, precision);
+            const bool all = query_command->count("--method") == 0;
+            query.methods =
+                all && query.device.cuda ? methods_on_device() : methods_named(query_methods, all);
+            if (query.device.cuda)
+                for (const ccd::method m : query.methods) require_on_device(m);
             if (!query_kind.empty()) {
                 query.kind =
                     query_kind == "vf" ? io::query_kind::vertex_face : io::query_kind::edge_edge;
@@ -216,6 +257,14 @@ struct command_line {
             if (step.method != method::exact && (step.explain || step.set))
                 throw usage_error("--explain and --instruction-set: found --method " + step_method +
                                   ", expected exact, which alone has stages");
+            step.device = device_named(device, precision);
+            if (step.device.cuda) {
+                require_on_device(step.method);
+                if (step.explain || step.set || step_command->count("--threads") > 0)
+                    throw usage_error(
+                        "--explain, --instruction-set and --threads: found --device cuda, expected "
+                        "--device cpu");
+            }
             require_separate({step.pairs, step.json}, {step.before, step.after});
             run_step(step);
         } else if (stress_command->parsed()) {
@@ -253,6 +302,9 @@ int main_with_status(int argc, char** argv) {
         std::cerr << "ccd: " << error.what() << '\n';
         return bad_usage;
     } catch (const io::file_error& error) {
+        std::cerr << "ccd: " << error.what() << '\n';
+        return bad_input;
+    } catch (const device_error& error) {
         std::cerr << "ccd: " << error.what() << '\n';
         return bad_input;
     } catch (const std::bad_alloc&) {

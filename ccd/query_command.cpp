@@ -36,31 +36,36 @@ struct result {
 };
 
 template <class Query>
-void decide_all(const std::vector<Query>& queries, result& out) {
+void decide_all(const std::vector<Query>& queries, const device_choice& device, result& out) {
     // Bytes, since packing bits is work that is not the method's.
-    std::vector<unsigned char> verdicts(queries.size());
+    std::vector<outcome> outcomes(queries.size());
     double fastest = std::numeric_limits<double>::infinity();
     const steady_clock::time_point start = steady_clock::now();
     do {
         const steady_clock::time_point pass = steady_clock::now();
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            verdicts[i] = may_collide(decide(out.method, queries[i]));
-        }
+        if (device.cuda)
+            decide_on_device(queries, outcomes, out.method, device.precision);
+        else
+            for (std::size_t i = 0; i < queries.size(); ++i)
+                outcomes[i] = decide(out.method, queries[i]).outcome;
         fastest = std::min(fastest, seconds_since(pass));
     } while (seconds_since(start) < 0.02);
-    out.verdicts.assign(verdicts.begin(), verdicts.end());
+    out.verdicts.resize(queries.size());
+    std::ranges::transform(outcomes, out.verdicts.begin(),
+                           [](outcome o) { return o != outcome::separate; });
     out.ns_per_query = fastest * 1e9 / static_cast<double>(queries.size());
 }
 
-result decide_file(const io::query_file& queries, const std::string& file, ccd::method method) {
+result decide_file(const io::query_file& queries, const std::string& file, ccd::method method,
+                   const device_choice& device) {
     result out;
     out.file = file;
     out.kind = queries.kind;
     out.method = method;
     if (queries.kind == io::query_kind::vertex_face) {
-        decide_all(queries.vertex_face_queries, out);
+        decide_all(queries.vertex_face_queries, device, out);
     } else {
-        decide_all(queries.edge_edge_queries, out);
+        decide_all(queries.edge_edge_queries, device, out);
     }
     if (queries.truth) {
         std::size_t positives = 0, negatives = 0;
@@ -124,7 +129,7 @@ void run_query(const query_arguments& arguments) {
             const io::query_file queries =
                 io::read_queries(arguments.files[i], arguments.kind, arguments.round);
             for (const ccd::method method : arguments.methods) {
-                results.push_back(decide_file(queries, file, method));
+                results.push_back(decide_file(queries, file, method, arguments.device));
             }
         }
     }

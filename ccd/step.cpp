@@ -5,66 +5,20 @@
 #include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/step.hpp>
-#include <chrono>
 #include <cstddef>
-#include <limits>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "ccd/batch_worker.hpp"
 #include "ccd/broad_phase.hpp"
-#include "ccd/finite.hpp"
 #include "ccd/rounded_positions.hpp"
 #include "ccd/step_frames.hpp"
+#include "ccd/step_parts.hpp"
 #include "ccd/threads.hpp"
 
 namespace ccd {
 namespace {
-
-void check(const mesh& before, const mesh& after) {
-    if (before.vertices.size() != after.vertices.size())
-        throw std::invalid_argument("ccd::step: " + std::to_string(before.vertices.size()) +
-                                    " vertices before, " + std::to_string(after.vertices.size()) +
-                                    " after");
-    if (before.faces != after.faces)
-        throw std::invalid_argument("ccd::step: the two frames differ in their faces");
-    if (before.vertices.size() > std::numeric_limits<index>::max())
-        throw std::invalid_argument("ccd::step: more vertices than an index can name");
-    for (const face& f : before.faces)
-        for (const index v : f)
-            if (v >= before.vertices.size())
-                throw std::invalid_argument("ccd::step: a face names vertex " + std::to_string(v) +
-                                            " of " + std::to_string(before.vertices.size()));
-    for (const mesh* frame : {&before, &after})
-        if (!all_finite(reinterpret_cast<const double*>(frame->vertices.data()),
-                        3 * frame->vertices.size()))
-            throw std::invalid_argument("ccd::step: a coordinate is not finite");
-}
-
-/// Seconds since it was made or last read.
-class stopwatch {
-  public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-vertex_face_pair pair_of(const vertex_face_indices& q) {
-    face f{q.f0, q.f1, q.f2};
-    std::ranges::sort(f);
-    return {q.v, f};
-}
-
-edge_edge_pair pair_of(const edge_edge_indices& q) {
-    return {{q.a0, q.a1}, {q.b0, q.b1}};  // edges are ascending, the lesser one first
-}
 
 /// Decides the candidates that it is given and keeps the pairs that may collide.
 template <class Pair>
@@ -138,7 +92,7 @@ class narrow_phase {
 step_result run_step(const mesh& before, const mesh& after, const step_options& options) {
     stopwatch total, watch;
     step_result result;
-    check(before, after);
+    check_step(before, after);
     std::vector<edge> edges = unique_edges(before.faces);
     const vertex_rows rows(before, after);
     const rounded_positions rounded(rows);

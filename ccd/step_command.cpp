@@ -158,11 +158,14 @@ void run_step(const step_arguments& arguments) {
     const double read =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-    const step_result result = step(before, after,
-                                    {.method = arguments.method,
-                                     .threads = arguments.threads,
-                                     .set = arguments.set,
-                                     .explain = arguments.explain});
+    const step_result result =
+        arguments.device.cuda
+            ? step_on_device(before, after, arguments.method, arguments.device.precision)
+            : step(before, after,
+                   {.method = arguments.method,
+                    .threads = arguments.threads,
+                    .set = arguments.set,
+                    .explain = arguments.explain});
     const std::size_t memory = peak_memory_bytes();
     if (arguments.pairs) io::write_whole(*arguments.pairs, lines_of_pairs(result));
     if (arguments.json) {

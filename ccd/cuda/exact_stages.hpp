@@ -119,8 +119,7 @@ struct axes_stage : exact_stage<Indices> {
         const auto vertices = vertices_of(indices_of(this->candidates, i));
         for (std::size_t p = 0; p < 4; ++p)
             for (std::size_t end = 0; end < 2; ++end) {
-                const rounded_position r =
-                    load_aligned(rows + 2 * std::size_t(vertices[p]) + end);
+                const rounded_position r = load_aligned(rows + 2 * std::size_t(vertices[p]) + end);
                 x[0][end][p] = r.x, x[1][end][p] = r.y, x[2][end][p] = r.z;
             }
         return rounded_axes::parted<Indices>(x);
@@ -220,20 +219,31 @@ struct exact_memory {
         : counters(from.take<exact_counters>(1)),
           scene(from.take<scene_extent>(1)),
           rows(from.take<rounded_position>(2 * vertices)),
-          first(from.take<std::uint32_t>(candidates)),
-          second(from.take<std::uint32_t>(candidates)),
+          first(from.take<std::uint32_t>(queue_items(candidates))),
+          second(from.take<std::uint32_t>(queue_items(candidates))),
           left(from.take<std::uint32_t>(candidates)) {}
+
+    /// Room of the first two queues: at least for one query (ccd/cuda/pairs.hpp).
+    static constexpr std::size_t queue_items(std::size_t candidates) {
+        return candidates < 64 ? 64 : candidates;
+    }
 };
 
-/// Queues all stages.
-template <class Launcher, class Indices>
-void run_exact(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
-               outcome* answers, const exact_memory& memory) {
-    launcher.set(memory.counters, exact_counters{});
+/// Rounds all positions for the first stage.
+template <class Launcher>
+void run_rounding(Launcher& launcher, const positions& at, scene_extent* scene,
+                  rounded_position* rows) {
     launcher.reduce(at.vertices, extent_of_vertex{at}, hull_of_extents{}, scene_extent::nothing(),
-                    memory.scene);
-    launcher.for_each(at.vertices, round_vertex{at, memory.scene, memory.rows});
+                    scene);
+    launcher.for_each(at.vertices, round_vertex{at, scene, rows});
+}
 
+/// Queues all stages; positions are rounded already.
+template <class Launcher, class Indices>
+void run_exact_stages(Launcher& launcher, const positions& at,
+                      const candidates<Indices>& candidates, outcome* answers,
+                      const exact_memory& memory) {
+    launcher.set(memory.counters, exact_counters{});
     exact_counters& sizes = *memory.counters;  // its members' addresses alone are used
     const queue after_axes{memory.first, &sizes.coplanarity};
     const queue after_coplanarity{memory.second, &sizes.inside};
@@ -252,6 +262,14 @@ void run_exact(Launcher& launcher, const positions& at, const candidates<Indices
     launcher.for_each_queued(after_subdivision,
                              integer_stage<Indices, 1>{stage(after_one_word), left});
     launcher.for_each_queued(after_one_word, integer_stage<Indices, 2>{stage(left), left});
+}
+
+/// Queues everything.
+template <class Launcher, class Indices>
+void run_exact(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
+               outcome* answers, const exact_memory& memory) {
+    run_rounding(launcher, at, memory.scene, memory.rows);
+    run_exact_stages(launcher, at, candidates, answers, memory);
 }
 
 }  // namespace ccd::cuda

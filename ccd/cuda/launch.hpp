@@ -2,25 +2,26 @@
 //
 // A body is a small object, all of whose members may be copied to the device, and
 // body(i) does the work for item i. The functions are constexpr, which makes them device code where
-// nvcc compiles them (--expt-relaxed-constexpr), and plain host code elsewhere: so tests run the same
-// bodies, indices and queues without a device.
+// nvcc compiles them (--expt-relaxed-constexpr), and plain host code elsewhere: so tests run the
+// same bodies, indices and queues without a device.
 //
 // A launcher has:
+//   buffer<T>                          memory that bodies see: resize(launcher, n), data(), size();
+//                                      resizing keeps what is there
 //   for_each(n, body)                  body(i) for all i < n, in any order
 //   for_each_queued(queue, body)       body(item) for all items that the queue holds by then
 //   set(p, value)                      *p = value, in the order of the other work
 //   reduce(n, of, combine, start, r)   *r = combination of all of(i) and `start`
-//   exclusive_scan(in, out, n)         out[i] = in[0] + ... + in[i − 1], for i <= n
+//   exclusive_scan(in, out, n)         out[i] = in(0) + ... + in(i − 1), for i <= n
 //   sort(keys, values, n)              by ascending keys, stable
-//   read(p), read(p, n, to)            waits, then copies from the memory that bodies see
+//   read(p, n, to)                     waits, then copies from the memory that bodies see
 //   write(p, n, from)                  the other way
-// Those that need memory for themselves take it from `temporary`.
+//   ok()                               false after an error: then nothing more is done
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct queue {
     std::uint32_t* items;
     std::uint32_t* size;
 
-    /// On the device from any thread. Those of a warp that push together share one atomic operation.
+    /// On the device from any thread. Those of a warp that push together share one atomic
+    /// operation.
     constexpr void push(std::uint32_t item) const {
 #ifdef __CUDA_ARCH__
         const unsigned active = __activemask();
@@ -72,6 +74,19 @@ class arena {
 /// Runs bodies on the host, one after the other, in an order that differs from that of the items.
 class host_launcher {
   public:
+    template <class T>
+    class buffer {
+      public:
+        void resize(const host_launcher&, std::size_t n) { items_.resize(n); }
+        T* data() { return items_.data(); }
+        std::size_t size() const { return items_.size(); }
+
+      private:
+        std::vector<T> items_;
+    };
+
+    bool ok() const { return true; }
+
     template <class Body>
     void for_each(std::size_t n, const Body& body) const {
         // Any order must do: here the later half comes first.
@@ -106,7 +121,10 @@ class host_launcher {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs(n);
         for (std::size_t i = 0; i < n; ++i) pairs[i] = {keys[i], values[i]};
         std::ranges::stable_sort(pairs, {}, &std::pair<std::uint32_t, std::uint32_t>::first);
-        for (std::size_t i = 0; i < n; ++i) std::tie(keys[i], values[i]) = pairs[i];
+        for (std::size_t i = 0; i < n; ++i) {
+            keys[i] = pairs[i].first;
+            values[i] = pairs[i].second;
+        }
     }
     template <class T>
     void read(const T* p, std::size_t n, T* to) const {

@@ -29,9 +29,8 @@ constexpr auto with_tracked_query(const positions& at, const Indices& indices, c
         return apply(tracked_query<Rule>(query_at<double>(at, indices)));
     } else {
         // Floats are exact as they are.
-        return apply(at.in_floats
-                         ? tracked_query<Rule>(query_at<float>(at, indices))
-                         : single_precision_query<Rule>(query_at<double>(at, indices)));
+        return apply(at.in_floats ? tracked_query<Rule>(query_at<float>(at, indices))
+                                  : single_precision_query<Rule>(query_at<double>(at, indices)));
     }
 }
 

@@ -95,7 +95,7 @@ struct candidates {
     using element = typename pair_elements<Indices>::second;
 
     const Indices* of_rows = nullptr;
-    const index* columns[4] = {};   ///< of vertex indices, or the first two of elements
+    const index* columns[4] = {};  ///< of vertex indices, or the first two of elements
     const element* elements = nullptr;
     std::size_t count = 0;
 

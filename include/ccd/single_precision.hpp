@@ -15,13 +15,13 @@
 
 namespace ccd {
 
-/// The query over tracked floats, translated so that its first point starts at the origin, and times
-/// the power of two that brings its largest coordinate near 1, if that is far from it. False in
-/// `second` if a coordinate is not finite.
+/// The query over tracked floats, translated so that its first point starts at the origin, and
+/// times the power of two that brings its largest coordinate near 1, if that is far from it. False
+/// in `second` if a coordinate is not finite.
 ///
-/// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|, or
-/// by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η, rounded
-/// downwards as it may be. (Where d overflows, f is infinite and its bound NaN.)
+/// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|,
+/// or by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η,
+/// rounded downwards as it may be. (Where d overflows, f is infinite and its bound NaN.)
 template <class Rule, template <class> class Query>
 constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precision_query(
     const Query<double>& query) {

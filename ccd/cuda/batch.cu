@@ -1,0 +1,201 @@
+// Batches on the device: arguments are checked, memory is shared out, the method's stages queued.
+#include <algorithm>
+#include <ccd/cuda.hpp>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ccd/cuda/batch.cuh"
+#include "ccd/cuda/device_methods.cuh"
+#include "ccd/cuda/method_stages.hpp"
+#include "ccd/cuda/pairs.hpp"
+
+namespace ccd::cuda {
+namespace {
+
+struct entry {
+    ccd::method method;
+    const device_method* functions;  ///< null: exact
+};
+const entry table[] = {
+    {method::float_, &device_float},   {method::safe, &device_safe},
+    {method::tight, &device_tight},    {method::safeccd, &device_safeccd},
+    {method::exact, nullptr},          {method::safeccd_tight, &device_safeccd_tight},
+};
+
+/// For CUB's own use: a few bytes for every thousand items, and what it keeps for each block.
+std::size_t temporary_bytes(std::size_t candidates) {
+    return (std::size_t(4) << 20) + candidates / 16;
+}
+
+/// Scratch memory, shared out.
+struct shares {
+    arena temporary, rest;
+
+    shares(const scratch& memory, std::size_t candidates) {
+        const std::size_t first = std::min(memory.bytes, temporary_bytes(candidates));
+        const std::size_t aligned = (first + arena::alignment - 1) / arena::alignment *
+                                    arena::alignment;
+        temporary = arena(memory.data, first);
+        if (aligned <= memory.bytes)
+            rest = arena(static_cast<std::byte*>(memory.data) + aligned, memory.bytes - aligned);
+    }
+};
+
+std::string needed(const std::string& what, std::size_t found, std::size_t expected) {
+    return "ccd::cuda: found " + what + " of " + std::to_string(found) + ", expected " +
+           std::to_string(expected);
+}
+
+/// The largest number of candidates in one call: they are numbered in 32 bits, and one more.
+constexpr std::size_t most_candidates = std::numeric_limits<std::uint32_t>::max() - 1;
+
+template <class Indices>
+std::string fault_of(const positions& at, const candidates<Indices>& candidates,
+                     const outcome* answers, const scratch& memory, method m) {
+    if (std::ranges::find(device_methods(), m) == device_methods().end())
+        return "ccd::cuda: found the method " + std::string(info(m).name) +
+               ", expected one of device_methods()";
+    if (candidates.count > most_candidates)
+        return needed("candidates", candidates.count, most_candidates) + " at most";
+    if (candidates.count == 0) return {};
+    if (at.vertices == 0)
+        return "ccd::cuda: found no vertices, or frames of different strides, expected positions";
+    if (at.vertices > most_candidates)
+        return needed("vertices", at.vertices, most_candidates) + " at most";
+    if (answers == nullptr || memory.data == nullptr)
+        return "ccd::cuda: found a null pointer, expected device memory";
+    if (reinterpret_cast<std::uintptr_t>(candidates.of_rows) % 16 != 0)
+        return "ccd::cuda: found rows of indices at an address that is no multiple of 16";
+    if (reinterpret_cast<std::uintptr_t>(memory.data) % arena::alignment != 0)
+        return "ccd::cuda: found scratch memory at an address that is no multiple of 256";
+    const std::size_t bytes = scratch_bytes(at.vertices, candidates.count);
+    if (memory.bytes < bytes)
+        return needed("scratch memory", memory.bytes, bytes) + " bytes";
+    return {};
+}
+
+template <class Indices>
+status decide_any(const positions& at, const candidates<Indices>& candidates, outcome* answers,
+                  scratch memory, const batch_options& options) {
+    if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
+        !fault.empty())
+        return {std::move(fault)};
+    if (candidates.count == 0) return {};
+    const shares parts(memory, candidates.count);
+    device_launcher launcher(options.stream, parts.temporary);
+    arena rest = parts.rest;
+    if (options.method == method::exact) {
+        const exact_memory all(rest, at.vertices, candidates.count);
+        run_rounding(launcher, at, all.scene, all.rows);
+        queue_exact(launcher, at, candidates, answers, all);
+    } else {
+        queue_float_method(launcher, at, candidates, answers, rest, options);
+    }
+    return launcher.result();
+}
+
+template <class Indices>
+status finish_any(const positions& at, const candidates<Indices>& candidates, outcome* answers,
+                  scratch memory, const batch_options& options, stage_counts* counts) {
+    if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
+        !fault.empty())
+        return {std::move(fault)};
+    if (counts != nullptr) *counts = {};
+    if (candidates.count == 0 || options.method != method::exact) return {};
+    const shares parts(memory, candidates.count);
+    device_launcher launcher(options.stream, parts.temporary);
+    arena rest = parts.rest;
+    const exact_memory all(rest, at.vertices, candidates.count);
+    const exact_counters c = finish_exact(launcher, at, candidates, answers, all);
+    if (counts != nullptr && launcher.ok())
+        *counts = {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside,
+                   c.subdivision, c.one_word, c.two_words, c.left};
+    return launcher.result();
+}
+
+template <class Indices>
+void queue_by(const device_method& m, device_launcher& launcher, const positions& at,
+              const candidates<Indices>& candidates, outcome* answers, arena memory,
+              precision p) {
+    const auto& functions = p == precision::float32 ? m.float32 : m.float64;
+    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
+        functions.vertex_face(launcher, at, candidates, answers, memory);
+    else
+        functions.edge_edge(launcher, at, candidates, answers, memory);
+}
+
+}  // namespace
+
+template <class Indices>
+void queue_float_method(device_launcher& launcher, const positions& at,
+                        const candidates<Indices>& candidates, outcome* answers, arena memory,
+                        const batch_options& options) {
+    queue_by(*std::ranges::find(table, options.method, &entry::method)->functions, launcher, at,
+             candidates, answers, memory, options.precision);
+}
+template void queue_float_method(device_launcher&, const positions&,
+                                 const candidates<vertex_face_indices>&, outcome*, arena,
+                                 const batch_options&);
+template void queue_float_method(device_launcher&, const positions&,
+                                 const candidates<edge_edge_indices>&, outcome*, arena,
+                                 const batch_options&);
+
+std::span<const method> device_methods() {
+    static constexpr method all[] = {method::float_,  method::safe,          method::tight,
+                                     method::safeccd, method::safeccd_tight, method::exact};
+    return all;
+}
+
+status device_status() {
+    int count = 0;
+    device_launcher launcher(nullptr);
+    if (launcher.check(cudaGetDeviceCount(&count)) && count == 0)
+        launcher.fail("CUDA: no device");
+    return launcher.result();
+}
+
+std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates) {
+    arena exact, other, place;
+    (void)exact_memory(exact, vertices, candidates);
+    (void)method_memory(other, candidates);
+    place.take<std::uint32_t>(candidates + 1);
+    return (temporary_bytes(candidates) + arena::alignment) / arena::alignment * arena::alignment +
+           std::max({exact.used(), other.used(), place.used()});
+}
+
+status decide_batch(const positions& positions, const candidates<vertex_face_indices>& candidates,
+                    outcome* answers, scratch memory, const batch_options& options) {
+    return decide_any(positions, candidates, answers, memory, options);
+}
+status decide_batch(const positions& positions, const candidates<edge_edge_indices>& candidates,
+                    outcome* answers, scratch memory, const batch_options& options) {
+    return decide_any(positions, candidates, answers, memory, options);
+}
+status finish(const positions& positions, const candidates<vertex_face_indices>& candidates,
+              outcome* answers, scratch memory, const batch_options& options,
+              stage_counts* counts) {
+    return finish_any(positions, candidates, answers, memory, options, counts);
+}
+status finish(const positions& positions, const candidates<edge_edge_indices>& candidates,
+              outcome* answers, scratch memory, const batch_options& options,
+              stage_counts* counts) {
+    return finish_any(positions, candidates, answers, memory, options, counts);
+}
+
+status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
+                        std::size_t room, index* count, scratch memory, stream stream) {
+    if (answer_count > most_candidates)
+        return {needed("answers", answer_count, most_candidates) + " at most"};
+    if (memory.bytes < scratch_bytes(0, answer_count))
+        return {needed("scratch memory", memory.bytes, scratch_bytes(0, answer_count)) + " bytes"};
+    const shares parts(memory, answer_count);
+    device_launcher launcher(stream, parts.temporary);
+    arena rest = parts.rest;
+    run_select(launcher, answers, answer_count, found, room, count,
+               rest.take<std::uint32_t>(answer_count + 1));
+    return launcher.result();
+}
+
+}  // namespace ccd::cuda

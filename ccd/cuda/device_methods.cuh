@@ -1,0 +1,36 @@
+// The methods as compiled for the device, each in an object file of its own. Internal.
+#pragma once
+
+#include <ccd/cuda.hpp>
+
+#include "ccd/cuda/exact_stages.hpp"
+#include "ccd/cuda/launch.cuh"
+
+namespace ccd::cuda {
+
+/// Queues one method but `exact`.
+struct device_method {
+    template <class Indices>
+    using function = void (*)(device_launcher& launcher, const positions& at,
+                              const candidates<Indices>& candidates, outcome* answers,
+                              arena memory);
+    struct functions {
+        function<vertex_face_indices> vertex_face;
+        function<edge_edge_indices> edge_edge;
+    };
+    functions float64, float32;
+};
+
+// Defined by ccd/cuda/method.cu, compiled once for each.
+extern const device_method device_float, device_safe, device_tight, device_safeccd,
+    device_safeccd_tight;
+
+/// run_exact_stages, compiled in ccd/cuda/exact.cu.
+void queue_exact(device_launcher& launcher, const positions& at,
+                 const candidates<vertex_face_indices>& candidates, outcome* answers,
+                 const exact_memory& memory);
+void queue_exact(device_launcher& launcher, const positions& at,
+                 const candidates<edge_edge_indices>& candidates, outcome* answers,
+                 const exact_memory& memory);
+
+}  // namespace ccd::cuda

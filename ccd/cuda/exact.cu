@@ -1,0 +1,12 @@
+// `exact` for the device, compiled once for each kind (ERRBOUND_INDICES).
+#include "ccd/cuda/device_methods.cuh"
+
+namespace ccd::cuda {
+
+void queue_exact(device_launcher& launcher, const positions& at,
+                 const candidates<ERRBOUND_INDICES>& candidates, outcome* answers,
+                 const exact_memory& memory) {
+    run_exact_stages(launcher, at, candidates, answers, memory);
+}
+
+}  // namespace ccd::cuda

@@ -1,0 +1,208 @@
+// Runs kernel bodies on a device: see ccd/cuda/launch.hpp. Internal; for nvcc alone.
+#pragma once
+
+#include <cuda_runtime.h>
+#include <thrust/iterator/counting_iterator.h>
+#include <thrust/iterator/transform_iterator.h>
+
+#include <algorithm>
+#include <ccd/cuda.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_reduce.cuh>
+#include <cub/device/device_scan.cuh>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "ccd/cuda/launch.hpp"
+
+namespace ccd::cuda {
+
+inline constexpr unsigned block_threads = 128;
+
+template <class Body>
+__global__ void __launch_bounds__(block_threads) run_for_each(const Body body, std::size_t n) {
+    const std::size_t i = std::size_t(blockIdx.x) * blockDim.x + threadIdx.x;
+    if (i < n) body(static_cast<std::uint32_t>(i));
+}
+
+/// As many blocks as run at once take the items in turn: how many there are is known here only.
+template <class Body>
+__global__ void __launch_bounds__(block_threads) run_for_each_queued(const Body body, queue items) {
+    const std::size_t n = *items.size;
+    for (std::size_t i = std::size_t(blockIdx.x) * blockDim.x + threadIdx.x; i < n;
+         i += std::size_t(gridDim.x) * blockDim.x)
+        body(items.items[i]);
+}
+
+template <class T>
+__global__ void set_value(T* p, const T value) {
+    *p = value;
+}
+
+/// The input of a scan, and a zero behind it for the total.
+template <class In, class Out>
+struct padded {
+    In in;
+    std::size_t n;
+    constexpr Out operator()(std::uint64_t i) const {
+        return i < n ? static_cast<Out>(in(static_cast<std::uint32_t>(i))) : Out{};
+    }
+};
+
+/// Runs bodies on the current device, in order on one stream. After the first error it does no more.
+class device_launcher {
+  public:
+    explicit device_launcher(stream s, std::optional<arena> temporary = {}) : stream_(s), temporary_(temporary) {}
+
+    template <class T>
+    class buffer {
+      public:
+        buffer() = default;
+        buffer(const buffer&) = delete;
+        buffer& operator=(const buffer&) = delete;
+        ~buffer() { (void)cudaFree(data_); }
+
+        void resize(device_launcher& launcher, std::size_t n) {
+            if (n > capacity_) {
+                T* larger = nullptr;
+                const std::size_t capacity = std::max(n, 2 * size_);
+                if (!launcher.check(cudaMalloc(&larger, capacity * sizeof(T)))) return;
+                if (size_ > 0)
+                    launcher.check(cudaMemcpyAsync(larger, data_, size_ * sizeof(T),
+                                                   cudaMemcpyDeviceToDevice, launcher.stream_));
+                launcher.wait();
+                launcher.check(cudaFree(data_));
+                data_ = larger;
+                capacity_ = capacity;
+            }
+            size_ = n;
+        }
+        T* data() { return data_; }
+        std::size_t size() const { return size_; }
+
+      private:
+        T* data_ = nullptr;
+        std::size_t size_ = 0, capacity_ = 0;
+    };
+
+    template <class Body>
+    void for_each(std::size_t n, const Body& body) {
+        if (!ok() || n == 0) return;
+        const auto blocks = static_cast<unsigned>((n + block_threads - 1) / block_threads);
+        run_for_each<<<blocks, block_threads, 0, stream_>>>(body, n);
+        check(cudaGetLastError());
+    }
+    template <class Body>
+    void for_each_queued(const queue& items, const Body& body) {
+        if (!ok()) return;
+        int device = 0, processors = 0, resident = 0;
+        check(cudaGetDevice(&device));
+        check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device));
+        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&resident, run_for_each_queued<Body>,
+                                                            block_threads, 0));
+        if (!ok()) return;
+        const auto blocks = static_cast<unsigned>(processors * std::max(resident, 1));
+        run_for_each_queued<<<blocks, block_threads, 0, stream_>>>(body, items);
+        check(cudaGetLastError());
+    }
+    template <class T>
+    void set(T* p, const T& value) {
+        if (!ok()) return;
+        set_value<<<1, 1, 0, stream_>>>(p, value);
+        check(cudaGetLastError());
+    }
+    template <class T, class Of, class Combine>
+    void reduce(std::size_t n, const Of& of, const Combine& combine, const T& start, T* r) {
+        const auto items = thrust::make_counting_iterator(std::uint32_t(0));
+        with_temporary([&](void* memory, std::size_t& bytes) {
+            return cub::DeviceReduce::TransformReduce(memory, bytes, items, r,
+                                                      static_cast<std::int64_t>(n), combine, of,
+                                                      start, stream_);
+        });
+    }
+    template <class In, class Out>
+    void exclusive_scan(const In& in, Out* out, std::size_t n) {
+        const padded<In, Out> of{in, n};
+        const auto items =
+            thrust::make_transform_iterator(thrust::make_counting_iterator(std::uint64_t(0)), of);
+        with_temporary([&](void* memory, std::size_t& bytes) {
+            return cub::DeviceScan::ExclusiveSum(memory, bytes, items, out,
+                                                 static_cast<std::int64_t>(n) + 1, stream_);
+        });
+    }
+    void sort(std::uint32_t* keys, std::uint32_t* values, std::size_t n) {
+        spare_.resize(*this, 2 * n);
+        if (!ok()) return;
+        cub::DoubleBuffer<std::uint32_t> k(keys, spare_.data()), v(values, spare_.data() + n);
+        with_temporary([&](void* memory, std::size_t& bytes) {
+            return cub::DeviceRadixSort::SortPairs(memory, bytes, k, v,
+                                                   static_cast<std::int64_t>(n), 0, 32, stream_);
+        });
+        const auto bring_back = [&](std::uint32_t* to, const std::uint32_t* from) {
+            if (ok() && to != from)
+                check(cudaMemcpyAsync(to, from, n * sizeof *to, cudaMemcpyDeviceToDevice, stream_));
+        };
+        bring_back(keys, k.Current());
+        bring_back(values, v.Current());
+    }
+    template <class T>
+    void read(const T* p, std::size_t n, T* to) {
+        if (!ok() || n == 0) return;
+        check(cudaMemcpyAsync(to, p, n * sizeof(T), cudaMemcpyDeviceToHost, stream_));
+        wait();
+    }
+    template <class T>
+    void write(T* p, std::size_t n, const T* from) {
+        if (!ok() || n == 0) return;
+        check(cudaMemcpyAsync(p, from, n * sizeof(T), cudaMemcpyHostToDevice, stream_));
+        wait();  // `from` may be of pageable memory that the caller frees
+    }
+
+    bool ok() const { return status_.error.empty(); }
+    const status& result() const { return status_; }
+    /// Takes note of the first error. Returns whether all is well.
+    bool check(cudaError_t e) {
+        if (e != cudaSuccess && ok()) status_.error = std::string("CUDA: ") + cudaGetErrorString(e);
+        return ok();
+    }
+    void fail(std::string text) {
+        if (ok()) status_.error = std::move(text);
+    }
+
+  private:
+    void wait() {
+        if (ok()) check(cudaStreamSynchronize(stream_));
+    }
+
+    /// Calls one of CUB's functions, first for what memory it needs. That comes from `temporary`, or
+    /// from a buffer if there is none.
+    template <class Call>
+    void with_temporary(const Call& call) {
+        if (!ok()) return;
+        std::size_t bytes = 0;
+        if (!check(call(nullptr, bytes))) return;
+        void* memory = nullptr;
+        if (temporary_) {
+            memory = arena(*temporary_).template take<std::byte>(bytes);
+            if (memory == nullptr) {
+                fail("CUDA: scratch memory: " + std::to_string(bytes) + " bytes more needed");
+                return;
+            }
+        } else {
+            own_.resize(*this, std::max<std::size_t>(bytes, 1));
+            memory = own_.data();
+        }
+        if (ok()) check(call(memory, bytes));
+    }
+
+    stream stream_;
+    std::optional<arena> temporary_;
+    status status_;
+    buffer<std::byte> own_;
+    buffer<std::uint32_t> spare_;
+};
+
+}  // namespace ccd::cuda

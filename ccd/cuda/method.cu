@@ -1,0 +1,24 @@
+// One float method for the device. Compiled once for each, with ERRBOUND_METHOD naming the variable
+// (device_tight) and ERRBOUND_METHOD_TYPE what it runs (bsc_method<errbound::tight>).
+#include "ccd/cuda/device_methods.cuh"
+#include "ccd/cuda/method_stages.hpp"
+
+namespace ccd::cuda {
+namespace {
+
+template <class T, class Indices>
+void queue_method(device_launcher& launcher, const positions& at,
+                  const candidates<Indices>& candidates, outcome* answers, arena memory) {
+    const method_memory all(memory, candidates.count);
+    run_method<ERRBOUND_METHOD_TYPE, T>(launcher, at, candidates, answers, all);
+}
+
+template <class T>
+constexpr device_method::functions functions_in = {queue_method<T, vertex_face_indices>,
+                                                   queue_method<T, edge_edge_indices>};
+
+}  // namespace
+
+const device_method ERRBOUND_METHOD = {functions_in<double>, functions_in<float>};
+
+}  // namespace ccd::cuda

@@ -1,0 +1,188 @@
+// Steps on the device, and batches from and to host memory.
+#include "ccd/cuda/step.hpp"
+
+#include <algorithm>
+#include <ccd/cuda.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ccd/cuda/batch.cuh"
+#include "ccd/cuda/device_methods.cuh"
+#include "ccd/cuda/method_stages.hpp"
+#include "ccd/cuda/pairs.hpp"
+#include "ccd/step_parts.hpp"
+
+namespace ccd::cuda {
+
+struct mesh_steps::state {
+    std::vector<face> faces;
+    std::vector<edge> edges;
+    std::size_t vertices = 0;
+    bool on_device = false;
+    step_memory<device_launcher> memory;
+    device_launcher::buffer<std::byte> batch;
+};
+
+mesh_steps::mesh_steps(std::span<const face> faces, std::size_t vertices)
+    : state_(std::make_unique<state>()) {
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (const index v : faces[i])
+            if (v >= vertices)
+                throw std::invalid_argument("ccd::cuda::mesh_steps: face " + std::to_string(i) +
+                                            " names vertex " + std::to_string(v) + " of " +
+                                            std::to_string(vertices));
+    state_->faces.assign(faces.begin(), faces.end());
+    state_->edges = unique_edges(state_->faces);
+    state_->vertices = vertices;
+}
+mesh_steps::~mesh_steps() = default;
+
+status mesh_steps::run(const positions& positions, const batch_options& options, result& found) {
+    found = {};
+    if (positions.vertices != state_->vertices)
+        return {"ccd::cuda: found positions of " + std::to_string(positions.vertices) +
+                " vertices, expected " + std::to_string(state_->vertices)};
+    if (std::ranges::find(device_methods(), options.method) == device_methods().end())
+        return {"ccd::cuda: found the method " + std::string(info(options.method).name) +
+                ", expected one of device_methods()"};
+    if (positions.vertices == 0) return {};
+    device_launcher launcher(options.stream);
+    auto& memory = state_->memory;
+    if (!state_->on_device) {
+        memory.set_mesh(launcher, state_->vertices, state_->faces, state_->edges);
+        state_->on_device = launcher.ok();
+    }
+    const auto decide = [&](const auto& block, outcome* answers, scene_extent* scene,
+                            rounded_position* rows) -> std::size_t {
+        arena needed;
+        (void)exact_memory(needed, 0, block.count);
+        state_->batch.resize(launcher, needed.used());
+        if (!launcher.ok()) return 0;
+        arena given(state_->batch.data(), state_->batch.size());
+        if (options.method != method::exact) {
+            queue_float_method(launcher, positions, block, answers, given, options);
+            return 0;
+        }
+        exact_memory all(given, 0, block.count);
+        all.scene = scene;
+        all.rows = rows;
+        queue_exact(launcher, positions, block, answers, all);
+        return finish_exact(launcher, positions, block, answers, all).left;
+    };
+    const auto pairs = memory.run(launcher, positions, decide);
+    if (launcher.ok())
+        found = {memory.vertex_face().data(), pairs.vertex_face,
+                 memory.edge_edge().data(),   pairs.edge_edge,
+                 pairs.vertex_face_candidates, pairs.edge_edge_candidates,
+                 pairs.finished_on_host};
+    return launcher.result();
+}
+
+namespace {
+
+const double* numbers_of(const std::vector<point<double>>& points) {
+    static_assert(sizeof(point<double>) == 3 * sizeof(double));
+    return reinterpret_cast<const double*>(points.data());
+}
+
+/// Rows of vertices in device memory.
+struct device_frames {
+    device_launcher::buffer<double> before, after;
+
+    positions copy(device_launcher& launcher, const double* at_start, const double* at_end,
+                   std::size_t vertices) {
+        before.resize(launcher, 3 * vertices);
+        after.resize(launcher, 3 * vertices);
+        launcher.write(before.data(), 3 * vertices, at_start);
+        launcher.write(after.data(), 3 * vertices, at_end);
+        return positions(coordinates<double>::rows(before.data()),
+                         coordinates<double>::rows(after.data()), vertices);
+    }
+};
+
+template <class Query, class Indices>
+status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
+                     const batch_options& options) {
+    if (queries.size() != answers.size())
+        throw std::invalid_argument("ccd::cuda::decide: " + std::to_string(queries.size()) +
+                                    " queries, but room for " + std::to_string(answers.size()) +
+                                    " answers");
+    constexpr std::size_t block = std::size_t(1) << 20, points = 4;
+    device_launcher launcher(options.stream);
+    device_frames frames;
+    device_launcher::buffer<Indices> rows;
+    device_launcher::buffer<outcome> found;
+    device_launcher::buffer<std::byte> memory;
+    std::vector<point<double>> before, after;
+    std::vector<Indices> indices;
+    for (std::size_t first = 0; first < queries.size() && launcher.ok(); first += block) {
+        const auto part = queries.subspan(first, std::min(block, queries.size() - first));
+        before.clear(), after.clear(), indices.clear();
+        for (const Query& q : part) {
+            const auto v = static_cast<index>(before.size());
+            indices.push_back({v, v + 1, v + 2, v + 3});
+            for (const auto& p : points_of(q)) before.push_back(p.t0), after.push_back(p.t1);
+        }
+        const positions at = frames.copy(launcher, numbers_of(before), numbers_of(after),
+                                         points * part.size());
+        rows.resize(launcher, part.size());
+        launcher.write(rows.data(), part.size(), indices.data());
+        found.resize(launcher, part.size());
+        memory.resize(launcher, scratch_bytes(at.vertices, part.size()));
+        if (!launcher.ok()) break;
+        const auto all = candidates<Indices>::rows(rows.data(), part.size());
+        const scratch given{memory.data(), memory.size()};
+        for (const status& s : {decide_batch(at, all, found.data(), given, options),
+                                finish(at, all, found.data(), given, options)})
+            if (!s) return s;
+        launcher.read(found.data(), part.size(), &answers[first]);
+    }
+    return launcher.result();
+}
+
+}  // namespace
+
+status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
+              const batch_options& options) {
+    return decide_stored<vertex_face<double>, vertex_face_indices>(queries, answers, options);
+}
+status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
+              const batch_options& options) {
+    return decide_stored<edge_edge<double>, edge_edge_indices>(queries, answers, options);
+}
+
+status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
+            step_result& result) {
+    result = {};
+    check_step(before, after);
+    stopwatch total, watch;
+    device_launcher launcher(nullptr);
+    device_frames frames;
+    mesh_steps steps(before.faces, before.vertices.size());
+    const positions at = frames.copy(launcher, numbers_of(before.vertices),
+                                     numbers_of(after.vertices), before.vertices.size());
+    if (!launcher.ok()) return launcher.result();
+    result.prepare_seconds = watch.lap();
+
+    mesh_steps::result found;
+    if (status s = steps.run(at, {options.method, precision, nullptr}, found); !s) return s;
+    result.narrow_phase_seconds = watch.lap();
+
+    std::vector<vertex_face_indices> vertex_face(found.vertex_face_count);
+    std::vector<edge_edge_indices> edge_edge(found.edge_edge_count);
+    launcher.read(found.vertex_face, vertex_face.size(), vertex_face.data());
+    launcher.read(found.edge_edge, edge_edge.size(), edge_edge.data());
+    for (const auto& q : vertex_face) result.vertex_face.push_back(pair_of(q));
+    for (const auto& q : edge_edge) result.edge_edge.push_back(pair_of(q));
+    std::ranges::sort(result.vertex_face);
+    std::ranges::sort(result.edge_edge);
+    result.vertex_face_candidates = found.vertex_face_candidates;
+    result.edge_edge_candidates = found.edge_edge_candidates;
+    result.sort_seconds = watch.lap();
+    result.total_seconds = total.lap();
+    result.threads = 1;
+    return launcher.result();
+}
+
+}  // namespace ccd::cuda

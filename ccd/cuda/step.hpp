@@ -1,0 +1,448 @@
+// A step of a mesh on the device: candidates by a tree of boxes, decided in blocks. Internal.
+//
+// The tree is that of ccd/box_tree.hpp without its packs: boxes sorted along a Morton curve, eight to
+// a node, so that nodes need no pointers and a search no stack. Each element counts what it touches;
+// a prefix sum gives every candidate its number; then blocks of numbers are written out and decided.
+// So nothing depends on the order of threads, and no block can run over.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <ccd/cuda.hpp>
+#include <ccd/mesh.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "ccd/cuda/exact_stages.hpp"
+#include "ccd/cuda/launch.hpp"
+#include "ccd/cuda/pairs.hpp"
+#include "ccd/cuda/queries.hpp"
+
+namespace ccd::cuda {
+
+/// A closed box of rounded coordinates (ccd/rounded_axes.hpp).
+struct rounded_box {
+    float low[3], high[3];
+
+    constexpr void widen(const rounded_box& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], b.low[k]);
+            high[k] = std::max(high[k], b.high[k]);
+        }
+    }
+    /// Boxes that touch in exact arithmetic do so rounded.
+    constexpr bool touches(const rounded_box& b) const {
+        bool touching = true;
+        for (std::size_t k = 0; k < 3; ++k)
+            touching = touching && low[k] <= b.high[k] && high[k] >= b.low[k];
+        return touching;
+    }
+    /// Boxes of which this holds touch in exact arithmetic.
+    constexpr bool overlaps(const rounded_box& b) const {
+        bool overlapping = true;
+        for (std::size_t k = 0; k < 3; ++k)
+            overlapping = overlapping && low[k] < b.high[k] && high[k] > b.low[k];
+        return overlapping;
+    }
+};
+
+/// Vertices, edges or faces: element i has N vertices. Without a list, element i is vertex i.
+template <std::size_t N>
+struct elements {
+    const std::array<index, N>* list;
+    std::size_t count;
+
+    constexpr std::array<index, N> operator[](std::uint32_t i) const {
+        if constexpr (N == 1)
+            return {i};
+        else
+            return list[i];
+    }
+};
+
+/// The box that an element sweeps.
+template <std::size_t N>
+constexpr rounded_box swept_box(const rounded_position* rows, const std::array<index, N>& vertices) {
+    const auto of_row = [](const rounded_position& r) {
+        return rounded_box{{r.x, r.y, r.z}, {r.x, r.y, r.z}};
+    };
+    rounded_box b = of_row(load_aligned(rows + 2 * std::size_t(vertices[0])));
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t end = 0; end < 2; ++end)
+            b.widen(of_row(load_aligned(rows + 2 * std::size_t(vertices[i]) + end)));
+    return b;
+}
+
+/// Whether the closed exact boxes that two elements sweep touch.
+template <std::size_t A, std::size_t B>
+constexpr bool exactly_touch(const positions& at, const std::array<index, A>& a,
+                             const std::array<index, B>& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto range = [&](const auto& vertices) {
+            double low = coordinate_before(at, k, vertices[0]), high = low;
+            for (const index v : vertices) {
+                const double x0 = coordinate_before(at, k, v), x1 = coordinate_after(at, k, v);
+                low = std::min(low, std::min(x0, x1));
+                high = std::max(high, std::max(x0, x1));
+            }
+            return std::pair(low, high);
+        };
+        const auto x = range(a), y = range(b);
+        if (x.first > y.second || y.first > x.second) return false;
+    }
+    return true;
+}
+
+template <std::size_t A, std::size_t B>
+constexpr bool share_vertex_of(const std::array<index, A>& a, const std::array<index, B>& b) {
+    for (const index v : a)
+        for (const index w : b)
+            if (v == w) return true;
+    return false;
+}
+
+/// Boxes of sorted elements, level by level: box i of a level is around boxes 8i to 8i + 7 of the
+/// level below it.
+struct box_levels {
+    static constexpr std::size_t children = 8, most_levels = 12;
+    static constexpr unsigned child_bits = 3;
+
+    const rounded_box* boxes = nullptr;
+    const std::uint32_t* order = nullptr;  ///< leaf i holds element order[i]
+    std::size_t levels = 0;
+    std::size_t start[most_levels] = {}, count[most_levels] = {};
+
+    constexpr box_levels() = default;
+    /// The shape for so many leaves.
+    explicit constexpr box_levels(std::size_t leaves) {
+        std::size_t at = 0;
+        for (std::size_t n = leaves; n > 0; n = n > 1 ? (n + children - 1) / children : 0) {
+            start[levels] = at;
+            count[levels++] = n;
+            at += n;
+        }
+    }
+    constexpr std::size_t size() const {
+        return levels == 0 ? 0 : start[levels - 1] + count[levels - 1];
+    }
+
+    /// Calls visit(i) for every leaf i >= first whose box touches b, in ascending order.
+    template <class Visit>
+    constexpr void find(const rounded_box& b, std::size_t first, const Visit& visit) const {
+        if (levels == 0) return;
+        std::size_t level = levels - 1, i = 0;
+        for (;;) {
+            const bool in_reach = (i + 1) << (child_bits * level) > first;
+            if (in_reach && boxes[start[level] + i].touches(b)) {
+                if (level > 0) {
+                    --level;
+                    i *= children;
+                    continue;
+                }
+                visit(static_cast<std::uint32_t>(i));
+            }
+            ++i;
+            // After the last child of a node comes the node behind it.
+            while (level + 1 < levels && (i % children == 0 || i == count[level])) {
+                i = (i + children - 1) / children;
+                ++level;
+            }
+            if (i == count[level]) return;
+        }
+    }
+};
+
+/// The key on a Morton curve of an element's box, and the element as its value.
+template <std::size_t N>
+struct curve_key {
+    elements<N> all;
+    const rounded_position* rows;
+    std::uint32_t *keys, *order;
+
+    constexpr void operator()(std::uint32_t i) const {
+        const rounded_box b = swept_box(rows, all[i]);
+        std::uint32_t key = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            // Coordinates are within about [−1, 1]; NaN counts as 0.
+            const float place = (0.5f * b.low[k] + 0.5f * b.high[k] + 1.0f) * 512.0f;
+            const auto cell =
+                place >= 1023.0f ? 1023U : place > 0.0f ? static_cast<std::uint32_t>(place) : 0U;
+            key |= spread_bits(cell) << k;
+        }
+        keys[i] = key;
+        order[i] = i;
+    }
+
+  private:
+    /// The ten bits of x with two zeros before each.
+    static constexpr std::uint32_t spread_bits(std::uint32_t x) {
+        x = (x | (x << 16)) & 0x030000FF;
+        x = (x | (x << 8)) & 0x0300F00F;
+        x = (x | (x << 4)) & 0x030C30C3;
+        return (x | (x << 2)) & 0x09249249;
+    }
+};
+
+template <std::size_t N>
+struct make_leaf {
+    elements<N> all;
+    const rounded_position* rows;
+    const std::uint32_t* order;
+    rounded_box* boxes;
+
+    constexpr void operator()(std::uint32_t i) const {
+        boxes[i] = swept_box(rows, all[order[i]]);
+    }
+};
+struct make_node {
+    const rounded_box* below;
+    std::size_t count;  ///< of boxes below
+    rounded_box* level;
+
+    constexpr void operator()(std::uint32_t i) const {
+        const std::size_t first = box_levels::children * i;
+        rounded_box b = below[first];
+        for (std::size_t k = 1; k < box_levels::children && first + k < count; ++k)
+            b.widen(below[first + k]);
+        level[i] = b;
+    }
+};
+
+/// Calls visit(candidate) for all candidates of the vertices in the tree with face i.
+struct face_search {
+    using indices = vertex_face_indices;
+    positions at;
+    const rounded_position* rows;
+    box_levels tree;  ///< of all vertices
+    elements<3> searching;
+    const std::uint32_t* order;  ///< in which the faces search: neighbours together
+
+    template <class Visit>
+    constexpr void operator()(std::uint32_t i, const Visit& visit) const {
+        const face f = searching[order[i]];
+        const rounded_box b = swept_box(rows, f);
+        tree.find(b, 0, [&](std::uint32_t leaf) {
+            const std::array<index, 1> v{tree.order[leaf]};
+            if (share_vertex_of(v, f)) return;
+            if (tree.boxes[leaf].overlaps(b) || exactly_touch(at, v, f))
+                visit(indices{v[0], f[0], f[1], f[2]});
+        });
+    }
+};
+
+/// Calls visit(candidate) for all candidates of leaf i with later ones.
+struct edge_search {
+    using indices = edge_edge_indices;
+    positions at;
+    const rounded_position* rows;
+    box_levels tree;  ///< of all edges
+    elements<2> searching;
+
+    template <class Visit>
+    constexpr void operator()(std::uint32_t i, const Visit& visit) const {
+        const edge mine = searching[tree.order[i]];
+        const rounded_box b = tree.boxes[i];
+        tree.find(b, std::size_t(i) + 1, [&](std::uint32_t leaf) {
+            const edge other = searching[tree.order[leaf]];
+            if (share_vertex_of(mine, other)) return;
+            if (!tree.boxes[leaf].overlaps(b) && !exactly_touch(at, mine, other)) return;
+            // Of edges that share no vertex the lesser one is that with the lesser first vertex.
+            const bool in_order = mine[0] < other[0];
+            const edge x = in_order ? mine : other, y = in_order ? other : mine;
+            visit(indices{x[0], x[1], y[0], y[1]});
+        });
+    }
+};
+
+template <class Search>
+struct count_candidates {
+    Search search;
+    std::uint32_t* counts;
+
+    constexpr void operator()(std::uint32_t i) const {
+        std::uint32_t n = 0;
+        search(i, [&](const auto&) { ++n; });
+        counts[i] = n;
+    }
+};
+struct count_of {
+    const std::uint32_t* counts;
+    constexpr std::uint64_t operator()(std::uint32_t i) const { return counts[i]; }
+};
+
+/// Writes the candidates number first to first + count − 1.
+template <class Search>
+struct write_candidates {
+    Search search;
+    const std::uint64_t* numbers;  ///< of the first candidate of each search, and their total
+    std::uint64_t first;
+    std::size_t count;
+    typename Search::indices* to;
+
+    constexpr void operator()(std::uint32_t i) const {
+        if (numbers[i] >= first + count || numbers[i + 1] <= first) return;
+        std::uint64_t number = numbers[i];
+        search(i, [&](const auto& candidate) {
+            if (number >= first && number < first + count) to[number - first] = candidate;
+            ++number;
+        });
+    }
+};
+
+template <class Indices>
+struct copy_rows {
+    const Indices* rows;
+    const index* numbers;
+    Indices* to;
+    constexpr void operator()(std::uint32_t k) const { to[k] = rows[numbers[k]]; }
+};
+
+/// What the steps of one mesh keep.
+template <class Launcher>
+class step_memory {
+  public:
+    template <class T>
+    using buffer = typename Launcher::template buffer<T>;
+
+    struct found_pairs {
+        std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
+        std::size_t vertex_face = 0, edge_edge = 0, finished_on_host = 0;
+    };
+
+    /// Candidates decided at once, at most.
+    explicit step_memory(std::size_t block = std::size_t(1) << 22) : block_(block) {}
+
+    /// Faces and edges in host memory, indices in range.
+    void set_mesh(Launcher& launcher, std::size_t vertices, std::span<const face> faces,
+                  std::span<const edge> edges) {
+        vertices_ = vertices;
+        faces_.resize(launcher, faces.size());
+        launcher.write(faces_.data(), faces.size(), faces.data());
+        edges_.resize(launcher, edges.size());
+        launcher.write(edges_.data(), edges.size(), edges.data());
+    }
+
+    /// `decide(candidates, answers, scene, rows)` queues the decision of a block, whose positions
+    /// were rounded to `rows`, and returns how many the host decided. Pairs are in vertex_face() and
+    /// edge_edge() then.
+    template <class Decide>
+    found_pairs run(Launcher& launcher, const positions& at, const Decide& decide) {
+        found_pairs found;
+        rows_.resize(launcher, 2 * vertices_);
+        scene_.resize(launcher, 1);
+        run_rounding(launcher, at, scene_.data(), rows_.data());
+
+        const elements<1> vertices{nullptr, vertices_};
+        const elements<3> faces{faces_.data(), faces_.size()};
+        const elements<2> edges{edges_.data(), edges_.size()};
+        {
+            const box_levels tree = make_tree(launcher, vertices, tree_, order_);
+            sort_along_curve(launcher, faces, search_order_);
+            const face_search search{at, rows_.data(), tree, faces, search_order_.data()};
+            found.vertex_face_candidates =
+                run_search(launcher, search, faces.count, decide, vertex_face_, found.vertex_face,
+                           found.finished_on_host);
+        }
+        {
+            const box_levels tree = make_tree(launcher, edges, tree_, order_);
+            const edge_search search{at, rows_.data(), tree, edges};
+            found.edge_edge_candidates =
+                run_search(launcher, search, edges.count, decide, edge_edge_, found.edge_edge,
+                           found.finished_on_host);
+        }
+        return found;
+    }
+
+    buffer<vertex_face_indices>& vertex_face() { return vertex_face_; }
+    buffer<edge_edge_indices>& edge_edge() { return edge_edge_; }
+
+  private:
+    template <std::size_t N>
+    void sort_along_curve(Launcher& launcher, const elements<N>& all, buffer<std::uint32_t>& order) {
+        keys_.resize(launcher, all.count);
+        order.resize(launcher, all.count);
+        launcher.for_each(all.count,
+                          curve_key<N>{all, rows_.data(), keys_.data(), order.data()});
+        launcher.sort(keys_.data(), order.data(), all.count);
+    }
+
+    template <std::size_t N>
+    box_levels make_tree(Launcher& launcher, const elements<N>& all, buffer<rounded_box>& boxes,
+                         buffer<std::uint32_t>& order) {
+        sort_along_curve(launcher, all, order);
+        box_levels tree(all.count);
+        boxes.resize(launcher, tree.size());
+        tree.boxes = boxes.data();
+        tree.order = order.data();
+        launcher.for_each(all.count,
+                          make_leaf<N>{all, rows_.data(), order.data(), boxes.data()});
+        for (std::size_t level = 1; level < tree.levels; ++level)
+            launcher.for_each(tree.count[level],
+                              make_node{boxes.data() + tree.start[level - 1],
+                                        tree.count[level - 1], boxes.data() + tree.start[level]});
+        return tree;
+    }
+
+    /// Returns the number of candidates.
+    template <class Search, class Decide, class Indices>
+    std::size_t run_search(Launcher& launcher, const Search& search, std::size_t searches,
+                           const Decide& decide, buffer<Indices>& pairs, std::size_t& pair_count,
+                           std::size_t& finished_on_host) {
+        counts_.resize(launcher, searches);
+        numbers_.resize(launcher, searches + 1);
+        launcher.for_each(searches, count_candidates<Search>{search, counts_.data()});
+        launcher.exclusive_scan(count_of{counts_.data()}, numbers_.data(), searches);
+        std::uint64_t total = 0;
+        launcher.read(numbers_.data() + searches, 1, &total);
+
+        const auto at_once = static_cast<std::size_t>(std::min<std::uint64_t>(total, block_));
+        // A buffer of rows of four indices serves both kinds.
+        auto* const rows = reinterpret_cast<Indices*>(block_rows(launcher, at_once));
+        answers_.resize(launcher, at_once);
+        place_.resize(launcher, at_once + 1);
+        numbers_found_.resize(launcher, at_once);
+        count_found_.resize(launcher, 1);
+        pair_count = 0;
+        for (std::uint64_t first = 0; first < total && launcher.ok(); first += at_once) {
+            const auto count =
+                static_cast<std::size_t>(std::min<std::uint64_t>(at_once, total - first));
+            launcher.for_each(searches, write_candidates<Search>{search, numbers_.data(), first,
+                                                                 count, rows});
+            finished_on_host += decide(candidates<Indices>::rows(rows, count), answers_.data(),
+                                       scene_.data(), rows_.data());
+            run_select(launcher, answers_.data(), count, numbers_found_.data(), count,
+                       count_found_.data(), place_.data());
+            index more = 0;
+            launcher.read(count_found_.data(), 1, &more);
+            pairs.resize(launcher, pair_count + more);
+            launcher.for_each(more, copy_rows<Indices>{rows, numbers_found_.data(),
+                                                       pairs.data() + pair_count});
+            pair_count += more;
+        }
+        return static_cast<std::size_t>(total);
+    }
+
+    std::array<index, 4>* block_rows(Launcher& launcher, std::size_t count) {
+        block_rows_.resize(launcher, count);
+        return block_rows_.data();
+    }
+
+    std::size_t block_;
+    std::size_t vertices_ = 0;
+    buffer<face> faces_;
+    buffer<edge> edges_;
+    buffer<scene_extent> scene_;
+    buffer<rounded_position> rows_;
+    buffer<rounded_box> tree_;
+    buffer<std::uint32_t> keys_, order_, search_order_, counts_, place_;
+    buffer<std::uint64_t> numbers_;
+    buffer<std::array<index, 4>> block_rows_;
+    buffer<outcome> answers_;
+    buffer<index> numbers_found_, count_found_;
+    buffer<vertex_face_indices> vertex_face_;
+    buffer<edge_edge_indices> edge_edge_;
+};
+
+}  // namespace ccd::cuda

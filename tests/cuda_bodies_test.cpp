@@ -1,0 +1,395 @@
+// Device code on the host: kernel bodies, queues and indices, run by loops (ccd/cuda/launch.hpp).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "ccd/cuda/exact_stages.hpp"
+#include "ccd/cuda/method_stages.hpp"
+#include "ccd/cuda/pairs.hpp"
+#include "ccd/cuda/step.hpp"
+#include "ccd/io/mesh_file.hpp"
+#include "ccd/step_parts.hpp"
+#include "cuda_sets.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ccd::outcome;
+using ccd::cuda::candidates;
+using ccd::cuda::coordinates;
+using ccd::cuda::host_launcher;
+using ccd::cuda::positions;
+using cuda_sets::batch;
+
+/// Memory for a layout: `make(arena)` is called once to count, once to take.
+template <class Memory>
+class laid_out {
+  public:
+    template <class... Sizes>
+    explicit laid_out(Sizes... sizes) : bytes_(counted(sizes...)), memory_(taken(sizes...)) {}
+    const Memory& operator*() const { return memory_; }
+    const Memory* operator->() const { return &memory_; }
+
+  private:
+    template <class... Sizes>
+    static std::size_t counted(Sizes... sizes) {
+        ccd::cuda::arena count;
+        (void)Memory(count, sizes...);
+        return count.used() + ccd::cuda::arena::alignment;
+    }
+    template <class... Sizes>
+    Memory taken(Sizes... sizes) {
+        void* start = bytes_.data();
+        std::size_t room = bytes_.size();
+        std::align(ccd::cuda::arena::alignment, 1, start, room);
+        ccd::cuda::arena from(start, room);
+        return Memory(from, sizes...);
+    }
+
+    std::vector<std::byte> bytes_;
+    Memory memory_;
+};
+
+template <class Indices>
+positions positions_of(const batch<Indices>& set) {
+    return positions(coordinates<double>::rows(cuda_sets::numbers_of(set.before)),
+                     coordinates<double>::rows(cuda_sets::numbers_of(set.after)),
+                     set.before.size());
+}
+
+/// `exact` to the end, host's part included.
+template <class Indices>
+std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>& all,
+                                  ccd::cuda::exact_counters* counters = nullptr) {
+    host_launcher launcher;
+    // Nothing may rely on what was there.
+    std::vector<outcome> answers(all.count, outcome::collides);
+    const laid_out<ccd::cuda::exact_memory> memory(at.vertices, all.count);
+    run_exact(launcher, at, all, answers.data(), *memory);
+    const auto counted = finish_exact(launcher, at, all, answers.data(), *memory);
+    if (counters != nullptr) *counters = counted;
+    return answers;
+}
+
+template <class Method, class T, class Indices>
+std::vector<outcome> decide_by(const batch<Indices>& set) {
+    host_launcher launcher;
+    std::vector<outcome> answers(set.size(), outcome::collides);
+    const laid_out<ccd::cuda::method_memory> memory(set.size());
+    ccd::cuda::run_method<Method, T>(launcher, positions_of(set),
+                                     candidates<Indices>::rows(set.rows.data(), set.size()),
+                                     answers.data(), *memory);
+    return answers;
+}
+
+template <class Indices>
+const batch<Indices>& difficult() {
+    static const auto set = cuda_sets::of_families<Indices>(200, 11);
+    return set;
+}
+
+fs::path data_folder() {
+    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
+    return ERRBOUND_SHARED_DATA;
+}
+
+template <class Indices>
+class device_bodies : public testing::Test {};
+using kinds = testing::Types<ccd::vertex_face_indices, ccd::edge_edge_indices>;
+TYPED_TEST_SUITE(device_bodies, kinds);
+
+template <class Indices>
+void expect_exact(const batch<Indices>& set) {
+    ccd::cuda::exact_counters counters{};
+    const auto answers = decide_exact(
+        positions_of(set), candidates<Indices>::rows(set.rows.data(), set.size()), &counters);
+    std::size_t collisions = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const outcome truth = ccd::decide_exact(set.queries[i]).outcome;
+        ASSERT_EQ(answers[i], truth) << "query " << i;
+        collisions += truth == outcome::collides;
+    }
+    std::cout << set.size() << " queries, " << collisions << " collide; past the axes "
+              << counters.coplanarity << ", coplanarity " << counters.inside << ", inside "
+              << counters.subdivision << "; integers of one word " << counters.one_word
+              << ", of two " << counters.two_words << ", left to the host " << counters.left
+              << '\n';
+}
+
+TYPED_TEST(device_bodies, exact_is_exact) {
+    expect_exact(difficult<TypeParam>());
+}
+
+TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
+    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
+    expect_exact(cuda_sets::stored<TypeParam>(data_folder()));
+}
+
+/// In doubles the answers are those of decide(); in floats they are right wherever certain, and as
+/// certain as those in doubles.
+template <class Method, class Indices>
+void expect_as_on_host(const batch<Indices>& set, ccd::method m) {
+    const auto in_doubles = decide_by<Method, double>(set);
+    const auto in_floats = decide_by<Method, float>(set);
+    std::size_t uncertain_doubles = 0, uncertain_floats = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        ASSERT_EQ(in_doubles[i], ccd::decide(m, set.queries[i]).outcome)
+            << info(m).name << ", query " << i;
+        uncertain_doubles += in_doubles[i] == outcome::uncertain;
+        uncertain_floats += in_floats[i] == outcome::uncertain;
+        if (m == ccd::method::float_ || in_floats[i] == outcome::uncertain) continue;
+        ASSERT_EQ(in_floats[i], ccd::decide_exact(set.queries[i]).outcome)
+            << info(m).name << " in floats, query " << i;
+    }
+    EXPECT_LE(uncertain_floats, m == ccd::method::float_ ? set.size() : uncertain_doubles);
+}
+
+template <class Indices>
+void expect_methods_as_on_host(const batch<Indices>& set) {
+    using ccd::cuda::bsc_method, ccd::cuda::safeccd_method;
+    expect_as_on_host<bsc_method<errbound::none>>(set, ccd::method::float_);
+    expect_as_on_host<bsc_method<errbound::safe>>(set, ccd::method::safe);
+    expect_as_on_host<bsc_method<errbound::tight>>(set, ccd::method::tight);
+    expect_as_on_host<safeccd_method<errbound::safe>>(set, ccd::method::safeccd);
+    expect_as_on_host<safeccd_method<errbound::tight>>(set, ccd::method::safeccd_tight);
+}
+
+TYPED_TEST(device_bodies, methods_decide_as_on_the_host) {
+    expect_methods_as_on_host(difficult<TypeParam>());
+}
+
+TYPED_TEST(device_bodies, methods_decide_stored_queries_as_on_the_host) {
+    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
+    expect_methods_as_on_host(cuda_sets::stored<TypeParam>(data_folder()));
+}
+
+TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
+    auto set = cuda_sets::of_families<TypeParam>(20, 5);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double poisons[] = {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()};
+    // In every seventh query, one coordinate after the other.
+    const auto poisoned = [](std::size_t i) { return i % 7 == 0; };
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (!poisoned(i)) continue;
+        const std::size_t number = i / 7 % 24;
+        auto& p = (number < 12 ? set.before : set.after)[4 * i + number % 4];
+        (number % 3 == 0 ? p.x : number % 3 == 1 ? p.y : p.z) = poisons[i % 3];
+    }
+    const auto rows = candidates<TypeParam>::rows(set.rows.data(), set.size());
+    const auto answers = decide_exact(positions_of(set), rows);
+    const auto tight = decide_by<ccd::cuda::bsc_method<errbound::tight>, float>(set);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (poisoned(i)) {
+            EXPECT_EQ(answers[i], outcome::uncertain) << i;
+            EXPECT_EQ(tight[i], outcome::uncertain) << i;
+        } else {
+            EXPECT_EQ(answers[i], ccd::decide_exact(set.queries[i]).outcome) << i;
+        }
+    }
+}
+
+// What the coordinates are of, how vertices are named and where they lie makes no difference.
+TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
+    // Coordinates that floats hold.
+    std::mt19937 random(3);
+    const auto coordinate = [&] { return static_cast<float>(static_cast<int>(random() % 17) - 8); };
+    const std::size_t vertices = 50;
+    std::vector<double> rows[2];
+    std::vector<float> float_rows[2], columns[2][3];
+    for (std::size_t frame = 0; frame < 2; ++frame)
+        for (std::size_t v = 0; v < vertices; ++v)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float x = coordinate();
+                rows[frame].push_back(x);
+                float_rows[frame].push_back(x);
+                columns[frame][k].push_back(x);
+            }
+    const positions in_doubles(coordinates<double>::rows(rows[0].data()),
+                               coordinates<double>::rows(rows[1].data()), vertices);
+    const positions in_floats(coordinates<float>::rows(float_rows[0].data()),
+                              coordinates<float>::rows(float_rows[1].data()), vertices);
+    const auto columns_of = [&](std::size_t frame) {
+        return coordinates<float>{columns[frame][0].data(), columns[frame][1].data(),
+                                  columns[frame][2].data(), 1};
+    };
+    const positions in_columns(columns_of(0), columns_of(1), vertices);
+
+    using element = typename candidates<TypeParam>::element;
+    const auto vertex = [&] { return static_cast<ccd::index>(random() % vertices); };
+    std::vector<element> elements(40);
+    for (element& e : elements)
+        for (ccd::index& v : e) v = vertex();
+    constexpr bool of_faces = batch<TypeParam>::of_faces;
+    std::vector<ccd::index> first, second, column[4];
+    std::vector<TypeParam> named;
+    for (std::size_t i = 0; i < 2000; ++i) {
+        first.push_back(of_faces ? vertex() : static_cast<ccd::index>(random() % 40));
+        second.push_back(static_cast<ccd::index>(random() % 40));
+        const element& b = elements[second[i]];
+        if constexpr (of_faces)
+            named.push_back({first[i], b[0], b[1], b[2]});
+        else
+            named.push_back({elements[first[i]][0], elements[first[i]][1], b[0], b[1]});
+        for (std::size_t k = 0; k < 4; ++k) column[k].push_back(vertices_of(named[i])[k]);
+    }
+    using all = candidates<TypeParam>;
+    const auto by_rows = all::rows(named.data(), named.size());
+    const auto by_columns = all::of_columns(column[0].data(), column[1].data(), column[2].data(),
+                                            column[3].data(), named.size());
+    const auto by_pairs =
+        all::pairs(first.data(), second.data(), elements.data(), named.size());
+
+    const auto expected = decide_exact(in_doubles, by_rows);
+    for (std::size_t i = 0; i < named.size(); ++i)
+        ASSERT_EQ(expected[i],
+                  ccd::decide_exact(ccd::cuda::query_at<double>(in_doubles, named[i])).outcome);
+    EXPECT_GT(std::ranges::count(expected, outcome::collides), 100);
+    EXPECT_EQ(decide_exact(in_doubles, by_columns), expected);
+    EXPECT_EQ(decide_exact(in_doubles, by_pairs), expected);
+    EXPECT_EQ(decide_exact(in_floats, by_rows), expected);
+    EXPECT_EQ(decide_exact(in_columns, by_pairs), expected);
+}
+
+TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
+    const std::size_t n = 1000;
+    std::vector<outcome> answers(n, outcome::separate);
+    for (std::size_t i = 0; i < n; i += 3)
+        answers[i] = i % 2 == 0 ? outcome::collides : outcome::uncertain;
+    const std::size_t expected = (n + 2) / 3;
+    host_launcher launcher;
+    for (const std::size_t room : {n, expected, expected - 1, std::size_t(1), std::size_t(0)}) {
+        std::vector<ccd::index> found(room + 1, 12345);
+        std::vector<std::uint32_t> place(n + 1);
+        ccd::index count = 0;
+        ccd::cuda::run_select(launcher, answers.data(), n, found.data(), room, &count,
+                              place.data());
+        EXPECT_EQ(count, expected) << "the number needed, whatever the room";
+        for (std::size_t k = 0; k < std::min(room, expected); ++k) EXPECT_EQ(found[k], 3 * k);
+        EXPECT_EQ(found[room], 12345u) << "nothing is written beyond the room";
+    }
+    ccd::index count = 7;
+    std::uint32_t place = 0;
+    ccd::cuda::run_select(launcher, answers.data(), 0, nullptr, 0, &count, &place);
+    EXPECT_EQ(count, 0u);
+}
+
+TEST(device_tree, finds_every_leaf_that_touches_once) {
+    std::mt19937 random(9);
+    const auto unit = [&] { return static_cast<float>(random() % 1000) / 500 - 1; };
+    for (const std::size_t leaves : {0, 1, 2, 7, 8, 9, 63, 64, 65, 512, 513, 1000}) {
+        ccd::cuda::box_levels tree(leaves);
+        std::vector<ccd::cuda::rounded_box> boxes(tree.size() + 1);
+        for (std::size_t i = 0; i < leaves; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float x = unit();
+                boxes[i].low[k] = x;
+                boxes[i].high[k] = x + 0.3f;
+            }
+        tree.boxes = boxes.data();
+        for (std::size_t level = 1; level < tree.levels; ++level)
+            for (std::size_t i = 0; i < tree.count[level]; ++i)
+                ccd::cuda::make_node{&boxes[tree.start[level - 1]], tree.count[level - 1],
+                                     &boxes[tree.start[level]]}(static_cast<std::uint32_t>(i));
+        for (std::size_t first = 0; first <= leaves; first += 1 + leaves / 5) {
+            const ccd::cuda::rounded_box b{{-0.1f, -0.2f, 0.1f}, {0.2f, 0.3f, 0.4f}};
+            std::vector<std::uint32_t> found, expected;
+            tree.find(b, first, [&](std::uint32_t i) { found.push_back(i); });
+            for (std::size_t i = first; i < leaves; ++i)
+                if (boxes[i].touches(b)) expected.push_back(static_cast<std::uint32_t>(i));
+            EXPECT_EQ(found, expected) << leaves << " leaves from " << first;
+        }
+    }
+}
+
+/// A step through the device's code: all of it but the launches.
+ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
+    host_launcher launcher;
+    ccd::cuda::step_memory<host_launcher> memory(block);
+    const positions at(coordinates<double>::rows(cuda_sets::numbers_of(before.vertices)),
+                       coordinates<double>::rows(cuda_sets::numbers_of(after.vertices)),
+                       before.vertices.size());
+    const auto edges = ccd::unique_edges(before.faces);
+    memory.set_mesh(launcher, before.vertices.size(), before.faces, edges);
+    ccd::step_result result;
+    // Twice: the second step finds memory that the first has used.
+    for (int i = 0; i < 2; ++i) {
+        result = {};
+        const auto found = memory.run(
+            launcher, at,
+            [&](const auto& part, outcome* answers, ccd::cuda::scene_extent* scene,
+                ccd::cuda::rounded_position* rows) -> std::size_t {
+                const laid_out<ccd::cuda::exact_memory> own(std::size_t(0), part.count);
+                ccd::cuda::exact_memory all = *own;
+                all.scene = scene, all.rows = rows;
+                run_exact_stages(launcher, at, part, answers, all);
+                return finish_exact(launcher, at, part, answers, all).left;
+            });
+        result.vertex_face_candidates = found.vertex_face_candidates;
+        result.edge_edge_candidates = found.edge_edge_candidates;
+        for (std::size_t k = 0; k < found.vertex_face; ++k)
+            result.vertex_face.push_back(ccd::pair_of(memory.vertex_face().data()[k]));
+        for (std::size_t k = 0; k < found.edge_edge; ++k)
+            result.edge_edge.push_back(ccd::pair_of(memory.edge_edge().data()[k]));
+    }
+    std::ranges::sort(result.vertex_face);
+    std::ranges::sort(result.edge_edge);
+    return result;
+}
+
+void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
+    const auto expected = ccd::step(before, after);
+    const auto found = device_step(before, after, block);
+    EXPECT_EQ(found.vertex_face_candidates, expected.vertex_face_candidates);
+    EXPECT_EQ(found.edge_edge_candidates, expected.edge_edge_candidates);
+    EXPECT_EQ(found.vertex_face, expected.vertex_face);
+    EXPECT_EQ(found.edge_edge, expected.edge_edge);
+}
+
+TEST(device_step, finds_the_pairs_of_a_scene) {
+    const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
+    const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
+    const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
+    EXPECT_FALSE(ccd::step(before, after).vertex_face.empty());
+    expect_step_as_on_host(before, after, std::size_t(1) << 22);
+    expect_step_as_on_host(before, after, 1000);  // blocks that end within an element's candidates
+}
+
+TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        std::mt19937_64 random(seed);
+        const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
+        ccd::mesh before;
+        for (unsigned i = 0; i < 100; ++i)
+            before.vertices.push_back({coordinate(), coordinate(), coordinate()});
+        for (unsigned i = 0; i < 80; ++i) {
+            const auto v = static_cast<ccd::index>(random() % 98);
+            before.faces.push_back({v + 2, v, v + 1});
+        }
+        ccd::mesh after = before;
+        for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
+        expect_step_as_on_host(before, after, 7);
+        // Two parts so far apart that floats do not tell the ends of their boxes apart.
+        for (ccd::mesh* m : {&before, &after})
+            for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
+        expect_step_as_on_host(before, after, 1 << 20);
+    }
+}
+
+TEST(device_step, takes_meshes_of_nothing) {
+    expect_step_as_on_host({}, {}, 10);
+    const ccd::mesh points{{{0, 0, 0}, {1, 0, 0}}, {}};
+    expect_step_as_on_host(points, points, 10);
+    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}}, {{0, 1, 2}}};
+    expect_step_as_on_host(one, one, 10);
+}
+
+}  // namespace

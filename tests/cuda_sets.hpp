@@ -1,0 +1,82 @@
+// Queries for tests of device code, as batches: families of difficult ones, and stored ones.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/cuda.hpp>
+#include <ccd/io/query_file.hpp>
+#include <ccd/transform.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "query_families.hpp"
+
+namespace cuda_sets {
+
+/// Queries of one kind, each with four vertices of its own.
+template <class Indices>
+struct batch {
+    static constexpr bool of_faces = std::is_same_v<Indices, ccd::vertex_face_indices>;
+    using query =
+        std::conditional_t<of_faces, ccd::vertex_face<double>, ccd::edge_edge<double>>;
+
+    std::vector<query> queries;
+    std::vector<ccd::point<double>> before, after;
+    std::vector<Indices> rows;
+
+    void add(const query& q) {
+        const auto v = static_cast<ccd::index>(before.size());
+        rows.push_back({v, v + 1, v + 2, v + 3});
+        queries.push_back(q);
+        for (const auto& p : points_of(q)) {
+            before.push_back(p.t0);
+            after.push_back(p.t1);
+        }
+    }
+    std::size_t size() const { return queries.size(); }
+};
+
+template <class Indices>
+typename batch<Indices>::query query_of(const query_families::points& p) {
+    if constexpr (batch<Indices>::of_faces)
+        return query_families::as_vertex_face(p);
+    else
+        return query_families::as_edge_edge(p);
+}
+
+/// `count` queries of every family, fewer of those whose truth is slow.
+template <class Indices>
+batch<Indices> of_families(std::uint64_t count, std::uint64_t seed) {
+    using query_families::kind;
+    batch<Indices> all;
+    for (const auto& family : query_families::families)
+        for (std::uint64_t i = 0; i * family.thinning < count; ++i)
+            all.add(query_of<Indices>(query_families::make(
+                family, batch<Indices>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
+    return all;
+}
+
+/// All stored queries under a folder.
+template <class Indices>
+batch<Indices> stored(const std::filesystem::path& folder) {
+    batch<Indices> all;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".csv") continue;
+        const auto file = ccd::io::read_queries(entry.path(), std::nullopt, false);
+        if constexpr (batch<Indices>::of_faces)
+            for (const auto& q : file.vertex_face_queries) all.add(q);
+        else
+            for (const auto& q : file.edge_edge_queries) all.add(q);
+    }
+    return all;
+}
+
+inline const double* numbers_of(const std::vector<ccd::point<double>>& points) {
+    return reinterpret_cast<const double*>(points.data());
+}
+
+}  // namespace cuda_sets
