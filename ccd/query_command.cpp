@@ -50,9 +50,8 @@ void decide_all(const std::vector<Query>& queries, const device_choice& device, 
                 outcomes[i] = decide(out.method, queries[i]).outcome;
         fastest = std::min(fastest, seconds_since(pass));
     } while (seconds_since(start) < 0.02);
-    out.verdicts.resize(queries.size());
-    std::ranges::transform(outcomes, out.verdicts.begin(),
-                           [](outcome o) { return o != outcome::separate; });
+    out.verdicts.clear();
+    for (const outcome o : outcomes) out.verdicts.push_back(o != outcome::separate);
     out.ns_per_query = fastest * 1e9 / static_cast<double>(queries.size());
 }
 

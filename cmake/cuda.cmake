@@ -20,10 +20,11 @@ find_package(CUDAToolkit REQUIRED)
 
 # What bounds and identical answers need of device code: no contraction to fused multiply-add, no
 # flushing of subnormals, divisions and square roots that are rounded correctly.
-# tests/cuda_flags_test.sh shows what becomes of the code otherwise.
+# tests/cuda/flags_test.sh shows what becomes of the code otherwise.
+set(errbound_cuda_precision -fmad=false -ftz=false -prec-div=true -prec-sqrt=true)
 # (The standard as an option: CMake 3.25 does not know nvcc 13's.)
-set(errbound_cuda_options -std=c++20 --expt-relaxed-constexpr -fmad=false -ftz=false -prec-div=true
-                          -prec-sqrt=true -Xcompiler=-ffp-contract=off,-Wall)
+set(errbound_cuda_options -std=c++20 --expt-relaxed-constexpr ${errbound_cuda_precision}
+                          -Xcompiler=-ffp-contract=off,-Wall)
 
 function(errbound_cuda_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEFINITIONS" ${ARGN})
@@ -40,7 +41,8 @@ add_library(errbound_ccd_cuda STATIC)
 add_library(errbound::ccd_cuda ALIAS errbound_ccd_cuda)
 set_target_properties(errbound_ccd_cuda PROPERTIES EXPORT_NAME ccd_cuda LINKER_LANGUAGE CXX)
 target_link_libraries(errbound_ccd_cuda PUBLIC errbound_ccd PRIVATE CUDA::cudart_static)
-errbound_cuda_library(errbound_cuda_batch SOURCES ccd/cuda/batch.cu ccd/cuda/step.cu)
+errbound_cuda_library(errbound_cuda_batch SOURCES ccd/cuda/batch.cu ccd/cuda/sort.cu
+  ccd/cuda/step.cu)
 foreach(kind vertex_face edge_edge)
   errbound_cuda_library(errbound_cuda_exact_${kind} SOURCES ccd/cuda/exact.cu
     DEFINITIONS ERRBOUND_INDICES=${kind}_indices)

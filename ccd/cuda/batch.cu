@@ -89,7 +89,7 @@ status decide_any(const positions& at, const candidates<Indices>& candidates, ou
     if (options.method == method::exact) {
         const exact_memory all(rest, at.vertices, candidates.count);
         run_rounding(launcher, at, all.scene, all.rows);
-        queue_exact(launcher, at, candidates, answers, all);
+        queue_exact(launcher, at, candidates, answers, all, options.precision);
     } else {
         queue_float_method(launcher, at, candidates, answers, rest, options);
     }

@@ -28,9 +28,9 @@ extern const device_method device_float, device_safe, device_tight, device_safec
 /// run_exact_stages, compiled in ccd/cuda/exact.cu.
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<vertex_face_indices>& candidates, outcome* answers,
-                 const exact_memory& memory);
+                 const exact_memory& memory, precision p);
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<edge_edge_indices>& candidates, outcome* answers,
-                 const exact_memory& memory);
+                 const exact_memory& memory, precision p);
 
 }  // namespace ccd::cuda

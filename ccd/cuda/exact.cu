@@ -5,8 +5,8 @@ namespace ccd::cuda {
 
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<ERRBOUND_INDICES>& candidates, outcome* answers,
-                 const exact_memory& memory) {
-    run_exact_stages(launcher, at, candidates, answers, memory);
+                 const exact_memory& memory, precision p) {
+    run_exact_stages(launcher, at, candidates, answers, memory, p);
 }
 
 }  // namespace ccd::cuda

@@ -6,6 +6,7 @@
 // again, which is less than handing their differences on.
 #pragma once
 
+#include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/static_filter.hpp>
@@ -14,7 +15,7 @@
 #include <cstdint>
 #include <errbound/control_values.hpp>
 #include <errbound/number_traits.hpp>
-#include <limits>
+#include <type_traits>
 
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
@@ -33,6 +34,18 @@ struct alignas(16) rounded_position {
 struct scene_extent {
     rounded_axes::extent box;
     bool finite;
+
+    /// A power of two by which no difference of coordinates exceeds 4 in size.
+    constexpr double power_of_two() const {
+        using traits = errbound::number_traits<double>;
+        double half_extent = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            half_extent = traits::max(half_extent, box.high[k] / 2 - box.low[k] / 2);
+        // Bounded so that it is neither zero nor infinite: then floats settle little or nothing.
+        const int e =
+            half_extent > 0 && traits::is_finite(half_extent) ? traits::exponent(half_extent) : 0;
+        return traits::scale(1.0, -std::clamp(e, -1000, 1000));
+    }
 
     static constexpr scene_extent nothing() { return {rounded_axes::extent::nothing(), true}; }
 };
@@ -86,7 +99,6 @@ struct round_vertex {
 /// What every stage knows.
 template <class Indices>
 struct exact_stage {
-    using double_query = query_of_kind<Indices, double>;
     using forms_type = typename query_kind<Indices>::template forms<double>;
     template <class S>
     using forms_template = typename query_kind<Indices>::template forms<S>;
@@ -96,7 +108,7 @@ struct exact_stage {
     outcome* answers;
     queue open;  ///< what the stage leaves to the next
 
-    constexpr double_query query(std::uint32_t i) const {
+    constexpr query_of_kind<Indices, double> query(std::uint32_t i) const {
         return query_at<double>(at, indices_of(candidates, i));
     }
 };
@@ -126,10 +138,44 @@ struct axes_stage : exact_stage<Indices> {
     }
 };
 
+/// What the tests of coefficients share. In floats, differences come in units of the scene's size.
+template <class Indices, class Real>
+struct coefficient_stage : exact_stage<Indices> {
+    using forms_type = typename query_kind<Indices>::template forms<Real>;
+    template <class S>
+    using forms_template = typename query_kind<Indices>::template forms<S>;
+
+    const scene_extent* scene;
+
+  protected:
+    /// The query's forms. Differences are rounded once in doubles, and to floats where asked for:
+    /// off by at most ε each, as error_count::difference() says, and by η where that underflows.
+    constexpr forms_type forms_of_query(const query_of_kind<Indices, double>& query) const {
+        if constexpr (std::is_same_v<Real, double>) {
+            return forms_type(query);
+        } else {
+            const double unit = scene->power_of_two();
+            const auto converted = [unit](const vector_form<double, 1>& v) {
+                const auto of = [unit](const errbound::bernstein<double, 1>& d) {
+                    return errbound::bernstein<float, 1>{
+                        {static_cast<float>(d[0] * unit), static_cast<float>(d[1] * unit)}};
+                };
+                return vector_form<float, 1>{of(v.x), of(v.y), of(v.z)};
+            };
+            const typename query_kind<Indices>::template forms<double> exact(query);
+            return forms_type(converted(exact.b), converted(exact.c), converted(exact.p));
+        }
+    }
+    /// Whether comparisons may be believed.
+    constexpr bool usable(const static_filter::sizes<Real>& sizes) const {
+        return sizes.usable && (std::is_same_v<Real, double> || scene->finite);
+    }
+};
+
 /// The coefficients of Y. Candidates whose coordinates are not finite are `uncertain` and leave.
-template <class Indices>
-struct coplanarity_stage : exact_stage<Indices> {
-    using base = exact_stage<Indices>;
+template <class Indices, class Real>
+struct coplanarity_stage : coefficient_stage<Indices, Real> {
+    using base = coefficient_stage<Indices, Real>;
 
     constexpr void operator()(std::uint32_t i) const {
         const auto query = this->query(i);
@@ -141,25 +187,25 @@ struct coplanarity_stage : exact_stage<Indices> {
             this->answers[i] = outcome::uncertain;
             return;
         }
-        const typename base::forms_type forms(query);
-        const static_filter::sizes<double> sizes(forms);
+        const auto forms = this->forms_of_query(query);
+        const static_filter::sizes<Real> sizes(forms);
         const auto y = errbound::control_values_of(forms.y());
-        const double error = sizes.template error_of_y<base::template forms_template>();
+        const Real error = sizes.template error_of_y<base::template forms_template>();
         const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
-        if (!sizes.usable || !rootless) this->open.push(i);
+        if (!this->usable(sizes) || !rootless) this->open.push(i);
     }
 };
 
 /// The coefficients of the G_i.
-template <class Indices>
-struct inside_stage : exact_stage<Indices> {
-    using base = exact_stage<Indices>;
+template <class Indices, class Real>
+struct inside_stage : coefficient_stage<Indices, Real> {
+    using base = coefficient_stage<Indices, Real>;
 
     constexpr void operator()(std::uint32_t i) const {
-        const typename base::forms_type forms(this->query(i));
-        const static_filter::sizes<double> sizes(forms);
-        const static_filter::whole_step<double, base::template forms_template> whole(forms, sizes);
-        if (!sizes.usable || !whole.outside()) this->open.push(i);
+        const auto forms = this->forms_of_query(this->query(i));
+        const static_filter::sizes<Real> sizes(forms);
+        const static_filter::whole_step<Real, base::template forms_template> whole(forms, sizes);
+        if (!this->usable(sizes) || !whole.outside()) this->open.push(i);
     }
 };
 
@@ -238,11 +284,11 @@ void run_rounding(Launcher& launcher, const positions& at, scene_extent* scene,
     launcher.for_each(at.vertices, round_vertex{at, scene, rows});
 }
 
-/// Queues all stages; positions are rounded already.
+/// Queues all stages, the tests of coefficients in `p`; positions are rounded already.
 template <class Launcher, class Indices>
 void run_exact_stages(Launcher& launcher, const positions& at,
                       const candidates<Indices>& candidates, outcome* answers,
-                      const exact_memory& memory) {
+                      const exact_memory& memory, precision p) {
     launcher.set(memory.counters, exact_counters{});
     exact_counters& sizes = *memory.counters;  // its members' addresses alone are used
     const queue after_axes{memory.first, &sizes.coplanarity};
@@ -256,8 +302,20 @@ void run_exact_stages(Launcher& launcher, const positions& at,
     };
     launcher.for_each(candidates.count,
                       axes_stage<Indices>{stage(after_axes), memory.scene, memory.rows});
-    launcher.for_each_queued(after_axes, coplanarity_stage<Indices>{stage(after_coplanarity)});
-    launcher.for_each_queued(after_coplanarity, inside_stage<Indices>{stage(after_inside)});
+    const auto coefficients = [&](auto real) {
+        using Real = decltype(real);
+        const auto of = [&](const queue& open) {
+            return coefficient_stage<Indices, Real>{stage(open), memory.scene};
+        };
+        launcher.for_each_queued(after_axes,
+                                 coplanarity_stage<Indices, Real>{of(after_coplanarity)});
+        launcher.for_each_queued(after_coplanarity, inside_stage<Indices, Real>{of(after_inside)});
+    };
+    if (p == precision::float32)
+        coefficients(0.0f);
+    else
+        coefficients(0.0);
+    // In doubles in either case: it looks at the whole step again first.
     launcher.for_each_queued(after_inside, subdivision_stage<Indices>{stage(after_subdivision)});
     launcher.for_each_queued(after_subdivision,
                              integer_stage<Indices, 1>{stage(after_one_word), left});
@@ -267,9 +325,9 @@ void run_exact_stages(Launcher& launcher, const positions& at,
 /// Queues everything.
 template <class Launcher, class Indices>
 void run_exact(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
-               outcome* answers, const exact_memory& memory) {
+               outcome* answers, const exact_memory& memory, precision p) {
     run_rounding(launcher, at, memory.scene, memory.rows);
-    run_exact_stages(launcher, at, candidates, answers, memory);
+    run_exact_stages(launcher, at, candidates, answers, memory, p);
 }
 
 }  // namespace ccd::cuda

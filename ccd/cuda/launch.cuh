@@ -9,7 +9,6 @@
 #include <ccd/cuda.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cub/device/device_radix_sort.cuh>
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
 #include <optional>
@@ -133,21 +132,8 @@ class device_launcher {
                                                  static_cast<std::int64_t>(n) + 1, stream_);
         });
     }
-    void sort(std::uint32_t* keys, std::uint32_t* values, std::size_t n) {
-        spare_.resize(*this, 2 * n);
-        if (!ok()) return;
-        cub::DoubleBuffer<std::uint32_t> k(keys, spare_.data()), v(values, spare_.data() + n);
-        with_temporary([&](void* memory, std::size_t& bytes) {
-            return cub::DeviceRadixSort::SortPairs(memory, bytes, k, v,
-                                                   static_cast<std::int64_t>(n), 0, 32, stream_);
-        });
-        const auto bring_back = [&](std::uint32_t* to, const std::uint32_t* from) {
-            if (ok() && to != from)
-                check(cudaMemcpyAsync(to, from, n * sizeof *to, cudaMemcpyDeviceToDevice, stream_));
-        };
-        bring_back(keys, k.Current());
-        bring_back(values, v.Current());
-    }
+    /// Defined in ccd/cuda/sort.cu: it takes long to compile.
+    void sort(std::uint32_t* keys, std::uint32_t* values, std::size_t n);
     template <class T>
     void read(const T* p, std::size_t n, T* to) {
         if (!ok() || n == 0) return;

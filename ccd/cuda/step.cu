@@ -67,7 +67,7 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
         exact_memory all(given, 0, block.count);
         all.scene = scene;
         all.rows = rows;
-        queue_exact(launcher, positions, block, answers, all);
+        queue_exact(launcher, positions, block, answers, all, options.precision);
         return finish_exact(launcher, positions, block, answers, all).left;
     };
     const auto pairs = memory.run(launcher, positions, decide);

@@ -1,9 +1,9 @@
 // A step of a mesh on the device: candidates by a tree of boxes, decided in blocks. Internal.
 //
-// The tree is that of ccd/box_tree.hpp without its packs: boxes sorted along a Morton curve, eight to
-// a node, so that nodes need no pointers and a search no stack. Each element counts what it touches;
-// a prefix sum gives every candidate its number; then blocks of numbers are written out and decided.
-// So nothing depends on the order of threads, and no block can run over.
+// The tree is that of ccd/box_tree.hpp without its packs: boxes sorted along a Morton curve, eight
+// to a node, so that nodes need no pointers and a search no stack. Each element counts what it
+// touches; a prefix sum gives every candidate its number; then blocks of numbers are written out
+// and decided. So nothing depends on the order of threads, and no block can run over.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,8 @@ struct elements {
 
 /// The box that an element sweeps.
 template <std::size_t N>
-constexpr rounded_box swept_box(const rounded_position* rows, const std::array<index, N>& vertices) {
+constexpr rounded_box swept_box(const rounded_position* rows,
+                                const std::array<index, N>& vertices) {
     const auto of_row = [](const rounded_position& r) {
         return rounded_box{{r.x, r.y, r.z}, {r.x, r.y, r.z}};
     };
@@ -167,8 +168,9 @@ struct curve_key {
         for (std::size_t k = 0; k < 3; ++k) {
             // Coordinates are within about [−1, 1]; NaN counts as 0.
             const float place = (0.5f * b.low[k] + 0.5f * b.high[k] + 1.0f) * 512.0f;
-            const auto cell =
-                place >= 1023.0f ? 1023U : place > 0.0f ? static_cast<std::uint32_t>(place) : 0U;
+            const auto cell = place >= 1023.0f ? 1023U
+                              : place > 0.0f   ? static_cast<std::uint32_t>(place)
+                                               : 0U;
             key |= spread_bits(cell) << k;
         }
         keys[i] = key;
@@ -192,9 +194,7 @@ struct make_leaf {
     const std::uint32_t* order;
     rounded_box* boxes;
 
-    constexpr void operator()(std::uint32_t i) const {
-        boxes[i] = swept_box(rows, all[order[i]]);
-    }
+    constexpr void operator()(std::uint32_t i) const { boxes[i] = swept_box(rows, all[order[i]]); }
 };
 struct make_node {
     const rounded_box* below;
@@ -325,8 +325,8 @@ class step_memory {
     }
 
     /// `decide(candidates, answers, scene, rows)` queues the decision of a block, whose positions
-    /// were rounded to `rows`, and returns how many the host decided. Pairs are in vertex_face() and
-    /// edge_edge() then.
+    /// were rounded to `rows`, and returns how many the host decided. Pairs are in vertex_face()
+    /// and edge_edge() then.
     template <class Decide>
     found_pairs run(Launcher& launcher, const positions& at, const Decide& decide) {
         found_pairs found;
@@ -360,11 +360,11 @@ class step_memory {
 
   private:
     template <std::size_t N>
-    void sort_along_curve(Launcher& launcher, const elements<N>& all, buffer<std::uint32_t>& order) {
+    void sort_along_curve(Launcher& launcher, const elements<N>& all,
+                          buffer<std::uint32_t>& order) {
         keys_.resize(launcher, all.count);
         order.resize(launcher, all.count);
-        launcher.for_each(all.count,
-                          curve_key<N>{all, rows_.data(), keys_.data(), order.data()});
+        launcher.for_each(all.count, curve_key<N>{all, rows_.data(), keys_.data(), order.data()});
         launcher.sort(keys_.data(), order.data(), all.count);
     }
 
@@ -376,12 +376,11 @@ class step_memory {
         boxes.resize(launcher, tree.size());
         tree.boxes = boxes.data();
         tree.order = order.data();
-        launcher.for_each(all.count,
-                          make_leaf<N>{all, rows_.data(), order.data(), boxes.data()});
+        launcher.for_each(all.count, make_leaf<N>{all, rows_.data(), order.data(), boxes.data()});
         for (std::size_t level = 1; level < tree.levels; ++level)
             launcher.for_each(tree.count[level],
-                              make_node{boxes.data() + tree.start[level - 1],
-                                        tree.count[level - 1], boxes.data() + tree.start[level]});
+                              make_node{boxes.data() + tree.start[level - 1], tree.count[level - 1],
+                                        boxes.data() + tree.start[level]});
         return tree;
     }
 
@@ -408,8 +407,8 @@ class step_memory {
         for (std::uint64_t first = 0; first < total && launcher.ok(); first += at_once) {
             const auto count =
                 static_cast<std::size_t>(std::min<std::uint64_t>(at_once, total - first));
-            launcher.for_each(searches, write_candidates<Search>{search, numbers_.data(), first,
-                                                                 count, rows});
+            launcher.for_each(
+                searches, write_candidates<Search>{search, numbers_.data(), first, count, rows});
             finished_on_host += decide(candidates<Indices>::rows(rows, count), answers_.data(),
                                        scene_.data(), rows_.data());
             run_select(launcher, answers_.data(), count, numbers_found_.data(), count,
@@ -417,8 +416,8 @@ class step_memory {
             index more = 0;
             launcher.read(count_found_.data(), 1, &more);
             pairs.resize(launcher, pair_count + more);
-            launcher.for_each(more, copy_rows<Indices>{rows, numbers_found_.data(),
-                                                       pairs.data() + pair_count});
+            launcher.for_each(
+                more, copy_rows<Indices>{rows, numbers_found_.data(), pairs.data() + pair_count});
             pair_count += more;
         }
         return static_cast<std::size_t>(total);

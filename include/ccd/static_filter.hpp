@@ -29,8 +29,22 @@ inline constexpr std::size_t max_depth = 12;
 /// would be no better. (Before it, halving may yet show that some G_i is negative everywhere.)
 inline constexpr std::size_t patient_depth = 3;
 
-/// Larger differences go to later stages: the forms of degree 4 stay far from overflow.
-inline constexpr double largest_difference = 0x1p200;
+/// Larger differences go to later stages: the forms of degree 4 stay far from overflow. (Floats are
+/// for differences in units of a scene's size.)
+template <class Real>
+inline constexpr Real largest_difference = 0x1p200;
+template <>
+inline constexpr float largest_difference<float> = 4;
+
+/// The number type whose roundings S makes: that of a pack is double.
+template <class S>
+struct real_of {
+    using type = double;
+};
+template <>
+struct real_of<float> {
+    using type = float;
+};
 
 /// What a comparison of two S gives: bool, or a SIMD mask.
 template <class S>
@@ -38,10 +52,11 @@ using mask = decltype(S() < S());
 
 /// Constants of a form: |ĥ − h| <= relative·unit + absolute, for the control values of the form
 /// times multiple(N), and what each halving of them adds.
+template <class Real>
 struct constants {
-    double relative;  ///< times the unit
-    double absolute;  ///< underflow
-    double halvings;  ///< times the largest control value, for max_depth halvings
+    Real relative;  ///< times the unit
+    Real absolute;  ///< underflow
+    Real halvings;  ///< times the largest control value, for max_depth halvings
 };
 
 namespace detail {
@@ -74,46 +89,60 @@ constexpr double halving_error() {
 /// The bounds are evaluated in a handful of rounded operations: one per cent is plenty.
 inline constexpr double slack = 1.01;
 
+/// Smaller than anything that matters, and larger than what the bounds' own evaluation loses to
+/// underflow.
+template <class Real>
+inline constexpr double negligible = 0x1p-1000;
+template <>
+inline constexpr double negligible<float> = 0x1p-140;
+
 /// Underflow happens in forms of at most degree `degree`, whose factors are at most
 /// largest_difference.
-template <int N>
-constexpr constants constants_of(error_count c, int degree) {
-    double absolute = c.underflow * errbound::number_traits<double>::underflow_unit();
-    for (int i = 1; i < degree; ++i) absolute *= largest_difference;
-    constexpr double epsilon = errbound::number_traits<double>::epsilon();
-    return {slack * c.error * epsilon, slack * (absolute + 0x1p-1000),
-            slack * halving_error<N>() * epsilon};
+template <class Real, int N>
+constexpr constants<Real> constants_of(error_count c, int degree) {
+    using traits = errbound::number_traits<Real>;
+    double absolute = c.underflow * double(traits::underflow_unit());
+    for (int i = 1; i < degree; ++i) absolute *= double(largest_difference<Real>);
+    constexpr double epsilon = traits::epsilon();
+    return {Real(slack * c.error * epsilon), Real(slack * (absolute + negligible<Real>)),
+            Real(slack * halving_error<N>() * epsilon)};
 }
 
+/// A difference of doubles that is rounded to Real, which floats may underflow in.
+template <class Real>
 constexpr vector_form<error_count, 1> any_difference() {
-    constexpr auto d = error_count::difference();
+    error_count d = error_count::difference();
+    if (sizeof(Real) < sizeof(double)) d.underflow = 1;
     return {{{d, d}}, {{d, d}}, {{d, d}}};
 }
 
-template <template <class> class Forms>
-constexpr constants constants_of_y() {
-    const Forms<error_count> forms(any_difference(), any_difference(), any_difference());
-    return constants_of<3>(worst_of(control_values_of(forms.y())), 3);
+template <class Real, template <class> class Forms>
+constexpr constants<Real> constants_of_y() {
+    constexpr auto d = any_difference<Real>();
+    const Forms<error_count> forms(d, d, d);
+    return constants_of<Real, 3>(worst_of(control_values_of(forms.y())), 3);
 }
-template <template <class> class Forms>
-constexpr constants constants_of_g() {
-    const Forms<error_count> forms(any_difference(), any_difference(), any_difference());
+template <class Real, template <class> class Forms>
+constexpr constants<Real> constants_of_g() {
+    constexpr auto d = any_difference<Real>();
+    const Forms<error_count> forms(d, d, d);
     error_count w;
     for (const auto& g : forms.inside()) w = worst(w, worst_of(control_values_of(g)));
-    return constants_of<4>(w, 4);
+    return constants_of<Real, 4>(w, 4);
 }
 
 }  // namespace detail
 
-template <template <class> class Forms>
-inline constexpr constants y_constants = detail::constants_of_y<Forms>();
-template <template <class> class Forms>
-inline constexpr constants g_constants = detail::constants_of_g<Forms>();
+template <template <class> class Forms, class Real = double>
+inline constexpr constants<Real> y_constants = detail::constants_of_y<Real, Forms>();
+template <template <class> class Forms, class Real = double>
+inline constexpr constants<Real> g_constants = detail::constants_of_g<Real, Forms>();
 
 /// The sizes m_x, m_y, m_z of a query's differences, whose coordinates must be finite (differences
 /// that overflow are infinite; only those of infinities are NaN, which the maximum may overlook).
 template <class S>
 struct sizes {
+    using real = typename real_of<S>::type;
     S x, y, z;
     /// False if a difference is too large: then no test may be believed.
     mask<S> usable;
@@ -128,19 +157,21 @@ struct sizes {
         x = largest(f.b.x, f.c.x, f.p.x);
         y = largest(f.b.y, f.c.y, f.p.y);
         z = largest(f.b.z, f.c.z, f.p.z);
-        usable = max(max(x, y), z) <= S(largest_difference);
+        usable = max(max(x, y), z) <= S(largest_difference<real>);
     }
 
     /// Bounds |ĥ − h| of the control values of Y, and of every G_i.
     template <template <class> class Forms>
     constexpr S error_of_y() const {
-        return x * y * z * S(y_constants<Forms>.relative) + S(y_constants<Forms>.absolute);
+        return x * y * z * S(y_constants<Forms, real>.relative) +
+               S(y_constants<Forms, real>.absolute);
     }
     template <template <class> class Forms>
     constexpr S error_of_g() const {
         using std::max;
         const S area = max(max(x * y, y * z), z * x);
-        return area * area * S(g_constants<Forms>.relative) + S(g_constants<Forms>.absolute);
+        return area * area * S(g_constants<Forms, real>.relative) +
+               S(g_constants<Forms, real>.absolute);
     }
 };
 
@@ -304,8 +335,9 @@ struct whole_step {
             forms.g[i] = errbound::control_values_of(g[i]);
             largest = max(largest, size_of(forms.g[i]));
         }
-        errors = {y_error + size_of(forms.y) * S(y_constants<Forms>.halvings),
-                  g_error + largest * S(g_constants<Forms>.halvings)};
+        using real = typename real_of<S>::type;
+        errors = {y_error + size_of(forms.y) * S(y_constants<Forms, real>.halvings),
+                  g_error + largest * S(g_constants<Forms, real>.halvings)};
     }
 
     /// Some G_i is certainly negative throughout.

@@ -69,7 +69,7 @@ constexpr with_error<T> split(const T& x) {
         for (int i = 0; i < s; ++i) two_to_s *= 2;
         return two_to_s;
     }();
-    const T c = rounded(T((T(power) + 1) * x));
+    const T c = rounded_product(T(T(power) + 1), x);
     const T high = c - (c - x);
     return {high, x - high};
 }
@@ -79,7 +79,7 @@ constexpr with_error<T> split(const T& x) {
 /// Cost: 2 operations with hardware FMA, else 17. Source: Dekker 1971 (TwoProduct).
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
-    const T v = rounded(T(a * b));
+    const T v = rounded_product(a, b);
     if constexpr (has_fast_fma<T>) {
         if (!std::is_constant_evaluated()) {
             if constexpr (sizeof(T) == sizeof(float))
@@ -90,9 +90,9 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     }
     const auto [a_high, a_low] = split(a);
     const auto [b_high, b_low] = split(b);
-    const T first = rounded(T(a_high * b_high)) - v;
-    const T middle = (first + rounded(T(a_high * b_low))) + rounded(T(a_low * b_high));
-    return {v, middle + rounded(T(a_low * b_low))};
+    const T first = rounded_product(a_high, b_high) - v;
+    const T middle = (first + rounded_product(a_high, b_low)) + rounded_product(a_low, b_high);
+    return {v, middle + rounded_product(a_low, b_low)};
 }
 
 /// Whether two_product(a, b)'s result is known to be exact: an operand is zero, or the product is

@@ -15,7 +15,8 @@ namespace errbound {
 /// it is an empty asm statement through a register, which also keeps the product out of the
 /// compiler's vectorised loops. (__builtin_assoc_barrier is no substitute: g++ 12 forgets it when
 /// it vectorises, and fuses.) Types of one's own are left alone: what they are made of (SIMD packs)
-/// must be built with -ffp-contract=off; library types (Boost.Multiprecision) never fuse.
+/// must be built with -ffp-contract=off; library types (Boost.Multiprecision) never fuse. In CUDA
+/// device code it is an addition of −0 by an intrinsic that is never fused.
 template <class T>
 constexpr T rounded(const T& x) {
     return x;
@@ -29,7 +30,14 @@ inline constexpr bool may_contract = false;
 inline constexpr bool may_contract = true;
 #endif
 
-#if defined(__GNUC__) && !defined(__CUDA_ARCH__)
+#if defined(__CUDA_ARCH__)
+constexpr double rounded(const double& x) {
+    return std::is_constant_evaluated() ? x : __dadd_rn(x, -0.0);
+}
+constexpr float rounded(const float& x) {
+    return std::is_constant_evaluated() ? x : __fadd_rn(x, -0.0f);
+}
+#elif defined(__GNUC__)
 #if !defined(__x86_64__) || defined(__FMA__) || defined(__FMA4__) || defined(__AVX512F__)
 template <std::floating_point T>
 constexpr T rounded(const T& x) {
@@ -46,5 +54,19 @@ constexpr T rounded(const T& x) {
 }
 #endif
 #endif
+
+/// a·b, rounded by itself.
+template <class T>
+constexpr T rounded_product(const T& a, const T& b) {
+#if defined(__CUDA_ARCH__)
+    if (!std::is_constant_evaluated()) {
+        if constexpr (std::is_same_v<T, double>)
+            return __dmul_rn(a, b);
+        else if constexpr (std::is_same_v<T, float>)
+            return __fmul_rn(a, b);
+    }
+#endif
+    return rounded(T(a * b));
+}
 
 }  // namespace errbound

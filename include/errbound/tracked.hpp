@@ -61,7 +61,7 @@ class tracked {
         return {v, Rule::template subtract<T>(v, a.as_operand(), b.as_operand())};
     }
     friend constexpr tracked operator*(const tracked& a, const tracked& b) {
-        const T v = rounded(T(a.value_ * b.value_));
+        const T v = rounded_product(a.value_, b.value_);
         return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
     }
     /// Does not compile for a rule without division. Unknown where b may be zero.

@@ -81,9 +81,10 @@ struct interval {
             if (product_error_is_exact<T>(a.value, b.value, p)) return nearest<T>(v, p.error);
             return checked<T>(v, below<T>(v), above<T>(v));
         }
-        return hull<T>(
-            v, rounded(T(a.bound.lower * b.bound.lower)), rounded(T(a.bound.lower * b.bound.upper)),
-            rounded(T(a.bound.upper * b.bound.lower)), rounded(T(a.bound.upper * b.bound.upper)));
+        return hull<T>(v, rounded_product(a.bound.lower, b.bound.lower),
+                       rounded_product(a.bound.lower, b.bound.upper),
+                       rounded_product(a.bound.upper, b.bound.lower),
+                       rounded_product(a.bound.upper, b.bound.upper));
     }
     /// Unknown where b may be zero.
     template <class T>

@@ -89,8 +89,8 @@ struct residual {
         if (is_exact(a) && is_exact(b)) return {own, unknown};
 
         const T ca = traits::abs(a.bound.correction), cb = traits::abs(b.bound.correction);
-        const T x = rounded(T(a.value * b.bound.correction));
-        const T y = rounded(T(a.bound.correction * b.value));
+        const T x = rounded_product(a.value, b.bound.correction);
+        const T y = rounded_product(a.bound.correction, b.value);
         const T inherited = x + y;
         const T correction = own + inherited;
         const T remainder =
@@ -116,7 +116,7 @@ struct residual {
         const T unknown = known ? T(0) : half_ulp<T>(v);
         if (own == 0 && is_exact(a) && is_exact(b)) return {T(0), unknown + (v - v)};
 
-        const T x = rounded(T(v * b.bound.correction));
+        const T x = rounded_product(v, b.bound.correction);
         const T inherited = a.bound.correction - x;
         const T numerator = own + inherited;
         const T correction = numerator / b.value;

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "query_families.hpp"
+#include "tests/query_families.hpp"
 
 namespace cuda_sets {
 
@@ -21,8 +21,7 @@ namespace cuda_sets {
 template <class Indices>
 struct batch {
     static constexpr bool of_faces = std::is_same_v<Indices, ccd::vertex_face_indices>;
-    using query =
-        std::conditional_t<of_faces, ccd::vertex_face<double>, ccd::edge_edge<double>>;
+    using query = std::conditional_t<of_faces, ccd::vertex_face<double>, ccd::edge_edge<double>>;
 
     std::vector<query> queries;
     std::vector<ccd::point<double>> before, after;

@@ -18,7 +18,11 @@
 #include "ccd/cuda/step.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/step_parts.hpp"
-#include "cuda_sets.hpp"
+#include "tests/cuda/sets.hpp"
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 namespace {
 
@@ -28,6 +32,7 @@ using ccd::cuda::candidates;
 using ccd::cuda::coordinates;
 using ccd::cuda::host_launcher;
 using ccd::cuda::positions;
+using ccd::cuda::precision;
 using cuda_sets::batch;
 
 /// Memory for a layout: `make(arena)` is called once to count, once to take.
@@ -69,12 +74,13 @@ positions positions_of(const batch<Indices>& set) {
 /// `exact` to the end, host's part included.
 template <class Indices>
 std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>& all,
+                                  precision p = precision::float64,
                                   ccd::cuda::exact_counters* counters = nullptr) {
     host_launcher launcher;
     // Nothing may rely on what was there.
     std::vector<outcome> answers(all.count, outcome::collides);
     const laid_out<ccd::cuda::exact_memory> memory(at.vertices, all.count);
-    run_exact(launcher, at, all, answers.data(), *memory);
+    run_exact(launcher, at, all, answers.data(), *memory, p);
     const auto counted = finish_exact(launcher, at, all, answers.data(), *memory);
     if (counters != nullptr) *counters = counted;
     return answers;
@@ -109,20 +115,22 @@ TYPED_TEST_SUITE(device_bodies, kinds);
 
 template <class Indices>
 void expect_exact(const batch<Indices>& set) {
-    ccd::cuda::exact_counters counters{};
-    const auto answers = decide_exact(
-        positions_of(set), candidates<Indices>::rows(set.rows.data(), set.size()), &counters);
-    std::size_t collisions = 0;
-    for (std::size_t i = 0; i < set.size(); ++i) {
-        const outcome truth = ccd::decide_exact(set.queries[i]).outcome;
-        ASSERT_EQ(answers[i], truth) << "query " << i;
-        collisions += truth == outcome::collides;
+    std::vector<outcome> truth;
+    for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
+    std::cout << set.size() << " queries, " << std::ranges::count(truth, outcome::collides)
+              << " collide\n";
+    for (const precision p : {precision::float64, precision::float32}) {
+        ccd::cuda::exact_counters counters{};
+        const auto answers =
+            decide_exact(positions_of(set), candidates<Indices>::rows(set.rows.data(), set.size()),
+                         p, &counters);
+        for (std::size_t i = 0; i < set.size(); ++i)
+            ASSERT_EQ(answers[i], truth[i]) << "query " << i;
+        std::cout << "past the axes " << counters.coplanarity << ", coplanarity " << counters.inside
+                  << ", inside " << counters.subdivision << "; integers of one word "
+                  << counters.one_word << ", of two " << counters.two_words << ", left to the host "
+                  << counters.left << '\n';
     }
-    std::cout << set.size() << " queries, " << collisions << " collide; past the axes "
-              << counters.coplanarity << ", coplanarity " << counters.inside << ", inside "
-              << counters.subdivision << "; integers of one word " << counters.one_word
-              << ", of two " << counters.two_words << ", left to the host " << counters.left
-              << '\n';
 }
 
 TYPED_TEST(device_bodies, exact_is_exact) {
@@ -245,8 +253,7 @@ TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
     const auto by_rows = all::rows(named.data(), named.size());
     const auto by_columns = all::of_columns(column[0].data(), column[1].data(), column[2].data(),
                                             column[3].data(), named.size());
-    const auto by_pairs =
-        all::pairs(first.data(), second.data(), elements.data(), named.size());
+    const auto by_pairs = all::pairs(first.data(), second.data(), elements.data(), named.size());
 
     const auto expected = decide_exact(in_doubles, by_rows);
     for (std::size_t i = 0; i < named.size(); ++i)
@@ -257,7 +264,26 @@ TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
     EXPECT_EQ(decide_exact(in_doubles, by_pairs), expected);
     EXPECT_EQ(decide_exact(in_floats, by_rows), expected);
     EXPECT_EQ(decide_exact(in_columns, by_pairs), expected);
+    EXPECT_EQ(decide_exact(in_columns, by_columns, precision::float32), expected);
 }
+
+#if defined(__SSE2__)
+// Why device code is compiled with -ftz=false: flushed, both a product and its bound vanish.
+TEST(device_flags, flushing_subnormals_would_make_a_certain_sign_wrong) {
+    const auto sign_of_square = [] {
+        const volatile float tiny = 1e-30f;
+        const errbound::tracked<float> x(tiny);
+        return sign_of(x * x);
+    };
+    EXPECT_EQ(sign_of_square(), errbound::sign_type::uncertain);
+    constexpr unsigned flush_results_and_operands = 0x8040;
+    const unsigned mode = _mm_getcsr();
+    _mm_setcsr(mode | flush_results_and_operands);
+    const auto flushed = sign_of_square();
+    _mm_setcsr(mode);
+    EXPECT_EQ(flushed, errbound::sign_type::zero);
+}
+#endif
 
 TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
     const std::size_t n = 1000;
@@ -323,16 +349,16 @@ ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, st
     // Twice: the second step finds memory that the first has used.
     for (int i = 0; i < 2; ++i) {
         result = {};
-        const auto found = memory.run(
-            launcher, at,
-            [&](const auto& part, outcome* answers, ccd::cuda::scene_extent* scene,
-                ccd::cuda::rounded_position* rows) -> std::size_t {
-                const laid_out<ccd::cuda::exact_memory> own(std::size_t(0), part.count);
-                ccd::cuda::exact_memory all = *own;
-                all.scene = scene, all.rows = rows;
-                run_exact_stages(launcher, at, part, answers, all);
-                return finish_exact(launcher, at, part, answers, all).left;
-            });
+        const auto found =
+            memory.run(launcher, at,
+                       [&](const auto& part, outcome* answers, ccd::cuda::scene_extent* scene,
+                           ccd::cuda::rounded_position* rows) -> std::size_t {
+                           const laid_out<ccd::cuda::exact_memory> own(std::size_t(0), part.count);
+                           ccd::cuda::exact_memory all = *own;
+                           all.scene = scene, all.rows = rows;
+                           run_exact_stages(launcher, at, part, answers, all, precision::float32);
+                           return finish_exact(launcher, at, part, answers, all).left;
+                       });
         result.vertex_face_candidates = found.vertex_face_candidates;
         result.edge_edge_candidates = found.edge_edge_candidates;
         for (std::size_t k = 0; k < found.vertex_face; ++k)

@@ -1,0 +1,75 @@
+// Counts the floating-point operations of the stages of `exact`, by running them on a scalar that
+// counts.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/static_filter.hpp>
+#include <cstdint>
+#include <errbound/control_values.hpp>
+
+#include "ccd/cuda/queries.hpp"
+#include "ccd/rounded_axes.hpp"
+
+namespace bench {
+
+/// Sums, products, comparisons and extrema count one each; sizes and signs nothing.
+template <class T>
+struct counted {
+    T value{};
+    static inline std::uint64_t operations = 0;
+
+    counted() = default;
+    counted(T v) : value(v) {}
+    friend counted operator+(counted a, counted b) { return ++operations, a.value + b.value; }
+    friend counted operator-(counted a, counted b) { return ++operations, a.value - b.value; }
+    friend counted operator*(counted a, counted b) { return ++operations, a.value * b.value; }
+    friend counted operator-(counted a) { return -a.value; }
+    friend bool operator<(counted a, counted b) { return ++operations, a.value < b.value; }
+    friend bool operator>(counted a, counted b) { return ++operations, a.value > b.value; }
+    friend bool operator<=(counted a, counted b) { return ++operations, a.value <= b.value; }
+    friend counted abs(counted a) { return a.value < 0 ? -a.value : a.value; }
+    friend counted max(counted a, counted b) { return ++operations, a.value < b.value ? b : a; }
+    friend counted min(counted a, counted b) { return ++operations, b.value < a.value ? b : a; }
+};
+
+/// Operations of one candidate in a stage, whatever its coordinates.
+struct stage_operations {
+    std::uint64_t axes_in_floats, coplanarity, inside;
+};
+
+template <class Indices>
+stage_operations operations_of_stages() {
+    using single = counted<float>;
+    using scalar = counted<double>;
+    using kind = ccd::cuda::query_kind<Indices>;
+    const auto counted_by = [](auto& counter, const auto& run) {
+        counter = 0;
+        run();
+        return counter;
+    };
+    stage_operations all{};
+    all.axes_in_floats = counted_by(single::operations, [] {
+        const single x[3][2][4] = {};
+        (void)ccd::rounded_axes::parted<Indices>(x);
+    });
+    const typename kind::template query<scalar> query{};
+    const auto filtered = [&](const auto& test) {
+        return counted_by(scalar::operations, [&] {
+            const typename kind::template forms<scalar> forms(query);
+            const ccd::static_filter::sizes<scalar> sizes(forms);
+            test(forms, sizes);
+        });
+    };
+    all.coplanarity = filtered([](const auto& forms, const auto& sizes) {
+        const auto y = errbound::control_values_of(forms.y());
+        const scalar error = sizes.template error_of_y<kind::template forms>();
+        (void)(ccd::static_filter::above(y, error) | ccd::static_filter::below(y, error));
+    });
+    all.inside = filtered([](const auto& forms, const auto& sizes) {
+        const ccd::static_filter::whole_step<scalar, kind::template forms> whole(forms, sizes);
+        (void)whole.outside();
+    });
+    return all;
+}
+
+}  // namespace bench
