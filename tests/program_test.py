@@ -348,6 +348,49 @@ class Step(ProgramTest):
                           self.bad_usage("step", frame, frame, "--method", "tight", *option))
 
 
+class Device(ProgramTest):
+    """What holds with CUDA and a device, without the device, and in builds without CUDA."""
+
+    def device(self):
+        """The runs' error, or None where there is a device."""
+        frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        pairs = self.directory / "pairs"
+        done = self.run_program("step", *frames, "--device", "cuda", "--pairs", pairs)
+        if done.returncode == 0:
+            found = pairs.read_text()
+            self.good("step", *frames, "--pairs", pairs)
+            self.assertEqual(found, pairs.read_text())
+            return None
+        self.assertFalse(pairs.exists())
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr.count("\n"), 1)
+        expected = {1: "ccd: CUDA: ", 2: "this build has no CUDA"}
+        self.assertIn(expected[done.returncode], done.stderr)
+        return done.returncode
+
+    def test_step_and_query(self):
+        error = self.device()
+        file = self.write("vf.csv", HIT)
+        for precision in ([], ["--precision", "float32"], ["--precision", "float64"]):
+            done = self.run_program("query", file, "--kind", "vf", "--device", "cuda", *precision)
+            self.assertEqual(done.returncode, error or 0, done.stderr)
+            if error is None:
+                self.assertEqual(len(done.stdout.splitlines()), 1 + 6)
+
+    def test_bad_usage(self):
+        file = self.write("vf.csv", HIT)
+        self.bad_usage("query", file, "--device", "abacus")
+        self.bad_usage("query", file, "--device", "cuda", "--precision", "float16")
+        self.assertIn("expected --device cuda",
+                      self.bad_usage("query", file, "--precision", "float32"))
+        frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        if self.device() is None:
+            self.assertIn("found 'provot' with --device cuda",
+                          self.bad_usage("query", file, "--device", "cuda", "--method", "provot"))
+            self.bad_usage("step", *frames, "--device", "cuda", "--explain")
+            self.bad_usage("step", *frames, "--device", "cuda", "--threads", "2")
+
+
 class Stress(ProgramTest):
     def test_table_csv_markdown_and_json_agree(self):
         folder, out = self.directory / "new" / "stress", self.directory / "out.json"

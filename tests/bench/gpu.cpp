@@ -35,7 +35,9 @@ template <class T>
 class on_device {
   public:
     explicit on_device(std::size_t count) : count_(count) {
-        check(cudaMalloc(&data_, std::max<std::size_t>(1, count) * sizeof(T)));
+        void* memory = nullptr;
+        check(cudaMalloc(&memory, std::max<std::size_t>(1, count) * sizeof(T)));
+        data_ = static_cast<T*>(memory);
     }
     explicit on_device(const std::vector<T>& host) : on_device(host.size()) {
         check(cudaMemcpy(data_, host.data(), count_ * sizeof(T), cudaMemcpyHostToDevice));

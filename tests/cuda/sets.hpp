@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tests/query_families.hpp"
@@ -47,15 +48,23 @@ typename batch<Indices>::query query_of(const query_families::points& p) {
         return query_families::as_edge_edge(p);
 }
 
-/// `count` queries of every family, fewer of those whose truth is slow.
+/// `count` queries of a family, fewer of one whose truth is slow.
+template <class Indices>
+batch<Indices> of_family(const query_families::family& family, std::uint64_t count,
+                         std::uint64_t seed, batch<Indices> all = {}) {
+    using query_families::kind;
+    for (std::uint64_t i = 0; i * family.thinning < count; ++i)
+        all.add(query_of<Indices>(query_families::make(
+            family, batch<Indices>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
+    return all;
+}
+
+/// The same of every family.
 template <class Indices>
 batch<Indices> of_families(std::uint64_t count, std::uint64_t seed) {
-    using query_families::kind;
     batch<Indices> all;
     for (const auto& family : query_families::families)
-        for (std::uint64_t i = 0; i * family.thinning < count; ++i)
-            all.add(query_of<Indices>(query_families::make(
-                family, batch<Indices>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
+        all = of_family<Indices>(family, count, seed, std::move(all));
     return all;
 }
 

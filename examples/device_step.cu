@@ -1,0 +1,78 @@
+// A mesh that moves on the device: its vertices never leave it, and neither do the colliding pairs.
+//
+// A square cloth falls onto another; each step asks for the pairs that collide. Exit status 77 where
+// there is no device.
+#include <ccd/cuda.hpp>
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+constexpr int side = 64, count = 2 * side * side;
+
+/// Two sheets, the upper one in waves.
+__global__ void place(double* rows) {
+    const int v = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    if (v >= count) return;
+    const int sheet = v / (side * side), i = v % (side * side) / side, j = v % side;
+    rows[3 * v] = i + 0.3 * sheet;
+    rows[3 * v + 1] = j + 0.4 * sheet;
+    rows[3 * v + 2] = sheet == 0 ? 0.0 : 1.5 + sin(0.4 * i) * cos(0.3 * j);
+}
+
+/// The upper sheet sinks.
+__global__ void move(const double* from, double* to) {
+    const int v = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+    if (v >= count) return;
+    for (int k = 0; k < 3; ++k) to[3 * v + k] = from[3 * v + k];
+    if (v >= side * side) to[3 * v + 2] -= 0.125;
+}
+
+std::vector<ccd::face> faces_of_sheets() {
+    std::vector<ccd::face> faces;
+    for (ccd::index sheet = 0; sheet < 2; ++sheet)
+        for (ccd::index i = 0; i + 1 < side; ++i)
+            for (ccd::index j = 0; j + 1 < side; ++j) {
+                const ccd::index v = sheet * side * side + i * side + j;
+                faces.push_back({v, v + 1, v + side});
+                faces.push_back({v + 1, v + side + 1, v + side});
+            }
+    return faces;
+}
+
+}  // namespace
+
+int main() {
+    if (const auto s = ccd::cuda::device_status(); !s) {
+        std::printf("no CUDA device: %s\n", s.error.c_str());
+        return 77;
+    }
+    double *before = nullptr, *after = nullptr;
+    if (cudaMalloc(&before, 3 * count * sizeof(double)) != cudaSuccess ||
+        cudaMalloc(&after, 3 * count * sizeof(double)) != cudaSuccess) {
+        std::fprintf(stderr, "out of device memory\n");
+        return 1;
+    }
+    constexpr int threads = 128, blocks = (count + threads - 1) / threads;
+    place<<<blocks, threads>>>(before);
+
+    ccd::cuda::mesh_steps steps(faces_of_sheets(), count);
+    for (int step = 0; step < 10; ++step) {
+        move<<<blocks, threads>>>(before, after);
+        const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(before),
+                                      ccd::cuda::coordinates<double>::rows(after), count);
+        ccd::cuda::mesh_steps::result found;
+        if (const auto s = steps.run(at, {.method = ccd::method::exact}, found); !s) {
+            std::fprintf(stderr, "%s\n", s.error.c_str());
+            return 1;
+        }
+        // found.vertex_face and found.edge_edge are lists in device memory, for the next kernel.
+        std::printf("step %d: %zu vertex/face and %zu edge/edge pairs of %zu candidates\n", step,
+                    found.vertex_face_count, found.edge_edge_count,
+                    found.vertex_face_candidates + found.edge_edge_candidates);
+        std::swap(before, after);
+    }
+    (void)cudaFree(before);
+    (void)cudaFree(after);
+    return 0;
+}
