@@ -102,7 +102,9 @@ constexpr static_filter::mask<S> parted(const S (&x)[3][2][4]) {
         across = max(across, detail::parted_by<Indices>(sum[0], sum[1]));
         across = max(across, detail::parted_by<Indices>(difference[0], difference[1]));
     }
-    return (along > S(0.0f)) | (across > S(margin));
+    const static_filter::mask<S> by_coordinates = along > S(0.0f),
+                                 by_diagonals = across > S(margin);
+    return by_coordinates | by_diagonals;
 }
 
 }  // namespace ccd::rounded_axes

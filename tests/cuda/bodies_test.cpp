@@ -319,7 +319,7 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
 TEST(device_tree, finds_every_leaf_that_touches_once) {
     std::mt19937 random(9);
     const auto unit = [&] { return static_cast<float>(random() % 1000) / 500 - 1; };
-    for (const std::size_t leaves : {0, 1, 2, 7, 8, 9, 63, 64, 65, 512, 513, 1000}) {
+    for (const std::size_t leaves : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 64U, 65U, 512U, 513U, 1000U}) {
         ccd::cuda::box_levels tree(leaves);
         std::vector<ccd::cuda::rounded_box> boxes(tree.size() + 1);
         for (std::size_t i = 0; i < leaves; ++i)
