@@ -37,6 +37,8 @@ mesh_steps::mesh_steps(std::span<const face> faces, std::size_t vertices)
     state_->vertices = vertices;
 }
 mesh_steps::~mesh_steps() = default;
+mesh_steps::mesh_steps(mesh_steps&&) noexcept = default;
+mesh_steps& mesh_steps::operator=(mesh_steps&&) noexcept = default;
 
 status mesh_steps::run(const positions& positions, const batch_options& options, result& found) {
     found = {};

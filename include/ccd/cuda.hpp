@@ -181,6 +181,8 @@ class mesh_steps {
     /// and copies on first use, on the stream given then.
     mesh_steps(std::span<const face> faces, std::size_t vertices);
     ~mesh_steps();
+    mesh_steps(mesh_steps&&) noexcept;
+    mesh_steps& operator=(mesh_steps&&) noexcept;
 
     /// The pairs that options.method cannot certify as separate, as ccd::step() finds them. The
     /// result is this object's and lasts until the next call. Coordinates must be finite. Waits for

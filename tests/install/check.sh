@@ -11,6 +11,7 @@ cmake -G "$generator" -S "$source/tests/install" -B "$work/build" -DCMAKE_PREFIX
 cmake --build "$work/build" >/dev/null
 "$work/build/use_headers"
 "$work/build/use_ccd"
+if [[ -f $work/prefix/lib/liberrbound_ccd_cuda.a ]]; then "$work/build/use_ccd_cuda"; fi
 "$work/prefix/bin/ccd" methods | grep -q exact
 test -f "$work/prefix/share/errbound/scenes/cloth-over-ball/frame0.ply"
 echo "installed package found, built against and run"
