@@ -264,13 +264,10 @@ Proof.
     by (rewrite <- pow_add; repeat f_equal; lia). ring.
 Qed.
 
-Theorem product_form p q s t :
-  form (exacts (product p q)) s t = form (exacts p) s t * form (exacts q) s t.
+Lemma product_both p b q s t :
+  form (exacts (product p (b :: q))) s t = form (exacts p) s t * form (exacts (b :: q)) s t /\
+  (p <> [] -> length (product p (b :: q)) = (length p + length q)%nat).
 Proof.
-  destruct q as [| b q].
-  { simpl. rewrite Rmult_0_r. destruct p as [| a [| c l]]; easy. }
-  enough (form (exacts (product p (b :: q))) s t = form (exacts p) s t * form (exacts (b :: q)) s t /\
-    (p <> [] -> length (product p (b :: q)) = (length p + length q)%nat)) by tauto.
   induction p as [| a l IH]; [simpl; split; [ring | easy] |].
   assert (M : forall s t, form (exacts (map (mul a) q)) s t = exact a * form (exacts q) s t).
   { clear. intros s t. induction q as [| c q IH]; simpl; [ring |]. rewrite IH, !map_length. exacts. ring. }
@@ -284,6 +281,13 @@ Proof.
     cbn [map form]. rewrite F, M, E, !map_length, K, L, exact_mul.
     replace (length (c :: l) + length q - length q)%nat with (length (c :: l)) by lia.
     split; [| intros _; cbn [length]; rewrite K, L; simpl; lia]. rewrite pow_add. simpl. rewrite !map_length. ring.
+Qed.
+
+Theorem product_form p q s t :
+  form (exacts (product p q)) s t = form (exacts p) s t * form (exacts q) s t.
+Proof.
+  destruct q as [| b q]; [| apply product_both].
+  simpl. rewrite Rmult_0_r. destruct p as [| a [| c l]]; easy.
 Qed.
 
 (** elevated(p): p_0, p_1 + p_0, ..., p_N + p_(N-1), p_N. *)
