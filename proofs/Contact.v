@@ -198,6 +198,17 @@ Proof.
     [rewrite E0 | rewrite E1 | rewrite E2]; field_simplify; lra.
 Qed.
 
+Lemma weights_at_meeting a0 a1 b0 b1 s t : along a0 s (minus a1 a0) = along b0 t (minus b1 b0) ->
+  let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in
+  det B C P = 0 /\ on_a B C P = s * square_normal B C /\ on_b B C P = t * square_normal B C.
+Proof.
+  intros E B C P. fold B C in E. apply point_eq in E.
+  assert (Ep : P = along (along origin s B) (- t) C).
+  { unfold P. clearbody B C. destruct E as (E0 & E1 & E2). unfold along, minus, origin in *. cbn [x y z] in *.
+    apply same_point; cbn [x y z]; lra. }
+  rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat split; ring.
+Qed.
+
 (** On a line, with edge a from 0 to 1 and edge b from m to m + k. *)
 Lemma line_meeting s t m k : 0 <= s <= 1 -> 0 <= t <= 1 -> s = m + t * k -> k <> 0 ->
   0 <= m <= 1 \/ 0 <= - m / k <= 1 \/ 0 <= (1 - m) / k <= 1.
@@ -237,15 +248,7 @@ Proof.
         rewrite K0 in *. rewrite K1 in *. rewrite K2 in *. apply same_point; simpl;
           field_simplify; try easy; try lra; rewrite ?Rplus_0_l in *; nra.
     + left. split; auto.
-      assert (D : det (minus a1 a0) (minus b1 b0) (minus b0 a0) = 0 /\
-        on_a (minus a1 a0) (minus b1 b0) (minus b0 a0) = s * square_normal (minus a1 a0) (minus b1 b0) /\
-        on_b (minus a1 a0) (minus b1 b0) (minus b0 a0) = t * square_normal (minus a1 a0) (minus b1 b0)).
-      { rewrite Ea in Eb. apply point_eq in Eb. clear -Eb.
-        set (B := minus a1 a0) in *. set (C := minus b1 b0) in *. clearbody B C.
-        assert (P : minus b0 a0 = along (along origin s B) (- t) C).
-        { destruct Eb as (E0 & E1 & E2). unfold along, minus, origin in *. cbn [x y z] in *. apply same_point; simpl; lra. }
-        rewrite P. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat split; ring. }
-      destruct D as (Y & Oa & Ob). rewrite Oa, Ob. apply square_positive in N. fold (square_normal (minus a1 a0) (minus b1 b0)) in N.
+      destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |]. rewrite Oa, Ob. apply square_positive in N. fold (square_normal (minus a1 a0) (minus b1 b0)) in N.
       repeat split; auto; nra.
   - intros [(N & Y & A0 & A1 & B0 & B1) | [M | [M | [M | M]]]].
     + pose proof (edges_at_normal a0 a1 b0 b1 N Y) as E. apply square_positive in N. fold (square_normal (minus a1 a0) (minus b1 b0)) in N.

@@ -67,7 +67,7 @@ struct coplanarity_forms {
                                 const vector_form<S, Degree>& p_)
         : b(b_), c(c_), p(p_), n(cross(b, c)) {}
 
-    /// Y = det(b, c, p), a cubic.
+    /// Y = det(b, c, p), a cubic. Proof: proofs/Decisions.v, forms_y; of inside(): forms_weights.
     constexpr auto y() const { return dot(n, p); }
     /// |N|², a quartic.
     constexpr auto normal_squared() const { return dot(n, n); }
