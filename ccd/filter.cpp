@@ -22,6 +22,7 @@ struct waiting_parts {
     std::size_t size = 0;
 };
 
+/// Proof: proofs/Subdivision.v, subdivision_separate and subdivision_collides.
 template <template <class> class Forms>
 outcome subdivide(const static_filter::whole_step<double, Forms>& whole) {
     constexpr std::size_t constraints = static_filter::whole_step<double, Forms>::constraints;
