@@ -533,8 +533,25 @@ Proof.
   apply cont_mult; [| apply cont_const]. apply cont_minus; [now apply cont_plus |].
   exact (continuity_comp (fun t => f t - g t) Rabs (cont_minus f g F G) Rcontinuity_abs).
 Qed.
-Ltac continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_2, dot, cross, minus, place; cbn [x y z];
-  repeat (apply cont_min || apply cont_minus || apply cont_plus || apply cont_mult || apply cont_id || apply cont_const).
+Definition smooth (v : R -> point) : Prop :=
+  continuity (fun t => x (v t)) /\ continuity (fun t => y (v t)) /\ continuity (fun t => z (v t)).
+Lemma smooth_difference p q : smooth (fun t => minus (place p t) (place q t)).
+Proof.
+  assert (H : forall a b, continuity (fun t => (1 - t) * a + t * b)).
+  { intros a b. apply cont_plus; apply cont_mult; try apply cont_const; try apply cont_id.
+    apply cont_minus; [apply cont_const | apply cont_id]. }
+  repeat split; cbn [x y z minus place]; apply cont_minus; apply H.
+Qed.
+Lemma smooth_cross v w : smooth v -> smooth w -> smooth (fun t => cross (v t) (w t)).
+Proof.
+  intros (V0 & V1 & V2) (W0 & W1 & W2). repeat split; cbn [x y z cross]; apply cont_minus; now apply cont_mult.
+Qed.
+Lemma cont_dot v w : smooth v -> smooth w -> continuity (fun t => dot (v t) (w t)).
+Proof.
+  intros (V0 & V1 & V2) (W0 & W1 & W2). unfold dot. repeat apply cont_plus; now apply cont_mult.
+Qed.
+Ltac continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_2;
+  repeat (apply cont_min || apply cont_dot || apply smooth_cross || apply smooth_difference || apply cont_minus).
 
 (** A plane that parts two moving points at one time does so for a while. *)
 Lemma stays_parted n p q s : 0 < dot n (minus (place q s) (place p s)) ->
