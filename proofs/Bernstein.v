@@ -37,7 +37,8 @@ Record scalar := {
   exact_opp : forall x, exact (opp x) = - exact x;
   exact_whole : forall n, exact (whole n) = IZR n;
   exact_twice : forall x, exact (twice x) = 2 * exact x;
-  normalized_right : forall p, exists c, 0 < c /\ map exact (normalized p) = map (Rmult c) (map exact p);
+  normalized_right : forall p, exists c, 0 < c /\ map exact (normalized p) = map (Rmult c) (map exact
+    p);
   sign_right : forall x, sign_is_right (sign_of x) (exact x)
 }.
 Arguments add {s}. Arguments sub {s}. Arguments mul {s}. Arguments opp {s}. Arguments whole {s}.
@@ -52,7 +53,8 @@ Fixpoint form (h : list R) (s t : R) : R :=
 (** The polynomial that a form of the code stands for. *)
 Definition at_time {S : scalar} (p : list S) (t : R) : R := form (map exact p) (1 - t) t.
 
-Ltac exacts := repeat rewrite ?exact_add, ?exact_sub, ?exact_mul, ?exact_opp, ?exact_whole, ?exact_twice.
+Ltac exacts := repeat rewrite ?exact_add, ?exact_sub, ?exact_mul, ?exact_opp, ?exact_whole,
+  ?exact_twice.
 
 (** ** Facts of forms *)
 
@@ -65,7 +67,7 @@ Proof. induction h as [| a l IH]; simpl; [| rewrite IH, map_length]; ring. Qed.
 Lemma form_homogeneous a h c s t : form (a :: h) (c * s) (c * t) = c ^ length h * form (a :: h) s t.
 Proof.
   revert a. induction h as [| b l IH]; intros a; simpl; [ring |].
-  specialize (IH b). simpl in IH. rewrite Rpow_mult_distr in *. 
+  specialize (IH b). simpl in IH. rewrite Rpow_mult_distr in *.
   replace (c * t * (b * (c ^ length l * s ^ length l) + c * t * form l (c * s) (c * t)))
     with (c * t * (c ^ length l * (b * s ^ length l + t * form l s t))) by (rewrite <- IH; ring).
   ring.
@@ -93,7 +95,8 @@ Proof.
   intros Z. revert a. induction l as [| b l IH]; intros a.
   - simpl. ring.
   - change (form (a :: b :: l) s t) with (a * s ^ S (length l) + t * form (b :: l) s t).
-    rewrite IH. change (power_form (a :: b :: l) (t / s)) with (a + t / s * power_form (b :: l) (t / s)).
+    rewrite IH. change (power_form (a :: b :: l) (t / s)) with (a + t / s * power_form (b :: l) (t /
+      s)).
     simpl. field. easy.
 Qed.
 
@@ -124,7 +127,8 @@ Proof.
   destruct (Req_dec s 0) as [-> | Zs]; [| destruct (Req_dec t 0) as [-> | Zt]].
   - assert (T : 0 < t) by lra. clear Hs Ht P N A. revert a F.
     induction l as [| b l IH]; intros a F; inversion_clear F; [simpl; lra |].
-    specialize (IH b H0). change (form (a :: b :: l) 0 t) with (a * 0 ^ S (length l) + t * form (b :: l) 0 t).
+    specialize (IH b H0). change (form (a :: b :: l) 0 t) with (a * 0 ^ S (length l) + t * form (b :: l)
+      0 t).
     rewrite pow_i by lia. assert (0 < t * form (b :: l) 0 t) by (apply Rmult_lt_0_compat; auto). lra.
   - simpl. assert (0 < a * s ^ length l) by (apply Rmult_lt_0_compat; auto; apply pow_lt; lra). lra.
   - apply hull_inside; auto; lra.
@@ -174,13 +178,15 @@ Proof. unfold scaled_coefficients. simpl. repeat f_equal; ring. Qed.
 Lemma products_below c l k s t : Forall (Rle 0) c -> length c = length l -> Forall (Rle k) l ->
   0 <= s -> 0 <= t -> k * form c s t <= form (products c l) s t /\ length (products c l) = length l.
 Proof.
-  intros Fc L G Hs Ht. revert l L G. induction Fc as [| x c X Fc IH]; intros [| y l] L G; try discriminate.
+  intros Fc L G Hs Ht. revert l L G. induction Fc as [| x c X Fc IH]; intros [| y l] L G; try
+    discriminate.
   - simpl. split; [lra | easy].
   - injection L as L. inversion_clear G as [| ? ? K G']. destruct (IH l L G') as (I & E). simpl.
     rewrite E, L. split; [| easy].
     assert (0 <= x * s ^ length l) by (apply Rmult_le_pos; auto; apply pow_le; auto).
     assert (x * s ^ length l * k <= x * s ^ length l * y) by (apply Rmult_le_compat_l; auto).
-    assert (t * (k * form c s t) <= t * form (products c l) s t) by (apply Rmult_le_compat_l; auto). lra.
+    assert (t * (k * form c s t) <= t * form (products c l) s t) by (apply Rmult_le_compat_l; auto).
+      lra.
 Qed.
 Lemma products_opp c b : products c (map Ropp b) = map Ropp (products c b).
 Proof.
@@ -191,7 +197,8 @@ Theorem hull_bounds b m M t : b <> [] -> Forall (fun x => m <= x <= M) b -> 0 <=
   m <= form (scaled_coefficients b) (1 - t) t <= M.
 Proof.
   intros N F T. unfold scaled_coefficients. set (c := binomials (length b - 1)).
-  assert (L : length c = length b) by (unfold c; rewrite length_binomials; destruct b; [easy | simpl; lia]).
+  assert (L : length c = length b) by (unfold c; rewrite length_binomials; destruct b; [easy | simpl;
+    lia]).
   assert (One : form c (1 - t) t = 1)
     by (unfold c; rewrite form_binomials; replace (1 - t + t) with 1 by ring; apply pow1).
   assert (C : Forall (Rle 0) c) by apply binomials_nonnegative.
@@ -229,7 +236,8 @@ Proof.
     destruct l as [| b l].
     - simpl. exacts. ring.
     - rewrite IH. exacts. change (form (exacts (a :: b :: l)) (exact s) (exact t))
-        with (exact a * exact s ^ length (exacts (b :: l)) + exact t * form (exacts (b :: l)) (exact s) (exact t)).
+        with (exact a * exact s ^ length (exacts (b :: l)) + exact t * form (exacts (b :: l)) (exact s)
+          (exact t)).
       rewrite map_length. change (length (a :: b :: l)) with (Datatypes.S (length (b :: l))).
       rewrite <- tech_pow_Rmult. ring. }
   destruct p as [| a l]; simpl; [now exacts |]. now rewrite H, map_length.
@@ -254,7 +262,8 @@ Fixpoint product (p q : list S) : list S :=
   end.
 
 Lemma plus_form p q s t : (length p <= length q)%nat ->
-  form (exacts (plus p q)) s t = s ^ (length q - length p) * form (exacts p) s t + form (exacts q) s t /\
+  form (exacts (plus p q)) s t = s ^ (length q - length p) * form (exacts p) s t + form (exacts q) s t
+    /\
   length (plus p q) = length q.
 Proof.
   revert q. induction p as [| a p IH]; intros [| b q] L; simpl in *; try (split; [ring | easy]).
@@ -270,9 +279,11 @@ Lemma product_both p b q s t :
 Proof.
   induction p as [| a l IH]; [simpl; split; [ring | easy] |].
   assert (M : forall s t, form (exacts (map (mul a) q)) s t = exact a * form (exacts q) s t).
-  { clear. intros s t. induction q as [| c q IH]; simpl; [ring |]. rewrite IH, !map_length. exacts. ring. }
+  { clear. intros s t. induction q as [| c q IH]; simpl; [ring |]. rewrite IH, !map_length. exacts.
+      ring. }
   destruct l as [| c l].
-  - cbn [product map form]. rewrite M, !map_length. exacts. simpl. rewrite map_length. split; [ring | easy].
+  - cbn [product map form]. rewrite M, !map_length. exacts. simpl. rewrite map_length. split; [ring |
+      easy].
   - destruct IH as (E & L). specialize (L ltac:(discriminate)).
     change (product (a :: c :: l) (b :: q))
       with (mul a b :: plus (map (mul a) q) (product (c :: l) (b :: q))).
@@ -280,7 +291,8 @@ Proof.
     { rewrite map_length, L. simpl. lia. }
     cbn [map form]. rewrite F, M, E, !map_length, K, L, exact_mul.
     replace (length (c :: l) + length q - length q)%nat with (length (c :: l)) by lia.
-    split; [| intros _; cbn [length]; rewrite K, L; simpl; lia]. rewrite pow_add. simpl. rewrite !map_length. ring.
+    split; [| intros _; cbn [length]; rewrite K, L; simpl; lia]. rewrite pow_add. simpl. rewrite
+      !map_length. ring.
 Qed.
 
 Theorem product_form p q s t :
@@ -301,7 +313,8 @@ Proof.
   assert (H : forall l b, form (exacts (elevated_after b l)) s t =
     exact b * s ^ length l + (s + t) * form (exacts l) s t).
   { induction l as [| a l IH]; intros b; [simpl; ring |]. simpl. rewrite IH. exacts.
-    rewrite !map_length. replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl; ring |].
+    rewrite !map_length. replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl;
+      ring |].
     clear. revert a. induction l as [| c l IH]; intros a; simpl; auto. }
   destruct p as [| a l]; simpl; [ring |]. rewrite H, !map_length.
   replace (length (elevated_after a l)) with (Datatypes.S (length l)); [simpl; ring |].
@@ -333,7 +346,8 @@ Qed.
 Fixpoint slope (h : list R) (t : R) : R :=
   match h with
   | [] => 0
-  | a :: l => a * - (INR (length l) * (1 - t) ^ pred (length l)) + (1 * form l (1 - t) t + t * slope l t)
+  | a :: l => a * - (INR (length l) * (1 - t) ^ pred (length l)) + (1 * form l (1 - t) t + t * slope l
+    t)
   end.
 Lemma derivable_form h t : derivable_pt_lim (fun t => form h (1 - t) t) t (slope h t).
 Proof.
@@ -345,7 +359,8 @@ Proof.
     apply derivable_pt_lim_comp with (f1 := fun t => 1 - t) (f2 := fun s => s ^ length l).
     + apply derivable_pt_lim_minus; [apply derivable_pt_lim_const | apply derivable_pt_lim_id].
     + apply derivable_pt_lim_pow.
-  - apply (derivable_pt_lim_mult id (fun t => form l (1 - t) t)); [apply derivable_pt_lim_id | exact IH].
+  - apply (derivable_pt_lim_mult id (fun t => form l (1 - t) t)); [apply derivable_pt_lim_id | exact
+      IH].
 Qed.
 
 Theorem derivative_form p t :
@@ -443,7 +458,8 @@ Theorem left_half_form p s t :
 Proof.
   assert (Sh : forall part before term,
     form (exacts (half_shifted before part term)) s t =
-    exact before * s ^ length part + form (exacts part) s t * (2 * s + t) + exact term * t ^ length part /\
+    exact before * s ^ length part + form (exacts part) s t * (2 * s + t) + exact term * t ^ length part
+      /\
     length (half_shifted before part term) = Datatypes.S (length part)).
   { induction part as [| a l IH]; intros before term; simpl; exacts; [split; [ring | easy] |].
     destruct (IH a term) as (E & L). rewrite E, !map_length, L. split; [simpl; ring | easy]. }
@@ -517,14 +533,17 @@ Proof.
     | negative => (all = negative \/ all = zero /\ Exists (Rlt 0) (map Ropp (exacts p)))
                   /\ Forall (Rle 0) (map Ropp (exacts p))
     | zero => all = zero /\ Forall (eq 0) (exacts p)
-    | positive => (all = positive \/ all = zero /\ Exists (Rlt 0) (exacts p)) /\ Forall (Rle 0) (exacts p)
+    | positive => (all = positive \/ all = zero /\ Exists (Rlt 0) (exacts p)) /\ Forall (Rle 0) (exacts
+      p)
     | uncertain => True
     end).
   { clear p. induction p as [| a l IH]; intros all; simpl; [destruct all; auto |].
     pose proof (sign_right S a) as A. destruct (sign_of a), all; simpl in A; auto;
-      match goal with |- context [sign_inside_from ?x l] => specialize (IH x); destruct (sign_inside_from x l) end;
+      match goal with |- context [sign_inside_from ?x l] => specialize (IH x); destruct
+        (sign_inside_from x l) end;
       intuition (try discriminate; try (constructor; auto; lra); auto).
-    all: try (right; split; [easy | constructor 1; lra]). all: try (right; split; [easy | now constructor 2]). }
+    all: try (right; split; [easy | constructor 1; lra]). all: try (right; split; [easy | now
+      constructor 2]). }
   specialize (H p zero). unfold sign_inside. destruct (sign_inside_from zero p); simpl in *;
     intuition (try discriminate; auto).
 Qed.

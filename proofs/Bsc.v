@@ -90,7 +90,8 @@ Definition linear_at_pair y d l : sign * sign :=
       match slope with
       | negative => (if same_sign at_r positive then sign_of (l#1) else nearer, sign_of (l#1))
       | positive => (sign_of (l#0), if same_sign at_r positive then sign_of (l#0) else nearer)
-      | _ => if same_sign slope zero && same_sign at_r zero then (zero, zero) else (uncertain, uncertain)
+      | _ => if same_sign slope zero && same_sign at_r zero then (zero, zero) else (uncertain,
+        uncertain)
       end.
 
 Definition reduced y g : list S :=
@@ -192,7 +193,8 @@ Definition on_convex y d (g : list (list S)) : existence :=
     if same_sign y0 zero then
       let slope := sign_of (y#1) in
       if possibly_negative slope && possibly_positive y3
-      then either found (at_crossing (elevated [y#1; y#2; y#3]) negative (ends_are_certain && certain slope) g)
+      then either found (at_crossing (elevated [y#1; y#2; y#3]) negative (ends_are_certain && certain
+        slope) g)
       else found
     else if possibly_negative y0 && possibly_positive y3
     then either found (at_crossing y negative ends_are_certain g)
@@ -202,7 +204,8 @@ Definition on_convex y d (g : list (list S)) : existence :=
       if same_sign y3 zero then
         let slope := negate (sign_of (y#2)) in
         if possibly_positive slope
-        then either found (at_crossing (elevated [y#0; y#1; y#2]) positive (ends_are_certain && certain slope) g)
+        then either found (at_crossing (elevated [y#0; y#1; y#2]) positive (ends_are_certain && certain
+          slope) g)
         else found
       else if possibly_negative y3
       then either found (at_crossing y positive ends_are_certain g)
@@ -215,7 +218,8 @@ Definition excluded_by_hull y (g : list (list S)) : bool :=
 
 (** on_part up to its parts: `parts` is what it answers by splitting Y, whose second derivative is
     given. *)
-Definition on_whole_part y (g : list (list S)) (curvature : sign) (parts : list S -> existence) : existence :=
+Definition on_whole_part y (g : list (list S)) (curvature : sign) (parts : list S -> existence) :
+  existence :=
   if excluded_by_hull y g then no
   else
     let d := derivative y in
@@ -225,7 +229,8 @@ Definition on_whole_part y (g : list (list S)) (curvature : sign) (parts : list 
     | zero => if possibly_zero (sign_of (y#0)) then maybe_root else no
     | uncertain =>
         let second := derivative d in
-        let curvature := if negb (certain curvature) && negb (opposite second) then inside second else curvature in
+        let curvature := if negb (certain curvature) && negb (opposite second) then inside second else
+          curvature in
         match curvature with
         | positive => on_convex y d g
         | negative => on_convex (map opp y) (map opp d) g
@@ -276,7 +281,8 @@ Proof. destruct l as [| a [| b [| c [| d [| e [|]]]]]]; try discriminate. eauto 
 Ltac four y H :=
   let a := fresh y "0" in let b := fresh y "1" in let c := fresh y "2" in let d := fresh y "3" in
   destruct (length_4 y H) as (a & b & c & d & ->).
-Ltac values := unfold at_time, derivative; cbn [map derivative_from nth]; repeat (progress exacts || rewrite exact_times);
+Ltac values := unfold at_time, derivative; cbn [map derivative_from nth]; repeat (progress exacts ||
+  rewrite exact_times);
   simpl.
 
 Lemma taylor y a b : length y = 4%nat ->
@@ -345,28 +351,35 @@ Qed.
 
 (** The root r, at which Y leaves the sign of sigma. *)
 Definition crossing (Y : R -> R) (sigma r : R) : Prop :=
-  0 < r < 1 /\ Y r = 0 /\ (forall t, 0 < t < r -> 0 < sigma * Y t) /\ (forall t, r < t < 1 -> sigma * Y t < 0)
+  0 < r < 1 /\ Y r = 0 /\ (forall t, 0 < t < r -> 0 < sigma * Y t) /\ (forall t, r < t < 1 -> sigma * Y
+    t < 0)
   /\ 0 <= sigma * Y 0 /\ sigma * Y 1 <= 0.
 
 (** Y(0) <= 0, then Y(1) > 0 and there is one inner root; likewise from the other end. *)
-Lemma rising_crossing Y D r : convex Y D -> 0 < r < 1 -> Y r = 0 -> Y 0 <= 0 -> crossing Y (-1) r /\ 0 < Y 1.
+Lemma rising_crossing Y D r : convex Y D -> 0 < r < 1 -> Y r = 0 -> Y 0 <= 0 -> crossing Y (-1) r /\ 0 <
+  Y 1.
 Proof.
   intros C I Z N.
   assert (After : forall t, r < t <= 1 -> 0 < Y t).
-  { intros t T. pose proof (below_chord Y D 0 r t C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H. nra. }
+  { intros t T. pose proof (below_chord Y D 0 r t C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H.
+      nra. }
   repeat split; try tauto; try lra; try (apply After; lra).
-  - intros t T. pose proof (below_chord Y D 0 t r C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H. nra.
+  - intros t T. pose proof (below_chord Y D 0 t r C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H.
+      nra.
   - intros t T. specialize (After t ltac:(lra)). lra.
   - specialize (After 1 ltac:(lra)). lra.
 Qed.
-Lemma falling_crossing Y D r : convex Y D -> 0 < r < 1 -> Y r = 0 -> Y 1 <= 0 -> crossing Y 1 r /\ 0 < Y 0.
+Lemma falling_crossing Y D r : convex Y D -> 0 < r < 1 -> Y r = 0 -> Y 1 <= 0 -> crossing Y 1 r /\ 0 < Y
+  0.
 Proof.
   intros C I Z N.
   assert (Before : forall t, 0 <= t < r -> 0 < Y t).
-  { intros t T. pose proof (below_chord Y D t r 1 C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H. nra. }
+  { intros t T. pose proof (below_chord Y D t r 1 C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H.
+      nra. }
   repeat split; try tauto; try lra; try (apply Before; lra).
   - intros t T. specialize (Before t ltac:(lra)). lra.
-  - intros t T. pose proof (below_chord Y D r t 1 C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H. nra.
+  - intros t T. pose proof (below_chord Y D r t 1 C ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in H.
+      nra.
   - specialize (Before 0 ltac:(lra)). lra.
 Qed.
 
@@ -400,7 +413,8 @@ Lemma opposite_root l : length l = 2%nat -> opposite l = true ->
     (forall t, t < r -> sign_is_right (sign_of (l#0)) (form_at l t)) /\
     (forall t, r < t -> sign_is_right (sign_of (l#1)) (form_at l t)) /\
     (forall p, p <> [] -> sign_is_right (sign_at_root_of l p) (form_at p r)) /\
-    exists v w, linear_root l = (v, w) /\ 0 < exact v /\ 0 < exact w /\ r = exact w / (exact v + exact w).
+    exists v w, linear_root l = (v, w) /\ 0 < exact v /\ 0 < exact w /\ r = exact w / (exact v + exact
+      w).
 Proof.
   intros L O. destruct (length_2 l L) as (l0 & l1 & ->).
   assert (H : exists v w, linear_root [l0; l1] = (v, w) /\ 0 < exact v /\ 0 < exact w /\
@@ -424,10 +438,12 @@ Proof.
   - intros t T. rewrite At. simpl.
     destruct H as [(-> & _ & -> & ->) | (-> & _ & -> & ->)]; simpl; rewrite Ev, Er.
     + replace (_ + _) with (k * (r - t)) by ring. apply Rmult_lt_0_compat; lra.
-    + replace (_ + _) with (- (k * (r - t))) by ring. assert (0 < k * (r - t)) by (apply Rmult_lt_0_compat; lra). lra.
+    + replace (_ + _) with (- (k * (r - t))) by ring. assert (0 < k * (r - t)) by (apply
+        Rmult_lt_0_compat; lra). lra.
   - intros t T. rewrite At. simpl.
     destruct H as [(_ & -> & -> & ->) | (_ & -> & -> & ->)]; simpl; rewrite Ev, Er.
-    + replace (_ + _) with (- (k * (t - r))) by ring. assert (0 < k * (t - r)) by (apply Rmult_lt_0_compat; lra). lra.
+    + replace (_ + _) with (- (k * (t - r))) by ring. assert (0 < k * (t - r)) by (apply
+        Rmult_lt_0_compat; lra). lra.
     + replace (_ + _) with (k * (t - r)) by ring. apply Rmult_lt_0_compat; lra.
   - intros p N. unfold sign_at_root_of. rewrite R. pose proof (sign_right S (value_at p v w)) as P.
     rewrite value_at_form in P. destruct (value_near_root p (exact v) (exact w) N V W) as (c & C & E).
@@ -438,7 +454,8 @@ Qed.
 Lemma inside_right l t : length l = 2%nat -> opposite l = false -> 0 < t < 1 ->
   sign_is_right (inside l) (form_at l t).
 Proof.
-  intros L O T. destruct (length_2 l L) as (l0 & l1 & ->). unfold opposite, inside, at_time in *. simpl in *.
+  intros L O T. destruct (length_2 l L) as (l0 & l1 & ->). unfold opposite, inside, at_time in *. simpl
+    in *.
   pose proof (sign_right S l0) as A. pose proof (sign_right S l1) as B.
   destruct (sign_of l0), (sign_of l1); try discriminate; simpl in *; auto; nra.
 Qed.
@@ -519,7 +536,8 @@ Proof.
   destruct (normalized_right S p) as (c & _ & E). apply (f_equal (@length R)) in E.
   now rewrite !map_length in E.
 Qed.
-Lemma normalized_at (p : list S) : exists c, 0 < c /\ forall t, form_at (normalized p) t = c * form_at p t.
+Lemma normalized_at (p : list S) : exists c, 0 < c /\ forall t, form_at (normalized p) t = c * form_at p
+  t.
 Proof.
   destruct (normalized_right S p) as (c & C & E). exists c. split; auto.
   intros t. unfold at_time. now rewrite E, form_scaled.
@@ -530,7 +548,8 @@ Theorem reduction y g r : length y = 4%nat -> length g = 5%nat -> form_at y r = 
     c * (exact (y#0) * exact (y#3) * form_at g r) = (1 - r) * r * form_at (reduced y g) r.
 Proof.
   intros Ly Lg Z. four y Ly. destruct (length_5 g Lg) as (g0 & g1 & g2 & g3 & g4 & ->).
-  unfold reduced. match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C & E) end.
+  unfold reduced. match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C &
+    E) end.
   exists c. split; auto. rewrite E.
   replace (exact _ * exact _ * _) with (exact (y0) * exact (y3) * form_at [g0; g1; g2; g3; g4] r
     - form_at [y0; y1; y2; y3] r * (exact y3 * exact g0 * (1 - r) + exact y0 * exact g4 * r))
@@ -540,15 +559,20 @@ Qed.
 
 Theorem polynomial_decomposition y j r : length y = 4%nat -> length j = 3%nat -> form_at y r = 0 ->
   exists b c, 0 < b /\ 0 < c /\
-    b * (form_at (decomposition_m y j) r * form_at j r) = - ((1 - r) * r * (c * form_at (decomposition_r y j) r)).
+    b * (form_at (decomposition_m y j) r * form_at j r) = - ((1 - r) * r * (c * form_at (decomposition_r
+      y j) r)).
 Proof.
   intros Ly Lj Z. four y Ly. destruct (length_3 j Lj) as (j0 & j1 & j2 & ->).
   unfold decomposition_m, decomposition_r.
-  match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C & E); rewrite E end.
-  match goal with |- context [normalized ?p] => destruct (normalized_at p) as (b & B & F); rewrite F end.
+  match goal with |- context [normalized ?p] => destruct (normalized_at p) as (c & C & E); rewrite E
+    end.
+  match goal with |- context [normalized ?p] => destruct (normalized_at p) as (b & B & F); rewrite F
+    end.
   exists b, c. repeat split; auto.
-  replace (b * (c * form_at [mul ([y0; y1; y2; y3] # 0) ([j0; j1; j2] # 2); mul ([y0; y1; y2; y3] # 3) ([j0; j1; j2] # 0)] r * form_at [j0; j1; j2] r)) with
-    (b * c * (form_at [mul ([y0; y1; y2; y3] # 0) ([j0; j1; j2] # 2); mul ([y0; y1; y2; y3] # 3) ([j0; j1; j2] # 0)] r * form_at [j0; j1; j2] r
+  replace (b * (c * form_at [mul ([y0; y1; y2; y3] # 0) ([j0; j1; j2] # 2); mul ([y0; y1; y2; y3] # 3)
+    ([j0; j1; j2] # 0)] r * form_at [j0; j1; j2] r)) with
+    (b * c * (form_at [mul ([y0; y1; y2; y3] # 0) ([j0; j1; j2] # 2); mul ([y0; y1; y2; y3] # 3) ([j0;
+      j1; j2] # 0)] r * form_at [j0; j1; j2] r
       - exact j0 * exact j2 * form_at [y0; y1; y2; y3] r)) by (rewrite Z; ring).
   unfold at_time. simpl. exacts. ring.
 Qed.
@@ -558,11 +582,9 @@ Definition not_wrong (s : sign) (x : R) : Prop :=
 Lemma right_not_wrong s x : sign_is_right s x -> not_wrong s x.
 Proof. destruct s; simpl; auto. Qed.
 
-Lemma negate_right s x : sign_is_right s x -> sign_is_right (negate s) (- x).
-Proof. destruct s; simpl; lra. Qed.
-
 (** sign J from those of M and R: never a wrong strict sign; and right if M's sign is certain. *)
-Lemma combined_right y j r m_sign r_sign : length y = 4%nat -> length j = 3%nat -> form_at y r = 0 -> 0 < r < 1 ->
+Lemma combined_right y j r m_sign r_sign : length y = 4%nat -> length j = 3%nat -> form_at y r = 0 -> 0
+  < r < 1 ->
   sign_is_right m_sign (form_at (decomposition_m y j) r) ->
   sign_is_right r_sign (form_at (decomposition_r y j) r) ->
   let s := combined m_sign r_sign (decomposition_m y j) j in
@@ -581,10 +603,12 @@ Proof.
   destruct (same_sign m_sign zero) eqn:Q; simpl.
   - assert (m_sign = zero) by (destruct m_sign; easy). subst m_sign. simpl in M.
     destruct (opposite (decomposition_m y j)) eqn:O; simpl; auto.
-    assert (L2 : length (decomposition_m y j) = 2%nat) by (unfold decomposition_m; now rewrite length_normalized).
+    assert (L2 : length (decomposition_m y j) = 2%nat) by (unfold decomposition_m; now rewrite
+      length_normalized).
     destruct (opposite_root _ L2 O) as (w & W & _ & Left & Right & Sign & _).
     assert (w = r).
-    { destruct (Rtotal_order r w) as [T | [-> | T]]; auto; [specialize (Left r T) | specialize (Right r T)];
+    { destruct (Rtotal_order r w) as [T | [-> | T]]; auto; [specialize (Left r T) | specialize (Right r
+        T)];
         fold x in Left, Right; unfold opposite in O;
         destruct (sign_of (decomposition_m y j # 0)), (sign_of (decomposition_m y j # 1));
         try discriminate; simpl in *; lra. }
@@ -634,16 +658,19 @@ Proof.
   - apply Q, right_not_wrong, sign_inside_right; auto.
   - assert (N : y <> []) by (destruct y; easy).
     apply Q, (combined_right y (reduced y g) r); auto using length_reduced;
-      apply sign_determination_1; auto; unfold decomposition_m, decomposition_r; now rewrite length_normalized.
+      apply sign_determination_1; auto; unfold decomposition_m, decomposition_r; now rewrite
+        length_normalized.
 Qed.
 
 Lemma quartic_at_pair_right y d g r : length y = 4%nat -> d <> [] -> length g = 5%nat ->
-  convex (form_at y) (form_at d) -> 0 < r < 1 -> form_at y r = 0 -> 0 < form_at y 0 -> 0 < form_at y 1 ->
+  convex (form_at y) (form_at d) -> 0 < r < 1 -> form_at y r = 0 -> 0 < form_at y 0 -> 0 < form_at y 1
+    ->
   (form_at d r <= 0 -> not_wrong (fst (quartic_at_pair y d g)) (form_at g r)) /\
   (0 <= form_at d r -> not_wrong (snd (quartic_at_pair y d g)) (form_at g r)).
 Proof.
   intros Ly Nd Lg C I Z Y0 Y1. unfold quartic_at_pair.
-  destruct (certain (sign_inside g)) eqn:Cg; [split; intros _; now apply right_not_wrong, sign_inside_right |].
+  destruct (certain (sign_inside g)) eqn:Cg; [split; intros _; now apply right_not_wrong,
+    sign_inside_right |].
   destruct (reduction y g r Ly Lg Z) as (c & Pc & E).
   assert (K : 0 < exact (y#0) * exact (y#3)).
   { clear -Ly Y0 Y1. four y Ly. unfold at_time in *. simpl in *. apply Rmult_lt_0_compat; lra. }
@@ -654,8 +681,10 @@ Proof.
   destruct (certain (sign_inside (reduced y g))).
   - split; intros _; apply Q, right_not_wrong, sign_inside_right; auto.
   - assert (N : y <> []) by (destruct y; easy). set (j := reduced y g) in *.
-    assert (Lm : length (decomposition_m y j) = 2%nat) by (unfold decomposition_m; now rewrite length_normalized).
-    assert (Lr : length (decomposition_r y j) = 2%nat) by (unfold decomposition_r; now rewrite length_normalized).
+    assert (Lm : length (decomposition_m y j) = 2%nat) by (unfold decomposition_m; now rewrite
+      length_normalized).
+    assert (Lr : length (decomposition_r y j) = 2%nat) by (unfold decomposition_r; now rewrite
+      length_normalized).
     destruct (sign_determination_2 y d _ r Lm N Nd C I Z) as (M0 & M1).
     destruct (sign_determination_2 y d _ r Lr N Nd C I Z) as (R0 & R1).
     assert (Lj : length j = 3%nat) by apply length_reduced.
@@ -666,7 +695,8 @@ Qed.
 
 (** ** The root-finding lemma *)
 
-Lemma linear_at_extremum_right d form x : length form = 2%nat -> d <> [] -> 0 < x < 1 -> form_at d x = 0 ->
+Lemma linear_at_extremum_right d form x : length form = 2%nat -> d <> [] -> 0 < x < 1 -> form_at d x = 0
+  ->
   (forall a b, 0 <= a <= 1 -> 0 <= b <= 1 -> a < b -> form_at d a < form_at d b) ->
   sign_is_right (linear_at_extremum d form) (form_at form x).
 Proof.
@@ -698,27 +728,33 @@ Proof.
   intros Ly Ld Ed X Z M. four y Ly. destruct (length_3 d Ld) as (d0 & d1 & d2 & ->).
   assert (N : [d0; d1; d2] <> []) by discriminate.
   assert (D0 : exact d0 < 0).
-  { specialize (M 0 x ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in M. lra. }
+  { specialize (M 0 x ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in
+      M. lra. }
   assert (D2 : 0 < exact d2).
-  { specialize (M x 1 ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in M. lra. }
+  { specialize (M x 1 ltac:(lra) ltac:(lra) ltac:(lra)). rewrite Z in M. unfold at_time in M. simpl in
+      M. lra. }
   unfold sign_at_extremum.
   match goal with |- context [negate (linear_at_extremum _ ?f)] => set (f0 := f) end.
   match goal with |- context [if _ then _ else linear_at_extremum _ ?f] => set (f1 := f) end.
   pose proof (linear_at_extremum_right [d0; d1; d2] f0 x eq_refl N X Z M) as Left.
   pose proof (linear_at_extremum_right [d0; d1; d2] f1 x eq_refl N X Z M) as Right.
   assert (E0 : 3 * exact d0 * form_at [y0; y1; y2; y3] x = x * form_at f0 x).
-  { unfold f0, at_time in *. injection Ed as E0 E1 E2. 
+  { unfold f0, at_time in *. injection Ed as E0 E1 E2.
     assert (Eq : 3 * exact d0 * form (exacts [y0; y1; y2; y3]) (1 - x) x =
-      x * form (exacts [sub (mul (whole 2) (mul d0 y1)) (mul (whole 3) (mul y0 d1)); sub (mul d0 y2) (mul (whole 3) (mul y0 d2))]) (1 - x) x
+      x * form (exacts [sub (mul (whole 2) (mul d0 y1)) (mul (whole 3) (mul y0 d1)); sub (mul d0 y2)
+        (mul (whole 3) (mul y0 d2))]) (1 - x) x
       + (3 * exact y0 + exact d0 * x) * form (exacts [d0; d1; d2]) (1 - x) x).
-    { revert E0 E1 E2. simpl. repeat (progress exacts || rewrite exact_times). simpl. intros -> -> ->. ring. }
+    { revert E0 E1 E2. simpl. repeat (progress exacts || rewrite exact_times). simpl. intros -> -> ->.
+        ring. }
     rewrite Eq, Z. simpl. ring. }
   assert (E1 : 3 * exact d2 * form_at [y0; y1; y2; y3] x = (1 - x) * form_at f1 x).
-  { unfold f1, at_time in *. injection Ed as E0' E1 E2. 
+  { unfold f1, at_time in *. injection Ed as E0' E1 E2.
     assert (Eq : 3 * exact d2 * form (exacts [y0; y1; y2; y3]) (1 - x) x =
-      (1 - x) * form (exacts [sub (mul d2 y1) (mul (whole 3) (mul y3 d0)); sub (mul (whole 2) (mul d2 y2)) (mul (whole 3) (mul y3 d1))]) (1 - x) x
+      (1 - x) * form (exacts [sub (mul d2 y1) (mul (whole 3) (mul y3 d0)); sub (mul (whole 2) (mul d2
+        y2)) (mul (whole 3) (mul y3 d1))]) (1 - x) x
       + (3 * exact y3 - exact d2 * (1 - x)) * form (exacts [d0; d1; d2]) (1 - x) x).
-    { revert E0' E1 E2. simpl. repeat (progress exacts || rewrite exact_times). simpl. intros -> -> ->. ring. }
+    { revert E0' E1 E2. simpl. repeat (progress exacts || rewrite exact_times). simpl. intros -> -> ->.
+        ring. }
     rewrite Eq, Z. simpl. ring. }
   set (v := form_at [y0; y1; y2; y3] x) in *.
   destruct (linear_at_extremum [d0; d1; d2] f0); simpl in *; try (simpl; nra).
@@ -755,12 +791,15 @@ Lemma verdict_right c gs t (f : list S -> sign) :
   Forall (fun g => not_wrong (f g) (form_at g t)) gs -> right_at (verdict c (map f gs)) gs t.
 Proof.
   intros H. unfold verdict. split.
-  - destruct (existsb _ _) eqn:E; [intros _ | destruct (negb c), (forallb (same_sign positive) (map f gs)); easy].
-    apply existsb_exists in E. destruct E as (s & I & N). apply in_map_iff in I. destruct I as (g & <- & I).
+  - destruct (existsb _ _) eqn:E; [intros _ | destruct (negb c), (forallb (same_sign positive) (map f
+      gs)); easy].
+    apply existsb_exists in E. destruct E as (s & I & N). apply in_map_iff in I. destruct I as (g & <- &
+      I).
     apply Exists_exists. exists g. split; auto. rewrite Forall_forall in H. specialize (H g I).
     destruct (f g); easy.
   - destruct (existsb (same_sign negative) (map f gs)); [easy |]. destruct (negb c); [easy |].
-    destruct (forallb (same_sign positive) (map f gs)) eqn:E; [intros _ | easy]. rewrite forallb_forall in E.
+    destruct (forallb (same_sign positive) (map f gs)) eqn:E; [intros _ | easy]. rewrite forallb_forall
+      in E.
     apply Forall_forall. intros g I. rewrite Forall_forall in H. specialize (H g I).
     specialize (E (f g) (in_map _ _ _ I)). destruct (f g); easy.
 Qed.
@@ -768,7 +807,8 @@ Lemma verdict_yes c signs : verdict c signs = yes -> c = true.
 Proof. unfold verdict. destruct (existsb (same_sign negative) signs), c; easy. Qed.
 
 Lemma at_start p : p <> [] -> form_at p 0 = exact (p#0).
-Proof. destruct p as [| a l]; [easy |]. intros _. unfold at_time. simpl. rewrite Rminus_0_r, pow1. ring. Qed.
+Proof. destruct p as [| a l]; [easy |]. intros _. unfold at_time. simpl. rewrite Rminus_0_r, pow1. ring.
+  Qed.
 Lemma at_finish p n : length p = Datatypes.S n -> form_at p 1 = exact (p#n).
 Proof.
   revert n. unfold at_time. rewrite Rminus_diag_eq by easy.
@@ -783,9 +823,11 @@ Lemma at_end_right y gs k t : five gs -> (k = 0%nat /\ t = 0 \/ k = 4%nat /\ t =
 Proof.
   intros F K x E. unfold at_end. pose proof (sign_right S x) as X.
   assert (R : right_at (verdict (same_sign (sign_of x) zero) (map (fun f => sign_of (f#k)) gs)) gs t).
-  { apply verdict_right. apply Forall_forall. intros g I. rewrite Forall_forall in F. specialize (F g I).
+  { apply verdict_right. apply Forall_forall. intros g I. rewrite Forall_forall in F. specialize (F g
+      I).
     apply right_not_wrong. replace (form_at g t) with (exact (g#k)); [apply sign_right |].
-    destruct K as [(-> & ->) | (-> & ->)]; symmetry; [apply at_start; now destruct g | now apply at_finish]. }
+    destruct K as [(-> & ->) | (-> & ->)]; symmetry; [apply at_start; now destruct g | now apply
+      at_finish]. }
   destruct R as (No & Yes). destruct (possibly_zero (sign_of x)) eqn:P; simpl.
   - split; auto. intros H. pose proof (verdict_yes _ _ H) as C. split; auto.
     destruct (sign_of x); try discriminate. simpl in X. lra.
@@ -809,45 +851,56 @@ Qed.
 
 (** Certain strict signs of two ends: a root between them. *)
 Lemma signs_of (x : S) :
-  (sign_of x = negative -> exact x < 0) /\ (sign_of x = zero -> exact x = 0) /\ (sign_of x = positive -> 0 < exact x).
+  (sign_of x = negative -> exact x < 0) /\ (sign_of x = zero -> exact x = 0) /\ (sign_of x = positive ->
+    0 < exact x).
 Proof. pose proof (sign_right S x). destruct (sign_of x); repeat split; intros; auto; discriminate. Qed.
 Lemma possible (x : S) : (exact x < 0 -> possibly_negative (sign_of x) = true) /\
-  (0 < exact x -> possibly_positive (sign_of x) = true) /\ (exact x <> 0 -> same_sign (sign_of x) zero = false).
+  (0 < exact x -> possibly_positive (sign_of x) = true) /\ (exact x <> 0 -> same_sign (sign_of x) zero =
+    false).
 Proof.
   pose proof (sign_right S x). destruct (sign_of x); repeat split; simpl in *; intros; auto; lra.
 Qed.
 Lemma certainly (x : S) : certain (sign_of x) = true ->
-  (possibly_negative (sign_of x) = true -> exact x < 0) /\ (possibly_positive (sign_of x) = true -> 0 < exact x).
-Proof. pose proof (sign_right S x). destruct (sign_of x); repeat split; simpl in *; intros; auto; easy. Qed.
+  (possibly_negative (sign_of x) = true -> exact x < 0) /\ (possibly_positive (sign_of x) = true -> 0 <
+    exact x).
+Proof. pose proof (sign_right S x). destruct (sign_of x); repeat split; simpl in *; intros; auto; easy.
+  Qed.
 
 Lemma on_increasing_sound y gs : length y = 4%nat -> five gs ->
-  (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) -> sound (on_increasing y gs) y gs.
+  (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) -> sound (on_increasing y gs) y
+    gs.
 Proof.
   intros L F M. assert (N : y <> []) by now destruct y.
   pose proof (at_start y N) as S0. pose proof (at_finish y 3 L) as S3.
   destruct (at_end_right y gs 0 0 F ltac:(auto) (y#0) (eq_sym S0)) as (No0 & Yes0).
   destruct (at_end_right y gs 4 1 F ltac:(auto) (y#3) (eq_sym S3)) as (No3 & Yes3).
   assert (Cross : forall r, 0 < r < 1 -> form_at y r = 0 -> crossing (form_at y) (unit negative) r).
-  { intros r I Z. pose proof (M 0 r). pose proof (M r 1). repeat split; simpl; try tauto; try lra; intros t T;
+  { intros r I Z. pose proof (M 0 r). pose proof (M r 1). repeat split; simpl; try tauto; try lra;
+      intros t T;
       [pose proof (M t r) | pose proof (M r t)]; lra. }
   unfold on_increasing.
   set (both := possibly_negative (sign_of (y#0)) && possibly_positive (sign_of (y#3))).
   set (crossed := at_crossing y negative (certain (sign_of (y#0)) && certain (sign_of (y#3))) gs).
   assert (No : crossed = no -> forall r, 0 < r < 1 -> form_at y r = 0 -> excluded gs r).
-  { intros E r I Z. apply (proj1 (at_crossing_right y negative (certain (sign_of (y#0)) && certain (sign_of (y#3))) gs r L F (or_introl eq_refl) (Cross r I Z))). exact E. }
+  { intros E r I Z. apply (proj1 (at_crossing_right y negative (certain (sign_of (y#0)) && certain
+      (sign_of (y#3))) gs r L F (or_introl eq_refl) (Cross r I Z))). exact E. }
   assert (Yes : both = true -> crossed = yes ->
     exists t, 0 <= t <= 1 /\ form_at y t = 0 /\ all_positive gs t).
-  { intros P E. unfold both in P. apply andb_prop in P. pose proof (verdict_yes _ _ E) as C. apply andb_prop in C.
-    pose proof (proj1 (certainly (y#0) (proj1 C)) (proj1 P)). pose proof (proj2 (certainly (y#3) (proj2 C)) (proj2 P)).
+  { intros P E. unfold both in P. apply andb_prop in P. pose proof (verdict_yes _ _ E) as C. apply
+      andb_prop in C.
+    pose proof (proj1 (certainly (y#0) (proj1 C)) (proj1 P)). pose proof (proj2 (certainly (y#3) (proj2
+      C)) (proj2 P)).
     destruct (between y 0 1) as (r & I & Z); [lra | rewrite S0, S3; nra |].
     assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra).
     exists r. split; [lra |]. split; auto.
     assert (Ir : 0 < r < 1) by lra.
-    apply (proj2 (at_crossing_right y negative (certain (sign_of (y#0)) && certain (sign_of (y#3))) gs r L F (or_introl eq_refl) (Cross r Ir Z))). exact E. }
+    apply (proj2 (at_crossing_right y negative (certain (sign_of (y#0)) && certain (sign_of (y#3))) gs r
+      L F (or_introl eq_refl) (Cross r Ir Z))). exact E. }
   assert (Inner : forall t, 0 <= t <= 1 -> form_at y t = 0 -> t <> 0 -> t <> 1 ->
     both = true).
   { intros t T Z T0 T1. pose proof (M 0 t). pose proof (M t 1).
-    unfold both. destruct (possible (y#0)) as (P & _). destruct (possible (y#3)) as (_ & Q & _). rewrite P, Q; auto; lra. }
+    unfold both. destruct (possible (y#0)) as (P & _). destruct (possible (y#3)) as (_ & Q & _). rewrite
+      P, Q; auto; lra. }
   split.
   - intros E t T Z. destruct (Req_dec t 0) as [-> | T0]; [| destruct (Req_dec t 1) as [-> | T1]].
     + apply No0; auto. destruct both; repeat (apply either_no in E; destruct E as (E & ?)); auto.
@@ -855,12 +908,15 @@ Proof.
     + rewrite (Inner t T Z T0 T1) in E. apply either_no in E. apply No; tauto || lra.
   - destruct both eqn:P; intros E.
     + apply either_yes in E. destruct E as [E | E]; auto. apply either_yes in E.
-      destruct E as [E | E]; [exists 0; specialize (Yes0 E) | exists 1; specialize (Yes3 E)]; split; lra || tauto.
+      destruct E as [E | E]; [exists 0; specialize (Yes0 E) | exists 1; specialize (Yes3 E)]; split; lra
+        || tauto.
     + apply either_yes in E.
-      destruct E as [E | E]; [exists 0; specialize (Yes0 E) | exists 1; specialize (Yes3 E)]; split; lra || tauto.
+      destruct E as [E | E]; [exists 0; specialize (Yes0 E) | exists 1; specialize (Yes3 E)]; split; lra
+        || tauto.
 Qed.
 
-Lemma at_pair_sound y d c gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> five gs ->
+Lemma at_pair_sound y d c gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> five
+  gs ->
   convex (form_at y) (form_at d) ->
   (at_pair y d c gs = no -> 0 < form_at y 0 -> 0 < form_at y 1 ->
      forall t, 0 < t < 1 -> form_at y t = 0 -> excluded gs t) /\
@@ -871,7 +927,8 @@ Proof.
   assert (Nd : d <> []) by now destruct d.
   pose proof (at_start d Nd) as D0. pose proof (at_finish d 2 Ld) as D2.
   pose proof (signs_of (d#0)) as S0. pose proof (signs_of (d#2)) as S2.
-  assert (Lowest : forall x, 0 < x < 1 -> form_at d x = 0 -> sign_is_right (sign_at_extremum y d) (form_at y x))
+  assert (Lowest : forall x, 0 < x < 1 -> form_at d x = 0 -> sign_is_right (sign_at_extremum y d)
+    (form_at y x))
     by (intros x X Z; now apply root_finding).
   assert (Extremum : form_at d 0 < 0 -> 0 < form_at d 1 -> exists x, 0 < x < 1 /\ form_at d x = 0).
   { intros P Q. destruct (between d 0 1) as (x & X & Z); [lra | nra |]. exists x.
@@ -879,7 +936,8 @@ Proof.
   assert (Pair : forall b k r, 0 < form_at y 0 -> 0 < form_at y 1 -> 0 < r < 1 -> form_at y r = 0 ->
      (form_at d r <= 0 -> right_at (verdict b (map (fun f => fst (quartic_at_pair y d f)) gs)) gs r) /\
      (0 <= form_at d r -> right_at (verdict k (map (fun f => snd (quartic_at_pair y d f)) gs)) gs r)).
-  { intros b k r Y0 Y1 I Z. split; intros Dr; apply verdict_right; eapply Forall_impl; try exact F; simpl;
+  { intros b k r Y0 Y1 I Z. split; intros Dr; apply verdict_right; eapply Forall_impl; try exact F;
+      simpl;
       intros g Lg; apply (quartic_at_pair_right y d g r); auto; now split. }
   unfold at_pair. set (lowest := sign_at_extremum y d) in *. split.
   - intros E Y0 Y1 t I Z.
@@ -887,19 +945,23 @@ Proof.
     assert (N1 : 0 < form_at d 1) by (specialize (T 1 t ltac:(lra) ltac:(lra) ltac:(lra)); nra).
     destruct (Extremum N0 N1) as (x & X & Zx). specialize (Lowest x X Zx).
     assert (Low : form_at y x <= 0).
-    { destruct (Req_dec x t) as [-> | H]; [lra |]. specialize (T x t ltac:(lra) ltac:(lra) H). rewrite Zx in T. lra. }
+    { destruct (Req_dec x t) as [-> | H]; [lra |]. specialize (T x t ltac:(lra) ltac:(lra) H). rewrite
+        Zx in T. lra. }
     rewrite D0 in N0. rewrite D2 in N1.
     destruct (certainly_nonnegative _ || certainly_nonpositive _) eqn:Q.
     { exfalso. destruct S0 as (_ & A & B). destruct S2 as (A2 & B2 & _).
       destruct (sign_of (d#0)), (sign_of (d#2)); simpl in Q; try discriminate;
         try (specialize (A eq_refl)); try (specialize (B eq_refl)); try (specialize (A2 eq_refl));
         try (specialize (B2 eq_refl)); lra. }
-    destruct (same_sign lowest positive) eqn:P; [destruct lowest; try discriminate; simpl in Lowest; lra |].
+    destruct (same_sign lowest positive) eqn:P; [destruct lowest; try discriminate; simpl in Lowest; lra
+      |].
     apply either_no in E. destruct E as (E0 & E1).
     destruct (Rle_or_lt (form_at d t) 0) as [D | D].
-    + destruct (Pair (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) true t Y0 Y1 I Z)
+    + destruct (Pair (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) true t
+        Y0 Y1 I Z)
         as (R & _). exact (proj1 (R D) E0).
-    + destruct (Pair true (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) t Y0 Y1 I Z)
+    + destruct (Pair true (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) t
+        Y0 Y1 I Z)
         as (_ & R). apply (proj1 (R (Rlt_le _ _ D)) E1).
   - destruct (certainly_nonnegative _ || certainly_nonpositive _) eqn:Q; [easy |].
     destruct (same_sign lowest positive) eqn:P; [easy |]. intros E. apply either_yes in E.
@@ -910,7 +972,8 @@ Proof.
     assert (N0 : form_at d 0 < 0).
     { rewrite D0. destruct S0 as (A & _). destruct (sign_of (d#0)); try discriminate; auto. }
     assert (N1 : 0 < form_at d 1).
-    { rewrite D2. destruct S2 as (_ & _ & A). destruct (sign_of (d#0)), (sign_of (d#2)); try discriminate; auto. }
+    { rewrite D2. destruct S2 as (_ & _ & A). destruct (sign_of (d#0)), (sign_of (d#2)); try
+        discriminate; auto. }
     destruct (Extremum N0 N1) as (x & X & Zx). specialize (Lowest x X Zx).
     assert (Low : form_at y x <= 0) by (destruct lowest; try discriminate; simpl in Lowest; lra).
     assert (Side : forall u v, 0 <= u <= 1 -> 0 <= v <= 1 -> u <= v -> form_at d u <= form_at d v).
@@ -918,11 +981,13 @@ Proof.
     destruct E as [E | E].
     + destruct (between y 0 x) as (r & I & Z); [lra | nra |]. assert (r <> 0) by (intros ->; lra).
       exists r. split; [lra |]. split; auto.
-      destruct (Pair (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) true r Y0 Y1) as (R & _);
+      destruct (Pair (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) true r
+        Y0 Y1) as (R & _);
         auto; [lra |]. apply R; auto. rewrite <- Zx. apply Side; lra.
     + destruct (between y x 1) as (r & I & Z); [lra | nra |]. assert (r <> 1) by (intros ->; lra).
       exists r. split; [lra |]. split; auto.
-      destruct (Pair true (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) r Y0 Y1) as (_ & R);
+      destruct (Pair true (c && certain (sign_of (d#0)) && certain (sign_of (d#2)) && certain lowest) r
+        Y0 Y1) as (_ & R);
         auto; [lra |]. apply R; auto. rewrite <- Zx. apply Side; lra.
 Qed.
 
@@ -949,7 +1014,8 @@ Ltac in_no H :=
   | (if ?b then _ else _) = no => destruct b
   end.
 
-Lemma crossing_without_start y D r : length y = 4%nat -> convex (form_at y) D -> D 0 = exact (y#1) - 3 * exact (y#0) ->
+Lemma crossing_without_start y D r : length y = 4%nat -> convex (form_at y) D -> D 0 = exact (y#1) - 3 *
+  exact (y#0) ->
   form_at y 0 = 0 -> crossing (form_at y) (-1) r ->
   exact (y#1) < 0 /\ crossing (form_at (elevated [y#1; y#2; y#3])) (unit negative) r.
 Proof.
@@ -965,7 +1031,8 @@ Proof.
   - unfold e. rewrite at_start by easy. simpl. lra.
   - specialize (E 1). rewrite Rmult_1_l in E. rewrite E. exact Y1.
 Qed.
-Lemma crossing_without_finish y D r : length y = 4%nat -> convex (form_at y) D -> D 1 = 3 * exact (y#3) - exact (y#2) ->
+Lemma crossing_without_finish y D r : length y = 4%nat -> convex (form_at y) D -> D 1 = 3 * exact (y#3)
+  - exact (y#2) ->
   form_at y 1 = 0 -> crossing (form_at y) 1 r ->
   exact (y#2) < 0 /\ crossing (form_at (elevated [y#0; y#1; y#2])) (unit positive) r.
 Proof.
@@ -982,7 +1049,8 @@ Proof.
   - unfold e. rewrite (at_finish _ 3) by easy. simpl. lra.
 Qed.
 
-Lemma on_convex_sound y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> five gs ->
+Lemma on_convex_sound y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> five
+  gs ->
   convex (form_at y) (form_at d) -> sound (on_convex y d gs) y gs.
 Proof.
   intros L Ld Ed F C. assert (N : y <> []) by now destruct y.
@@ -1015,7 +1083,8 @@ Proof.
       destruct (possible (y#1)) as (P1 & _ & _). destruct (possible (y#3)) as (_ & P3 & Z3).
       rewrite P1, P3 in E by lra. cbn [andb] in E.
       destruct (same_sign (sign_of (y#0)) zero) eqn:Q.
-      * apply (proj1 (at_crossing_right (elevated [y#1; y#2; y#3]) negative (ec && certain (sign_of (y#1))) gs t
+      * apply (proj1 (at_crossing_right (elevated [y#1; y#2; y#3]) negative (ec && certain (sign_of
+          (y#1))) gs t
           eq_refl F (or_introl eq_refl) Ke)). now in_no E.
       * assert (P0 : possibly_negative (sign_of (y#0)) = true)
           by (pose proof (signs_of (y#0)) as (A & _ & B); destruct (sign_of (y#0)); auto; try easy;
@@ -1034,7 +1103,8 @@ Proof.
              by (pose proof (signs_of (y#2)) as (_ & A & B); destruct (sign_of (y#2)); auto; try easy;
                  [specialize (A eq_refl) | specialize (B eq_refl)]; lra).
            rewrite P2 in E.
-           apply (proj1 (at_crossing_right (elevated [y#0; y#1; y#2]) positive (ec && certain (negate (sign_of (y#2)))) gs t
+           apply (proj1 (at_crossing_right (elevated [y#0; y#1; y#2]) positive (ec && certain (negate
+             (sign_of (y#2)))) gs t
              eq_refl F (or_intror eq_refl) Ke)). now in_no E.
         -- assert (P3 : possibly_negative (sign_of (y#3)) = true)
              by (pose proof (signs_of (y#3)) as (A & _ & B); destruct (sign_of (y#3)); auto; try easy;
@@ -1047,64 +1117,77 @@ Proof.
     set (answer := exists t, 0 <= t <= 1 /\ form_at y t = 0 /\ all_positive gs t).
     assert (Ends : either (at_end (sign_of (y#0)) gs 0) (at_end (sign_of (y#3)) gs 4) = yes -> answer).
     { intros H. apply either_yes in H.
-      destruct H as [H | H]; [exists 0; specialize (Yes0 H) | exists 1; specialize (Yes3 H)]; split; lra || tauto. }
+      destruct H as [H | H]; [exists 0; specialize (Yes0 H) | exists 1; specialize (Yes3 H)]; split; lra
+        || tauto. }
     assert (Negative : possibly_negative (sign_of (y#0)) && possibly_positive (sign_of (y#3)) = true ->
       at_crossing y negative ec gs = yes -> answer).
     { intros P H. apply andb_prop in P. destruct (Ec (verdict_yes _ _ H)) as (C0 & C3).
       pose proof (proj1 (certainly _ C0) (proj1 P)). pose proof (proj2 (certainly _ C3) (proj2 P)).
       destruct (between y 0 1) as (r & I & Z); [lra | rewrite S0, S3; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1) by lra.
+      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
+        by lra.
       destruct (rising_crossing _ _ r C Ir Z ltac:(lra)) as (K & _).
       exists r. split; auto. split; auto.
       exact (proj2 (at_crossing_right y negative ec gs r L F (or_introl eq_refl) K) H). }
-    assert (Positive : possibly_positive (sign_of (y#0)) = true -> possibly_negative (sign_of (y#3)) = true ->
+    assert (Positive : possibly_positive (sign_of (y#0)) = true -> possibly_negative (sign_of (y#3)) =
+      true ->
       at_crossing y positive ec gs = yes -> answer).
     { intros P Q H. destruct (Ec (verdict_yes _ _ H)) as (C0 & C3).
       pose proof (proj2 (certainly _ C0) P). pose proof (proj1 (certainly _ C3) Q).
       destruct (between y 0 1) as (r & I & Z); [lra | rewrite S0, S3; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1) by lra.
+      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
+        by lra.
       destruct (falling_crossing _ _ r C Ir Z ltac:(lra)) as (K & _).
       exists r. split; auto. split; auto.
       exact (proj2 (at_crossing_right y positive ec gs r L F (or_intror eq_refl) K) H). }
     assert (Start : same_sign (sign_of (y#0)) zero = true ->
       possibly_negative (sign_of (y#1)) && possibly_positive (sign_of (y#3)) = true ->
-      at_crossing (elevated [y#1; y#2; y#3]) negative (ec && certain (sign_of (y#1))) gs = yes -> answer).
+      at_crossing (elevated [y#1; y#2; y#3]) negative (ec && certain (sign_of (y#1))) gs = yes ->
+        answer).
     { intros Q P H. apply andb_prop in P. pose proof (verdict_yes _ _ H) as K. apply andb_prop in K.
       destruct K as (Ce & C1). destruct (Ec Ce) as (C0 & C3).
-      pose proof (proj1 (certainly _ C1) (proj1 P)) as N1. pose proof (proj2 (certainly _ C3) (proj2 P)) as N3.
+      pose proof (proj1 (certainly _ C1) (proj1 P)) as N1. pose proof (proj2 (certainly _ C3) (proj2 P))
+        as N3.
       assert (Y0 : form_at y 0 = 0)
-        by (rewrite S0; pose proof (signs_of (y#0)) as (_ & A & _); destruct (sign_of (y#0)); easy || auto).
+        by (rewrite S0; pose proof (signs_of (y#0)) as (_ & A & _); destruct (sign_of (y#0)); easy ||
+          auto).
       set (e := elevated [y#1; y#2; y#3]) in *.
       assert (E0 : form_at e 0 = exact (y#1)) by (now rewrite at_start).
       assert (E1 : form_at e 1 = exact (y#3)) by (now rewrite (at_finish e 3)).
       destruct (between e 0 1) as (r & I & Z); [lra | rewrite E0, E1; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1) by lra.
+      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
+        by lra.
       assert (Zy : form_at y r = 0) by (rewrite <- (without_start y r L Y0); fold e; rewrite Z; ring).
       destruct (rising_crossing _ _ r C Ir Zy ltac:(lra)) as (Ky & _).
       destruct (crossing_without_start y _ r L C D0 Y0 Ky) as (_ & Ke).
       exists r. split; auto. split; auto.
       exact (proj2 (at_crossing_right e negative _ gs r eq_refl F (or_introl eq_refl) Ke) H). }
-    assert (Finish : possibly_positive (sign_of (y#0)) = true -> same_sign (sign_of (y#3)) zero = true ->
+    assert (Finish : possibly_positive (sign_of (y#0)) = true -> same_sign (sign_of (y#3)) zero = true
+      ->
       possibly_positive (negate (sign_of (y#2))) = true ->
-      at_crossing (elevated [y#0; y#1; y#2]) positive (ec && certain (negate (sign_of (y#2)))) gs = yes -> answer).
+      at_crossing (elevated [y#0; y#1; y#2]) positive (ec && certain (negate (sign_of (y#2)))) gs = yes
+        -> answer).
     { intros P Q R H. pose proof (verdict_yes _ _ H) as K. apply andb_prop in K.
       destruct K as (Ce & C2). destruct (Ec Ce) as (C0 & C3).
       pose proof (proj2 (certainly _ C0) P) as N0.
       assert (N2 : exact (y#2) < 0)
         by (pose proof (signs_of (y#2)) as (A & _ & _); destruct (sign_of (y#2)); easy || auto).
       assert (Y1 : form_at y 1 = 0)
-        by (rewrite S3; pose proof (signs_of (y#3)) as (_ & A & _); destruct (sign_of (y#3)); easy || auto).
+        by (rewrite S3; pose proof (signs_of (y#3)) as (_ & A & _); destruct (sign_of (y#3)); easy ||
+          auto).
       set (e := elevated [y#0; y#1; y#2]) in *.
       assert (E0 : form_at e 0 = exact (y#0)) by (now rewrite at_start).
       assert (E1 : form_at e 1 = exact (y#2)) by (now rewrite (at_finish e 3)).
       destruct (between e 0 1) as (r & I & Z); [lra | rewrite E0, E1; nra |].
-      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1) by lra.
+      assert (r <> 0) by (intros ->; lra). assert (r <> 1) by (intros ->; lra). assert (Ir : 0 < r < 1)
+        by lra.
       assert (Zy : form_at y r = 0) by (rewrite <- (without_finish y r L Y1); fold e; rewrite Z; ring).
       destruct (falling_crossing _ _ r C Ir Zy ltac:(lra)) as (Ky & _).
       destruct (crossing_without_finish y _ r L C D1 Y1 Ky) as (_ & Ke).
       exists r. split; auto. split; auto.
       exact (proj2 (at_crossing_right e positive _ gs r eq_refl F (or_intror eq_refl) Ke) H). }
-    assert (Two : possibly_positive (sign_of (y#0)) = true -> possibly_positive (sign_of (y#3)) = true ->
+    assert (Two : possibly_positive (sign_of (y#0)) = true -> possibly_positive (sign_of (y#3)) = true
+      ->
       at_pair y d ec gs = yes -> answer).
     { intros P Q H. destruct (PairYes H) as (Ce & K). destruct (Ec Ce) as (C0 & C3). apply K.
       - rewrite S0. exact (proj2 (certainly _ C0) P).
@@ -1132,7 +1215,8 @@ Qed.
 Lemma exacts_opp (p : list S) : exacts (map opp p) = map Ropp (exacts p).
 Proof. rewrite !map_map. apply map_ext. intros x. apply exact_opp. Qed.
 Lemma derivative_opp y : length y = 4%nat ->
-  exacts (dy (map opp y)) = map Ropp (exacts (dy y)) /\ exacts (ddy (map opp y)) = map Ropp (exacts (ddy y)).
+  exacts (dy (map opp y)) = map Ropp (exacts (dy y)) /\ exacts (ddy (map opp y)) = map Ropp (exacts (ddy
+    y)).
 Proof.
   intros L. four y L. split; unfold derivative; cbn [map derivative_from];
     repeat (progress exacts || rewrite exact_times); simpl; repeat f_equal; ring.
@@ -1166,22 +1250,27 @@ Proof.
     + intros E t T Z. exfalso. assert (Y : form_at y t = exact (y#0)).
       { rewrite <- at_start by now destruct y. pose proof (simpson y 0 t L) as Q.
         assert (Zero : forall x, form_at (dy y) x = 0).
-        { intros x. unfold at_time. clear -Slope. induction Slope as [| a h <- _ IH]; simpl; [easy |]. rewrite IH. ring. }
+        { intros x. unfold at_time. clear -Slope. induction Slope as [| a h <- _ IH]; simpl; [easy |].
+            rewrite IH. ring. }
         rewrite !Zero in Q. lra. }
       rewrite Z in Y. pose proof (possible (y#0)) as _. pose proof (signs_of (y#0)) as (A & _ & B).
-      destruct (sign_of (y#0)); simpl in E; try discriminate; [specialize (A eq_refl) | specialize (B eq_refl)]; lra.
+      destruct (sign_of (y#0)); simpl in E; try discriminate; [specialize (A eq_refl) | specialize (B
+        eq_refl)]; lra.
     + now destruct (possibly_zero _).
   - apply on_increasing_sound; auto. now apply monotone_by_signs.
-  - set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else curvature).
+  - set (c := if negb (certain curvature) && negb (opposite (ddy y)) then inside (ddy y) else
+      curvature).
     assert (Ls : length (ddy y) = 2%nat) by now four y L.
     assert (Kc : signs_inside c (exacts (ddy y))).
-    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. now apply inside_signs. }
+    { unfold c. destruct (negb (certain curvature)), (opposite (ddy y)) eqn:O; simpl; auto. now apply
+        inside_signs. }
     assert (Ld : length (dy y) = 3%nat) by now four y L.
     assert (P : c = zero \/ c = uncertain -> sound (parts (ddy y)) y gs).
     { intros C. apply Parts. unfold c in C. destruct curvature, (opposite (ddy y)); simpl in C; auto;
         intuition discriminate. }
     destruct c eqn:Ec; auto.
-    + apply sound_opp, on_convex_sound; auto; try (now rewrite map_length); [now rewrite exacts_opp, Eo |].
+    + apply sound_opp, on_convex_sound; auto; try (now rewrite map_length); [now rewrite exacts_opp, Eo
+        |].
       replace (form_at (map opp (dy y))) with (form_at (dy (map opp y)))
         by (unfold at_time; now rewrite exacts_opp, Eo).
       apply convex_by_signs; auto. rewrite Eoo. exact Kc.
@@ -1206,7 +1295,8 @@ Qed.
 Lemma form_of_part (p : list S) k x : p <> [] -> 0 < k ->
   form (exacts p) (k * (1 - x)) (k * x) = k ^ (length p - 1) * form_at p x.
 Proof.
-  intros N K. destruct p as [| a l]; [easy |]. unfold at_time. cbn [map]. rewrite form_homogeneous, map_length.
+  intros N K. destruct p as [| a l]; [easy |]. unfold at_time. cbn [map]. rewrite form_homogeneous,
+    map_length.
   simpl. now rewrite Nat.sub_0_r.
 Qed.
 
@@ -1217,7 +1307,8 @@ Proof.
                    destruct (length_5 p L) as (? & ? & ? & ? & ? & ->)]; easy.
 Qed.
 
-Lemma split_parts (p : list S) v w : (length p = 4%nat \/ length p = 5%nat) -> 0 < exact v -> 0 < exact w ->
+Lemma split_parts (p : list S) v w : (length p = 4%nat \/ length p = 5%nat) -> 0 < exact v -> 0 < exact
+  w ->
   let m := exact w / (exact v + exact w) in
   is_part p (fst (split p v w)) 0 m /\ is_part p (snd (split p v w)) m 1.
 Proof.
@@ -1228,8 +1319,10 @@ Proof.
   assert (M' : exact v = k * (1 - m)) by (unfold k in *; lra).
   split; split; simpl; try (rewrite rev_length, (proj1 (length_part _ w v Lr)); apply rev_length);
     try apply (length_part p v w L);
-    exists (k ^ (length p - 1)); (split; [now apply pow_lt |]); intros t; rewrite <- form_of_part by auto;
-    unfold at_time; rewrite ?reversed_form, left_part_form, ?reversed_form, ?(Rplus_comm (exact w) (exact v));
+    exists (k ^ (length p - 1)); (split; [now apply pow_lt |]); intros t; rewrite <- form_of_part by
+      auto;
+    unfold at_time; rewrite ?reversed_form, left_part_form, ?reversed_form, ?(Rplus_comm (exact w)
+      (exact v));
     fold k; rewrite M, M'; f_equal; ring.
 Qed.
 Lemma half_parts (p : list S) : (length p = 4%nat \/ length p = 5%nat) ->
@@ -1240,7 +1333,8 @@ Proof.
   split; split; simpl;
     try (rewrite rev_length, (proj2 (length_part _ (whole 0) (whole 0) Lr)); apply rev_length);
     try apply (length_part p (whole 0) (whole 0) L);
-    exists (2 ^ (length p - 1)); (split; [apply pow_lt; lra |]); intros t; rewrite <- form_of_part by (auto; lra);
+    exists (2 ^ (length p - 1)); (split; [apply pow_lt; lra |]); intros t; rewrite <- form_of_part by
+      (auto; lra);
     unfold at_time; rewrite ?reversed_form, left_half_form, ?reversed_form; f_equal; field.
 Qed.
 
@@ -1253,8 +1347,10 @@ Proof.
   intros M (_ & c0 & C0 & E0) (_ & c1 & C1 & E1) G (No0 & Yes0) (No1 & Yes1) No Yes.
   rewrite Forall_forall in G.
   assert (Sign : forall g t, In g gs ->
-    (form_at (f0 g) t < 0 -> form_at g (0 + (m - 0) * t) < 0) /\ (0 < form_at (f0 g) t -> 0 < form_at g (0 + (m - 0) * t)) /\
-    (form_at (f1 g) t < 0 -> form_at g (m + (1 - m) * t) < 0) /\ (0 < form_at (f1 g) t -> 0 < form_at g (m + (1 - m) * t))).
+    (form_at (f0 g) t < 0 -> form_at g (0 + (m - 0) * t) < 0) /\ (0 < form_at (f0 g) t -> 0 < form_at g
+      (0 + (m - 0) * t)) /\
+    (form_at (f1 g) t < 0 -> form_at g (m + (1 - m) * t) < 0) /\ (0 < form_at (f1 g) t -> 0 < form_at g
+      (m + (1 - m) * t))).
   { intros g t I. destruct (G g I) as ((_ & a & A & EA) & (_ & b & B & EB)). rewrite EA, EB.
     repeat split; intros; nra. }
   split.
@@ -1262,28 +1358,36 @@ Proof.
     destruct (Rle_or_lt t m) as [H | H].
     + assert (X : t = 0 + (m - 0) * (t / m)) by (field; lra).
       assert (Ex : excluded (map f0 gs) (t / m)).
-      { apply No0; auto; [| rewrite E0, <- X, Z; ring]. split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
+      { apply No0; auto; [| rewrite E0, <- X, Z; ring]. split; [apply Rmult_le_pos; [lra | left; apply
+          Rinv_0_lt_compat; lra] |].
         apply Rmult_le_reg_r with m; [lra |]. replace (t / m * m) with t by (field; lra). lra. }
-      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N). apply in_map_iff in I.
+      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N). apply in_map_iff in
+        I.
       destruct I as (g & <- & I). apply Exists_exists. exists g. split; auto. rewrite X. now apply Sign.
     + assert (X : t = m + (1 - m) * ((t - m) / (1 - m))) by (field; lra).
       assert (Ex : excluded (map f1 gs) ((t - m) / (1 - m))).
-      { apply No1; auto; [| rewrite E1, <- X, Z; ring]. split; [apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat; lra] |].
-        apply Rmult_le_reg_r with (1 - m); [lra |]. replace ((t - m) / (1 - m) * (1 - m)) with (t - m) by (field; lra). lra. }
-      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N). apply in_map_iff in I.
+      { apply No1; auto; [| rewrite E1, <- X, Z; ring]. split; [apply Rmult_le_pos; [lra | left; apply
+          Rinv_0_lt_compat; lra] |].
+        apply Rmult_le_reg_r with (1 - m); [lra |]. replace ((t - m) / (1 - m) * (1 - m)) with (t - m)
+          by (field; lra). lra. }
+      unfold excluded in *. apply Exists_exists in Ex. destruct Ex as (f & I & N). apply in_map_iff in
+        I.
       destruct I as (g & <- & I). apply Exists_exists. exists g. split; auto. rewrite X. now apply Sign.
   - intros E. destruct (Yes E) as [Y | Y].
     + destruct (Yes0 Y) as (t & T & Z & P). exists (0 + (m - 0) * t). split; [nra |]. split.
       * rewrite E0 in Z. apply Rmult_integral in Z. destruct Z; lra.
-      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I. apply Sign; auto.
+      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I. apply
+          Sign; auto.
     + destruct (Yes1 Y) as (t & T & Z & P). exists (m + (1 - m) * t). split; [nra |]. split.
       * rewrite E1 in Z. apply Rmult_integral in Z. destruct Z; lra.
-      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I. apply Sign; auto.
+      * unfold all_positive in *. rewrite Forall_map in P. rewrite Forall_forall in *. intros g I. apply
+          Sign; auto.
 Qed.
 
 (** The second derivative of a part. *)
 Lemma second_of_part y q a b : length y = 4%nat -> is_part y q a b ->
-  exists c, 0 < c /\ forall t, form_at (ddy q) t = c * ((b - a) * (b - a) * form_at (ddy y) (a + (b - a) * t)).
+  exists c, 0 < c /\ forall t, form_at (ddy q) t = c * ((b - a) * (b - a) * form_at (ddy y) (a + (b - a)
+    * t)).
 Proof.
   intros L (Lq & c & C & E). exists c. split; auto. intros t. rewrite L in Lq.
   pose proof (second_difference q t 1 Lq) as Q. rewrite !E in Q.
@@ -1295,7 +1399,8 @@ Lemma second_of_cubic y : length y = 4%nat -> exacts (ddy y) = [form_at (ddy y) 
 Proof. intros L. four y L. unfold at_time. simpl. repeat f_equal; ring. Qed.
 
 Lemma opposite_signs l : opposite l = true ->
-  (sign_of (l#0) = negative \/ sign_of (l#0) = positive) /\ (sign_of (l#1) = negative \/ sign_of (l#1) = positive).
+  (sign_of (l#0) = negative \/ sign_of (l#0) = positive) /\ (sign_of (l#1) = negative \/ sign_of (l#1) =
+    positive).
 Proof. unfold opposite. destruct (sign_of (l#0)), (sign_of (l#1)); try discriminate; auto. Qed.
 Lemma strict_beside_0 s (x k : R) : s = negative \/ s = positive -> sign_is_right s x -> 0 < k ->
   signs_inside s [k * x; k * 0] /\ signs_inside s [k * 0; k * x].
@@ -1306,16 +1411,19 @@ Proof.
     solve [constructor 1; lra | constructor 2; constructor 1; lra].
 Qed.
 
-Lemma on_part_sound halvings : forall y gs, length y = 4%nat -> five gs -> sound (on_part y gs halvings) y gs.
+Lemma on_part_sound halvings : forall y gs, length y = 4%nat -> five gs -> sound (on_part y gs halvings)
+  y gs.
 Proof.
   assert (Five : forall gs m (f : list S -> list S * list S),
-    (forall p, length p = 4%nat \/ length p = 5%nat -> is_part p (fst (f p)) 0 m /\ is_part p (snd (f p)) m 1) ->
+    (forall p, length p = 4%nat \/ length p = 5%nat -> is_part p (fst (f p)) 0 m /\ is_part p (snd (f
+      p)) m 1) ->
     five gs -> five (map (fun p => fst (f p)) gs) /\ five (map (fun p => snd (f p)) gs) /\
     Forall (fun g => is_part g (fst (f g)) 0 m /\ is_part g (snd (f g)) m 1) gs).
-  { intros gs m f P F. rewrite !Forall_map. repeat split; eapply Forall_impl; try exact F; simpl; intros g Lg;
+  { intros gs m f P F. rewrite !Forall_map. repeat split; eapply Forall_impl; try exact F; simpl; intros
+      g Lg;
       destruct (P g (or_intror Lg)) as ((L0 & _) & (L1 & _)); try congruence; now apply P; right. }
   assert (Case : forall y gs (more : list S -> list (list S) -> existence),
-    length y = 4%nat -> five gs -> 
+    length y = 4%nat -> five gs ->
     (forall y gs, length y = 4%nat -> five gs -> sound (more y gs) y gs) ->
     sound (on_whole_part y gs uncertain (fun second =>
       if opposite second then
@@ -1346,18 +1454,22 @@ Proof.
       assert (At1 : form_at (ddy y) 1 = exact (ddy y # 1)) by now apply at_finish.
       assert (K0 : 0 < c0 * ((m - 0) * (m - 0))) by (repeat apply Rmult_lt_0_compat; lra).
       assert (K1 : 0 < c1 * ((1 - m) * (1 - m))) by (repeat apply Rmult_lt_0_compat; lra).
-      apply (sound_parts _ (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of (ddy y # 0)))
+      apply (sound_parts _ (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of
+        (ddy y # 0)))
         (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y # 1)))
-        y gs (fst (parts_of y)) (snd (parts_of y)) (fun f => fst (parts_of f)) (fun f => snd (parts_of f)) m); auto.
+        y gs (fst (parts_of y)) (snd (parts_of y)) (fun f => fst (parts_of f)) (fun f => snd (parts_of
+          f)) m); auto.
       + apply on_curved_sound; auto.
         * rewrite (second_of_cubic _ L0), !S0.
-          replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring. rewrite Zm, At0.
+          replace (0 + (m - 0) * 0) with 0 by ring. replace (0 + (m - 0) * 1) with m by ring. rewrite
+            Zm, At0.
           rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c0).
           apply (strict_beside_0 _ _ _ (proj1 (opposite_signs _ O)) (sign_right S (ddy y # 0)) K0).
         * destruct (proj1 (opposite_signs _ O)) as [-> | ->]; discriminate.
       + apply on_curved_sound; auto.
         * rewrite (second_of_cubic _ L1), !S1.
-          replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring. rewrite Zm, At1.
+          replace (m + (1 - m) * 0) with m by ring. replace (m + (1 - m) * 1) with 1 by ring. rewrite
+            Zm, At1.
           rewrite <- !Rmult_assoc. rewrite (Rmult_assoc c1).
           apply (strict_beside_0 _ _ _ (proj2 (opposite_signs _ O)) (sign_right S (ddy y # 1)) K1).
         * destruct (proj2 (opposite_signs _ O)) as [-> | ->]; discriminate.
@@ -1373,8 +1485,10 @@ Proof.
       assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
       apply (sound_parts _ (more (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs))
         (more (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs))
-        y gs (fst (parts_of y)) (snd (parts_of y)) (fun f => fst (parts_of f)) (fun f => snd (parts_of f)) (/ 2));
-        [lra | exact P0 | exact P1 | exact G | now apply More | now apply More | apply in_turn_no | apply in_turn_yes]. }
+        y gs (fst (parts_of y)) (snd (parts_of y)) (fun f => fst (parts_of f)) (fun f => snd (parts_of
+          f)) (/ 2));
+        [lra | exact P0 | exact P1 | exact G | now apply More | now apply More | apply in_turn_no |
+          apply in_turn_yes]. }
   induction halvings as [| more IH]; intros y gs L F.
   - apply (Case y gs (fun _ _ => maybe_root)); auto. now split.
   - apply (Case y gs (fun y gs => on_part y gs more)); auto.
@@ -1385,14 +1499,17 @@ Qed.
 Lemma sound_normalized e y gs : sound e (normalized y) (map normalized gs) -> sound e y gs.
 Proof.
   assert (N : forall p t, (form_at (normalized p) t = 0 <-> form_at p t = 0) /\
-    (form_at (normalized p) t < 0 <-> form_at p t < 0) /\ (0 < form_at (normalized p) t <-> 0 < form_at p t)).
+    (form_at (normalized p) t < 0 <-> form_at p t < 0) /\ (0 < form_at (normalized p) t <-> 0 < form_at
+      p t)).
   { intros p t. destruct (normalized_at p) as (c & C & E). rewrite E. repeat split; intros; nra. }
   intros (No & Yes). split.
   - intros E t T Z. specialize (No E t T (proj2 (proj1 (N y t)) Z)). unfold excluded in *.
-    apply Exists_exists in No. destruct No as (f & I & P). apply in_map_iff in I. destruct I as (g & <- & I).
+    apply Exists_exists in No. destruct No as (f & I & P). apply in_map_iff in I. destruct I as (g & <-
+      & I).
     apply Exists_exists. exists g. split; auto. now apply N.
   - intros E. destruct (Yes E) as (t & T & Z & P). exists t. split; auto. split; [now apply N |].
-    unfold all_positive in *. rewrite Forall_map in P. eapply Forall_impl; [| exact P]. simpl. intros g. apply N.
+    unfold all_positive in *. rewrite Forall_map in P. eapply Forall_impl; [| exact P]. simpl. intros g.
+      apply N.
 Qed.
 
 Lemma root_with_nonnegative_sound y gs : length y = 4%nat -> five gs ->
@@ -1402,7 +1519,8 @@ Proof.
   destruct (certainly_rootless (normalized y)) eqn:R.
   - split; [| easy]. intros _ t T Z. now apply rootless_hull with (t := t) in R.
   - apply on_part_sound; [now rewrite length_normalized |].
-    rewrite Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg. now rewrite length_normalized.
+    rewrite Forall_map. eapply Forall_impl; [| exact F]. simpl. intros g Lg. now rewrite
+      length_normalized.
 Qed.
 
 (** A "no" is never wrong. *)

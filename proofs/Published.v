@@ -1,7 +1,8 @@
 (** Where statements of the published BSC (TTWM14; TightCCD paper, Sections 3 and 5.2) do not hold as
     printed: cubics that include/errbound/bsc.hpp decides rightly (Bsc.v).
         inflection_loses_roots   one extremum at most is concluded from Y' at the ends: wrong with an
-                                 inflection inside, however near to an end (as a rounded split leaves it)
+                                 inflection inside, however near to an end (as a rounded split leaves
+                                   it)
         extremum_not_at_start    "the sign of the extreme point is that of T(0)": wrong
         decomposition_zero       "sign G = - sign M sign R": wrong where M vanishes with Y *)
 
@@ -21,20 +22,24 @@ Theorem inflection_loses_roots e : 0 < e <= 1 / 10 ->
 Proof.
   intros E u Y Y' Y''.
   assert (D : forall t, derivable_pt_lim Y t (Y' t)).
-  { intros t. replace (Y' t) with (9 * e * (INR 2 * u t ^ pred 2 * (1 - 0)) - INR 3 * u t ^ pred 3 * (1 - 0) - 0)
+  { intros t. replace (Y' t) with (9 * e * (INR 2 * u t ^ pred 2 * (1 - 0)) - INR 3 * u t ^ pred 3 * (1
+      - 0) - 0)
       by (unfold Y'; simpl; ring).
     assert (U : forall n, derivable_pt_lim (fun t => u t ^ n) t (INR n * u t ^ pred n * (1 - 0))).
     { intros n. apply (derivable_pt_lim_comp u (fun x => x ^ n)).
-      - apply (derivable_pt_lim_minus id (fun _ => 1 - 7 * e)); [apply derivable_pt_lim_id | apply derivable_pt_lim_const].
+      - apply (derivable_pt_lim_minus id (fun _ => 1 - 7 * e)); [apply derivable_pt_lim_id | apply
+          derivable_pt_lim_const].
       - apply derivable_pt_lim_pow. }
     apply (derivable_pt_lim_minus (fun t => 9 * e * u t ^ 2 - u t ^ 3) (fun _ => 49 * e ^ 3));
       [| apply derivable_pt_lim_const].
     apply (derivable_pt_lim_minus (fun t => 9 * e * u t ^ 2) (fun t => u t ^ 3)); [| apply U].
     apply (derivable_pt_lim_scal (fun t => u t ^ 2)). apply U. }
   assert (D' : forall t, derivable_pt_lim Y' t (Y'' t)).
-  { intros t. replace (Y'' t) with (18 * e * (1 - 0) - 3 * (INR 2 * u t ^ pred 2 * (1 - 0))) by (unfold Y''; simpl; ring).
+  { intros t. replace (Y'' t) with (18 * e * (1 - 0) - 3 * (INR 2 * u t ^ pred 2 * (1 - 0))) by (unfold
+      Y''; simpl; ring).
     assert (U : derivable_pt_lim u t (1 - 0))
-      by (apply (derivable_pt_lim_minus id (fun _ => 1 - 7 * e)); [apply derivable_pt_lim_id | apply derivable_pt_lim_const]).
+      by (apply (derivable_pt_lim_minus id (fun _ => 1 - 7 * e)); [apply derivable_pt_lim_id | apply
+        derivable_pt_lim_const]).
     apply (derivable_pt_lim_minus (fun t => 18 * e * u t) (fun t => 3 * u t ^ 2)).
     - now apply (derivable_pt_lim_scal u).
     - apply (derivable_pt_lim_scal (fun t => u t ^ 2)).
@@ -42,7 +47,8 @@ Proof.
   assert (E3 : 0 < e ^ 3) by (apply pow_lt; lra).
   assert (Y0 : 0 < Y 0).
   { replace (Y 0) with (9 * e * (1 - 7 * e) ^ 2 + (1 - 7 * e) ^ 3 - 49 * e ^ 3) by (unfold Y, u; ring).
-    assert (9 * e * (3 * e) ^ 2 <= 9 * e * (1 - 7 * e) ^ 2) by (apply Rmult_le_compat_l; [lra | apply pow_incr; lra]).
+    assert (9 * e * (3 * e) ^ 2 <= 9 * e * (1 - 7 * e) ^ 2) by (apply Rmult_le_compat_l; [lra | apply
+      pow_incr; lra]).
     assert (0 <= (1 - 7 * e) ^ 3) by (apply pow_le; lra). lra. }
   assert (Y1 : Y 1 = 49 * e ^ 3) by (unfold Y, u; ring).
   assert (Ym : Y (1 - 7 * e) = - 49 * e ^ 3) by (unfold Y, u; ring).

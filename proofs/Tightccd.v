@@ -30,30 +30,38 @@ Record tracked := Tracked {
 }.
 
 Definition tracked_add (a b : tracked) : tracked := Tracked
-  (fl (value a + value b)) (tight_add p emin nearest (fl (value a + value b)) (bound a) (bound b)) (meant a + meant b)
+  (fl (value a + value b)) (tight_add p emin nearest (fl (value a + value b)) (bound a) (bound b))
+    (meant a + meant b)
   (rnd_number _ _ _ _) (tight_add_number _ _ _ _ _ _)
-  (tight_add_sound_nearest p emin emin_p p_3 _ _ _ _ _ _ (value_number a) (value_number b) (bound_number a)
+  (tight_add_sound_nearest p emin emin_p p_3 _ _ _ _ _ _ (value_number a) (value_number b) (bound_number
+    a)
      (bound_number b) (within a) (within b)).
 Definition tracked_sub (a b : tracked) : tracked := Tracked
-  (fl (value a - value b)) (tight_add p emin nearest (fl (value a - value b)) (bound a) (bound b)) (meant a - meant b)
+  (fl (value a - value b)) (tight_add p emin nearest (fl (value a - value b)) (bound a) (bound b))
+    (meant a - meant b)
   (rnd_number _ _ _ _) (tight_add_number _ _ _ _ _ _)
-  (tight_subtract_sound_nearest p emin emin_p p_3 _ _ _ _ _ _ (value_number a) (value_number b) (bound_number a)
+  (tight_subtract_sound_nearest p emin emin_p p_3 _ _ _ _ _ _ (value_number a) (value_number b)
+    (bound_number a)
      (bound_number b) (within a) (within b)).
 Definition tracked_mul (a b : tracked) : tracked := Tracked
   (fl (value a * value b))
-  (tight_multiply p emin nearest (fl (value a * value b)) (value a) (bound a) (value b) (bound b)) (meant a * meant b)
+  (tight_multiply p emin nearest (fl (value a * value b)) (value a) (bound a) (value b) (bound b))
+    (meant a * meant b)
   (rnd_number _ _ _ _) (tight_multiply_number _ _ _ _ _ _ _ _)
-  (tight_multiply_sound_nearest p emin emin_p p_3 _ _ _ _ _ _ (value_number a) (value_number b) (bound_number a)
+  (tight_multiply_sound_nearest p emin emin_p p_3 _ _ _ _ _ _ (value_number a) (value_number b)
+    (bound_number a)
      (bound_number b) (within a) (within b)).
 
 Lemma within_opp a : Rabs (- value a - - meant a) <= bound a.
-Proof. replace (- value a - - meant a) with (- (value a - meant a)) by ring. rewrite Rabs_Ropp. apply within. Qed.
+Proof. replace (- value a - - meant a) with (- (value a - meant a)) by ring. rewrite Rabs_Ropp. apply
+  within. Qed.
 Definition tracked_opp (a : tracked) : tracked := Tracked
   (- value a) (bound a) (- meant a) (number_opp _ _ _ (value_number a)) (bound_number a) (within_opp a).
 
 Lemma number_twice x : is_number x -> is_number (2 * x).
 Proof.
-  intros N. apply FLT_format_generic in N; [| exact p_positive]. destruct N as [[m e] E M L]. simpl in *. subst x.
+  intros N. apply FLT_format_generic in N; [| exact p_positive]. destruct N as [[m e] E M L]. simpl in
+    *. subst x.
   apply generic_format_FLT. exists (Float radix2 m (e + 1)); cbn [Fnum Fexp]; [| exact M | lia].
   unfold F2R. cbn [Fnum Fexp]. rewrite bpow_plus. change (bpow radix2 1) with 2. ring.
 Qed.
@@ -68,7 +76,8 @@ Definition tracked_twice (a : tracked) : tracked := Tracked (2 * value a) (2 * b
 Lemma within_exact x : Rabs (x - x) <= 0.
 Proof. replace (x - x) with 0 by ring. rewrite Rabs_R0. lra. Qed.
 (** A floating-point number: bound tight_exact, which is 0. *)
-Definition tracked_exact (x : R) (N : is_number x) : tracked := Tracked x 0 x N (number_0 p emin) (within_exact x).
+Definition tracked_exact (x : R) (N : is_number x) : tracked := Tracked x 0 x N (number_0 p emin)
+  (within_exact x).
 
 (** Whole numbers; the code has those of at most p bits. *)
 Lemma small_whole n : (Z.abs n <= 2 ^ p)%Z -> is_number (IZR n).
@@ -79,7 +88,8 @@ Qed.
 Lemma large_whole n : ~ (Z.abs n <= 2 ^ p)%Z -> is_number (bpow radix2 (mag radix2 (IZR n))).
 Proof.
   intros L. apply number_power; auto. unfold Prec_gt_0 in p_positive.
-  assert (0 < mag radix2 (IZR n))%Z; [| lia]. apply mag_gt_bpow. simpl. rewrite <- abs_IZR. apply IZR_le. lia.
+  assert (0 < mag radix2 (IZR n))%Z; [| lia]. apply mag_gt_bpow. simpl. rewrite <- abs_IZR. apply
+    IZR_le. lia.
 Qed.
 Lemma within_large n : Rabs (0 - IZR n) <= bpow radix2 (mag radix2 (IZR n)).
 Proof. rewrite Rminus_0_l, Rabs_Ropp. left. apply bpow_mag_gt. Qed.
@@ -95,7 +105,8 @@ Lemma unchanged_right (l : list tracked) : exists c, 0 < c /\ map meant l = map 
 Proof.
   exists 1. split; [lra |]. rewrite map_map. apply map_ext. intros. ring.
 Qed.
-Lemma tracked_sign_right a : sign_is_right (Sign.sign_of (finite (value a)) (finite (bound a))) (meant a).
+Lemma tracked_sign_right a : sign_is_right (Sign.sign_of (finite (value a)) (finite (bound a))) (meant
+  a).
 Proof. apply sign_certain, within. Qed.
 
 Definition tight_scalar : scalar := {|
@@ -123,16 +134,19 @@ Qed.
 Theorem tightccd_face_separate v f0 f1 f2 (V F0 F1 F2 : moving) :
   moves v V -> moves f0 F0 -> moves f1 F1 -> moves f2 F2 ->
   let b := difference f1 f0 in let c := difference f2 f0 in let q := difference v f0 in
-  root_with_nonnegative (y_form b c q) (inside_face_forms b c q) = no -> ~ vertex_face_collides V F0 F1 F2.
+  root_with_nonnegative (y_form b c q) (inside_face_forms b c q) = no -> ~ vertex_face_collides V F0 F1
+    F2.
 Proof.
   intros HV H0 H1 H2 b c q E. apply moves_exactly in HV, H0, H1, H2. subst. now apply bsc_face_separate.
 Qed.
 Theorem tightccd_edges_separate a0 a1 b0 b1 (A0 A1 B0 B1 : moving) :
   moves a0 A0 -> moves a1 A1 -> moves b0 B0 -> moves b1 B1 ->
   let b := difference a1 a0 in let c := difference b1 b0 in let q := difference b0 a0 in
-  root_with_nonnegative (y_form b c q) (inside_edges_forms b c q) = no -> ~ edge_edge_collides A0 A1 B0 B1.
+  root_with_nonnegative (y_form b c q) (inside_edges_forms b c q) = no -> ~ edge_edge_collides A0 A1 B0
+    B1.
 Proof.
-  intros HA0 HA1 HB0 HB1 b c q E. apply moves_exactly in HA0, HA1, HB0, HB1. subst. now apply bsc_edges_separate.
+  intros HA0 HA1 HB0 HB1 b c q E. apply moves_exactly in HA0, HA1, HB0, HB1. subst. now apply
+    bsc_edges_separate.
 Qed.
 
 End Tightccd.

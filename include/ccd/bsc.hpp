@@ -19,8 +19,8 @@ namespace ccd {
 /// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
 /// `collides` too: then some root of Y has all weights strictly positive, so that the normal does
 /// not vanish there. Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides,
-/// bsc_edges_separate, bsc_edges_collide; for `tight` proofs/Tightccd.v, tightccd_face_separate and
-/// tightccd_edges_separate.
+/// bsc_edges_separate, bsc_edges_collide.
+/// Proof: proofs/Tightccd.v, tightccd_face_separate, tightccd_edges_separate.
 /// Cost: at most a few thousand operations, no allocation, never throws.
 template <class Rule, class T, template <class> class Query>
 verdict decide_bsc(const Query<T>& query) {
