@@ -1253,7 +1253,7 @@ Proof.
         { intros x. unfold at_time. clear -Slope. induction Slope as [| a h <- _ IH]; simpl; [easy |].
             rewrite IH. ring. }
         rewrite !Zero in Q. lra. }
-      rewrite Z in Y. pose proof (possible (y#0)) as _. pose proof (signs_of (y#0)) as (A & _ & B).
+      rewrite Z in Y. pose proof (signs_of (y#0)) as (A & _ & B).
       destruct (sign_of (y#0)); simpl in E; try discriminate; [specialize (A eq_refl) | specialize (B
         eq_refl)]; lra.
     + now destruct (possibly_zero _).
@@ -1449,7 +1449,6 @@ Proof.
       assert (L0 := proj1 P0). assert (L1 := proj1 P1). rewrite L in L0, L1.
       destruct (second_of_part y _ 0 m L P0) as (c0 & C0 & S0).
       destruct (second_of_part y _ m 1 L P1) as (c1 & C1 & S1).
-      pose proof (second_of_cubic y L) as Es.
       assert (At0 : form_at (ddy y) 0 = exact (ddy y # 0)) by (apply at_start; now destruct (ddy y)).
       assert (At1 : form_at (ddy y) 1 = exact (ddy y # 1)) by now apply at_finish.
       assert (K0 : 0 < c0 * ((m - 0) * (m - 0))) by (repeat apply Rmult_lt_0_compat; lra).
