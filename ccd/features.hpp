@@ -9,7 +9,7 @@
 namespace ccd {
 
 /// True if some coordinate axis parts v from the edge the same way at t = 0 and at t = 1, and
-/// therefore, the motion being linear, throughout.
+/// therefore, the motion being linear, throughout. Proof: proofs/Decisions.v, vertex_edge_parted.
 constexpr bool parted(const vertex_edge<double>& q) {
     bool apart = false;
     for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z}) {
@@ -25,6 +25,7 @@ constexpr bool parted(const vertex_edge<double>& q) {
 }
 
 /// W(t) = 0 for the linear W from w0 to w1: they are antiparallel, or one of them is zero.
+/// Proof: proofs/Contact.v, vertex_vertex_contact.
 template <class S>
 constexpr bool contact(const vertex_vertex<S>& query) {
     const auto w = difference(query.v, query.w);

@@ -7,6 +7,7 @@
 // If Y ≡ 0, t = 0 alone is to be asked: let contact hold at some t > 0, and go back in time as long
 // as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is contact,
 // since contact is closed, but with some G_i = 0: a vertex/edge contact.
+// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar.
 //
 // So G_i are needed at roots of Y alone, and are never expanded into quartics:
 //  * Roots at t = 0 and 1, double and triple roots are rational: G_i are evaluated there.

@@ -10,6 +10,8 @@
 // a segment, which its edges cover, or the two edges are parallel, and an end of one lies on the
 // other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
 // crossing edges) that did not hold at t = 0 began at an edge (or an end).
+// Proof: proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
+// edges_coplanar.
 #include <ccd/forms.hpp>
 #include <ccd/reference.hpp>
 #include <cstddef>

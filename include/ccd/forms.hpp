@@ -67,7 +67,7 @@ struct coplanarity_forms {
                                 const vector_form<S, Degree>& p_)
         : b(b_), c(c_), p(p_), n(cross(b, c)) {}
 
-    /// Y = det(b, c, p), a cubic.
+    /// Y = det(b, c, p), a cubic. Proof: proofs/Decisions.v, forms_y.
     constexpr auto y() const { return dot(n, p); }
     /// |N|², a quartic.
     constexpr auto normal_squared() const { return dot(n, n); }
@@ -81,6 +81,7 @@ struct vertex_face_forms : coplanarity_forms<S, Degree> {
         : coplanarity_forms<S>(difference(q.f1, q.f0), difference(q.f2, q.f0),
                                difference(q.v, q.f0)) {}
     /// The barycentric weights of f2, f1 and f0, times |N|².
+    /// Proof: proofs/Decisions.v, forms_weights.
     constexpr auto inside() const {
         const auto w2 = dot(cross(this->b, this->p), this->n);
         const auto w1 = dot(cross(this->p, this->c), this->n);
@@ -96,6 +97,7 @@ struct edge_edge_forms : coplanarity_forms<S, Degree> {
         : coplanarity_forms<S>(difference(q.a1, q.a0), difference(q.b1, q.b0),
                                difference(q.b0, q.a0)) {}
     /// The parameters on edges a and b and their distances from 1, times |N|².
+    /// Proof: proofs/Decisions.v, forms_weights.
     constexpr auto inside() const {
         const auto on_a = dot(cross(this->p, this->c), this->n);
         const auto on_b = dot(cross(this->p, this->b), this->n);

@@ -251,6 +251,7 @@ constexpr mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
 
 /// Whether one of nine fixed axes (x, y, z, x ± y, y ± z, z ± x) parts the features the same way
 /// at both ends of the step. The motion is linear, so it then parts them throughout.
+/// Proof: proofs/Decisions.v, face_parted and edges_parted.
 ///
 /// Margins: a difference d̂ is off by at most ε·m, a sum of two axes by 2ε(1 + ε)(m_x + m_y), so two
 /// compared projections together by 4ε(1 + ε)(m_x + m_y); an edge's far end is a sum of two such,

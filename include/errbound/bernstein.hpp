@@ -6,6 +6,8 @@
 // those of b_i; but product, derivative, degree elevation and subdivision need no division, so
 // integers, tracked numbers under every bound rule and SIMD packs are all served. The same numbers
 // are the power-basis coefficients in x = t/s, which maps [0, 1] to [0, ∞].
+//
+// Proof: proofs/Bernstein.v, form_ends, power_basis, hull_bounds.
 #pragma once
 
 #include <array>
@@ -60,6 +62,7 @@ struct bernstein {
 
 /// The product: a plain convolution of scaled coefficients. The factors' scalars may differ, where
 /// their product is a type of its own (errbound/fixed_integer.hpp).
+/// Proof: proofs/Bernstein.v, product_form.
 template <class S, class T, int A, int B>
 constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
     using product = decltype(p[0] * q[0]);
@@ -75,6 +78,7 @@ constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
 }
 
 /// The same polynomial, one degree higher: the form times s + t.
+/// Proof: proofs/Bernstein.v, elevated_form.
 template <class S, int N>
 constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
     bernstein<S, N + 1> r;
@@ -85,6 +89,7 @@ constexpr bernstein<S, N + 1> elevated(const bernstein<S, N>& p) {
 }
 
 /// dp/dt = ∂p/∂t − ∂p/∂s: coefficient i is (i + 1)·h_(i+1) − (N − i)·h_i.
+/// Proof: proofs/Bernstein.v, derivative_form.
 template <class S, int N>
 requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>& p) {
     const auto times = [](const S& x, int n) { return n == 1 ? x : S(x * S(n)); };
@@ -111,6 +116,7 @@ constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t,
 
 /// The form p(s, t), that is (s + t)^N · p(t/(s + t)). At s = 1 − t it is the polynomial's value.
 /// Cost: 3N − 1 products.
+/// Proof: proofs/Bernstein.v, value_at_form.
 template <class S, int N, class T>
 constexpr auto value_at(const bernstein<S, N>& p, const T& s, const T& t) {
     if constexpr (N == 0)
@@ -126,6 +132,7 @@ constexpr S value_at(const bernstein<S, N>& p, const S& t) {
 }
 
 /// The polynomial with the two ends of [0, 1] exchanged.
+/// Proof: proofs/Bernstein.v, reversed_form.
 template <class S, int N>
 constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -136,6 +143,7 @@ constexpr bernstein<S, N> reversed(const bernstein<S, N>& p) {
 /// The part of p on [0, w/(v + w)], times (v + w)^N, for v, w > 0: the substitution
 /// s → (v + w)s + vt, t → wt, by Horner's rule. The part on [w/(v + w), 1] is
 /// reversed(left_part(reversed(p), w, v)).
+/// Proof: proofs/Bernstein.v, left_part_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_part(const bernstein<S, N>& p, const S& v, const S& w) {
     const S whole = v + w;
@@ -160,6 +168,7 @@ constexpr std::pair<bernstein<S, N>, bernstein<S, N>> split(const bernstein<S, N
 
 /// The part of p on [0, 1/2], times 2^N: additions and exact doublings only. The part on [1/2, 1]
 /// is reversed(left_half(reversed(p))).
+/// Proof: proofs/Bernstein.v, left_half_form.
 template <class S, int N>
 constexpr bernstein<S, N> left_half(const bernstein<S, N>& p) {
     bernstein<S, N> r;
@@ -202,6 +211,7 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
 
 /// The sign that p has on the open interval (0, 1), as far as its coefficients tell: certain if
 /// none of them has the other sign and one is not zero; zero if all are zero.
+/// Proof: proofs/Bernstein.v, sign_inside_right.
 template <class S, int N>
 constexpr sign_type sign_inside(const bernstein<S, N>& p) {
     sign_type all = sign_type::zero;
@@ -217,6 +227,7 @@ constexpr sign_type sign_inside(const bernstein<S, N>& p) {
 
 /// The sign that p has on all of [0, 1], as far as its coefficients tell: certain if all have that
 /// strict sign; zero if all are zero.
+/// Proof: proofs/Bernstein.v, sign_throughout_right.
 template <class S, int N>
 constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
     const sign_type first = sign_of(p[0]);
@@ -226,6 +237,7 @@ constexpr sign_type sign_throughout(const bernstein<S, N>& p) {
 }
 
 /// Whether the coefficients alone show that p has no root in [0, 1].
+/// Proof: proofs/Bernstein.v, rootless_hull.
 template <class S, int N>
 constexpr bool certainly_rootless(const bernstein<S, N>& p) {
     const sign_type hull = sign_throughout(p);

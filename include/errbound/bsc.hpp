@@ -9,12 +9,14 @@
 //    A "no" is given only when every world says no. (The paper sets the uncertain sign to one
 //    chosen value.)
 //  * An inflection inside the part is split off at its exact place, in homogeneous form, so that
-//    the curvature of each part is KNOWN. Splitting at a rounded place, as the published code does,
-//    leaves an inflection in one of the parts, and the one-extremum argument then loses roots. If
-//    the curvature's sign is uncertain, Y is monotone by its derivative's coefficients, or the
-//    part is halved; after `max_halvings` of them the answer is "maybe".
+//    the curvature of each part is KNOWN. A split at a rounded place would leave an inflection in one
+//    of the parts, and signs at the ends then lose roots (Proof: proofs/Published.v,
+//    inflection_loses_roots). If the curvature's sign is uncertain, Y is monotone by its
+//    derivative's coefficients, or the part is halved; after `max_halvings` of them the answer is
+//    "maybe".
 //  * All reductions cancel one term at each end (factors k0·k3, st) instead of two at one end. They
-//    are then identities without division or degenerate leading coefficient.
+//    are then identities without division or degenerate leading coefficient. Where M of the
+//    decomposition vanishes at the root, J is asked (Proof: proofs/Published.v, decomposition_zero).
 //
 // Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; Y = (y0, y1, y2, y3) scaled, so
 // y0 = Y(0) and y3 = Y(1); D = Y' (a quadratic form); a root is INNER if 0 < t < 1.
@@ -105,7 +107,8 @@ struct linear_signs {
 
 /// Sign determination I (TTWM14): the sign of the linear form l at the only inner root of Y, where
 /// Y has the strict sign `before` left of it and the opposite one right of it.
-/// Proof: if Y(t_l) has the sign `before`, the root lies right of t_l, where l has the sign l(1).
+/// If Y(t_l) has the sign `before`, the root lies right of t_l, where l has the sign l(1).
+/// Proof: proofs/Bsc.v, sign_determination_1.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 1>& l) {
@@ -120,9 +123,10 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
 
 /// Sign determination II (TTWM14): the signs of the linear form l at the two inner roots t0 <= t1
 /// of a CONVEX Y that is positive at both ends; d = Y'.
-/// Proof: Y(t_l) < 0 means t0 < t_l < t1. Else t_l lies outside, on the side of the extremum that
+/// Y(t_l) < 0 means t0 < t_l < t1. Else t_l lies outside, on the side of the extremum that
 /// the increasing d tells: d(t_l) < 0 left, so both roots are right of it. If Y(t_l)'s sign is
 /// uncertain, d(t_l) still tells it from the root on the other side of the extremum.
+/// Proof: proofs/Bsc.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -150,6 +154,7 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 /// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J.
 /// (A world may count an end value as strict that is zero in truth. J then vanishes at the root, so
 /// that no certain sign of J but zero can come out and nothing is concluded wrongly.)
+/// Proof: proofs/Bsc.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -160,6 +165,7 @@ constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
 
 /// Polynomial decomposition: j0·j2·Y = M·J + s·t·R with M, R linear. At an inner root of Y,
 /// M·J = −s·t·R, so sign J = −sign M · sign R where M is not zero.
+/// Proof: proofs/Bsc.v, polynomial_decomposition.
 template <class S>
 struct decomposition {
     bernstein<S, 1> m, r;
@@ -216,6 +222,7 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 /// Root-finding lemma, reduced at one end: by Euler, Y = A + t·D/3 = B − s·D/3 with the
 /// quadratics A (y0, 2y1/3, y2/3) and B, so at t_ex Y = A = B. Cancelling s² of A by D leaves
 /// d0·Y(t_ex) = t·M(t_ex), cancelling t² of B leaves d2·Y(t_ex) = s·M'(t_ex), with linear M, M'.
+/// Proof: proofs/Bsc.v, root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
@@ -446,6 +453,7 @@ constexpr existence by_halving(const part<S, M>& whole) {
 ///
 /// `yes` and `no` are certain for every scalar whose signs are; all g_i are then strictly positive
 /// at a root of y, or no such t exists. For Y ≡ 0 the answer is `no` or `maybe_root`.
+/// Proof: proofs/Bsc.v, bsc_no and bsc_yes.
 /// Cost: bounded; some hundred operations of S in the common cases, at most a few thousand.
 template <class S, class MakeConstraints>
 constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeConstraints& make_g) {
