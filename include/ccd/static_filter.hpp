@@ -78,8 +78,9 @@ inline constexpr double slack = 1.01;
 /// largest_difference.
 template <int N>
 constexpr constants constants_of(error_count c, int degree) {
-    double absolute = c.underflow * errbound::number_traits<double>::underflow_unit();
+    double absolute = c.underflow;
     for (int i = 1; i < degree; ++i) absolute *= largest_difference;
+    absolute *= errbound::number_traits<double>::underflow_unit();  // last: it would underflow
     constexpr double epsilon = errbound::number_traits<double>::epsilon();
     return {slack * c.error * epsilon, slack * (absolute + 0x1p-1000),
             slack * halving_error<N>() * epsilon};
@@ -132,6 +133,9 @@ struct sizes {
     }
 
     /// Bounds |ĥ − h| of the control values of Y, and of every G_i.
+    /// Proof: proofs/CcdFilter.v, error_of_y_sound.
+    /// Proof: proofs/CcdFilter.v, error_of_vertex_face_sound.
+    /// Proof: proofs/CcdFilter.v, error_of_edge_edge_sound.
     template <template <class> class Forms>
     S error_of_y() const {
         return x * y * z * S(y_constants<Forms>.relative) + S(y_constants<Forms>.absolute);
