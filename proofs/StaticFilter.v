@@ -6,10 +6,12 @@
         filter_error   |value - exact| <= ((1 + u)^k - 1) S
         filter_bound   |unrounded value - exact| <= bound, the code's bound(), from two roundings on
         filter_sign_certain   the sign that the code is certain of is right
+        size_covers_value     |value| <= size
+        overflow_uncertain    with a largest number, too: what overflows makes no sign certain
     for formats with eta <= u eps (every IEEE format), 64 (k + 2) u <= 1 (k up to 2^18 - 2 in
     float), and at most 2^p products added up in any one sum. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
 From Flocq Require Import Core Plus_error.
 From Errbound Require Import Format Sign.
 Open Scope R_scope.
@@ -804,4 +806,112 @@ Proof.
     unfold bound in B. destruct (roundings e) as [| []]; try lra. lia.
 Qed.
 
+(** Overflow. Every operation of a value has one of the size that is no smaller. *)
+Lemma fl_abs x : Rabs (fl x) = fl (Rabs x).
+Proof. symmetry. apply round_NE_abs. auto with typeclass_instances. Qed.
+Lemma full_above s n : 0 <= s -> number s -> s <= full s n.
+Proof.
+  intros P N. destruct n as [| n]; [apply Rle_refl |]. apply rnd_above; auto.
+  assert (0 <= fl (fl (INR (S n)) * allowance)); [| lra]. apply rnd_nonnegative.
+  apply Rmult_le_pos; [apply rnd_nonnegative, pos_INR | generalize allowance_positive; lra].
+Qed.
+Theorem size_covers_value e : admissible e -> Rabs (value e) <= size e.
+Proof.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
+    try apply Rle_refl.
+  - destruct A as (_ & A & B). cbn [value size]. rewrite fl_abs. apply (rnd_le p emin nearest).
+    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; auto.
+  - destruct A as (_ & A & B). cbn [value size]. rewrite fl_abs. apply (rnd_le p emin nearest).
+    unfold Rminus. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. apply Rplus_le_compat; auto.
+  - rewrite size_product. destruct A as (_ & A & B). cbn [value]. rewrite fl_abs, Rabs_mult.
+    apply (rnd_le p emin nearest). apply Rmult_le_compat; auto using Rabs_pos.
+    + apply Rle_trans with (1 := IHx A). apply full_above; auto using size_nonnegative, size_number.
+    + apply Rle_trans with (1 := IHy B). apply full_above; auto using size_nonnegative, size_number.
+  - destruct A as [_ A]. cbn [value size]. rewrite Rabs_Ropp. auto.
+Qed.
+
+Section Overflow.
+
+(** The format's largest number: rounding to nearest gives an infinity where, without it, a larger
+    one would result. What is made of infinities and NaN by +, - and * is one of them. *)
+Variable largest : R.
+Hypothesis largest_0 : 0 <= largest.
+Definition in_range (x : R) : Prop := Rabs x <= largest.
+
+(** No operation of the value overflows, or of the size. *)
+Fixpoint value_in_range (e : expression) : Prop :=
+  in_range (value e) /\
+  match e with
+  | Coordinate _ | Difference _ _ | Constant _ => True
+  | Sum x y | Minus x y | Product x y => value_in_range x /\ value_in_range y
+  | Negation x => value_in_range x
+  end.
+Fixpoint size_in_range (e : expression) : Prop :=
+  in_range (size e) /\
+  match e with
+  | Coordinate _ | Difference _ _ | Constant _ => True
+  | Sum x y | Minus x y => size_in_range x /\ size_in_range y
+  | Product x y =>
+      if plain (Product x y) then value_in_range (Product x y)
+      else (size_in_range x /\ in_range (full (size x) (products x))) /\
+           (size_in_range y /\ in_range (full (size y) (products y)))
+  | Negation x => size_in_range x
+  end.
+Lemma size_range_value e : admissible e -> size_in_range e -> value_in_range e.
+Proof.
+  assert (L : forall e, admissible e -> in_range (size e) -> in_range (value e)).
+  { intros x A. unfold in_range. generalize (size_covers_value x A) (size_nonnegative x A).
+    intros C P. rewrite (Rabs_pos_eq (size x)) by auto. lra. }
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A R;
+    (split; [apply L; [exact A | apply R] |]); auto.
+  - destruct A as (_ & A & B), R as (_ & R & S). auto.
+  - destruct A as (_ & A & B), R as (_ & R & S). auto.
+  - destruct R as [_ R]. cbn [size_in_range] in R. destruct (plain (Product x y)).
+    + apply R.
+    + destruct A as (_ & A & B), R as ((R & _) & (S & _)). auto.
+  - destruct A as [_ A], R as [_ R]. auto.
+Qed.
+
+(** sign_of, on what the machine has: it asks for a finite value where the bound does not. *)
+Definition not_finite (v : ieee) : Prop := v = plus_infinity \/ v = minus_infinity \/ v = nan.
+Definition magnitude (v : ieee) : ieee :=
+  match v with
+  | finite x => finite (Rabs x)
+  | plus_infinity | minus_infinity => plus_infinity
+  | nan => nan
+  end.
+Definition is_finite (v : ieee) : bool := match v with finite _ => true | _ => false end.
+Definition machine_sign (e : expression) (v b : ieee) : sign :=
+  if less b (magnitude v) && ((1 <? roundings e)%nat || is_finite v) then
+    if less (finite 0) v then positive else negative
+  else if (roundings e <=? 1)%nat && (products e =? 0)%nat && equals_0 v then zero
+  else uncertain.
+
+Theorem overflow_uncertain e v b : admissible e -> 64 * INR (roundings e + 2) * u <= 1 ->
+  (value_in_range e -> v = finite (value e)) -> (~ value_in_range e -> not_finite v) ->
+  ((roundings e <= 1)%nat \/ size_in_range e -> in_range (bound e) -> b = finite (bound e)) ->
+  (~ ((roundings e <= 1)%nat \/ size_in_range e) \/ ~ in_range (bound e) ->
+   b = plus_infinity \/ b = nan) ->
+  sign_is_right (machine_sign e v b) (exact e).
+Proof.
+  intros A H V V' D D'. generalize (filter_sign_certain e A H). unfold filter_sign, machine_sign.
+  destruct (classic (value_in_range e)) as [F | F].
+  - rewrite (V F). cbn [magnitude is_finite equals_0]. rewrite orb_true_r, andb_true_r.
+    destruct (classic (((roundings e <= 1)%nat \/ size_in_range e) /\ in_range (bound e))) as [[I J] | I].
+    + rewrite (D I J). auto.
+    + intros _. assert (K : (roundings e <=? 1)%nat = false).
+      { apply Nat.leb_gt, Nat.nle_gt. intros K. apply I. split; auto. unfold in_range, bound.
+        destruct (roundings e) as [| []]; try lia; now rewrite Rabs_R0. }
+      rewrite K. apply not_and_or in I. destruct (D' I) as [-> | ->]; exact Logic.I.
+  - intros _. specialize (V' F). assert (E : equals_0 v = false).
+    { destruct V' as [-> | [-> | ->]]; reflexivity. }
+    rewrite E, andb_false_r. assert (I : is_finite v = false).
+    { destruct V' as [-> | [-> | ->]]; reflexivity. }
+    rewrite I, orb_false_r. destruct (Nat.ltb_spec 1 (roundings e)) as [K | K].
+    + assert (N : ~ size_in_range e) by (intros S; now apply F, size_range_value).
+      destruct D' as [-> | ->]; [left; intros [C |]; [lia | auto] | destruct v; exact Logic.I ..].
+    + rewrite andb_false_r. exact Logic.I.
+Qed.
+
+End Overflow.
 End StaticFilter.

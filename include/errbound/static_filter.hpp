@@ -26,6 +26,7 @@
 //
 // Overflow: rounding is monotone, so Ŝ >= |x̂| for every number of an expression; where one is
 // infinite or NaN, so are all that are made of it, and their sizes: no sign passes.
+// Proof: proofs/StaticFilter.v, overflow_uncertain.
 //
 // Fused multiply-add (contraction) leaves out roundings and keeps all of this but the last: a value
 // can overflow where its size just does not. Where it may happen, values are asked to be finite.
