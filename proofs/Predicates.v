@@ -6,11 +6,14 @@
         orient2d_sign_certain   3, from 9 bits on
         orient3d_sign_certain   7, from 10 bits on
         incircle_sign_certain   10, from 10 bits on
-        insphere_sign_certain   15, from 11 bits on *)
+        insphere_sign_certain   15, from 11 bits on
+    and of insphere's semi-static filter, which comes first:
+        insphere_semi_static_certain   from 24 bits on *)
 
-From Coq Require Import Reals ZArith Lia Lra.
+From Coq Require Import Reals ZArith List Lia Lra.
 From Flocq Require Import Core.
-From Errbound Require Import Format Sign StaticFilter.
+From Errbound Require Import Format Sign StaticFilter SemiStatic.
+Import ListNotations.
 Open Scope R_scope.
 
 (** A point's coordinates by their index. *)
@@ -136,5 +139,39 @@ Theorem insphere_sign_certain a b c d e :
   sign_is_right (filter_sign (lifted_volume a b c d e))
     (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e)).
 Proof. by_counts. unfold lifted3, det4, det3, det2. simpl. ring. Qed.
+
+(** M is the largest of all differences, as computed. *)
+Theorem insphere_semi_static_certain a b c d e M :
+  (24 <= p)%Z -> (emin <= - 4 * p - 5)%Z ->
+  representable a -> representable b -> representable c -> representable d -> representable e ->
+  number p emin M ->
+  (forall x i, In x [a; b; c; d] -> Rabs (rnd p emin nearest (x i - e i)) <= M) ->
+  sign_is_right (semi_static_sign p emin M (lifted_volume a b c d e))
+    (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e)).
+Proof.
+  intros P E A B C D F N L.
+  assert (M0 : 0 <= M).
+  { apply Rle_trans with (2 := L a 0%nat (or_introl eq_refl)). apply Rabs_pos. }
+  assert (W : (16777216 <= 2 ^ p)%Z).
+  { change 16777216%Z with (2 ^ 24)%Z. apply Z.pow_le_mono_r; lia. }
+  replace (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e))
+    with (exact (lifted_volume a b c d e)) by (unfold lifted3, det4, det3, det2; simpl; ring).
+  apply semi_static_sign_certain; auto; try lia.
+  - simpl admissible. repeat split; auto; apply products_few; lia.
+  - assert (La : forall i, Rabs (rnd p emin nearest (a i - e i)) <= M) by (intros; apply L; simpl; auto).
+    assert (Lb : forall i, Rabs (rnd p emin nearest (b i - e i)) <= M) by (intros; apply L; simpl; auto).
+    assert (Lc : forall i, Rabs (rnd p emin nearest (c i - e i)) <= M) by (intros; apply L; simpl; auto).
+    assert (Ld : forall i, Rabs (rnd p emin nearest (d i - e i)) <= M) by (intros; apply L; simpl; auto).
+    simpl homogeneous. repeat split; auto; apply Z.le_trans with (2 := W); vm_compute; discriminate.
+  - vm_compute. discriminate.
+  - simpl. lia.
+  - simpl. lia.
+  - change (StaticFilter.roundings p (lifted_volume a b c d e)) with 16%nat.
+    apply Rle_trans with (bpow radix2 24 * Format.u p).
+    + apply Rmult_le_compat_r; [generalize (u_positive p); lra |].
+      rewrite INR_IZR_INZ, <- mult_IZR, <- IZR_Zpower by lia. now apply IZR_le.
+    + unfold Format.u. rewrite <- bpow_plus. change 1 with (bpow radix2 0). apply bpow_le. lia.
+  - apply Z.le_trans with (2 ^ 24)%Z; [vm_compute; discriminate |]. apply Z.pow_le_mono_r; lia.
+Qed.
 
 End Predicates.

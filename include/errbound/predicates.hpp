@@ -191,6 +191,7 @@ inline constexpr auto incircle =
     });
 
 /// Proof of its static filter: proofs/Predicates.v, insphere_sign_certain.
+/// Proof of its semi-static filter: proofs/Predicates.v, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
