@@ -6,10 +6,11 @@
         fast_two_sum_exact    the same where |a| >= |b|, and where a = 0
         split_exact           value + error = x; the error has at most s bits; from 4 bits on
         two_product_exact     value + error = a b where product_error_is_exact says so; from 4 bits on
-        two_product_fma_exact the same with fused multiply-add; from 2 bits on *)
+        two_product_fma_exact the same with fused multiply-add; from 2 bits on
+        remainder_of_division_exact   the remainder a - q b, where it says that it is exact *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
-From Flocq Require Import Core Mult_error Pff2Flocq.
+From Flocq Require Import Core Mult_error Sterbenz Pff2Flocq.
 From Errbound Require Import Format.
 Open Scope R_scope.
 
@@ -156,6 +157,128 @@ Proof.
   replace (a * b - fl (a * b)) with (- (fl (a * b) - a * b)) by ring. apply number_opp.
   apply mult_error_FLT; auto with typeclass_instances.
   intros N. now destruct H.
+Qed.
+
+(** The remainder of q = fl(a / b), from either product. *)
+Definition remainder_of_division (a : R) (product : R * R) : R :=
+  if Req_bool a 0 then 0 else fl (fl (a - fst product) - snd product).
+
+Lemma quotient_error a b : (2 <= p)%Z -> b <> 0 -> fl (a / b) <> 0 ->
+  Rabs (a - fl (a / b) * b) <= Rabs b * (ulp radix2 (FLT_exp emin p) (fl (a / b)) / 2) /\
+  Rabs (a - fl (a / b) * b) <= Rabs (fl (a / b) * b) / 2.
+Proof.
+  intros P B Q. set (q := fl (a / b)) in *.
+  assert (E : Rabs (a / b - q) <= ulp radix2 (FLT_exp emin p) q / 2).
+  { rewrite Rabs_minus_sym. unfold q, rnd.
+    generalize (error_le_half_ulp_round radix2 (FLT_exp emin p) (fun n => negb (Z.even n)) (a / b)). lra. }
+  assert (U : ulp radix2 (FLT_exp emin p) q <= Rabs q).
+  { apply ulp_le_abs; auto. apply rnd_number; auto with typeclass_instances. }
+  replace (a - q * b) with (b * (a / b - q)) by (now field). rewrite !Rabs_mult.
+  generalize (Rabs_pos b). intros Pb. split.
+  - apply Rmult_le_compat_l; auto.
+  - replace (Rabs q * Rabs b / 2) with (Rabs b * (Rabs q / 2)) by field.
+    apply Rmult_le_compat_l; lra.
+Qed.
+Lemma difference_is_number a c : (2 <= p)%Z -> number a -> smallest_normal p emin <= Rabs c ->
+  Rabs (a - c) <= Rabs c / 2 -> fl (a - fl c) = a - fl c.
+Proof.
+  intros P A N H. apply rnd_exact; auto with typeclass_instances.
+  assert (L : forall a c, number a -> smallest_normal p emin <= c -> Rabs (a - c) <= c / 2 ->
+                          number (a - fl c)).
+  { clear a c A N H. intros a c A N H. apply Rabs_le_inv in H.
+    generalize (smallest_normal_positive p emin). intros S.
+    assert (T : number (2 * a)).
+    { rewrite Rmult_comm. change 2 with (bpow radix2 1). apply mult_bpow_pos_exact_FLT; auto. lia. }
+    apply sterbenz; auto with typeclass_instances.
+    - apply rnd_number; auto with typeclass_instances.
+    - assert (fl c <= 2 * a) by (apply rnd_below; auto with typeclass_instances; lra).
+      generalize (rnd_relative p emin nearest _ _ (rounding_error_nearest p emin ltac:(lia)) c N)
+        (eps_le p 2 P) (eps_2u p). simpl. intros R E U.
+      assert (c * u <= c * / 4) by (apply Rmult_le_compat_l; lra). lra. }
+  destruct (Rle_or_lt 0 c) as [C | C].
+  - rewrite (Rabs_pos_eq c) in * by auto. now apply L.
+  - rewrite (Rabs_left c) in * by auto.
+    replace (a - fl c) with (- (- a - fl (- c))) by (rewrite fl_opp; ring).
+    apply number_opp, L; [now apply number_opp | auto |].
+    replace (- a - - c) with (- (a - c)) by ring. now rewrite Rabs_Ropp.
+Qed.
+Lemma cexp_form x : number x -> exists m, x = IZR m * bpow radix2 (cexp radix2 (FLT_exp emin p) x) /\
+  Rabs x < bpow radix2 (p + cexp radix2 (FLT_exp emin p) x).
+Proof.
+  intros N. exists (Ztrunc (scaled_mantissa radix2 (FLT_exp emin p) x)). split; [exact N |].
+  apply Rlt_le_trans with (bpow radix2 (mag radix2 x)); [apply bpow_mag_gt |].
+  apply bpow_le. unfold cexp, FLT_exp. lia.
+Qed.
+
+Theorem remainder_of_division_exact a b product :
+  (2 <= p)%Z -> number a -> number b -> b <> 0 ->
+  let q := fl (a / b) in
+  fst product = fl (q * b) -> fst product + snd product = q * b ->
+  a = 0 \/ q <> 0 /\ product_error_is_exact q b product ->
+  remainder_of_division a product = a - q * b.
+Proof.
+  intros P A B B0 q V E C. unfold remainder_of_division.
+  destruct (Req_bool_spec a 0) as [Z | Z].
+  { unfold q. rewrite Z. unfold Rdiv. rewrite Rmult_0_l, (rnd_0 p emin nearest). ring. }
+  destruct C as [C | [Q C]]; [easy |].
+  destruct (quotient_error a b P B0 Q) as [E1 E2]. fold q in E1, E2.
+  destruct product as [v e]. cbn [fst snd] in *. subst v.
+  assert (F : q * b = 0 \/ bpow radix2 (emin + 2 * p - 1) <= Rabs (q * b))
+    by (apply far_from_underflow with e; auto; lia).
+  destruct F as [F | F]; [apply Rmult_integral in F; tauto |].
+  rewrite difference_is_number; auto.
+  2: { apply Rle_trans with (2 := F). apply bpow_le. lia. }
+  replace (a - fl (q * b) - e) with (a - q * b) by lra.
+  apply rnd_exact; auto with typeclass_instances.
+  (* the remainder is a multiple of the smaller unit, and has few bits *)
+  assert (Nq : number q) by (apply rnd_number; auto with typeclass_instances).
+  destruct (cexp_form a A) as (ma & Fa & La), (cexp_form q Nq) as (mq & Fq & Lq),
+    (cexp_form b B) as (mb & Fb & Lb).
+  assert (Uq : ulp radix2 (FLT_exp emin p) q = bpow radix2 (cexp radix2 (FLT_exp emin p) q))
+    by now apply ulp_neq_0.
+  rewrite Uq in E1. assert (Ea : (emin <= cexp radix2 (FLT_exp emin p) a)%Z).
+  { unfold cexp, FLT_exp. lia. }
+  set (ea := cexp radix2 (FLT_exp emin p) a) in *. set (eq := cexp radix2 (FLT_exp emin p) q) in *.
+  set (eb := cexp radix2 (FLT_exp emin p) b) in *.
+  assert (Eqb : (emin <= eq + eb)%Z).
+  { apply Z.lt_succ_r. apply Z.le_lt_trans with (emin + 2 * p - 1 - 2 * p + 1)%Z; [lia |].
+    assert (emin + 2 * p - 1 < p + eq + (p + eb))%Z; [| lia].
+    apply (lt_bpow radix2). apply Rle_lt_trans with (1 := F). rewrite Rabs_mult, bpow_plus.
+    apply Rmult_le_0_lt_compat; auto using Rabs_pos. }
+  assert (Form : forall m k, (emin <= k)%Z -> Rabs (IZR m * bpow radix2 k) < bpow radix2 (p + k) ->
+                   number (IZR m * bpow radix2 k)).
+  { intros m k K H. apply number_integer; auto.
+    rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)), bpow_plus in H by apply bpow_ge_0.
+    apply Rmult_lt_reg_r in H; [| apply bpow_gt_0].
+    apply le_IZR. rewrite abs_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. lra. }
+  destruct (Z_le_gt_dec ea (eq + eb)) as [L | L].
+  - assert (R : a - q * b = IZR (ma - mq * mb * 2 ^ (eq + eb - ea)) * bpow radix2 ea).
+    { rewrite minus_IZR, !mult_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
+      rewrite Fa at 1. rewrite Fq at 1. rewrite Fb at 1.
+      replace (bpow radix2 (eq + eb - ea)) with (bpow radix2 eq * bpow radix2 eb * bpow radix2 (- ea))
+        by (rewrite <- !bpow_plus; f_equal; lia).
+      assert (X : bpow radix2 (- ea) * bpow radix2 ea = 1)
+        by (rewrite <- bpow_plus; replace (- ea + ea)%Z with 0%Z by lia; reflexivity).
+      replace ((IZR ma - IZR mq * IZR mb * (bpow radix2 eq * bpow radix2 eb * bpow radix2 (- ea))) *
+               bpow radix2 ea)
+        with (IZR ma * bpow radix2 ea - IZR mq * IZR mb * bpow radix2 eq * bpow radix2 eb *
+              (bpow radix2 (- ea) * bpow radix2 ea)) by ring.
+      rewrite X. ring. }
+    rewrite R. apply Form; auto. rewrite <- R. apply Rle_lt_trans with (2 := La).
+    assert (Rabs (q * b) <= Rabs (q * b - a) + Rabs a).
+    { replace (q * b) with ((q * b - a) + a) at 1 by ring. apply Rabs_triang. }
+    rewrite Rabs_minus_sym in H. lra.
+  - assert (R : a - q * b = IZR (ma * 2 ^ (ea - (eq + eb)) - mq * mb) * bpow radix2 (eq + eb)).
+    { rewrite minus_IZR, !mult_IZR. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia.
+      rewrite Fa at 1. rewrite Fq at 1. rewrite Fb at 1.
+      rewrite Rmult_minus_distr_r. rewrite (Rmult_assoc (IZR ma)), <- bpow_plus.
+      replace (ea - (eq + eb) + (eq + eb))%Z with ea by lia. rewrite (bpow_plus radix2 eq eb). ring. }
+    rewrite R. apply Form; auto. rewrite <- R. apply Rle_lt_trans with (1 := E1).
+    replace (p + (eq + eb))%Z with (p + eb + eq)%Z by lia. rewrite (bpow_plus radix2 (p + eb)).
+    assert (Rabs b * bpow radix2 eq < bpow radix2 (p + eb) * bpow radix2 eq)
+      by (apply Rmult_lt_compat_r; [apply bpow_gt_0 | auto]).
+    generalize (bpow_gt_0 radix2 eq) (Rabs_pos b). intros.
+    assert (0 <= Rabs b * bpow radix2 eq) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
 End ErrorFree.

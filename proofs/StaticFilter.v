@@ -1,15 +1,17 @@
 (** Static filters (include/errbound/static_filter.hpp): for every expression of coordinates,
-    differences of coordinates, sums, differences, products and negations, rounded to nearest.
+    differences of coordinates, whole constants (ints, rounded where the format is shorter), sums,
+    differences, products and negations, rounded to nearest.
 
     k is the number of roundings and S the size of an expression, as that file counts them. Results:
         filter_error   |value - exact| <= ((1 + u)^k - 1) S
         filter_bound   |unrounded value - exact| <= bound, the code's bound(), from two roundings on
         filter_sign_certain   the sign that the code is certain of is right
-        orient2d_sign_certain, orient3d_sign_certain   with 3 and 7 in the constant
+        size_covers_value     |value| <= size
+        overflow_uncertain    with a largest number, too: what overflows makes no sign certain
     for formats with eta <= u eps (every IEEE format), 64 (k + 2) u <= 1 (k up to 2^18 - 2 in
     float), and at most 2^p products added up in any one sum. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
 From Flocq Require Import Core Plus_error.
 From Errbound Require Import Format Sign.
 Open Scope R_scope.
@@ -17,6 +19,7 @@ Open Scope R_scope.
 Inductive expression :=
 | Coordinate (c : R)
 | Difference (a b : R)
+| Constant (c : Z)
 | Sum (x y : expression)
 | Minus (x y : expression)
 | Product (x y : expression)
@@ -37,6 +40,7 @@ Fixpoint exact (e : expression) : R :=
   match e with
   | Coordinate c => c
   | Difference a b => a - b
+  | Constant c => IZR c
   | Sum x y => exact x + exact y
   | Minus x y => exact x - exact y
   | Product x y => exact x * exact y
@@ -48,6 +52,7 @@ Fixpoint value (e : expression) : R :=
   match e with
   | Coordinate c => c
   | Difference a b => fl (a - b)
+  | Constant c => fl (IZR c)
   | Sum x y => fl (value x + value y)
   | Minus x y => fl (value x - value y)
   | Product x y => fl (value x * value y)
@@ -57,20 +62,21 @@ Fixpoint roundings (e : expression) : nat :=
   match e with
   | Coordinate _ => 0
   | Difference _ _ => 1
+  | Constant _ => if (p <? 31)%Z then 1 else 0
   | Sum x y | Minus x y => S (Nat.max (roundings x) (roundings y))
   | Product x y => S (roundings x + roundings y)
   | Negation x => roundings x
   end.
 Fixpoint products (e : expression) : nat :=
   match e with
-  | Coordinate _ | Difference _ _ => 0
+  | Coordinate _ | Difference _ _ | Constant _ => 0
   | Sum x y | Minus x y => products x + products y
   | Product _ _ => 1
   | Negation x => products x
   end.
 Fixpoint plain (e : expression) : bool :=
   match e with
-  | Coordinate _ | Difference _ _ => true
+  | Coordinate _ | Difference _ _ | Constant _ => true
   | Sum _ _ | Minus _ _ => false
   | Product x y => plain x && plain y && (products x =? 0)%nat && (products y =? 0)%nat
   | Negation x => plain x
@@ -85,6 +91,7 @@ Fixpoint size (e : expression) : R :=
   match e with
   | Coordinate c => Rabs c
   | Difference a b => Rabs (fl (a - b))
+  | Constant c => Rabs (fl (IZR c))
   | Sum x y | Minus x y => fl (size x + size y)
   | Product x y =>
       if plain (Product x y) then Rabs (fl (value x * value y))
@@ -104,13 +111,14 @@ Definition filter_sign (e : expression) : sign :=
   else if (roundings e <=? 1)%nat && (products e =? 0)%nat && Req_bool (value e) 0 then zero
   else uncertain.
 
-(** What the theorems ask of an expression: coordinates are numbers; no sum of more products than
-    integers are exact. *)
+(** What the theorems ask of an expression: coordinates are numbers, constants ints; no sum of more
+    products than integers are exact. *)
 Fixpoint admissible (e : expression) : Prop :=
   (Z.of_nat (products e) <= 2 ^ p)%Z /\
   match e with
   | Coordinate c => number c
   | Difference a b => number a /\ number b
+  | Constant c => (Z.abs c <= 2 ^ 31)%Z
   | Sum x y | Minus x y | Product x y => admissible x /\ admissible y
   | Negation x => admissible x
   end.
@@ -120,6 +128,7 @@ Fixpoint exact_size (e : expression) : R :=
   match e with
   | Coordinate c => Rabs c
   | Difference a b => Rabs (fl (a - b))
+  | Constant c => Rabs (fl (IZR c))
   | Sum x y | Minus x y => exact_size x + exact_size y
   | Product x y => exact_size x * exact_size y + allowance
   | Negation x => exact_size x
@@ -199,6 +208,34 @@ Proof.
   apply Rabs_le_inv in H1. lra.
 Qed.
 
+(** A whole constant, as the code counts its rounding. *)
+Lemma constant_rounds (c : Z) :
+  (Z.abs c <= 2 ^ 31)%Z -> (31 <= p)%Z -> fl (IZR c) = IZR c.
+Proof.
+  intros C P. apply rnd_exact. rewrite <- (Rmult_1_r (IZR c)). change 1 with (bpow radix2 0).
+  apply number_integer; auto; try lia. apply Z.le_trans with (1 := C).
+  now apply Z.pow_le_mono_r.
+Qed.
+Lemma constant_normal (c : Z) : c <> 0%Z -> smallest_normal <= Rabs (IZR c).
+Proof.
+  intros C. apply Rle_trans with 1.
+  - change 1 with (bpow radix2 0). apply bpow_le. lia.
+  - rewrite <- abs_IZR. apply IZR_le. lia.
+Qed.
+Lemma constant_error (c : Z) : Rabs (fl (IZR c) - IZR c) <= u * Rabs (fl (IZR c)).
+Proof.
+  destruct (Z.eq_dec c 0) as [-> | C].
+  - rewrite (rnd_0 p emin nearest). replace (0 - 0) with 0 by ring. rewrite Rabs_R0. lra.
+  - now apply nearest_relative_to_result, constant_normal.
+Qed.
+Lemma constant_zero (c : Z) : fl (IZR c) = 0 -> c = 0%Z.
+Proof.
+  intros H. destruct (Z.eq_dec c 0) as [| C]; auto.
+  generalize (rnd_abs_above p emin nearest _ _ (number_smallest_normal p emin)
+                (constant_normal c C)) (smallest_normal_positive p emin).
+  rewrite H, Rabs_R0. lra.
+Qed.
+
 Definition power (n : nat) : R := (1 + u) ^ n.
 Lemma power_1 n : 1 <= power n.
 Proof. apply pow_R1_Rle. generalize u_small. lra. Qed.
@@ -215,8 +252,9 @@ Proof.
 Qed.
 Lemma size_number e : admissible e -> number (size e).
 Proof.
-  induction e as [c | a b | | | x ? y ? | ]; intros [_ H]; try apply rnd_number; auto.
+  induction e as [c | a b | c | | | x ? y ? | ]; intros [_ H]; try apply rnd_number; auto.
   - now apply number_abs.
+  - apply number_abs, rnd_number.
   - apply number_abs, rnd_number.
   - simpl. destruct (plain x && _ && _ && _).
     + apply number_abs, rnd_number.
@@ -351,6 +389,7 @@ Fixpoint unrounded (e : expression) : R :=
   match e with
   | Coordinate c => c
   | Difference a b => a - b
+  | Constant c => IZR c
   | Sum x y => value x + value y
   | Minus x y => value x - value y
   | Product x y => value x * value y
@@ -368,19 +407,25 @@ Lemma expression_near e : admissible e ->
   Rabs (unrounded e - exact e) <= (power (Nat.pred (roundings e)) - 1) * exact_size e.
 Proof.
   generalize allowance_positive u_small; intros T U.
-  induction e as [c | a b | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl;
-    intros [_ H].
-  - unfold near, power. simpl. replace (c - c) with 0 by ring. rewrite Rabs_R0.
-    generalize (Rabs_pos c). lra.
-  - destruct H as [A B]. unfold near, power. simpl.
-    generalize (sum_error_of_result a (- b) A (number_opp _ _ _ B)).
-    change (a + - b) with (a - b). intros D.
-    replace (a - b - (a - b)) with 0 by ring. rewrite Rabs_R0.
-    assert (X : Rabs (a - b) <= (1 + u) * Rabs (fl (a - b))).
-    { replace (a - b) with (fl (a - b) - (fl (a - b) - (a - b))) at 1 by ring.
+  assert (Once : forall z, Rabs (fl z - z) <= u * Rabs (fl z) ->
+    near (fl z) z (power 1) (Rabs (fl z)) /\ Rabs (z - z) <= (power 0 - 1) * Rabs (fl z)).
+  { intros z D. unfold near, power. simpl. replace (z - z) with 0 by ring. rewrite Rabs_R0.
+    assert (X : Rabs z <= (1 + u) * Rabs (fl z)).
+    { replace z with (fl z - (fl z - z)) at 1 by ring.
       unfold Rminus at 1. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
-    generalize (Rabs_pos (fl (a - b))). intros.
-    assert (0 <= u * Rabs (fl (a - b))) by (apply Rmult_le_pos; lra). repeat split; lra.
+    generalize (Rabs_pos (fl z)). intros.
+    assert (0 <= u * Rabs (fl z)) by (apply Rmult_le_pos; lra). repeat split; lra. }
+  assert (Never : forall z, near z z (power 0) (Rabs z) /\ Rabs (z - z) <= (power 0 - 1) * Rabs z).
+  { intros z. unfold near, power. simpl. replace (z - z) with 0 by ring. rewrite Rabs_R0.
+    generalize (Rabs_pos z). lra. }
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl;
+    intros [_ H].
+  - apply Never.
+  - destruct H as [A B]. apply Once.
+    apply (sum_error_of_result a (- b) A (number_opp _ _ _ B)).
+  - destruct (Z.ltb_spec p 31) as [C | C].
+    + apply Once, constant_error.
+    + rewrite constant_rounds by auto. apply Never.
   - destruct H as [A B]. destruct (IHx A) as [NX _], (IHy B) as [NY _].
     set (m := Nat.max (roundings x) (roundings y)).
     assert (N : near (value x + value y) (exact x + exact y) (power m)
@@ -429,7 +474,7 @@ Proof. intros H. apply (proj1 (expression_near e H)). Qed.
 Definition over (n : nat) : nat := Nat.min 1 n.
 Fixpoint path (e : expression) : nat :=
   match e with
-  | Coordinate _ | Difference _ _ => 0
+  | Coordinate _ | Difference _ _ | Constant _ => 0
   | Sum x y | Minus x y => S (Nat.max (path x) (path y))
   | Product x y => S (path x + over (products x) + (path y + over (products y)))
   | Negation x => path x
@@ -486,9 +531,8 @@ Lemma admissible_products e : admissible e -> (Z.of_nat (products e) <= 2 ^ p)%Z
 Proof. destruct e; now intros []. Qed.
 Lemma size_nonnegative e : admissible e -> 0 <= size e.
 Proof.
-  induction e as [c | a b | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A.
-  - apply Rabs_pos.
-  - apply Rabs_pos.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
+    try apply Rabs_pos.
   - simpl in *. apply rnd_nonnegative. destruct A as (_ & A & B).
     generalize (IHx A) (IHy B). lra.
   - simpl in *. apply rnd_nonnegative. destruct A as (_ & A & B).
@@ -507,9 +551,8 @@ Lemma size_covered e : admissible e ->
   exact_size e <= power (path e) * (size e + INR (products e) * allowance).
 Proof.
   generalize allowance_positive u_small; intros T U.
-  induction e as [c | a b | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A.
-  - unfold power. simpl. lra.
-  - unfold power. simpl. lra.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
+    try (unfold power; simpl; lra).
   - cbn [exact_size path size products]. destruct A as (_ & A & B).
     generalize (IHx A) (IHy B) (size_nonnegative x A) (size_nonnegative y B)
       (sum_upper _ _ (size_number x A) (size_number y B)).
@@ -720,10 +763,11 @@ Qed.
 
 Lemma zero_unrounded e : admissible e -> products e = O -> value e = 0 -> unrounded e = 0.
 Proof.
-  induction e as [c | a b | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl;
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl;
     intros [_ H] P; auto.
   - destruct H as [A B]. intros Z. unfold Rminus in *.
     apply round_plus_eq_0 in Z; auto with typeclass_instances. now apply number_opp.
+  - intros Z. apply IZR_eq. now apply constant_zero.
   - destruct H as [A B]. intros Z.
     apply round_plus_eq_0 in Z; auto with typeclass_instances; now apply value_number.
   - destruct H as [A B]. intros Z. unfold Rminus in *.
@@ -762,59 +806,112 @@ Proof.
     unfold bound in B. destruct (roundings e) as [| []]; try lra. lia.
 Qed.
 
-(** orient2d and orient3d of include/errbound/predicates.hpp (forms::area, forms::volume): 3 and 7
-    roundings count for the sign. *)
-Definition area (a0 a1 b0 b1 c0 c1 : R) : expression :=
-  Minus (Product (Difference a0 c0) (Difference b1 c1))
-        (Product (Difference a1 c1) (Difference b0 c0)).
-Definition volume (a0 a1 a2 b0 b1 b2 c0 c1 c2 d0 d1 d2 : R) : expression :=
-  let ax := Difference a0 d0 in let ay := Difference a1 d1 in let az := Difference a2 d2 in
-  let bx := Difference b0 d0 in let by_ := Difference b1 d1 in let bz := Difference b2 d2 in
-  let cx := Difference c0 d0 in let cy := Difference c1 d1 in let cz := Difference c2 d2 in
-  Sum (Sum (Product az (Minus (Product bx cy) (Product cx by_)))
-           (Product bz (Minus (Product cx ay) (Product ax cy))))
-      (Product cz (Minus (Product ax by_) (Product bx ay))).
-
-Lemma bits_u n k : (n <= p)%Z -> INR k <= bpow radix2 n -> INR k * u <= 1.
+(** Overflow. Every operation of a value has one of the size that is no smaller. *)
+Lemma fl_abs x : Rabs (fl x) = fl (Rabs x).
+Proof. symmetry. apply round_NE_abs. auto with typeclass_instances. Qed.
+Lemma full_above s n : 0 <= s -> number s -> s <= full s n.
 Proof.
-  intros P H. apply Rle_trans with (bpow radix2 p * u).
-  - apply Rmult_le_compat_r; [generalize u_small; lra |].
-    apply Rle_trans with (1 := H). now apply bpow_le.
-  - unfold Format.u. rewrite <- bpow_plus. replace (p + - p)%Z with 0%Z by lia. simpl. lra.
+  intros P N. destruct n as [| n]; [apply Rle_refl |]. apply rnd_above; auto.
+  assert (0 <= fl (fl (INR (S n)) * allowance)); [| lra]. apply rnd_nonnegative.
+  apply Rmult_le_pos; [apply rnd_nonnegative, pos_INR | generalize allowance_positive; lra].
 Qed.
-Lemma products_few (n : Z) : (n <= 4)%Z -> (n <= 2 ^ p)%Z.
-Proof. intros H. generalize (Z.pow_le_mono_r 2 2 p). simpl (2 ^ 2)%Z. lia. Qed.
-
-Theorem orient2d_sign_certain a0 a1 b0 b1 c0 c1 :
-  (9 <= p)%Z -> number a0 -> number a1 -> number b0 -> number b1 -> number c0 -> number c1 ->
-  roundings (area a0 a1 b0 b1 c0 c1) = (3 + 1)%nat /\
-  sign_is_right (filter_sign (area a0 a1 b0 b1 c0 c1))
-    ((a0 - c0) * (b1 - c1) - (a1 - c1) * (b0 - c0)).
+Theorem size_covers_value e : admissible e -> Rabs (value e) <= size e.
 Proof.
-  intros P ? ? ? ? ? ?. split; auto.
-  apply (filter_sign_certain (area a0 a1 b0 b1 c0 c1)).
-  - simpl admissible. repeat split; auto; now apply products_few.
-  - replace (64 * INR (roundings (area a0 a1 b0 b1 c0 c1) + 2)) with (INR 384).
-    + apply (bits_u 9 384 P). rewrite INR_IZR_INZ. simpl. lra.
-    + rewrite !INR_IZR_INZ. simpl. lra.
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
+    try apply Rle_refl.
+  - destruct A as (_ & A & B). cbn [value size]. rewrite fl_abs. apply (rnd_le p emin nearest).
+    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat; auto.
+  - destruct A as (_ & A & B). cbn [value size]. rewrite fl_abs. apply (rnd_le p emin nearest).
+    unfold Rminus. apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. apply Rplus_le_compat; auto.
+  - rewrite size_product. destruct A as (_ & A & B). cbn [value]. rewrite fl_abs, Rabs_mult.
+    apply (rnd_le p emin nearest). apply Rmult_le_compat; auto using Rabs_pos.
+    + apply Rle_trans with (1 := IHx A). apply full_above; auto using size_nonnegative, size_number.
+    + apply Rle_trans with (1 := IHy B). apply full_above; auto using size_nonnegative, size_number.
+  - destruct A as [_ A]. cbn [value size]. rewrite Rabs_Ropp. auto.
 Qed.
 
-Theorem orient3d_sign_certain a0 a1 a2 b0 b1 b2 c0 c1 c2 d0 d1 d2 :
-  (10 <= p)%Z ->
-  number a0 -> number a1 -> number a2 -> number b0 -> number b1 -> number b2 ->
-  number c0 -> number c1 -> number c2 -> number d0 -> number d1 -> number d2 ->
-  roundings (volume a0 a1 a2 b0 b1 b2 c0 c1 c2 d0 d1 d2) = (7 + 1)%nat /\
-  sign_is_right (filter_sign (volume a0 a1 a2 b0 b1 b2 c0 c1 c2 d0 d1 d2))
-    ((a2 - d2) * ((b0 - d0) * (c1 - d1) - (c0 - d0) * (b1 - d1)) +
-     (b2 - d2) * ((c0 - d0) * (a1 - d1) - (a0 - d0) * (c1 - d1)) +
-     (c2 - d2) * ((a0 - d0) * (b1 - d1) - (b0 - d0) * (a1 - d1))).
+Section Overflow.
+
+(** The format's largest number: rounding to nearest gives an infinity where, without it, a larger
+    one would result. What is made of infinities and NaN by +, - and * is one of them. *)
+Variable largest : R.
+Hypothesis largest_0 : 0 <= largest.
+Definition in_range (x : R) : Prop := Rabs x <= largest.
+
+(** No operation of the value overflows, or of the size. *)
+Fixpoint value_in_range (e : expression) : Prop :=
+  in_range (value e) /\
+  match e with
+  | Coordinate _ | Difference _ _ | Constant _ => True
+  | Sum x y | Minus x y | Product x y => value_in_range x /\ value_in_range y
+  | Negation x => value_in_range x
+  end.
+Fixpoint size_in_range (e : expression) : Prop :=
+  in_range (size e) /\
+  match e with
+  | Coordinate _ | Difference _ _ | Constant _ => True
+  | Sum x y | Minus x y => size_in_range x /\ size_in_range y
+  | Product x y =>
+      if plain (Product x y) then value_in_range (Product x y)
+      else (size_in_range x /\ in_range (full (size x) (products x))) /\
+           (size_in_range y /\ in_range (full (size y) (products y)))
+  | Negation x => size_in_range x
+  end.
+Lemma size_range_value e : admissible e -> size_in_range e -> value_in_range e.
 Proof.
-  intros P ? ? ? ? ? ? ? ? ? ? ? ?. split; auto.
-  apply (filter_sign_certain (volume a0 a1 a2 b0 b1 b2 c0 c1 c2 d0 d1 d2)).
-  - simpl admissible. repeat split; auto; now apply products_few.
-  - replace (64 * INR (roundings (volume a0 a1 a2 b0 b1 b2 c0 c1 c2 d0 d1 d2) + 2)) with (INR 640).
-    + apply (bits_u 10 640 P). rewrite INR_IZR_INZ. simpl. lra.
-    + rewrite !INR_IZR_INZ. simpl. lra.
+  assert (L : forall e, admissible e -> in_range (size e) -> in_range (value e)).
+  { intros x A. unfold in_range. generalize (size_covers_value x A) (size_nonnegative x A).
+    intros C P. rewrite (Rabs_pos_eq (size x)) by auto. lra. }
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A R;
+    (split; [apply L; [exact A | apply R] |]); auto.
+  - destruct A as (_ & A & B), R as (_ & R & S). auto.
+  - destruct A as (_ & A & B), R as (_ & R & S). auto.
+  - destruct R as [_ R]. cbn [size_in_range] in R. destruct (plain (Product x y)).
+    + apply R.
+    + destruct A as (_ & A & B), R as ((R & _) & (S & _)). auto.
+  - destruct A as [_ A], R as [_ R]. auto.
 Qed.
 
+(** sign_of, on what the machine has: it asks for a finite value where the bound does not. *)
+Definition not_finite (v : ieee) : Prop := v = plus_infinity \/ v = minus_infinity \/ v = nan.
+Definition magnitude (v : ieee) : ieee :=
+  match v with
+  | finite x => finite (Rabs x)
+  | plus_infinity | minus_infinity => plus_infinity
+  | nan => nan
+  end.
+Definition is_finite (v : ieee) : bool := match v with finite _ => true | _ => false end.
+Definition machine_sign (e : expression) (v b : ieee) : sign :=
+  if less b (magnitude v) && ((1 <? roundings e)%nat || is_finite v) then
+    if less (finite 0) v then positive else negative
+  else if (roundings e <=? 1)%nat && (products e =? 0)%nat && equals_0 v then zero
+  else uncertain.
+
+Theorem overflow_uncertain e v b : admissible e -> 64 * INR (roundings e + 2) * u <= 1 ->
+  (value_in_range e -> v = finite (value e)) -> (~ value_in_range e -> not_finite v) ->
+  ((roundings e <= 1)%nat \/ size_in_range e -> in_range (bound e) -> b = finite (bound e)) ->
+  (~ ((roundings e <= 1)%nat \/ size_in_range e) \/ ~ in_range (bound e) ->
+   b = plus_infinity \/ b = nan) ->
+  sign_is_right (machine_sign e v b) (exact e).
+Proof.
+  intros A H V V' D D'. generalize (filter_sign_certain e A H). unfold filter_sign, machine_sign.
+  destruct (classic (value_in_range e)) as [F | F].
+  - rewrite (V F). cbn [magnitude is_finite equals_0]. rewrite orb_true_r, andb_true_r.
+    destruct (classic (((roundings e <= 1)%nat \/ size_in_range e) /\ in_range (bound e))) as [[I J] | I].
+    + rewrite (D I J). auto.
+    + intros _. assert (K : (roundings e <=? 1)%nat = false).
+      { apply Nat.leb_gt, Nat.nle_gt. intros K. apply I. split; auto. unfold in_range, bound.
+        destruct (roundings e) as [| []]; try lia; now rewrite Rabs_R0. }
+      rewrite K. apply not_and_or in I. destruct (D' I) as [-> | ->]; exact Logic.I.
+  - intros _. specialize (V' F). assert (E : equals_0 v = false).
+    { destruct V' as [-> | [-> | ->]]; reflexivity. }
+    rewrite E, andb_false_r. assert (I : is_finite v = false).
+    { destruct V' as [-> | [-> | ->]]; reflexivity. }
+    rewrite I, orb_false_r. destruct (Nat.ltb_spec 1 (roundings e)) as [K | K].
+    + assert (N : ~ size_in_range e) by (intros S; now apply F, size_range_value).
+      destruct D' as [-> | ->]; [left; intros [C |]; [lia | auto] | destruct v; exact Logic.I ..].
+    + rewrite andb_false_r. exact Logic.I.
+Qed.
+
+End Overflow.
 End StaticFilter.

@@ -101,8 +101,9 @@ inline constexpr double negligible<float> = 0x1p-140;
 template <class Real, int N>
 constexpr constants<Real> constants_of(error_count c, int degree) {
     using traits = errbound::number_traits<Real>;
-    double absolute = c.underflow * double(traits::underflow_unit());
+    double absolute = c.underflow;
     for (int i = 1; i < degree; ++i) absolute *= double(largest_difference<Real>);
+    absolute *= double(traits::underflow_unit());  // last: it would underflow
     constexpr double epsilon = traits::epsilon();
     return {Real(slack * c.error * epsilon), Real(slack * (absolute + negligible<Real>)),
             Real(slack * halving_error<N>() * epsilon)};
@@ -161,6 +162,9 @@ struct sizes {
     }
 
     /// Bounds |ĥ − h| of the control values of Y, and of every G_i.
+    /// Proof: proofs/CcdFilter.v, error_of_y_sound.
+    /// Proof: proofs/CcdFilter.v, error_of_vertex_face_sound.
+    /// Proof: proofs/CcdFilter.v, error_of_edge_edge_sound.
     template <template <class> class Forms>
     constexpr S error_of_y() const {
         return x * y * z * S(y_constants<Forms, real>.relative) +

@@ -9,14 +9,15 @@
 //    A "no" is given only when every world says no. (The paper sets the uncertain sign to one
 //    chosen value.)
 //  * An inflection inside the part is split off at its exact place, in homogeneous form, so that
-//    the curvature of each part is KNOWN. A split at a rounded place would leave an inflection in one
-//    of the parts, and signs at the ends then lose roots (Proof: proofs/Published.v,
+//    the curvature of each part is KNOWN. A split at a rounded place would leave an inflection in
+//    one of the parts, and signs at the ends then lose roots (Proof: proofs/Published.v,
 //    inflection_loses_roots). If the curvature's sign is uncertain, Y is monotone by its
 //    derivative's coefficients, or the part is halved; after `max_halvings` of them the answer is
 //    "maybe".
 //  * All reductions cancel one term at each end (factors k0·k3, st) instead of two at one end. They
 //    are then identities without division or degenerate leading coefficient. Where M of the
-//    decomposition vanishes at the root, J is asked (Proof: proofs/Published.v, decomposition_zero).
+//    decomposition vanishes at the root, J is asked (Proof: proofs/Published.v,
+//    decomposition_zero).
 //
 // Notation: forms in (s, t) with s + t = 1 as in bernstein.hpp; Y = (y0, y1, y2, y3) scaled, so
 // y0 = Y(0) and y3 = Y(1); D = Y' (a quadratic form); a root is INNER if 0 < t < 1.

@@ -3,12 +3,16 @@
 //
 // In notation: ε the largest relative error of one rounding in any direction, η the smallest
 // positive number, M a bound on the sizes of the inputs. A number x computed as x̂ is represented by
-//     |x̂| <= magnitude·M^k,   |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
+//     |x̂| <= magnitude·M^k + underflow·η·max(1, M)^(k−1),
+//     |x̂ − x| <= error·ε·M^k + underflow·η·max(1, M)^(k−1)
 // where k is its degree in the inputs. Rounding, in any direction and fused or not, is paid for in
 // `error`; underflow of products in `underflow` (sums do not lose anything to underflow).
 //
 // Products whose factors have sizes of their own (M_x, M_y, ...) are served alike, if all terms of
 // every sum have the same factors or M^k is replaced by the largest of their products.
+//
+// Proof: proofs/ErrorCount.v, count_sound; of expressions whose constants are whole and not zero,
+// and counts far from 1/η (count_height).
 #pragma once
 
 #include <errbound/number_traits.hpp>
@@ -45,9 +49,10 @@ struct error_count {
         return {m,
                 rounded(a.magnitude * b.error + a.error * b.magnitude +
                         a.error * b.error * epsilon + m),
-                // The last term is the product of two underflows: far less than one η.
+                // Twice the third: â may exceed its magnitude by its underflow. In the last: η for
+                // the rounding, and the products of two underflows, far less than one η.
                 rounded(a.magnitude * b.underflow + a.underflow * b.magnitude +
-                        (a.error * b.underflow + a.underflow * b.error) * epsilon + 2)};
+                        (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};
     }
     /// The larger of each, for one constant that serves several results.
     friend constexpr error_count worst(const error_count& a, const error_count& b) {

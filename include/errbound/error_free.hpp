@@ -21,7 +21,7 @@ struct with_error {
 /// Precondition: no overflow, of the sum or on the way to the error (an operand of the largest size
 /// only); else value or error is infinite or NaN. Underflow does no harm: sums that underflow are
 /// exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B
-/// (TwoSum); any precision >= 2.
+/// (TwoSum); any precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = rounded(a), y = rounded(b);
@@ -32,6 +32,7 @@ constexpr with_error<T> two_sum(const T& a, const T& b) {
 
 /// a + b = value + error exactly, for |a| >= |b| or a = 0.
 /// Precondition: that, and no overflow. Cost: 3 operations. Source: Dekker 1971 (Fast2Sum).
+/// Proof: proofs/ErrorFree.v, fast_two_sum_exact.
 template <class T>
 constexpr with_error<T> fast_two_sum(const T& a, const T& b) {
     const T x = rounded(a), y = rounded(b);
@@ -60,7 +61,7 @@ inline constexpr int least_precision_for_split = 4;
 /// Precondition: p >= least_precision_for_split, and (2^s + 1)x does not overflow (|x| < 2^996 for
 /// double, 2^115 for float); else value and error are infinite or NaN. Underflow does no harm.
 /// Cost: 4 operations. Source: Veltkamp; Dekker 1971; proof for radix 2 in Boldo 2006 (Pitfalls of
-/// a full floating-point proof).
+/// a full floating-point proof). Proof: proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
@@ -77,6 +78,8 @@ constexpr with_error<T> split(const T& x) {
 /// a·b = value + error exactly, value = a ⊙ b, where product_error_is_exact(a, b, result) holds;
 /// elsewhere error is unreliable, infinite or NaN.
 /// Cost: 2 operations with hardware FMA, else 17. Source: Dekker 1971 (TwoProduct).
+/// Proof: proofs/ErrorFree.v, two_product_exact.
+/// Proof: proofs/ErrorFree.v, two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
     const T v = rounded_product(a, b);
@@ -122,7 +125,7 @@ struct division_remainder {
 /// v is between a/2 and 2a and a − v is exact (Sterbenz). The remainder (a − v) − e is a multiple
 /// of ulp(q)·ulp(b), which is at least η, and at most |b|·ulp(q)/2: fewer than p bits, so exact
 /// too. Cost: a two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup,
-/// Matula 1991.
+/// Matula 1991. Proof: proofs/ErrorFree.v, remainder_of_division_exact.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
     using traits = number_traits<T>;

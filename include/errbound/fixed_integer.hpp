@@ -35,6 +35,7 @@ __extension__ using signed_double_word = __int128;
 #endif
 
 /// a + b + carry; carry (0 or 1) becomes the one out of it.
+/// Proof: proofs/Words.v, add_with_carry_exact.
 constexpr word add_with_carry(word a, word b, unsigned char& carry) {
 #ifdef ERRBOUND_X86_CARRY
     if (!std::is_constant_evaluated()) {
@@ -49,6 +50,7 @@ constexpr word add_with_carry(word a, word b, unsigned char& carry) {
 }
 
 /// a − b − borrow; borrow (0 or 1) becomes the one out of it.
+/// Proof: proofs/Words.v, subtract_with_borrow_exact.
 constexpr word subtract_with_borrow(word a, word b, unsigned char& borrow) {
 #ifdef ERRBOUND_X86_CARRY
     if (!std::is_constant_evaluated()) {
@@ -69,6 +71,7 @@ constexpr word sign_word(word w) {
 }
 
 /// r += a·b for a magnitude of n words; returns what goes beyond the n words of r.
+/// Proof: proofs/Words.v, add_multiple_exact.
 [[gnu::always_inline]] constexpr word add_multiple(word* r, word a, const word* b, int n) {
     word carry = 0;
 #ifndef __CUDACC__
@@ -86,6 +89,7 @@ constexpr word sign_word(word w) {
 /// r = a·b, for two's complement numbers of m and n words and an r of m + n. The unsigned product
 /// of the words is a·b, plus 2^(64m)·b where a < 0, plus 2^(64n)·a where b < 0, modulo the width of
 /// the result.
+/// Proof: proofs/Words.v, product_exact.
 [[gnu::always_inline]] constexpr void multiply(word* r, const word* a, int m, const word* b,
                                                int n) {
     for (int j = 0; j < n; ++j) r[j] = 0;
@@ -142,12 +146,14 @@ class fixed_integer {
     constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
     constexpr bool negative() const { return (words_[Words - 1] >> 63) != 0; }
 
+    /// Proof: proofs/Words.v, sum_exact.
     friend constexpr fixed_integer operator+(const fixed_integer& a, const fixed_integer& b) {
         fixed_integer r;
         unsigned char carry = 0;
         for (int i = 0; i < Words; ++i) at(r, i) = words::add_with_carry(a[i], b[i], carry);
         return r;
     }
+    /// Proof: proofs/Words.v, difference_exact.
     friend constexpr fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
         fixed_integer r;
         unsigned char borrow = 0;
@@ -156,6 +162,7 @@ class fixed_integer {
     }
     constexpr fixed_integer operator-() const { return fixed_integer() - *this; }
     /// x·2^bits, for 0 <= bits < 64.
+    /// Proof: proofs/Words.v, shift_exact.
     friend constexpr fixed_integer operator<<(const fixed_integer& x, int bits) {
         if (bits == 0) return x;
         fixed_integer r;
@@ -169,6 +176,7 @@ class fixed_integer {
         for (int i = 0; i < Words; ++i) differing |= a[i] ^ b[i];
         return differing == 0;
     }
+    /// Proof: proofs/Words.v, compare_exact.
     friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
                                                       const fixed_integer& b) {
         // With the sign bits inverted, the order is that of unsigned numbers.
@@ -179,6 +187,7 @@ class fixed_integer {
         }
         return std::strong_ordering::equal;
     }
+    /// Proof: proofs/Words.v, sign_exact.
     friend constexpr sign_type sign_of(const fixed_integer& x) {
         if (x.negative()) return sign_type::negative;
         word any = 0;

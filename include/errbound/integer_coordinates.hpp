@@ -40,6 +40,7 @@ struct short_coordinates {
     /// `largest` is largest_size(coordinates), finite. A sum of x and 3·2^51 units is a whole
     /// number of units, x's nearest; only multiples of the unit come back from it. Then, and only
     /// then, is the product with a power of two known to be exact.
+    /// Proof: proofs/Widths.v, short_coordinates_exact.
     constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - Bits;
@@ -70,6 +71,7 @@ struct word_coordinates {
     /// 2^(field − 1022); a unit of 2^-61 of that is tried, by way of products that are exact where
     /// the answer is yes: i·2^unit = x. (They can also be rounded where the result is subnormal,
     /// but i·2^unit, a multiple of 2^-1074, is not.)
+    /// Proof: proofs/Widths.v, word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
         unit = field - 1022 - most_bits;
@@ -115,6 +117,7 @@ struct common_unit {
     }
 
     /// A coordinate as a number of the level, which has the bits.
+    /// Proof: proofs/Widths.v, converted_exact.
     template <class Level>
     constexpr sized_integer<Level, Level::coordinate_bits, 1> converted(double x) const {
         using storage = typename sized_integer<Level, Level::coordinate_bits, 1>::storage;

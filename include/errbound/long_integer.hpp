@@ -20,6 +20,7 @@ namespace words {
 /// A word before one that is all ones, and the last of a negative number, is taken for negative and
 /// so passes on a carry, which turns ones to zeros: w = 2^64 − (2^64 − w). The words visited up to
 /// some index add up to less than zero just if the last of them is negative.
+/// Proof that all add up to the number: proofs/Words.v, signed_words_exact.
 template <class Visit>
 constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
     word carry = 0;
@@ -124,10 +125,12 @@ class long_integer {
     constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
     constexpr bool negative() const { return (*this)[size_ - 1] >> 63 != 0; }
 
+    /// Proof: proofs/Words.v, long_sum_exact.
     template <int A, int B>
     static constexpr long_integer sum(const long_integer<A>& a, const long_integer<B>& b) {
         return {a, b, words::add_with_carry};
     }
+    /// Proof: proofs/Words.v, long_difference_exact.
     template <int A, int B>
     static constexpr long_integer difference(const long_integer<A>& a, const long_integer<B>& b) {
         return {a, b, words::subtract_with_borrow};
@@ -184,6 +187,7 @@ class long_integer {
         return i < size_ ? (*this)[i] : words::sign_word((*this)[size_ - 1]);
     }
     /// Leaves out words that say nothing.
+    /// Proof: proofs/Words.v, trim_exact.
     constexpr void trim() {
         while (size_ > 1 && (*this)[size_ - 1] == words::sign_word((*this)[size_ - 2])) --size_;
     }

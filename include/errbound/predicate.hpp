@@ -294,6 +294,7 @@ class predicate_type {
                         decltype(detail::evaluate<Shape>(
                             F(), std::declval<const detail::counted_scalars<Shape>&>()))>;
     /// So many bits may coordinates have for no result to take more than `bits`.
+    /// Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         int least = word_bits;
         for (int degree = 0; degree <= expression_counts::most_degree; ++degree) {

@@ -22,6 +22,9 @@
 // NaN in a coordinate that M misses is one in the value.
 // Source of the kind: Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay
 // triangulations.
+//
+// Proof: proofs/SemiStatic.v, mass_covers_size. (Without contraction; m and a of at most p bits, no
+// constant 0.)
 #pragma once
 
 #include <concepts>
@@ -44,6 +47,7 @@ struct semi_static {
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
     /// |value| <= bound(M) leaves the sign open.
+    /// Proof: proofs/SemiStatic.v, semi_static_bound_covers.
     constexpr T bound(T largest) const {
         const T size =
             2 * mass * power<Degree>(largest) + 2 * allowances * filtered<T, 0, 0, true>::allowance;

@@ -75,6 +75,8 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
 }  // namespace detail
 
 /// |x| < 2^Bits units of its degree.
+/// Proof: proofs/Widths.v, sized_exact.
+/// Proof: proofs/Widths.v, sized_fits.
 template <class Level, int Bits, int Degree>
 struct sized_integer {
     static constexpr int bits = Bits, degree = Degree;

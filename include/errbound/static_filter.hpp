@@ -26,11 +26,15 @@
 //
 // Overflow: rounding is monotone, so Ŝ >= |x̂| for every number of an expression; where one is
 // infinite or NaN, so are all that are made of it, and their sizes: no sign passes.
+// Proof: proofs/StaticFilter.v, overflow_uncertain.
 //
 // Fused multiply-add (contraction) leaves out roundings and keeps all of this but the last: a value
 // can overflow where its size just does not. Where it may happen, values are asked to be finite.
-// For orient2d, orient3d, incircle and insphere the counts k − 1 are those of Shewchuk's A-filters:
-// 3, 7, 10 and 16. Source of these: Shewchuk 1997, Adaptive Precision Floating-Point Arithmetic.
+// For orient2d, orient3d and incircle the counts k − 1 are those of Shewchuk's A-filters: 3, 7 and
+// 10; for insphere 15, where his is 16. Source of these: Shewchuk 1997, Adaptive Precision
+// Floating-Point Arithmetic.
+//
+// Proof: proofs/StaticFilter.v, filter_error. (Without contraction.)
 #pragma once
 
 #include <concepts>
@@ -67,11 +71,13 @@ struct filtered {
     constexpr filtered operator-() const { return {-value, size}; }
 
     /// |value| <= bound() leaves the sign open; so does a value that is not finite.
+    /// Proof: proofs/StaticFilter.v, filter_bound.
     constexpr T bound() const {
         if constexpr (Roundings <= 1) return T(0);
         return filter_constant<T>(Roundings - 1) *
                (size + T(Products == 0 ? 1 : Products) * allowance);
     }
+    /// Proof: proofs/StaticFilter.v, filter_sign_certain.
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
         bool decided = magnitude > x.bound();
