@@ -388,6 +388,29 @@ Proof.
   - rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
 Qed.
 
+(** The smallest positive number is lost beside 1. *)
+Lemma eta_lost : (3 <= p)%Z -> (emin <= - p - 1)%Z -> rnd nearest (1 + eta) = 1.
+Proof.
+  intros P L.
+  assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; lia).
+  generalize u_positive eta_positive eps_2u. intros Pu Pe E2.
+  assert (U : u <= / 8) by (generalize (eps_le 3 P); simpl; lra).
+  assert (H : 2 * eta <= u).
+  { change 2 with (bpow radix2 1). unfold eta, u. rewrite <- bpow_plus. apply bpow_le. lia. }
+  assert (L1 : 1 <= rnd nearest (1 + eta)) by (apply rnd_above; auto with typeclass_instances; lra).
+  destruct (Rle_lt_or_eq_dec _ _ L1) as [C | C]; [exfalso | auto].
+  apply (succ_le_lt radix2 format) in C; auto with typeclass_instances.
+  2: apply rnd_number; auto with typeclass_instances.
+  rewrite succ_eq_pos in C by lra. change 1 with (bpow radix2 0) in C at 2. rewrite ulp_bpow in C.
+  replace (format (0 + 1)) with (1 - p)%Z in C by (unfold FLT_exp; lia).
+  change (bpow radix2 (1 - p)) with eps in C.
+  assert (D : Rabs (rnd nearest (1 + eta) - (1 + eta)) <= u * Rabs (1 + eta)).
+  { apply (error_relative nearest _ _ (rounding_error_nearest ltac:(lia))).
+    rewrite Rabs_pos_eq by lra. assert (smallest_normal <= 1); [| lra].
+    change 1 with (bpow radix2 0). apply bpow_le. lia. }
+  rewrite (Rabs_pos_eq (1 + _)) in D by lra. apply Rabs_le_inv in D. nra.
+Qed.
+
 End Format.
 
 Notation nearest := (Znearest (fun n => negb (Z.even n))).

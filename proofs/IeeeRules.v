@@ -509,31 +509,6 @@ Proof.
 Qed.
 
 (** The rule none: (1 + eta) - 1 is positive, and called zero. *)
-Lemma eta_lost : fl (1 + Format.eta emin) = 1.
-Proof.
-  assert (N1 : number 1).
-  { change 1 with (bpow radix2 0). apply Format.number_power; auto. generalize emin_p. lia. }
-  generalize (Format.u_positive p) (Format.eta_positive emin) (Format.eps_2u p). intros Pu Pe E2.
-  assert (U : Format.u p <= / 8) by (generalize (Format.eps_le p 3 p_3); simpl; lra).
-  assert (H : 2 * Format.eta emin <= Format.u p).
-  { change 2 with (bpow radix2 1). unfold Format.eta, Format.u. rewrite <- bpow_plus. apply bpow_le.
-    generalize (p_emax p emax). lia. }
-  assert (L : 1 <= fl (1 + Format.eta emin)) by (apply (Format.rnd_above p emin Format.nearest); auto; lra).
-  destruct (Rle_lt_or_eq_dec _ _ L) as [C | C]; [exfalso | auto].
-  apply (succ_le_lt radix2 (FLT_exp emin p)) in C; auto using Format.rnd_number.
-  2: apply generic_format_round; auto with typeclass_instances.
-  rewrite succ_eq_pos in C by lra. change 1 with (bpow radix2 0) in C at 2. rewrite ulp_bpow in C.
-  replace (FLT_exp emin p (0 + 1)) with (1 - p)%Z in C
-    by (unfold FLT_exp; generalize emin_p; lia).
-  change (bpow radix2 (1 - p)) with (Format.eps p) in C.
-  generalize (Format.error_relative _ _ _ _ _ (Format.rounding_error_nearest p emin ltac:(lia))
-                (1 + Format.eta emin)).
-  rewrite (Rabs_pos_eq (1 + _)) by lra. intros D. assert (S : Format.smallest_normal p emin <= 1).
-  { change 1 with (bpow radix2 0). apply bpow_le. generalize (p_emax p emax). lia. }
-  specialize (D ltac:(lra)). apply Rabs_le_inv in D. unfold Format.rnd in D at 2.
-  change (fl (1 + Format.eta emin)) with (round radix2 (FLT_exp emin p) Format.nearest (1 + Format.eta emin)) in C.
-  nra.
-Qed.
 Theorem none_guesses : exists a b : float, let v := a ⊕ b ⊖ a in
   0 < B2R a + B2R b - B2R a /\ sign_of _ F v (none_error _ F v) = zero.
 Proof.
@@ -544,7 +519,8 @@ Proof.
   assert (S : finite (integer _ F 1 ⊕ underflow_unit _ F) /\ B2R (integer _ F 1 ⊕ underflow_unit _ F) = 1).
   { generalize (Bplus_correct p emax _ _ mode_NE _ _ F1 Fe). rewrite V1, Ve.
     change (round radix2 (SpecFloat.fexp p emax) (round_mode mode_NE) (1 + Format.eta emin))
-      with (fl (1 + Format.eta emin)). rewrite eta_lost, Rabs_R1.
+      with (fl (1 + Format.eta emin)).
+    rewrite (Format.eta_lost p emin) by (generalize (p_emax p emax); lia). rewrite Rabs_R1.
     rewrite Rlt_bool_true; [now intros (E & H & _) |].
     change 1 with (bpow radix2 0). apply bpow_lt. generalize (p_emax p emax). lia. }
   destruct S as [FS VS].
