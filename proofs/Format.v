@@ -10,8 +10,8 @@
         eta = 2^emin      the smallest positive number
         smallest_normal = 2^(emin+p-1); its ulp, and that of all below, is eta. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz.
-From Flocq Require Import Core Relative Plus_error.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core Relative Plus_error Mult_error.
 Open Scope R_scope.
 
 (** (1 + e)^k <= 1 + ke + (ke)^2 for ke <= 1. *)
@@ -136,6 +136,23 @@ Proof.
   - apply Rlt_le_trans with (1 := H). apply bpow_le. lia.
 Qed.
 
+(** Scaling up is exact, and so was scaling down where scaling up takes it back. *)
+Lemma scale_up x e : number x -> (0 <= e)%Z -> rnd (x * bpow radix2 e) = x * bpow radix2 e.
+Proof. intros. apply rnd_exact, mult_bpow_pos_exact_FLT; auto. Qed.
+Lemma scale_back v a e : number v -> (e < 0)%Z -> rnd (v * bpow radix2 (- e)) = a ->
+  v = a * bpow radix2 e.
+Proof.
+  intros N H. rewrite scale_up by (auto; lia). intros <-.
+  rewrite Rmult_assoc, <- bpow_plus. replace (- e + e)%Z with 0%Z by lia. simpl. ring.
+Qed.
+
+(** What rules that keep an error do where they scale by 2^e, v being a 2^e as computed. *)
+Definition scaled_error (inflate : R -> R) (v a sa : R) (e : Z) : R :=
+  let scaled := rnd (sa * bpow radix2 e) in
+  let lossless := (0 <=? e)%Z ||
+    (Req_bool (rnd (v * bpow radix2 (- e))) a && Req_bool (rnd (scaled * bpow radix2 (- e))) sa) in
+  if lossless then rnd (scaled + rnd (v - v)) else inflate scaled.
+
 (** What the proofs need of a rounding: r is its largest relative error, h its largest error below
     the smallest normal number. *)
 Record rounding_error (r h : R) : Prop := {
@@ -257,6 +274,50 @@ Proof.
   intros H. apply Rnot_le_lt. intros C. apply rnd_normal in C. lra.
 Qed.
 
+(** Scaling by a power of two: exact unless it underflows, and off by at most h then. *)
+Lemma scale_error x e : number x -> Rabs (rnd (x * bpow radix2 e) - x * bpow radix2 e) <= h.
+Proof.
+  intros N. destruct (Rlt_or_le (Rabs (x * bpow radix2 e)) smallest_normal) as [S | S].
+  - now apply (error_absolute r h E).
+  - rewrite rnd_exact.
+    + replace (x * bpow radix2 e - x * bpow radix2 e) with 0 by ring. rewrite Rabs_R0.
+      apply (error_h r h E).
+    + apply mult_bpow_exact_FLT; auto. rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) in S by apply bpow_ge_0.
+      assert (M : bpow radix2 (emin + p - e - 1) <= Rabs x).
+      { replace (emin + p - e - 1)%Z with (emin + p - 1 + - e)%Z by lia.
+        rewrite bpow_plus, bpow_opp. unfold smallest_normal in S.
+        apply Rmult_le_reg_r with (bpow radix2 e); [apply bpow_gt_0 |].
+        rewrite Rmult_assoc, Rinv_l, Rmult_1_r; auto. apply Rgt_not_eq, bpow_gt_0. }
+      apply mag_ge_bpow in M. lia.
+Qed.
+
+Lemma scaled_error_sound inflate a x sa e :
+  (forall s, number s -> 0 <= s -> s + 2 * h <= inflate s) ->
+  number a -> number sa -> Rabs (a - x) <= sa ->
+  Rabs (rnd (a * bpow radix2 e) - x * bpow radix2 e) <=
+    scaled_error inflate (rnd (a * bpow radix2 e)) a sa e.
+Proof.
+  intros I A SA H. unfold scaled_error. cbv zeta.
+  set (v := rnd (a * bpow radix2 e)). set (s := rnd (sa * bpow radix2 e)).
+  generalize (bpow_ge_0 radix2 e). intros PB.
+  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+  assert (D : Rabs (a * bpow radix2 e - x * bpow radix2 e) <= sa * bpow radix2 e).
+  { rewrite <- Rmult_minus_distr_r, Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto.
+    now apply Rmult_le_compat_r. }
+  assert (Ns : number s) by apply rnd_number. assert (Nv : number v) by apply rnd_number.
+  assert (Z : rnd (s + rnd (v - v)) = s).
+  { replace (v - v) with 0 by ring. rewrite rnd_0, Rplus_0_r. now apply rnd_exact. }
+  destruct (Z.leb_spec 0 e) as [P | P]; cbn [orb].
+  { rewrite Z. unfold v, s. now rewrite !scale_up. }
+  assert (L : Rabs (v - x * bpow radix2 e) <= inflate s).
+  { apply Rle_trans with (s + 2 * h); [| apply I; auto; now apply rnd_nonnegative, Rmult_le_pos].
+    generalize (scale_error a e A) (scale_error sa e SA). fold v s. intros DA DS.
+    apply Rabs_le_inv in DA, DS, D. apply Rabs_le. lra. }
+  destruct (Req_bool_spec (rnd (v * bpow radix2 (- e))) a) as [B | B]; auto.
+  destruct (Req_bool_spec (rnd (s * bpow radix2 (- e))) sa) as [C | C]; auto.
+  cbn [andb]. rewrite Z. apply scale_back in B, C; auto. now rewrite B, C.
+Qed.
+
 (** A sum of numbers that are not negative loses r of itself; nothing below the smallest normal
     number. *)
 Lemma sum_relative x y :
@@ -325,6 +386,29 @@ Proof.
   intros H. replace u with (/ 2 * bpow radix2 (- p + 1)).
   - apply relative_error_N_FLT_round; auto.
   - rewrite bpow_plus. change (bpow radix2 1) with 2. unfold u. field.
+Qed.
+
+(** The smallest positive number is lost beside 1. *)
+Lemma eta_lost : (3 <= p)%Z -> (emin <= - p - 1)%Z -> rnd nearest (1 + eta) = 1.
+Proof.
+  intros P L.
+  assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; lia).
+  generalize u_positive eta_positive eps_2u. intros Pu Pe E2.
+  assert (U : u <= / 8) by (generalize (eps_le 3 P); simpl; lra).
+  assert (H : 2 * eta <= u).
+  { change 2 with (bpow radix2 1). unfold eta, u. rewrite <- bpow_plus. apply bpow_le. lia. }
+  assert (L1 : 1 <= rnd nearest (1 + eta)) by (apply rnd_above; auto with typeclass_instances; lra).
+  destruct (Rle_lt_or_eq_dec _ _ L1) as [C | C]; [exfalso | auto].
+  apply (succ_le_lt radix2 format) in C; auto with typeclass_instances.
+  2: apply rnd_number; auto with typeclass_instances.
+  rewrite succ_eq_pos in C by lra. change 1 with (bpow radix2 0) in C at 2. rewrite ulp_bpow in C.
+  replace (format (0 + 1)) with (1 - p)%Z in C by (unfold FLT_exp; lia).
+  change (bpow radix2 (1 - p)) with eps in C.
+  assert (D : Rabs (rnd nearest (1 + eta) - (1 + eta)) <= u * Rabs (1 + eta)).
+  { apply (error_relative nearest _ _ (rounding_error_nearest ltac:(lia))).
+    rewrite Rabs_pos_eq by lra. assert (smallest_normal <= 1); [| lra].
+    change 1 with (bpow radix2 0). apply bpow_le. lia. }
+  rewrite (Rabs_pos_eq (1 + _)) in D by lra. apply Rabs_le_inv in D. nra.
 Qed.
 
 End Format.

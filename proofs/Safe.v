@@ -40,6 +40,13 @@ Definition safe_add (Ba : R) (ka : Z) (Bb : R) (kb : Z) : R * Z :=
 Definition safe_multiply (a Ba : R) (ka : Z) (b Bb : R) (kb : Z) : R * Z :=
   if is_zero a ka || is_zero b kb then (0, 0%Z)
   else (Rmax (enlarged (fl (Ba * Bb))) smallest_normal, counted (ka + kb)).
+(** v = a 2^e as computed. *)
+Definition safe_scale (v a B : R) (k e : Z) : R * Z :=
+  let scaled := fl (B * bpow radix2 e) in
+  if (0 <=? e)%Z ||
+     (Req_bool (fl (v * bpow radix2 (- e))) a && Req_bool (fl (scaled * bpow radix2 (- e))) B)
+  then (scaled, k)
+  else (Rmax (enlarged scaled) smallest_normal, counted k).
 (** None: infinite. *)
 Definition safe_error (B : R) (k : Z) : option R :=
   let x := fl (fl (IZR k) * eps) in
@@ -303,6 +310,64 @@ Proof.
     + right. ring.
 Qed.
 
+Lemma known_scale a x B k e : number (B * bpow radix2 e) -> known a x (B, k) ->
+  known (a * bpow radix2 e) (x * bpow radix2 e) (B * bpow radix2 e, k).
+Proof.
+  intros N (_ & K & X & H). unfold known. cbn [fst snd] in *. generalize (bpow_ge_0 radix2 e). intros P.
+  rewrite <- Rmult_minus_distr_r, !Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto.
+  repeat split; auto.
+  - now apply Rmult_le_compat_r.
+  - replace (B * bpow radix2 e * (growth k - 1)) with (B * (growth k - 1) * bpow radix2 e) by ring.
+    now apply Rmult_le_compat_r.
+Qed.
+Lemma scale_sound a x B k e :
+  number a -> known a x (B, k) -> (k < 2 ^ 29)%Z ->
+  known (fl (a * bpow radix2 e)) (x * bpow radix2 e) (safe_scale (fl (a * bpow radix2 e)) a B k e).
+Proof.
+  intros A K Few. generalize K. intros (NB & Pk & X & H). cbn [fst snd] in *. unfold safe_scale. cbv zeta.
+  set (v := fl (a * bpow radix2 e)). set (s := fl (B * bpow radix2 e)).
+  generalize (bpow_ge_0 radix2 e) (Rabs_pos x) (growth_1 k) (eps_positive p). intros PB PX G1 Pe.
+  assert (Exact : v = a * bpow radix2 e -> s = B * bpow radix2 e ->
+                  known v (x * bpow radix2 e) (s, k)).
+  { intros -> S. rewrite S. apply known_scale; auto. rewrite <- S. apply rnd_number. }
+  assert (Inexact : known v (x * bpow radix2 e) (Rmax (enlarged s) smallest_normal, counted k)).
+  { set (B' := Rmax (enlarged s) smallest_normal).
+    assert (M : smallest_normal <= B') by apply Rmax_r.
+    assert (S : B * bpow radix2 e <= B').
+    { destruct (Rlt_or_le (B * bpow radix2 e) smallest_normal) as [C | C]; [lra |].
+      apply Rle_trans with (2 := Rmax_l _ _). apply enlarged_above.
+      - apply rnd_number.
+      - generalize (smallest_normal_positive p emin). lra.
+      - now apply rnd_relative.
+      - intros D. apply rnd_subnormal in D. lra. }
+    assert (D : Rabs (v - a * bpow radix2 e) <= h) by now apply (scale_error p emin direction r h E).
+    unfold known. cbn [fst snd]. rewrite (counted_below k) by (unfold too_many in *; lia).
+    repeat split; try lia.
+    - apply Rmax_case. apply rnd_number. now apply number_smallest_normal.
+    - rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto. apply Rle_trans with (2 := S).
+      now apply Rmult_le_compat_r.
+    - rewrite growth_succ by lia.
+      replace (v - x * bpow radix2 e) with ((v - a * bpow radix2 e) + (a - x) * bpow radix2 e) by ring.
+      apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto.
+      apply Rle_trans with (smallest_normal * eps + B * bpow radix2 e * (growth k - 1)).
+      + rewrite smallest_normal_eps. generalize (error_h _ _ _ _ _ E). intros Ph.
+        assert (Rabs (a - x) * bpow radix2 e <= B * (growth k - 1) * bpow radix2 e) by
+          now apply Rmult_le_compat_r.
+        lra.
+      + generalize (smallest_normal_positive p emin). intros Pm.
+        assert (smallest_normal * eps <= B' * eps) by (apply Rmult_le_compat_r; lra).
+        assert (B * bpow radix2 e * (growth k - 1) <= B' * (growth k - 1)) by
+          (apply Rmult_le_compat_r; lra).
+        assert (B' * eps * 1 <= B' * eps * growth k).
+        { apply Rmult_le_compat_l; auto. apply Rmult_le_pos; lra. }
+        lra. }
+  destruct (Z.leb_spec 0 e) as [P | P]; cbn [orb].
+  { apply Exact; apply scale_up; auto. }
+  destruct (Req_bool_spec (fl (v * bpow radix2 (- e))) a) as [C | C]; auto.
+  destruct (Req_bool_spec (fl (s * bpow radix2 (- e))) B) as [D | D]; auto.
+  cbn [andb]. apply Exact; apply (scale_back p emin direction); auto; apply rnd_number.
+Qed.
+
 Hypothesis emin_2p : (emin <= 2 - 2 * p)%Z.
 
 Lemma error_sound a x B k bound :
@@ -460,6 +525,11 @@ Theorem safe_multiply_sound a x Ba ka b y Bb kb :
   (ka + kb < 2 ^ 29)%Z ->
   known (fl (a * b)) (x * y) (safe_multiply a Ba ka b Bb kb).
 Proof. destruct a_rounding as (r & h & E & G). apply (multiply_sound three_bits emin_p r h E G). Qed.
+
+Theorem safe_scale_sound a x B k e :
+  number a -> known a x (B, k) -> (k < 2 ^ 29)%Z ->
+  known (fl (a * bpow radix2 e)) (x * bpow radix2 e) (safe_scale (fl (a * bpow radix2 e)) a B k e).
+Proof. destruct a_rounding as (r & h & E & G). apply (scale_sound three_bits emin_p r h E G). Qed.
 
 (** Here eps^2 has to be a number too, as in every IEEE format. *)
 Theorem safe_error_sound a x B k bound :

@@ -45,6 +45,9 @@ Definition sharp_divide (v a sa b sb : R) : option R :=
     let inherited := fl (fl (sa + fl (fl (quotient * sb) + lost)) / distance) in
     Some (inflated (fl (fl (rounding v + fl (2 * eta)) + inflated inherited))).
 
+Definition sharp_scale (v a sa : R) (e : Z) : R :=
+  scaled_error p emin nearest (fun scaled => inflated (fl (scaled + eta))) v a sa e.
+
 Hypothesis p_3 : (3 <= p)%Z.
 Hypothesis emin_p : (emin <= - p)%Z.
 
@@ -566,6 +569,16 @@ Proof.
       lra.
     + apply Rmult_le_compat_r; auto. apply Rle_trans with (2 := D5).
       apply Rmult_le_compat_r; lra.
+Qed.
+
+Theorem sharp_scale_sound a x sa e :
+  number a -> number sa -> Rabs (a - x) <= sa ->
+  Rabs (fl (a * bpow radix2 e) - x * bpow radix2 e) <= sharp_scale (fl (a * bpow radix2 e)) a sa e.
+Proof.
+  apply (scaled_error_sound p emin nearest _ _ an_error). intros s S P. generalize (eta_positive emin) f_2. intros.
+  rewrite inflated_exact. rewrite <- (rnd_exact (fl (s + eta))) by apply rnd_number.
+  rewrite <- (Rplus_0_r (fl (s + eta))). apply Rle_trans with (s + eta + 0); [lra |].
+  apply sum_of_three; auto using number_eta, number_0, f_q3; lra.
 Qed.
 
 End Sharp.

@@ -50,6 +50,9 @@ Definition tight_divide (v a sa b sb : R) : option R :=
     let inherited := fl (fl (fl (sa + fl (quotient * sb)) + lost) / distance) in
     Some (inflated (fl (fl (rounding v + inflated inherited) + fl (4 * eta)))).
 
+Definition tight_scale (v a sa : R) (e : Z) : R :=
+  scaled_error p emin direction (fun scaled => inflated (fl (scaled + fl (2 * eta)))) v a sa e.
+
 (** The format's facts, for this direction. *)
 Let rnd_exact := Format.rnd_exact p emin direction.
 Let rnd_number := Format.rnd_number p emin direction.
@@ -95,6 +98,13 @@ Proof.
   replace (4 * eta) with (bpow radix2 (2 + emin)).
   - apply number_power; auto. lia.
   - rewrite bpow_plus. reflexivity.
+Qed.
+
+Lemma number_2_eta : number (2 * eta).
+Proof.
+  replace (2 * eta) with (bpow radix2 (1 + emin)).
+  - apply number_power; auto. lia.
+  - now rewrite bpow_plus.
 Qed.
 
 (** The factor 1 + 8 eps is a number, also for three bits (it is 3 there). *)
@@ -555,6 +565,18 @@ Proof.
     + rewrite inflated_exact. apply rnd_nonnegative. apply Rmult_le_pos; lra.
 Qed.
 
+Lemma scale_sound a x sa e :
+  number a -> number sa -> Rabs (a - x) <= sa ->
+  Rabs (fl (a * bpow radix2 e) - x * bpow radix2 e) <= tight_scale (fl (a * bpow radix2 e)) a sa e.
+Proof.
+  apply (scaled_error_sound p emin direction r h E). intros s S P.
+  generalize (error_h _ _ _ _ _ E) (eta_positive emin). intros Ph Pe.
+  rewrite (rnd_exact (2 * eta) number_2_eta).
+  rewrite <- (rnd_exact (fl (s + 2 * eta))) by apply rnd_number.
+  rewrite <- (Rplus_0_r (fl (s + 2 * eta))). apply Rle_trans with (s + 2 * eta + 0); [lra |].
+  apply inflated_sum_left; auto using number_2_eta, number_0; lra.
+Qed.
+
 End Proof.
 
 (** The factor 1 + 8 eps pays for six roundings: by eps each from 5 bits on, by u from 3 on. *)
@@ -663,6 +685,12 @@ Theorem tight_divide_sound a x sa b y sb bound :
   y <> 0 /\ Rabs (fl (a / b) - x / y) <= bound.
 Proof. apply (divide_sound p emin direction ltac:(lia) emin_p _ _ error any_q6 any_h). Qed.
 
+Theorem tight_scale_sound a x sa e :
+  number a -> number sa -> Rabs (a - x) <= sa ->
+  Rabs (fl (a * bpow radix2 e) - x * bpow radix2 e) <=
+    tight_scale p emin direction (fl (a * bpow radix2 e)) a sa e.
+Proof. apply (scale_sound p emin direction ltac:(lia) emin_p _ _ error any_q6). Qed.
+
 End Any_direction.
 
 Section To_nearest.
@@ -711,6 +739,12 @@ Theorem tight_divide_sound_nearest a x sa b y sb bound :
   tight_divide p emin nearest (fl (a / b)) a sa b sb = Some bound ->
   y <> 0 /\ Rabs (fl (a / b) - x / y) <= bound.
 Proof. apply (divide_sound p emin nearest p_3 emin_p _ _ error nearest_q6 nearest_h). Qed.
+
+Theorem tight_scale_sound_nearest a x sa e :
+  number a -> number sa -> Rabs (a - x) <= sa ->
+  Rabs (fl (a * bpow radix2 e) - x * bpow radix2 e) <=
+    tight_scale p emin nearest (fl (a * bpow radix2 e)) a sa e.
+Proof. apply (scale_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
 
 End To_nearest.
 End Sound.

@@ -88,7 +88,7 @@ class tracked {
     }
 
     /// The certain sign; the rule's own where it has one. Strict: a value that equals its bound may
-    /// belong to zero.
+    /// belong to zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
         if constexpr (requires { Rule::sign(x.value_, x.bound_); })
             return Rule::sign(x.value_, x.bound_);

@@ -32,10 +32,12 @@ struct interval {
         T lower, upper;
     };
 
+    /// Proof: proofs/IeeeInterval.v, interval_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return checked<T>(value, value, value);
     }
+    /// Proof: proofs/IeeeInterval.v, interval_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (error == 0) return exact(value);
@@ -52,27 +54,32 @@ struct interval {
         return certain(sign<T>(value, b)) && !(enough < traits::largest()) ? traits::largest()
                                                                            : enough;
     }
+    /// Proof: proofs/IeeeInterval.v, interval_sign_known.
     template <class T>
     static constexpr sign_type sign(const T&, const bound<T>& b) {
         if (b.lower > 0) return sign_type::positive;
         if (b.upper < 0) return sign_type::negative;
         return b.lower == 0 && b.upper == 0 ? sign_type::zero : sign_type::uncertain;
     }
+    /// Proof: proofs/IeeeInterval.v, interval_negate_known.
     template <class T>
     static constexpr bound<T> negate(const bound<T>& b) {
         return {-b.upper, -b.lower};
     }
 
+    /// Proof: proofs/IeeeInterval.v, interval_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T, interval> a, operand<T, interval> b) {
         return sum<T>(v, a.bound, b.bound);
     }
+    /// Proof: proofs/IeeeInterval.v, interval_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T, interval> a, operand<T, interval> b) {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
     /// Both ends are among the four products of ends. A product 0·∞ stands for 0, which is then
     /// among the others too: NaN may be passed over.
+    /// Proof: proofs/IeeeInterval.v, interval_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T, interval> a, operand<T, interval> b) {
         if (is_zero(a.bound) || is_zero(b.bound)) return checked<T>(v, v, v);
@@ -99,6 +106,7 @@ struct interval {
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
     /// Scaling by a power of two is exact unless it underflows.
+    /// Proof: proofs/IeeeInterval.v, interval_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T, interval> a, int e) {
         using traits = number_traits<T>;

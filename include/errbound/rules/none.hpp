@@ -5,8 +5,8 @@
 
 namespace errbound {
 
-/// Treats every finite result as exact, as unprotected code does: signs are guesses. Results that
-/// are not finite are still uncertain.
+/// Treats every finite result as exact, as unprotected code does: signs are guesses
+/// (proofs/IeeeRules.v, none_guesses). Results that are not finite are still uncertain.
 struct none {
     static constexpr const char* name = "none";
 

@@ -29,11 +29,13 @@ struct safe {
         int operations;  ///< k; 0 for an exact number
     };
 
+    /// Proof: proofs/IeeeSafe.v, safe_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::abs(value), 0};
     }
-    /// B = max(|value| + error, error/ε), k = 1: then Bε >= error.
+    /// B = max(|value| + error, error/ε), k = 1: then Bε >= error. Proof: proofs/IeeeSafe.v,
+    /// safe_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -42,6 +44,8 @@ struct safe {
         return {enlarged<T>(traits::max(traits::abs(value) + error, error / traits::epsilon())), 1};
     }
     /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; unknown beyond.
+    /// Proof: proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v,
+    /// safe_error_sound.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -52,18 +56,22 @@ struct safe {
         return enlarged<T>(b.magnitude * enlarged<T>(x * (1 + x)) + traits::underflow_unit());
     }
 
-    /// B = Ba + Bb, k = max(ka, kb) + 1.
+    /// B = Ba + Bb, k = max(ka, kb) + 1. Proof: proofs/IeeeSafe.v, safe_add_known; in any
+    /// direction, proofs/Safe.v, safe_add_sound.
     template <class T>
     static constexpr bound<T> add(const T&, operand<T, safe> a, operand<T, safe> b) {
         const int k =
             a.bound.operations < b.bound.operations ? b.bound.operations : a.bound.operations;
         return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
     }
+    /// Proof: proofs/IeeeSafe.v, safe_subtract_known; in any direction, proofs/Safe.v,
+    /// safe_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T, safe> a, operand<T, safe> b) {
         return add(v, a, b);
     }
-    /// B = Ba·Bb, k = ka + kb + 1.
+    /// B = Ba·Bb, k = ka + kb + 1. Proof: proofs/IeeeSafe.v, safe_multiply_known; in any direction,
+    /// proofs/Safe.v, safe_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T&, operand<T, safe> a, operand<T, safe> b) {
         using traits = number_traits<T>;
@@ -80,7 +88,8 @@ struct safe {
         return {};
     }
     /// (B·2^e, k) is exact unless it underflows; B is then kept at the smallest normal number and
-    /// one more in k pays.
+    /// one more in k pays. Proof: proofs/IeeeSafe.v, safe_scale_known; in any direction,
+    /// proofs/Safe.v, safe_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T, safe> a, int e) {
         using traits = number_traits<T>;

@@ -28,30 +28,35 @@ struct sharp {
         T error;
     };
 
+    /// Proof: proofs/IeeeRules.v, tight_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {value - value};  // 0, or NaN if the value is not finite
     }
+    /// Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
+    /// Proof of the sign that it makes: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
-    /// |v − (a + b)| <= u|v| + σa + σb.
+    /// |v − (a + b)| <= u|v| + σa + σb. Proof: proofs/IeeeRules.v, sharp_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
         using traits = number_traits<T>;
         return {(rounding(v) + (a.bound.error + b.bound.error)) * (1 + 2 * traits::epsilon())};
     }
+    /// Proof: proofs/IeeeRules.v, sharp_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
         return add(v, a, b);
     }
-    /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb).
+    /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb). Proof: proofs/IeeeRules.v,
+    /// sharp_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
         using traits = number_traits<T>;
@@ -61,7 +66,7 @@ struct sharp {
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inherited)};
     }
     /// Where |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb); see `tight`. Elsewhere
-    /// the result is unknown.
+    /// the result is unknown. Proof: proofs/IeeeRules.v, sharp_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
         using traits = number_traits<T>;
@@ -76,7 +81,7 @@ struct sharp {
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
-    /// by at most η/2.
+    /// by at most η/2. Proof: proofs/IeeeRules.v, sharp_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T, sharp> a, int e) {
         using traits = number_traits<T>;

@@ -30,30 +30,38 @@ struct tight {
         T error;
     };
 
+    /// Proof: proofs/IeeeRules.v, tight_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {value - value};  // 0, or NaN if the value is not finite
     }
+    /// Proof: proofs/IeeeRules.v, tight_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
+    /// Proof of the sign that it makes: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
     /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add.
+    /// Proof: proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v,
+    /// tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T, tight> a, operand<T, tight> b) {
         return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error))};
     }
-    /// Source: Theorem 1, Subtract.
+    /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
+    /// direction, proofs/Tight.v, tight_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T, tight> a, operand<T, tight> b) {
         return add(v, a, b);
     }
     /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply.
+    /// Proof: proofs/IeeeRules.v, tight_multiply_known; in any direction, proofs/Tight.v,
+    /// tight_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T, tight> a, operand<T, tight> b) {
         using traits = number_traits<T>;
@@ -64,7 +72,8 @@ struct tight {
     }
     /// Where |b̂| > σb: |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb), which is the printed
     /// rule with its numerator multiplied out: σa(|b̂| − σb) + (|â| + σa)σb = σa|b̂| + |â|σb.
-    /// Elsewhere the result is unknown. Source: Theorem 1, Divide.
+    /// Elsewhere the result is unknown. Source: Theorem 1, Divide. Proof: proofs/IeeeRules.v,
+    /// tight_divide_known; in any direction, proofs/Tight.v, tight_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T, tight> a, operand<T, tight> b) {
         using traits = number_traits<T>;
@@ -79,7 +88,8 @@ struct tight {
         return {inflated<T>(rounding(v) + inflated<T>(inherited) + 4 * traits::underflow_unit())};
     }
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
-    /// by less than η.
+    /// by less than η. Proof: proofs/IeeeRules.v, tight_scale_known; in any direction,
+    /// proofs/Tight.v, tight_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T, tight> a, int e) {
         using traits = number_traits<T>;

@@ -1,0 +1,314 @@
+(** The C++ code, line by line, over any number type: what include/errbound/rules/*.hpp, the default
+    sign_of of tracked.hpp and error_free.hpp compute with the operations of `arithmetic`.
+
+    Nothing is proved here. Ieee.v takes IEEE floats for the numbers and proves that these functions
+    then are those that the theorems are about. TieProgram.v makes a program of them, against which
+    tests/tie_test.cpp compares the C++ code. *)
+
+From Coq Require Import ZArith Bool.
+
+(** What the code uses of a number type T and its number_traits. Comparisons are false of NaN. *)
+Record arithmetic (T : Type) := {
+  plus : T -> T -> T;
+  minus : T -> T -> T;
+  times : T -> T -> T;
+  over : T -> T -> T;
+  opposite : T -> T;
+  less : T -> T -> bool;
+  at_most : T -> T -> bool;
+  equal : T -> T -> bool;
+  scale : T -> Z -> T;
+  integer : Z -> T;
+  five_quarters : T;
+  digits : Z;
+  epsilon : T;
+  unit_roundoff : T;
+  underflow_unit : T;
+  smallest_normal : T;
+  largest : T;
+  infinity : T
+}.
+
+Inductive sign_type := negative | zero | positive | uncertain.
+
+Section Code.
+
+Variable T : Type.
+Variable A : arithmetic T.
+
+Declare Scope code.
+Infix "+" := (plus T A) : code.
+Infix "-" := (minus T A) : code.
+Infix "*" := (times T A) : code.
+Infix "/" := (over T A) : code.
+Notation "- x" := (opposite T A x) : code.
+Infix "<" := (less T A) : code.
+Infix "<=" := (at_most T A) : code.
+Infix "==" := (equal T A) (at level 70) : code.
+Notation "# n" := (integer T A n%Z) (at level 1, n at level 0, format "# n") : code.
+Notation ε := (epsilon T A).
+Notation u := (unit_roundoff T A).
+Notation η := (underflow_unit T A).
+Notation "∞" := (infinity T A).
+Open Scope code.
+
+(** number_traits.hpp *)
+Definition abs (x : T) : T := if x < #0 then - x else x.
+Definition max (x y : T) : T := if x < y then y else x.
+Definition is_finite (x : T) : bool := abs x <= largest T A.
+
+(** tracked.hpp, for rules without a sign of their own *)
+Definition sign_of (value error : T) : sign_type :=
+  if error < value then positive
+  else if value < - error then negative
+  else if (value == #0) && (error == #0) then zero
+  else uncertain.
+
+(** error_free.hpp, without fused multiply-add *)
+Definition two_sum (a b : T) : T * T :=
+  let sum := a + b in
+  let b_in_sum := sum - a in
+  (sum, (a - (sum - b_in_sum)) + (b - b_in_sum)).
+Definition split (x : T) : T * T :=
+  let s := ((digits T A + 1) / 2)%Z in
+  let c := (#(2 ^ s) + #1) * x in
+  let high := c - (c - x) in
+  (high, x - high).
+Definition two_product (a b : T) : T * T :=
+  let v := a * b in
+  let (a_high, a_low) := split a in
+  let (b_high, b_low) := split b in
+  let first := a_high * b_high - v in
+  let middle := (first + a_high * b_low) + a_low * b_high in
+  (v, middle + a_low * b_low).
+Definition product_error_is_exact (a b : T) (product : T * T) : bool :=
+  let (value, error) := product in
+  if negb (is_finite value) || negb (is_finite error) then false
+  else if (a == #0) || (b == #0) then true
+  else if (digits T A <? 4)%Z then false
+  else η / u / u <= abs value.
+Definition remainder_of_division (a b q : T) : T * bool :=
+  if a == #0 then (#0, is_finite q)
+  else
+    let product := two_product q b in
+    let exact := negb (q == #0) && product_error_is_exact q b product in
+    ((a - fst product) - snd product, exact).
+
+(** rules/none.hpp *)
+Definition none_error (value : T) : T := if is_finite value then #0 else ∞.
+
+(** rules/tight.hpp *)
+Definition tight_exact (value : T) : T := value - value.
+Definition tight_within (value error : T) : T :=
+  if #0 <= error then error + (value - value) else ∞.
+Definition tight_rounding (v : T) : T := abs v * (ε * (#1 + ε)).
+Definition tight_inflated (bound : T) : T := bound * (#1 + #8 * ε).
+Definition is_zero (a sa : T) : bool := (a == #0) && (sa == #0).
+Definition tight_add (v sa sb : T) : T := tight_inflated (tight_rounding v + (sa + sb)).
+Definition tight_multiply (v a sa b sb : T) : T :=
+  if is_zero a sa || is_zero b sb then tight_rounding v
+  else
+    let inherited := abs a * sb + sa * (abs b + sb) in
+    tight_inflated (tight_rounding v + inherited + #4 * η).
+Definition tight_divide (v a sa b sb : T) : T :=
+  let distance := abs b - sb in
+  if negb (#0 < distance) then ∞
+  else if is_zero a sa then tight_rounding v
+  else
+    let quotient := tight_inflated (abs v + η) in
+    let lost := if #0 < sb then #4 * η else #0 in
+    let inherited := (sa + quotient * sb + lost) / distance in
+    tight_inflated (tight_rounding v + tight_inflated inherited + #4 * η).
+Definition tight_scale (v a sa : T) (e : Z) : T :=
+  let scaled := scale T A sa e in
+  let lossless := (0 <=? e)%Z ||
+    ((scale T A v (- e)%Z == a) && (scale T A scaled (- e)%Z == sa)) in
+  if lossless then scaled + (v - v) else tight_inflated (scaled + #2 * η).
+
+(** rules/sharp.hpp; exact, within and is_zero are tight's. *)
+Definition sharp_rounding (v : T) : T := abs v * u.
+Definition sharp_inflated (bound : T) : T := bound * (#1 + #4 * ε).
+Definition sharp_add (v sa sb : T) : T := (sharp_rounding v + (sa + sb)) * (#1 + #2 * ε).
+Definition sharp_multiply (v a sa b sb : T) : T :=
+  if is_zero a sa || is_zero b sb then sharp_rounding v
+  else
+    let inherited := abs a * sb + sa * (abs b + sb) in
+    sharp_inflated ((sharp_rounding v + #2 * η) + inherited).
+Definition sharp_divide (v a sa b sb : T) : T :=
+  let distance := abs b - sb in
+  if negb (#0 < distance) then ∞
+  else if is_zero a sa then sharp_rounding v
+  else
+    let quotient := sharp_inflated (abs v + η) in
+    let lost := if #0 < sb then η else #0 in
+    let inherited := (sa + (quotient * sb + lost)) / distance in
+    sharp_inflated ((sharp_rounding v + #2 * η) + sharp_inflated inherited).
+Definition sharp_scale (v a sa : T) (e : Z) : T :=
+  let scaled := scale T A sa e in
+  let lossless := (0 <=? e)%Z ||
+    ((scale T A v (- e)%Z == a) && (scale T A scaled (- e)%Z == sa)) in
+  if lossless then scaled + (v - v) else sharp_inflated (scaled + η).
+
+(** rules/safe.hpp *)
+Definition too_many : Z := (2 ^ 29)%Z.
+Definition counted (k : Z) : Z := if (k <? too_many - 1)%Z then (k + 1)%Z else too_many.
+Definition safe_enlarged (x : T) : T := x * (#1 + #4 * ε).
+Definition safe_is_zero (a : T) (k : Z) : bool := (a == #0) && (k =? 0)%Z.
+Definition safe_exact (value : T) : T * Z := (abs value, 0%Z).
+Definition safe_within (value error : T) : T * Z :=
+  if error == #0 then safe_exact value
+  else if negb (#0 < error) then (∞, 1%Z)
+  else (safe_enlarged (max (abs value + error) (error / ε)), 1%Z).
+Definition safe_error (value B : T) (k : Z) : T :=
+  let x := #k * ε in
+  if negb (x <= #1) || (k =? too_many)%Z || negb (is_finite value) then ∞
+  else if (k =? 0)%Z then #0
+  else safe_enlarged (B * safe_enlarged (x * (#1 + x)) + η).
+Definition safe_add (Ba : T) (ka : Z) (Bb : T) (kb : Z) : T * Z :=
+  (safe_enlarged (Ba + Bb), counted (if (ka <? kb)%Z then kb else ka)).
+Definition safe_multiply (a Ba : T) (ka : Z) (b Bb : T) (kb : Z) : T * Z :=
+  if safe_is_zero a ka || safe_is_zero b kb then (#0, 0%Z)
+  else (max (safe_enlarged (Ba * Bb)) (smallest_normal T A), counted (ka + kb)).
+Definition safe_scale (v a B : T) (k e : Z) : T * Z :=
+  let scaled := scale T A B e in
+  if (0 <=? e)%Z || ((scale T A v (- e)%Z == a) && (scale T A scaled (- e)%Z == B))
+  then (scaled, k)
+  else (max (safe_enlarged scaled) (smallest_normal T A), counted k).
+
+(** rules/interval.hpp *)
+Definition interval_unknown : T * T := (- ∞, ∞).
+Definition interval_checked (value lower upper : T) : T * T :=
+  if (- ∞ < lower) && (lower <= value) && (value <= upper) && (upper < ∞) then (lower, upper)
+  else interval_unknown.
+Definition step (c : T) : T := abs c * u * five_quarters T A + η.
+Definition below (c : T) : T := c - step c.
+Definition above (c : T) : T := c + step c.
+Definition interval_exact (value : T) : T * T := interval_checked value value value.
+Definition interval_within (value error : T) : T * T :=
+  if error == #0 then interval_exact value
+  else if negb (#0 < error) then interval_unknown
+  else interval_checked value (below (value - error)) (above (value + error)).
+Definition interval_sign (b : T * T) : sign_type :=
+  if #0 < fst b then positive
+  else if snd b < #0 then negative
+  else if (fst b == #0) && (snd b == #0) then zero
+  else uncertain.
+Definition interval_error (value : T) (b : T * T) : T :=
+  let off := max (snd b - value) (value - fst b) in
+  if off == #0 then off
+  else
+    let enough := above off in
+    let certain := match interval_sign b with uncertain => false | _ => true end in
+    if certain && negb (enough < largest T A) then largest T A else enough.
+Definition interval_negate (b : T * T) : T * T := (- snd b, - fst b).
+Definition interval_nearest (v error : T) : T * T :=
+  interval_checked v (if error < #0 then below v else v) (if #0 < error then above v else v).
+Definition interval_add (v : T) (a b : T * T) : T * T :=
+  let (lower, below_error) := two_sum (fst a) (fst b) in
+  let (upper, above_error) := two_sum (snd a) (snd b) in
+  interval_checked v (if #0 <= below_error then lower else below lower)
+                     (if above_error <= #0 then upper else above upper).
+Definition interval_subtract (v : T) (a b : T * T) : T * T :=
+  interval_add v a (interval_negate b).
+Definition least (m n : T) : T := if n < m then n else m.
+Definition most (m n : T) : T := if m < n then n else m.
+Definition hull (v w x y z : T) : T * T :=
+  interval_checked v (below (least (least w x) (least y z))) (above (most (most w x) (most y z))).
+Definition is_point (b : T * T) : bool := fst b == snd b.
+Definition is_zero_interval (b : T * T) : bool := (fst b == #0) && (snd b == #0).
+Definition interval_multiply (v av : T) (a : T * T) (bv : T) (b : T * T) : T * T :=
+  if is_zero_interval a || is_zero_interval b then interval_checked v v v
+  else if is_point a && is_point b then
+    let p := two_product av bv in
+    if product_error_is_exact av bv p then interval_nearest v (snd p)
+    else interval_checked v (below v) (above v)
+  else hull v (fst a * fst b) (fst a * snd b) (snd a * fst b) (snd a * snd b).
+Definition interval_divide (v av : T) (a : T * T) (bv : T) (b : T * T) : T * T :=
+  if negb (#0 < fst b) && negb (snd b < #0) then interval_unknown
+  else if is_point a && is_point b then
+    let (r, exact) := remainder_of_division av bv v in
+    if exact then interval_nearest v (if bv < #0 then - r else r)
+    else interval_checked v (below v) (above v)
+  else hull v (fst a / fst b) (fst a / snd b) (snd a / fst b) (snd a / snd b).
+Definition interval_scale (v : T) (a : T * T) (e : Z) : T * T :=
+  let lower := scale T A (fst a) e in
+  let upper := scale T A (snd a) e in
+  let lossless := (0 <=? e)%Z ||
+    ((scale T A lower (- e)%Z == fst a) && (scale T A upper (- e)%Z == snd a)) in
+  if lossless then interval_checked v lower upper
+  else interval_checked v (below lower) (above upper).
+
+(** rules/residual.hpp: a bound is (correction, remainder). *)
+Definition residual_inflated (bound : T) : T := bound * (#1 + #8 * ε).
+Definition residual_exact (value : T) : T * T := (#0, value - value).
+Definition residual_within (value error : T) : T * T :=
+  (#0, if #0 <= error then error + (value - value) else ∞).
+Definition residual_error (b : T * T) : T :=
+  if snd b == #0 then abs (fst b) else residual_inflated (abs (fst b) + snd b).
+Definition residual_sign (value : T) (b : T * T) : sign_type :=
+  let corrected := value + fst b in
+  if (corrected == #0) && (snd b == #0) then zero
+  else if negb (residual_inflated (snd b) < abs corrected) || negb (is_finite (residual_error b))
+  then uncertain
+  else if #0 < corrected then positive else negative.
+Definition residual_negate (b : T * T) : T * T := (- fst b, snd b).
+Definition residual_is_exact (b : T * T) : bool := (fst b == #0) && (snd b == #0).
+Definition residual_is_zero (a : T) (b : T * T) : bool := (a == #0) && residual_is_exact b.
+Definition half_ulp (v : T) : T := abs v * u + η.
+Definition roundings (x y first second : T) : T :=
+  ((abs x + abs y) + (abs first + abs second)) * u + #4 * η.
+Definition residual_add (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
+  let own := snd (two_sum a b) in
+  let inherited := two_sum (fst sa) (fst sb) in
+  let correction := two_sum own (fst inherited) in
+  (fst correction,
+   residual_inflated ((snd sa + snd sb) + (abs (snd inherited) + abs (snd correction)) + (v - v))).
+Definition residual_subtract (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
+  residual_add v a sa (- b) (residual_negate sb).
+Definition residual_multiply (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
+  if residual_is_zero a sa || residual_is_zero b sb then residual_exact v
+  else
+    let product := two_product a b in
+    let known := product_error_is_exact a b product in
+    let own := if known then snd product else #0 in
+    let unknown := if known then #0 else half_ulp v in
+    if residual_is_exact sa && residual_is_exact sb then (own, unknown)
+    else
+      let ca := abs (fst sa) in
+      let cb := abs (fst sb) in
+      let x := a * fst sb in
+      let y := fst sa * b in
+      let inherited := x + y in
+      let correction := own + inherited in
+      let remainder := (abs a + ca) * snd sb + ((abs b + cb + snd sb) * snd sa + ca * cb) in
+      (correction, residual_inflated (remainder + roundings x y inherited correction + unknown)).
+Definition residual_divide (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
+  let off := residual_error sb in
+  let distance := abs b - off in
+  if negb (#0 < distance) then (#0, ∞)
+  else if residual_is_zero a sa then residual_exact v
+  else
+    let (value, known) := remainder_of_division a b v in
+    let own := if known then value else #0 in
+    let unknown := if known then #0 else half_ulp v in
+    if (own == #0) && residual_is_exact sa && residual_is_exact sb then (#0, unknown + (v - v))
+    else
+      let x := v * fst sb in
+      let inherited := fst sa - x in
+      let numerator := own + inherited in
+      let correction := numerator / b in
+      let c := abs correction + η in
+      let q := abs v in
+      let left := (c * off + (q * snd sb + snd sa)) + roundings x #0 inherited numerator in
+      (correction,
+       residual_inflated (residual_inflated left / distance + half_ulp correction + (unknown + η))).
+Definition residual_scale (v a : T) (sa : T * T) (e : Z) : T * T :=
+  let correction := scale T A (fst sa) e in
+  let remainder := scale T A (snd sa) e in
+  let lossless := (0 <=? e)%Z ||
+    ((scale T A v (- e)%Z == a) && (scale T A correction (- e)%Z == fst sa) &&
+     (scale T A remainder (- e)%Z == snd sa)) in
+  (correction,
+   if lossless then remainder + (v - v) else residual_inflated (remainder + #2 * η)).
+
+End Code.

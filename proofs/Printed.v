@@ -1,0 +1,74 @@
+(** Where the rule as the TightCCD paper prints it does not hold, beside what Tight.v and Sign.v prove
+    of the code; rounding to nearest, from p = 3.
+
+    Results:
+        printed_sign_at_zero    Sign calls an exact zero positive
+        printed_sign_at_bound   and a number that may be zero
+        printed_product_lost    the bound of a product that underflows is none
+        printed_sum_rounded     nor is that of a sum where the bound itself is rounded *)
+
+From Coq Require Import Reals ZArith Lia Lra.
+From Flocq Require Import Core.
+From Errbound Require Import Format Sign Comparison.
+Open Scope R_scope.
+
+Section Printed.
+
+Variables p emin : Z.
+Context {p_positive : Prec_gt_0 p}.
+Hypothesis p_3 : (3 <= p)%Z.
+Hypothesis emin_p : (emin <= - p - 1)%Z.
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation eta := (eta emin).
+
+(** Section 4.1: 1 from sigma on, -1 from -sigma down, else 0: undetermined. *)
+Definition printed_sign (value error : R) : sign :=
+  if Rle_bool error value then positive
+  else if Rle_bool value (- error) then negative
+  else uncertain.
+
+Theorem printed_sign_at_zero : ~ sign_is_right (printed_sign 0 0) 0.
+Proof. unfold printed_sign. rewrite Rle_bool_true by lra. simpl. lra. Qed.
+Theorem printed_sign_at_bound e : 0 <= e ->
+  exists v x, Rabs (v - x) <= e /\ ~ sign_is_right (printed_sign v e) x.
+Proof.
+  intros P. exists e, 0. rewrite Rminus_0_r, Rabs_pos_eq by auto. split; [lra |].
+  unfold printed_sign. rewrite Rle_bool_true by lra. simpl. lra.
+Qed.
+
+(** eta eta, two exact numbers: the product is lost, and the printed bound is 0. *)
+Theorem printed_product_lost : exists a b, number a /\ number b /\
+  tight_product eps (fl (a * b)) a 0 b 0 < Rabs (fl (a * b) - a * b).
+Proof.
+  exists eta, eta. generalize (number_eta p emin) (eta_positive emin). intros N P.
+  assert (Z : fl (eta * eta) = 0).
+  { unfold Format.eta. rewrite <- bpow_plus. apply round_N_small_pos with (emin + emin + 1)%Z;
+      auto with typeclass_instances.
+    - split; [apply bpow_le | apply bpow_lt]; lia.
+    - unfold FLT_exp. lia. }
+  repeat split; auto. rewrite Z. unfold tight_product.
+  replace (0 - eta * eta) with (- (eta * eta)) by ring. assert (0 < eta * eta) by nra.
+  rewrite Rabs_Ropp, Rabs_R0, (Rabs_pos_eq (eta * eta)) by lra.
+  unfold Rdiv. rewrite !Rmult_0_l, !Rmult_0_r. lra.
+Qed.
+
+(** 1 and -1, known to within 1 and eta: the bound is rounded to 1, the error may be 1 + eta. *)
+Theorem printed_sum_rounded : exists a x sa b y sb,
+  number a /\ number b /\ number sa /\ number sb /\ Rabs (a - x) <= sa /\ Rabs (b - y) <= sb /\
+  fl (fl (fl (fl (Rabs (fl (a + b)) * eps) / fl (1 - eps)) + sa) + sb) < Rabs (fl (a + b) - (x + y)).
+Proof.
+  exists 1, 0, 1, (-1), (-1 - eta), eta.
+  assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; auto; lia).
+  generalize (number_eta p emin) (eta_positive emin) (Format.rnd_0 p emin nearest). intros N P Z.
+  split; [auto |]. split; [now apply number_opp |]. split; [auto |]. split; [auto |].
+  replace (1 - 0) with 1 by ring. replace (-1 - (-1 - eta)) with eta by ring.
+  rewrite Rabs_R1, Rabs_pos_eq by lra. split; [lra |]. split; [lra |].
+  replace (1 + -1) with 0 by ring. rewrite Z, Rabs_R0, Rmult_0_l, Z. unfold Rdiv. rewrite Rmult_0_l, Z.
+  rewrite Rplus_0_l, (rnd_exact p emin nearest 1 N1).
+  rewrite eta_lost by auto.
+  replace (0 - (0 + (-1 - eta))) with (1 + eta) by ring. rewrite Rabs_pos_eq; lra.
+Qed.
+
+End Printed.

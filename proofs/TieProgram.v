@@ -1,0 +1,47 @@
+(** The definitions of Code.v over IEEE floats, as a program: tie.ml evaluates them on tiny formats, on
+    float and on double, and tests/tie_test.cpp holds the C++ code to what comes out. *)
+
+From Coq Require Import ZArith Extraction ExtrOcamlBasic.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee.
+
+Section Bits.
+
+Variables p emax : Z.
+Context {p_positive : Prec_gt_0 p}.
+Context {p_below : Prec_lt_emax p emax}.
+
+(** A float as IEEE 754 lays it out: sign, exponent, fraction. One NaN. *)
+Definition least_normal : Z := 2 ^ (p - 1).
+Definition sign_bit : Z := 2 * emax * least_normal.
+Definition code_of_infinity : Z := sign_bit - least_normal.
+Definition code_of_float (x : binary_float p emax) : Z :=
+  let signed (s : bool) (n : Z) := if s then (sign_bit + n)%Z else n in
+  match x with
+  | B754_zero s => signed s 0%Z
+  | B754_infinity s => signed s code_of_infinity
+  | B754_nan => (code_of_infinity + 1)%Z
+  | B754_finite s m e _ => signed s ((e - (3 - emax - p)) * least_normal + Zpos m)%Z
+  end.
+Definition float_of_code (c : Z) : binary_float p emax :=
+  let s := (sign_bit <=? c)%Z in
+  let n := if s then (c - sign_bit)%Z else c in
+  if (code_of_infinity <? n)%Z then B754_nan
+  else if (n =? code_of_infinity)%Z then B754_infinity s
+  else
+    let e := Z.max 1 (n / least_normal) in
+    let m := (n - (e - 1) * least_normal)%Z in
+    binary_normalize p emax p_positive p_below mode_NE (if s then (- m)%Z else m) (e - 1 + (3 - emax - p)) s.
+
+End Bits.
+
+Extraction "code.ml" code_of_float float_of_code floats
+  sign_of none_error
+  tight_exact tight_within tight_add tight_multiply tight_divide tight_scale
+  sharp_add sharp_multiply sharp_divide sharp_scale
+  safe_exact safe_within safe_error safe_add safe_multiply safe_scale
+  interval_exact interval_within interval_error interval_sign interval_add interval_subtract
+  interval_multiply interval_divide interval_scale
+  residual_exact residual_within residual_error residual_sign residual_add residual_subtract
+  residual_multiply residual_divide residual_scale
+  two_sum two_product product_error_is_exact remainder_of_division.
