@@ -293,9 +293,10 @@ Proof.
   assert (0 <= error a + error b) by lra.
   set (er := rounded (flc (flc (error a + error b) + m))) in *.
   assert (0 <= eps * (error a + error b + m)) by (apply Rmult_le_pos; lra).
-  split; [repeat split | repeat split; lra || nra]; auto.
+  split; [repeat split | repeat split; assumption || lra || nra]; auto.
   - right. simpl. lra.
-  - simpl. assert (L : underflow a + underflow b <= rounded (flc (underflow a + underflow b))) by nra.
+  - simpl. assert (L : underflow a + underflow b <= rounded (flc (underflow a + underflow b))).
+    { assert (0 <= eps * (underflow a + underflow b)) by (apply Rmult_le_pos; lra). lra. }
     destruct Ua as [Ua | Ua], Ub as [Ub | Ub]; [left | right; lra ..].
     unfold rounded. rewrite Ua, Ub, Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l.
     apply rnd_0. auto with typeclass_instances.
@@ -365,8 +366,12 @@ Proof.
   assert (A8 : 0 <= (error a * underflow b + underflow a * error b) * (2 * eps))
     by (apply Rmult_le_pos; lra).
   assert (A9 : 0 <= error a * error b * eps) by (apply Rmult_le_pos; lra).
-  repeat split; auto; try (right; cbn [magnitude error underflow]; nra).
-  - fold m. nra.
+  assert (0 <= eps * (magnitude a * error b + error a * magnitude b + error a * error b * eps + m))
+    by (apply Rmult_le_pos; lra).
+  assert (0 <= eps * (magnitude a * underflow b + underflow a * magnitude b +
+    (error a * underflow b + underflow a * error b) * (2 * eps) + 2)) by (apply Rmult_le_pos; lra).
+  repeat split; auto; try (right; cbn [magnitude error underflow]; lra || nra).
+  - fold m. lra || nra.
 Qed.
 
 Lemma constant_1 c : c <> 0%Z -> 1 <= Rabs (IZR c).
@@ -616,7 +621,8 @@ Proof.
   set (ma := magnitude a) in *. set (mb := magnitude b) in *. set (ea := error a) in *.
   set (eb := error b) in *. set (ua := underflow a) in *. set (ub := underflow b) in *.
   (* what underflow contributes, in units of eta S *)
-  set (h := eta * S). assert (Hh : eta <= h) by (unfold h; nra).
+  set (h := eta * S). assert (Hh : eta <= h).
+  { unfold h. rewrite <- (Rmult_1_r eta) at 1. apply Rmult_le_compat_l; lra. }
   assert (X1 : U * (ub * (eta * T')) <= ub * h).
   { unfold h. destruct SB as [-> | SB]; [lra |].
     replace (U * (ub * (eta * T'))) with (ub * (eta * (U * T'))) by ring.
@@ -626,7 +632,8 @@ Proof.
     replace (ua * (eta * T) * V) with (ua * (eta * (T * V))) by ring.
     repeat apply Rmult_le_compat_l; lra. }
   assert (X3 : (ua * (eta * T)) * (ub * (eta * T')) <= / 16 * h).
-  { unfold h. destruct SAB as [-> | [-> | SAB]]; [nra | nra |].
+  { unfold h. destruct SAB as [-> | [-> | SAB]];
+      [nra | nra |].
     replace (ua * (eta * T) * (ub * (eta * T'))) with (eta * (ua * ub) * (eta * (T * T'))) by ring.
     assert (0 <= T * T') by (apply Rmult_le_pos; lra).
     apply Rmult_le_compat; try lra.
