@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ccd/box_tree.hpp"
+#include "ccd/elements.hpp"
 #include "ccd/step_frames.hpp"
 
 namespace ccd {
@@ -68,14 +69,6 @@ class candidate_blocks {
     tbb::enumerable_thread_specific<block> blocks_;
 };
 
-template <std::size_t A, std::size_t B>
-bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) {
-    bool shared = false;
-    for (const index v : a)
-        for (const index w : b) shared |= v == w;
-    return shared;
-}
-
 template <class Real, class Consume>
 std::size_t vertex_face_candidates_by(const step_frames& frames, std::span<const face> mesh_faces,
                                       std::size_t vertex_count, const Consume& consume) {
@@ -95,7 +88,7 @@ std::size_t vertex_face_candidates_by(const step_frames& frames, std::span<const
             const std::array<index, 1>& v = vertices[i];
             const face& f = faces[j];
             const bool apart = !share_vertex(v, f);
-            block.add({v[0], f[0], f[1], f[2]}, certain ? apart : apart && frames.touch(v, f));
+            block.add(candidate_of(v, f), certain ? apart : apart && frames.touch(v, f));
         });
     return blocks.finish();
 }
@@ -110,11 +103,9 @@ std::size_t edge_edge_candidates_by(const step_frames& frames, std::vector<edge>
     for_each_touching(
         tree, tree, [&]() -> auto& { return blocks.local(); },
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
-            // Of edges that share no vertex the lesser one is that with the lesser first vertex.
-            const bool in_order = edges[i][0] < edges[j][0];
-            const edge a = edges[in_order ? i : j], b = edges[in_order ? j : i];
+            const edge &a = edges[i], &b = edges[j];
             const bool apart = !share_vertex(a, b);
-            block.add({a[0], a[1], b[0], b[1]}, certain ? apart : apart && frames.touch(a, b));
+            block.add(candidate_of(a, b), certain ? apart : apart && frames.touch(a, b));
         });
     return blocks.finish();
 }

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "ccd/elements.hpp"
+
 namespace ccd {
 namespace {
 
@@ -26,14 +28,6 @@ std::uint32_t position_of(curve_key key) {
 constexpr std::uint32_t cells = 1024;
 constexpr unsigned curve_bits = 30;
 constexpr std::size_t leaf_size = box_pack<float>::size;
-
-/// The ten bits of x with two zeros before each.
-std::uint32_t spread_bits(std::uint32_t x) {
-    x = (x | (x << 16)) & 0x030000FF;
-    x = (x | (x << 8)) & 0x0300F00F;
-    x = (x | (x << 4)) & 0x030C30C3;
-    return (x | (x << 2)) & 0x09249249;
-}
 
 template <class Real>
 double middle(const box<Real>& b, std::size_t k) {

@@ -19,6 +19,7 @@
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/queries.hpp"
+#include "ccd/elements.hpp"
 
 namespace ccd::cuda {
 
@@ -96,14 +97,6 @@ constexpr bool exactly_touch(const positions& at, const std::array<index, A>& a,
     return true;
 }
 
-template <std::size_t A, std::size_t B>
-constexpr bool share_vertex_of(const std::array<index, A>& a, const std::array<index, B>& b) {
-    for (const index v : a)
-        for (const index w : b)
-            if (v == w) return true;
-    return false;
-}
-
 /// Boxes of sorted elements, level by level: box i of a level is around boxes 8i to 8i + 7 of the
 /// level below it.
 struct box_levels {
@@ -176,15 +169,6 @@ struct curve_key {
         keys[i] = key;
         order[i] = i;
     }
-
-  private:
-    /// The ten bits of x with two zeros before each.
-    static constexpr std::uint32_t spread_bits(std::uint32_t x) {
-        x = (x | (x << 16)) & 0x030000FF;
-        x = (x | (x << 8)) & 0x0300F00F;
-        x = (x | (x << 4)) & 0x030C30C3;
-        return (x | (x << 2)) & 0x09249249;
-    }
 };
 
 template <std::size_t N>
@@ -225,9 +209,8 @@ struct face_search {
         const rounded_box b = swept_box(rows, f);
         tree.find(b, 0, [&](std::uint32_t leaf) {
             const std::array<index, 1> v{tree.order[leaf]};
-            if (share_vertex_of(v, f)) return;
-            if (tree.boxes[leaf].overlaps(b) || exactly_touch(at, v, f))
-                visit(indices{v[0], f[0], f[1], f[2]});
+            if (share_vertex(v, f)) return;
+            if (tree.boxes[leaf].overlaps(b) || exactly_touch(at, v, f)) visit(candidate_of(v, f));
         });
     }
 };
@@ -246,12 +229,9 @@ struct edge_search {
         const rounded_box b = tree.boxes[i];
         tree.find(b, std::size_t(i) + 1, [&](std::uint32_t leaf) {
             const edge other = searching[tree.order[leaf]];
-            if (share_vertex_of(mine, other)) return;
+            if (share_vertex(mine, other)) return;
             if (!tree.boxes[leaf].overlaps(b) && !exactly_touch(at, mine, other)) return;
-            // Of edges that share no vertex the lesser one is that with the lesser first vertex.
-            const bool in_order = mine[0] < other[0];
-            const edge x = in_order ? mine : other, y = in_order ? other : mine;
-            visit(indices{x[0], x[1], y[0], y[1]});
+            visit(candidate_of(mine, other));
         });
     }
 };

@@ -1,0 +1,41 @@
+// What the searches for candidates share, on the host and on devices: facts of a mesh's elements.
+// Internal.
+#pragma once
+
+#include <array>
+#include <ccd/batch.hpp>
+#include <ccd/mesh.hpp>
+#include <cstddef>
+#include <cstdint>
+
+namespace ccd {
+
+template <std::size_t A, std::size_t B>
+constexpr bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) {
+    bool shared = false;
+    for (const index v : a)
+        for (const index w : b) shared |= v == w;
+    return shared;
+}
+
+/// The candidate of a vertex and a face, whose vertices come in the mesh's order.
+constexpr vertex_face_indices candidate_of(const std::array<index, 1>& v, const face& f) {
+    return {v[0], f[0], f[1], f[2]};
+}
+/// The candidate of two ascending edges that share no vertex: the lesser edge first, which is that
+/// with the lesser first vertex.
+constexpr edge_edge_indices candidate_of(const edge& a, const edge& b) {
+    const bool in_order = a[0] < b[0];
+    const edge &x = in_order ? a : b, &y = in_order ? b : a;
+    return {x[0], x[1], y[0], y[1]};
+}
+
+/// The ten bits of x with two zeros before each: a part of a key on a Morton curve.
+constexpr std::uint32_t spread_bits(std::uint32_t x) {
+    x = (x | (x << 16)) & 0x030000FF;
+    x = (x | (x << 8)) & 0x0300F00F;
+    x = (x | (x << 4)) & 0x030C30C3;
+    return (x | (x << 2)) & 0x09249249;
+}
+
+}  // namespace ccd
