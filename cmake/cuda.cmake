@@ -5,10 +5,14 @@ if(NOT CMAKE_CUDA_COMPILER)
   message(STATUS "errbound: building without CUDA: no nvcc")
   return()
 endif()
-# Machine code for data-centre and desktop chips from Ampere and Hopper on, and PTX, which drivers
-# compile for all later ones and for Turing.
+# Where nothing else is asked for: machine code for compute capability 8 and 9, and PTX, which drivers
+# compile for 7.5 and all later ones; all by one pass of the compiler proper, since nothing of the
+# newer instruction sets would be used.
 if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
-  set(CMAKE_CUDA_ARCHITECTURES 75-virtual 80-real 90)
+  set(CMAKE_CUDA_ARCHITECTURES OFF)
+  foreach(code sm_80 sm_90 compute_75)
+    list(APPEND errbound_cuda_targets "SHELL:-gencode arch=compute_75,code=${code}")
+  endforeach()
 endif()
 enable_language(CUDA)
 if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12.0)
@@ -23,8 +27,8 @@ find_package(CUDAToolkit REQUIRED)
 # tests/cuda/flags_test.sh shows what becomes of the code otherwise.
 set(errbound_cuda_precision -fmad=false -ftz=false -prec-div=true -prec-sqrt=true)
 # (The standard as an option: CMake 3.25 does not know nvcc 13's.)
-set(errbound_cuda_options -std=c++20 --expt-relaxed-constexpr ${errbound_cuda_precision}
-                          -Xcompiler=-ffp-contract=off,-Wall)
+set(errbound_cuda_options ${errbound_cuda_targets} -std=c++20 --expt-relaxed-constexpr
+                          ${errbound_cuda_precision} -Xcompiler=-ffp-contract=off,-Wall)
 
 function(errbound_cuda_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEFINITIONS" ${ARGN})
