@@ -64,7 +64,12 @@ std::string fault_of(const positions& at, const candidates<Indices>& candidates,
         return "ccd::cuda: found no vertices, or frames of different strides, expected positions";
     if (at.vertices > most_candidates)
         return needed("vertices", at.vertices, most_candidates) + " at most";
-    if (answers == nullptr || memory.data == nullptr)
+    const bool named =
+        candidates.of_rows != nullptr ||
+        (candidates.columns[0] != nullptr && candidates.columns[1] != nullptr &&
+         (candidates.elements != nullptr ||
+          (candidates.columns[2] != nullptr && candidates.columns[3] != nullptr)));
+    if (!named || !has_coordinates(at) || answers == nullptr || memory.data == nullptr)
         return "ccd::cuda: found a null pointer, expected device memory";
     if (reinterpret_cast<std::uintptr_t>(candidates.of_rows) % 16 != 0)
         return "ccd::cuda: found rows of indices at an address that is no multiple of 16";
@@ -109,6 +114,9 @@ status finish_any(const positions& at, const candidates<Indices>& candidates, ou
     arena rest = parts.rest;
     const exact_memory all(rest, at.vertices, candidates.count);
     const exact_counters c = finish_exact(launcher, at, candidates, answers, all);
+    if (launcher.ok() && c.left > candidates.count)
+        launcher.fail("ccd::cuda: found scratch memory that decide_batch did not leave for these "
+                      "candidates");
     if (counts != nullptr && launcher.ok())
         *counts = {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside,
                    c.subdivision, c.one_word, c.two_words, c.left};
@@ -127,6 +135,13 @@ void queue_by(const device_method& m, device_launcher& launcher, const positions
 }
 
 }  // namespace
+
+bool has_coordinates(const positions& at) {
+    const auto all = [](const positions::frame& frame) {
+        return std::ranges::none_of(frame.axis, [](const void* p) { return p == nullptr; });
+    };
+    return all(at.before) && all(at.after);
+}
 
 template <class Indices>
 void queue_float_method(device_launcher& launcher, const positions& at,
@@ -188,6 +203,11 @@ status select_colliding(const outcome* answers, std::size_t answer_count, index*
                         std::size_t room, index* count, scratch memory, stream stream) {
     if (answer_count > most_candidates)
         return {needed("answers", answer_count, most_candidates) + " at most"};
+    if ((answer_count > 0 && answers == nullptr) || (room > 0 && found == nullptr) ||
+        count == nullptr || memory.data == nullptr)
+        return {"ccd::cuda: found a null pointer, expected device memory"};
+    if (reinterpret_cast<std::uintptr_t>(memory.data) % arena::alignment != 0)
+        return {"ccd::cuda: found scratch memory at an address that is no multiple of 256"};
     if (memory.bytes < scratch_bytes(0, answer_count))
         return {needed("scratch memory", memory.bytes, scratch_bytes(0, answer_count)) + " bytes"};
     const shares parts(memory, answer_count);

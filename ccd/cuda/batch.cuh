@@ -5,6 +5,9 @@
 
 namespace ccd::cuda {
 
+/// Whether no pointer to coordinates is null.
+bool has_coordinates(const positions& at);
+
 /// Queues options.method, which is not `exact`. `memory` is for a method_memory.
 template <class Indices>
 void queue_float_method(device_launcher& launcher, const positions& at,

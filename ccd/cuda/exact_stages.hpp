@@ -221,11 +221,11 @@ struct subdivision_stage : exact_stage<Indices> {
             const static_filter::whole_step<double, base::template forms_template> whole(forms,
                                                                                          sizes);
             const outcome found = subdivide(whole);
-            if (found != outcome::uncertain) {
-                this->answers[i] = found;
-                return;
-            }
+            this->answers[i] = found;
+            if (found != outcome::uncertain) return;
         }
+        // Until exact arithmetic says otherwise: nobody may take it for separate.
+        this->answers[i] = outcome::uncertain;
         this->open.push(i);
     }
 };

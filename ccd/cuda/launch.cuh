@@ -62,27 +62,33 @@ class device_launcher {
         buffer() = default;
         buffer(const buffer&) = delete;
         buffer& operator=(const buffer&) = delete;
-        ~buffer() { (void)cudaFree(data_); }
+        ~buffer() {
+            if (data_ != nullptr) (void)cudaFree(data_);
+        }
 
-        void resize(device_launcher& launcher, std::size_t n) {
+        void resize(device_launcher& launcher, std::size_t n) { make_room(launcher, n, 0); }
+        void extend(device_launcher& launcher, std::size_t n) { make_room(launcher, n, size_); }
+        T* data() { return data_; }
+        std::size_t size() const { return size_; }
+
+      private:
+        void make_room(device_launcher& launcher, std::size_t n, std::size_t kept) {
+            if (!launcher.ok()) return;
             if (n > capacity_) {
+                const std::size_t capacity = std::max(n, 2 * kept);
                 T* larger = nullptr;
-                const std::size_t capacity = std::max(n, 2 * size_);
                 if (!launcher.check(cudaMalloc(&larger, capacity * sizeof(T)))) return;
-                if (size_ > 0)
-                    launcher.check(cudaMemcpyAsync(larger, data_, size_ * sizeof(T),
+                if (kept > 0)
+                    launcher.check(cudaMemcpyAsync(larger, data_, kept * sizeof(T),
                                                    cudaMemcpyDeviceToDevice, launcher.stream_));
-                launcher.wait();
-                launcher.check(cudaFree(data_));
+                launcher.wait();  // what is queued may use the old memory
+                if (data_ != nullptr) launcher.check(cudaFree(data_));
                 data_ = larger;
                 capacity_ = capacity;
             }
             size_ = n;
         }
-        T* data() { return data_; }
-        std::size_t size() const { return size_; }
 
-      private:
         T* data_ = nullptr;
         std::size_t size_ = 0, capacity_ = 0;
     };
@@ -91,8 +97,7 @@ class device_launcher {
     void for_each(std::size_t n, const Body& body) {
         if (!ok() || n == 0) return;
         const auto blocks = static_cast<unsigned>((n + block_threads - 1) / block_threads);
-        run_for_each<<<blocks, block_threads, 0, stream_>>>(body, n);
-        check(cudaGetLastError());
+        launch(run_for_each<Body>, blocks, block_threads, body, n);
     }
     template <class Body>
     void for_each_queued(const queue& items, const Body& body) {
@@ -104,14 +109,11 @@ class device_launcher {
                                                             block_threads, 0));
         if (!ok()) return;
         const auto blocks = static_cast<unsigned>(processors * std::max(resident, 1));
-        run_for_each_queued<<<blocks, block_threads, 0, stream_>>>(body, items);
-        check(cudaGetLastError());
+        launch(run_for_each_queued<Body>, blocks, block_threads, body, items);
     }
     template <class T>
     void set(T* p, const T& value) {
-        if (!ok()) return;
-        set_value<<<1, 1, 0, stream_>>>(p, value);
-        check(cudaGetLastError());
+        launch(set_value<T>, 1, 1, p, value);
     }
     template <class T, class Of, class Combine>
     void reduce(std::size_t n, const Of& of, const Combine& combine, const T& start, T* r) {
@@ -149,18 +151,37 @@ class device_launcher {
 
     bool ok() const { return status_.error.empty(); }
     const status& result() const { return status_; }
-    /// Takes note of the first error. Returns whether all is well.
+    /// Takes note of the first error, and of ours alone: CUDA's own note of it is cleared. Returns
+    /// whether all is well.
     bool check(cudaError_t e) {
-        if (e != cudaSuccess && ok()) status_.error = std::string("CUDA: ") + cudaGetErrorString(e);
+        if (e != cudaSuccess) {
+            if (ok()) status_.error = std::string("CUDA: ") + cudaGetErrorString(e);
+            (void)cudaGetLastError();
+        }
         return ok();
+    }
+    /// For the next call's work.
+    void begin(stream s) {
+        stream_ = s;
+        status_.error.clear();
+    }
+    void wait() {
+        if (ok()) check(cudaStreamSynchronize(stream_));
     }
     void fail(std::string text) {
         if (ok()) status_.error = std::move(text);
     }
 
   private:
-    void wait() {
-        if (ok()) check(cudaStreamSynchronize(stream_));
+    template <class... Parameters, class... Arguments>
+    void launch(void (*kernel)(Parameters...), unsigned blocks, unsigned threads,
+                const Arguments&... arguments) {
+        if (!ok()) return;
+        cudaLaunchConfig_t configuration{};
+        configuration.gridDim = dim3(blocks);
+        configuration.blockDim = dim3(threads);
+        configuration.stream = stream_;
+        check(cudaLaunchKernelEx(&configuration, kernel, arguments...));
     }
 
     /// Calls one of CUB's functions, first for what memory it needs. That comes from `temporary`, or

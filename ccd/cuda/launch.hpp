@@ -6,8 +6,9 @@
 // same bodies, indices and queues without a device.
 //
 // A launcher has:
-//   buffer<T>                          memory that bodies see: resize(launcher, n), data(), size();
-//                                      resizing keeps what is there
+//   buffer<T>                          memory that bodies see: resize(launcher, n), which loses
+//   what
+//                                      is there, extend(launcher, n), data(), size()
 //   for_each(n, body)                  body(i) for all i < n, in any order
 //   for_each_queued(queue, body)       body(item) for all items that the queue holds by then
 //   set(p, value)                      *p = value, in the order of the other work
@@ -16,6 +17,7 @@
 //   sort(keys, values, n)              by ascending keys, stable
 //   read(p, n, to)                     waits, then copies from the memory that bodies see
 //   write(p, n, from)                  the other way
+//   wait()                             until all work is done
 //   ok()                               false after an error: then nothing more is done
 #pragma once
 
@@ -77,7 +79,8 @@ class host_launcher {
     template <class T>
     class buffer {
       public:
-        void resize(const host_launcher&, std::size_t n) { items_.resize(n); }
+        void resize(const host_launcher&, std::size_t n) { items_.assign(n, T{}); }
+        void extend(const host_launcher&, std::size_t n) { items_.resize(n); }
         T* data() { return items_.data(); }
         std::size_t size() const { return items_.size(); }
 
@@ -86,6 +89,7 @@ class host_launcher {
     };
 
     bool ok() const { return true; }
+    void wait() const {}
 
     template <class Body>
     void for_each(std::size_t n, const Body& body) const {

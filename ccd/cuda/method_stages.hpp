@@ -120,7 +120,9 @@ void run_method(Launcher& launcher, const positions& at, const candidates<Indice
     const auto stage = [&](const queue& open) {
         return method_stage<Indices>{at, candidates, answers, open};
     };
-    constexpr bool doubles_follow = !std::is_same_v<T, double>;
+    // `none` is never uncertain, but where its numbers overflow.
+    constexpr bool doubles_follow =
+        !std::is_same_v<T, double> && !std::is_same_v<typename Method::rule, errbound::none>;
     const decision_stage<Method, T, Indices> decision{stage(doubles_follow ? after_floats : none)};
     if constexpr (Method::coplanarity_first) {
         launcher.for_each(candidates.count,

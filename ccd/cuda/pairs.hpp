@@ -3,10 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/reference.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ccd/cuda/exact_stages.hpp"
@@ -36,7 +37,9 @@ struct scatter_answers {
     constexpr void operator()(std::uint32_t k) const { answers[numbers[k]] = found[k]; }
 };
 
-/// Decides by the reference, on the host, what run_exact left open. Returns the counters.
+/// Decides on the host, by all its threads, what run_exact left open; waits until the answers are
+/// written. Returns the counters; if more candidates were left than there are, the memory is not
+/// that of these candidates, and nothing is done.
 template <class Launcher, class Indices>
 exact_counters finish_exact(Launcher& launcher, const positions& at,
                             const candidates<Indices>& candidates, outcome* answers,
@@ -44,6 +47,7 @@ exact_counters finish_exact(Launcher& launcher, const positions& at,
     using query = query_of_kind<Indices, double>;
     exact_counters counters{};
     launcher.read(memory.counters, 1, &counters);
+    if (counters.left > candidates.count) return counters;
     // The queues' memory is free again: for queries on the way out, for answers on the way back.
     const std::size_t at_once = std::max<std::size_t>(
         1, exact_memory::queue_items(candidates.count) * sizeof(std::uint32_t) / sizeof(query));
@@ -51,17 +55,18 @@ exact_counters finish_exact(Launcher& launcher, const positions& at,
     auto* const decided = reinterpret_cast<outcome*>(memory.second);
     std::vector<query> queries;
     std::vector<outcome> found;
-    for (std::size_t first = 0; first < counters.left; first += at_once) {
+    for (std::size_t first = 0; first < counters.left && launcher.ok(); first += at_once) {
         const std::size_t count = std::min(at_once, counters.left - first);
         const std::uint32_t* numbers = memory.left + first;
         launcher.for_each(count, gather_queries<Indices>{at, candidates, numbers, staged});
         queries.resize(count);
         launcher.read(staged, count, queries.data());
-        found.clear();
-        for (const query& q : queries) found.push_back(decide_reference(q).outcome);
+        found.resize(count);
+        decide_batch(std::span<const query>(queries), std::span(found), {.threads = 0});
         launcher.write(decided, count, found.data());
         launcher.for_each(count, scatter_answers{numbers, decided, answers});
     }
+    if (counters.left > 0) launcher.wait();
     return counters;
 }
 

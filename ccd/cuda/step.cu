@@ -20,6 +20,7 @@ struct mesh_steps::state {
     std::vector<edge> edges;
     std::size_t vertices = 0;
     bool on_device = false;
+    device_launcher launcher{nullptr};  // with memory of its own, which is kept
     step_memory<device_launcher> memory;
     device_launcher::buffer<std::byte> batch;
 };
@@ -44,12 +45,16 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
     found = {};
     if (positions.vertices != state_->vertices)
         return {"ccd::cuda: found positions of " + std::to_string(positions.vertices) +
-                " vertices, expected " + std::to_string(state_->vertices)};
+                " vertices (0 also of frames of different strides), expected " +
+                std::to_string(state_->vertices)};
+    if (positions.vertices > 0 && !has_coordinates(positions))
+        return {"ccd::cuda: found a null pointer, expected positions"};
     if (std::ranges::find(device_methods(), options.method) == device_methods().end())
         return {"ccd::cuda: found the method " + std::string(info(options.method).name) +
                 ", expected one of device_methods()"};
     if (positions.vertices == 0) return {};
-    device_launcher launcher(options.stream);
+    device_launcher& launcher = state_->launcher;
+    launcher.begin(options.stream);
     auto& memory = state_->memory;
     if (!state_->on_device) {
         memory.set_mesh(launcher, state_->vertices, state_->faces, state_->edges);
@@ -73,6 +78,7 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
         return finish_exact(launcher, positions, block, answers, all).left;
     };
     const auto pairs = memory.run(launcher, positions, decide);
+    if (launcher.ok() && !pairs.finite) return {"ccd::cuda: a coordinate is not finite"};
     if (launcher.ok())
         found = {memory.vertex_face().data(), pairs.vertex_face,
                  memory.edge_edge().data(),   pairs.edge_edge,
@@ -135,9 +141,8 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
         if (!launcher.ok()) break;
         const auto all = candidates<Indices>::rows(rows.data(), part.size());
         const scratch given{memory.data(), memory.size()};
-        for (const status& s : {decide_batch(at, all, found.data(), given, options),
-                                finish(at, all, found.data(), given, options)})
-            if (!s) return s;
+        if (status s = decide_batch(at, all, found.data(), given, options); !s) return s;
+        if (status s = finish(at, all, found.data(), given, options); !s) return s;
         launcher.read(found.data(), part.size(), &answers[first]);
     }
     return launcher.result();

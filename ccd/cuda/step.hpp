@@ -289,6 +289,7 @@ class step_memory {
     struct found_pairs {
         std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
         std::size_t vertex_face = 0, edge_edge = 0, finished_on_host = 0;
+        bool finite = true;  ///< else nothing was done
     };
 
     /// Candidates decided at once, at most.
@@ -313,6 +314,10 @@ class step_memory {
         rows_.resize(launcher, 2 * vertices_);
         scene_.resize(launcher, 1);
         run_rounding(launcher, at, scene_.data(), rows_.data());
+        auto scene = scene_extent::nothing();
+        launcher.read(scene_.data(), 1, &scene);
+        found.finite = scene.finite;
+        if (!found.finite) return found;
 
         const elements<1> vertices{nullptr, vertices_};
         const elements<3> faces{faces_.data(), faces_.size()};
@@ -332,6 +337,7 @@ class step_memory {
                 run_search(launcher, search, edges.count, decide, edge_edge_, found.edge_edge,
                            found.finished_on_host);
         }
+        launcher.wait();
         return found;
     }
 
@@ -384,6 +390,7 @@ class step_memory {
         numbers_found_.resize(launcher, at_once);
         count_found_.resize(launcher, 1);
         pair_count = 0;
+        pairs.resize(launcher, 0);
         for (std::uint64_t first = 0; first < total && launcher.ok(); first += at_once) {
             const auto count =
                 static_cast<std::size_t>(std::min<std::uint64_t>(at_once, total - first));
@@ -395,7 +402,7 @@ class step_memory {
                        count_found_.data(), place_.data());
             index more = 0;
             launcher.read(count_found_.data(), 1, &more);
-            pairs.resize(launcher, pair_count + more);
+            pairs.extend(launcher, pair_count + more);
             launcher.for_each(
                 more, copy_rows<Indices>{rows, numbers_found_.data(), pairs.data() + pair_count});
             pair_count += more;

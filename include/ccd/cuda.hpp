@@ -37,8 +37,8 @@ status device_status();
 
 /// What a method computes in first. `float32` keeps every promise for any input: coordinates are
 /// taken relative to one of the query's points, with the error of that as the input's bound, and
-/// what floats cannot decide is decided in doubles, on the device. (`float` promises nothing, and
-/// stays in floats.)
+/// what floats cannot decide is decided in doubles, on the device. (Positions in floats are taken
+/// as they are. `float` promises nothing, and stays in floats.)
 enum class precision : std::uint8_t { float64, float32 };
 
 /// The methods that run on the device: float, safe, tight, safeccd, safeccd-tight and exact.
@@ -120,8 +120,8 @@ struct scratch {
     void* data = nullptr;
     std::size_t bytes = 0;
 };
-/// How much of it `decide_batch` and `select_colliding` need: 12 bytes a candidate, 32 a vertex and
-/// some kilobytes.
+/// How much of it `decide_batch` and `select_colliding` need: 12.1 bytes a candidate, 32 a vertex
+/// and 4 MiB. Its address must be a multiple of 256, as CUDA's are.
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates);
 
 struct batch_options {
@@ -148,8 +148,9 @@ struct stage_counts {
     std::uint32_t left_open = 0;  ///< decided by finish()
 };
 
-/// Decides what decide_batch of `exact` left open, on the host, and writes the answers. Waits for
-/// the stream. `counts`, if not null, receives what the stages did.
+/// Decides what decide_batch of `exact` left open, on the host by all its threads, and writes the
+/// answers. Waits for the stream. `counts`, if not null, receives what the stages did. Throws
+/// only std::bad_alloc.
 status finish(const positions& positions, const candidates<vertex_face_indices>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts = nullptr);
@@ -185,8 +186,9 @@ class mesh_steps {
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
     /// The pairs that options.method cannot certify as separate, as ccd::step() finds them. The
-    /// result is this object's and lasts until the next call. Coordinates must be finite. Waits for
-    /// the stream some times; allocates where its memory does not suffice.
+    /// result is this object's, complete on return, and lasts until the next call. A coordinate
+    /// that is not finite is an error. Waits for the stream some times; allocates where its memory
+    /// does not suffice. All calls must be on one device.
     status run(const positions& positions, const batch_options& options, result& found);
 
   private:
@@ -194,12 +196,14 @@ class mesh_steps {
     std::unique_ptr<state> state_;
 };
 
-/// ccd::step() on the device: copies both frames there and the pairs back. options.threads and set
-/// are of no use here; of the seconds, those of both phases are taken together as the narrow's.
+/// ccd::step() on the device, which throws what that throws: copies both frames there and the pairs
+/// back. options.threads and set are of no use here; of the seconds, those of both phases are taken
+/// together as the narrow's.
 status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
             step_result& result);
 
-/// ccd::decide_batch, from and to host memory, by any of device_methods().
+/// ccd::decide_batch, from and to host memory, by any of device_methods(). Throws
+/// std::invalid_argument if the two lengths differ.
 status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
               const batch_options& options);
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,

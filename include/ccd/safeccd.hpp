@@ -64,6 +64,18 @@ namespace safeccd {
 using errbound::number_traits;
 using errbound::sign_type;
 
+/// About x^(2/3), by operations that every machine rounds alike (std::cbrt is not among them).
+template <class T>
+constexpr T two_thirds_power(const T& x) {
+    using traits = number_traits<T>;
+    if (!(x > 0) || !traits::is_finite(x)) return x;
+    const int e = traits::exponent(x), third = (e < 0 ? e - 2 : e) / 3;  // rounded down
+    const T m = traits::scale(x, -3 * third);                            // in [1/2, 4)
+    T root = (2 + m) / 3;
+    for (int i = 0; i < 5; ++i) root = (2 * root + m / (root * root)) / 3;  // Newton's
+    return traits::scale(root * root, 2 * third);
+}
+
 /// What counts as too close to tell, from each variable's own bound.
 template <class T, class Rule>
 struct tolerances {
@@ -95,7 +107,7 @@ struct tolerances {
 
     /// ν for the bound μ of |f| and edges at least `length` long: minimises μ/ν + r.
     static constexpr T smallest_normal(T mu, T length) {
-        const T for_any = std::cbrt(mu) * std::cbrt(mu);
+        const T for_any = two_thirds_power(mu);
         const T for_long = std::sqrt(mu * length);
         return length > 0 && mu / for_long < mu / for_any ? for_long : for_any;
     }

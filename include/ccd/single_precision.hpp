@@ -21,7 +21,7 @@ namespace ccd {
 ///
 /// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|,
 /// or by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η,
-/// rounded downwards as it may be. (Where d overflows, f is infinite and its bound NaN.)
+/// rounded downwards as it may be. (Where d overflows, f and its bound are infinite.)
 template <class Rule, template <class> class Query>
 constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precision_query(
     const Query<double>& query) {

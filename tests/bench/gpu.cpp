@@ -8,6 +8,7 @@
 #include <ccd/step.hpp>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>

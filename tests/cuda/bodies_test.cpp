@@ -82,6 +82,9 @@ std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>
     std::vector<outcome> answers(all.count, outcome::collides);
     const laid_out<ccd::cuda::exact_memory> memory(at.vertices, all.count);
     run_exact(launcher, at, all, answers.data(), *memory, p);
+    // What is left to the host must not look separate to those who do not ask it.
+    for (std::uint32_t k = 0; k < memory->counters->left; ++k)
+        EXPECT_EQ(answers[memory->left[k]], outcome::uncertain);
     const auto counted = finish_exact(launcher, at, all, answers.data(), *memory);
     if (counters != nullptr) *counters = counted;
     return answers;
@@ -421,6 +424,27 @@ TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
         for (ccd::mesh* m : {&before, &after})
             for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
         expect_step_as_on_host(before, after, 1 << 20);
+    }
+}
+
+TEST(device_step, refuses_coordinates_that_are_not_finite) {
+    const ccd::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}, {5, 5, 5}},
+                         {{0, 1, 2}, {1, 2, 3}}};
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        ccd::mesh broken = mesh;
+        broken.vertices[4].y = bad;  // a vertex of no face
+        host_launcher launcher;
+        ccd::cuda::step_memory<host_launcher> memory;
+        memory.set_mesh(launcher, 5, mesh.faces, ccd::unique_edges(mesh.faces));
+        const positions at(coordinates<double>::rows(cuda_sets::numbers_of(mesh.vertices)),
+                           coordinates<double>::rows(cuda_sets::numbers_of(broken.vertices)), 5);
+        const auto never = [](const auto&, outcome*, ccd::cuda::scene_extent*,
+                              ccd::cuda::rounded_position*) -> std::size_t {
+            ADD_FAILURE() << "nothing is to be decided";
+            return 0;
+        };
+        EXPECT_FALSE(memory.run(launcher, at, never).finite);
     }
 }
 

@@ -203,7 +203,19 @@ TEST(device_arguments, are_refused_in_words) {
     EXPECT_NE(
         error(at, candidates::rows(&row, std::size_t(1) << 32), &answer, little).find("at most"),
         std::string::npos);
+    EXPECT_NE(error(at, candidates::rows(nullptr, 1), &answer, little).find("null pointer"),
+              std::string::npos);
+    const ccd::index one_index = 0;
+    EXPECT_NE(error(at, candidates::pairs(&one_index, &one_index, nullptr, 1), &answer, little)
+                  .find("null pointer"),
+              std::string::npos);
     EXPECT_TRUE(ccd::cuda::decide_batch(at, candidates{}, nullptr, {}));
+    ccd::index found_one = 0, count = 0;
+    EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, {}).error.find("null"),
+              std::string::npos);
+    EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, little)
+                  .error.find("scratch memory of 256, expected"),
+              std::string::npos);
     EXPECT_THROW(ccd::cuda::mesh_steps(std::vector<ccd::face>{{0, 1, 4}}, 4),
                  std::invalid_argument);
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 3);
