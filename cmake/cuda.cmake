@@ -20,7 +20,11 @@ if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS 12.0)
                  "than 12.0")
   return()
 endif()
-find_package(CUDAToolkit REQUIRED)
+find_package(CUDAToolkit QUIET)
+if(NOT TARGET CUDA::cudart_static)
+  message(STATUS "errbound: building without CUDA: nvcc is there, but not the toolkit's libraries")
+  return()
+endif()
 
 # What bounds and identical answers need of device code: no contraction to fused multiply-add, no
 # flushing of subnormals, divisions and square roots that are rounded correctly.
