@@ -220,7 +220,9 @@ TEST(device_arguments, are_refused_in_words) {
                  std::invalid_argument);
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 3);
     ccd::cuda::mesh_steps::result found;
-    EXPECT_NE(steps.run(at, {}, found).error.find("4 vertices, expected 3"), std::string::npos);
+    EXPECT_NE(steps.run(at, {}, found)
+                  .error.find("4 vertices (0 also of frames of different strides), expected 3"),
+              std::string::npos);
 }
 
 }  // namespace
