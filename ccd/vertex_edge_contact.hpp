@@ -26,6 +26,7 @@ constexpr errbound::fixed_integer<Words> magnitude(const errbound::fixed_integer
 }
 
 /// Whether b <= 0 at some root of f in (0, 1), for an f whose coefficients have both signs.
+/// Proof: proofs/VertexEdge.v, nonpositive_at_a_root_right.
 template <int Words>
 constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
                                      const quadratic_form<Words>& b) {
@@ -66,6 +67,7 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
 /// Whether the vertex touches the edge. Differences of coordinates at one end of the step must be
 /// below 2^(64·Words − 3). Cost: some 40 products of words, and up to a few hundred if W × E has a
 /// root in [0, 1] in all three components.
+/// Proof: proofs/VertexEdge.v, contact_right.
 template <int Words>
 constexpr bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
     using errbound::sign_of;
