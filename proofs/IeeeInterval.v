@@ -4,10 +4,12 @@
     A number x with value a is known by two floats if they are finite, a is, and both a and x lie
     between them; or if they are -infinity and +infinity. Results: what the code returns is known:
         interval_exact_known, interval_within_known, interval_negate_known, interval_add_known,
-        interval_subtract_known, interval_multiply_known, interval_scale_known
+        interval_subtract_known, interval_multiply_known, interval_divide_known,
+        interval_scale_known
         interval_sign_known   the rule's sign is right or uncertain
     On the way: two_sum does not overflow after its sum but into NaN (two_sum_known), and
-    product_error_is_exact tells the truth whatever overflows (product_known). *)
+    product_error_is_exact (product_known) and remainder_of_division (remainder_known) tell the truth
+    whatever overflows. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN Sterbenz.
@@ -523,7 +525,7 @@ Qed.
 Lemma product_known a b : product_error_is_exact _ F a b (two_product _ F a b) = true ->
   finite (a ⊗ b) /\ finite (snd (two_product _ F a b)) /\ finite a /\ finite b /\
   B2R (a ⊗ b) + B2R (snd (two_product _ F a b)) = B2R a * B2R b /\
-  (B2R a = 0 \/ B2R b = 0 \/ Format.smallest_normal p emin <= Rabs (B2R a * B2R b)).
+  ErrorFree.product_error_is_exact p emin (B2R a) (B2R b) (B2R (a ⊗ b), B2R (snd (two_product _ F a b))).
 Proof.
   unfold product_error_is_exact, two_product. generalize (split_finite a) (split_finite b).
   destruct (split _ F a) as [ah al], (split _ F b) as [bh bl]. cbn [fst snd]. intros SA SB.
@@ -548,10 +550,10 @@ Proof.
   assert (S0 : ErrorFree.split p emin 0 = (0, 0)).
   { unfold ErrorFree.split. cbv zeta. now repeat rewrite ?Rmult_0_r, ?Rminus_0_r, ?R0. }
   destruct (Req_bool_spec (B2R a) 0) as [A0 | A0].
-  { split; auto. rewrite A0. unfold ErrorFree.two_product. rewrite S0. destruct (ErrorFree.split p emin (B2R b)) as [rh rl].
+  { split; [| now left]. rewrite A0. unfold ErrorFree.two_product. rewrite S0. destruct (ErrorFree.split p emin (B2R b)) as [rh rl].
     cbv beta iota zeta. cbn [snd]. repeat rewrite ?Rmult_0_l, ?Rminus_0_r, ?Rplus_0_r, ?R0. ring. }
   destruct (Req_bool_spec (B2R b) 0) as [B0 | B0].
-  { split; auto. rewrite B0. unfold ErrorFree.two_product. rewrite S0. destruct (ErrorFree.split p emin (B2R a)) as [rh rl].
+  { split; [| right; now left]. rewrite B0. unfold ErrorFree.two_product. rewrite S0. destruct (ErrorFree.split p emin (B2R a)) as [rh rl].
     cbv beta iota zeta. cbn [snd]. repeat rewrite ?Rmult_0_r, ?Rminus_0_r, ?Rplus_0_r, ?R0. ring. }
   cbn [orb] in H. change (digits _ F) with p in H.
   destruct (Z.ltb_spec p 4) as [P | P]; [discriminate |].
@@ -579,11 +581,7 @@ Proof.
                 (number_B2R _ _ a) (number_B2R _ _ b) X) at 2.
     unfold ErrorFree.two_product. destruct (ErrorFree.split p emin (B2R a)).
     destruct (ErrorFree.split p emin (B2R b)). reflexivity.
-  - right. right.
-    destruct (ErrorFree.far_from_underflow p emin (B2R a) (B2R b) 0 ltac:(lia)) as [D | D].
-    + right. right. exact T.
-    + exfalso. apply Rmult_integral in D. tauto.
-    + apply Rle_trans with (2 := D). apply bpow_le. lia.
+  - right. right. exact T.
 Qed.
 
 Theorem interval_multiply_known a A x b B y : interval_known a A x -> interval_known b B y ->
@@ -643,5 +641,128 @@ Proof.
     destruct (Ends FL FW) as (EL & EW & _ & _ & H). split.
     + apply Rle_trans with (B2R (fst A) * bpow radix2 e); [| lra]. apply below_true; auto. lra.
     + apply Rle_trans with (B2R (snd A) * bpow radix2 e); [lra |]. apply above_true; auto. lra.
+Qed.
+
+(** Division. *)
+Lemma product_value a b : fst (two_product _ F a b) = a ⊗ b.
+Proof. unfold two_product. destruct (split _ F a), (split _ F b). reflexivity. Qed.
+Lemma remainder_known a b : finite (a ⊘ b) -> finite b -> B2R b <> 0 ->
+  snd (remainder_of_division _ F a b (a ⊘ b)) = true ->
+  finite (fst (remainder_of_division _ F a b (a ⊘ b))) /\
+  B2R (fst (remainder_of_division _ F a b (a ⊘ b))) = B2R a - B2R (a ⊘ b) * B2R b.
+Proof.
+  intros FV FB NB. destruct zero_value' as [Z0 Z]. generalize (p_emax p emax). intros PE.
+  generalize FV. intros H. apply over_finite in H; auto. destruct H as [FA EV].
+  unfold remainder_of_division. cbv zeta. rewrite equal_finite, Z by auto.
+  destruct (Req_bool_spec (B2R a) 0) as [A0 | A0]; cbn [fst snd].
+  { intros _. split; auto. rewrite EV, A0, Z. unfold Rdiv.
+    rewrite Rmult_0_l, (Format.rnd_0 p emin Format.nearest). ring. }
+  set (v := a ⊘ b) in *. intros C. apply andb_prop in C. destruct C as [CQ CP].
+  rewrite equal_finite, Z in CQ by auto.
+  destruct (Req_bool_spec (B2R v) 0) as [NQ | NQ]; [discriminate CQ |]. clear CQ.
+  apply product_known in CP. rewrite product_value. destruct CP as (FP & FE & _ & _ & EX & D).
+  set (e := snd (two_product _ F v b)) in *.
+  assert (EP : B2R (v ⊗ b) = fl (B2R v * B2R b)) by now apply times_finite in FP.
+  assert (R : ErrorFree.remainder_of_division p emin (B2R a) (B2R (v ⊗ b), B2R e) = B2R a - B2R v * B2R b).
+  { rewrite EV. rewrite EV in EX, EP, D, NQ.
+    apply ErrorFree.remainder_of_division_exact; auto using number_B2R; lia. }
+  unfold ErrorFree.remainder_of_division in R. cbn [fst snd] in R.
+  destruct (Req_bool_spec (B2R a) 0) as [? | _]; [contradiction |].
+  assert (Q : Rabs (B2R a - B2R v * B2R b) <= Rabs (B2R v * B2R b) / 2).
+  { rewrite EV. rewrite EV in NQ. apply ErrorFree.quotient_error; auto. lia. }
+  rewrite EP in D.
+  destruct (ErrorFree.far_from_underflow p emin _ _ _ ltac:(lia) D) as [S | S]; [apply Rmult_integral in S; destruct S; contradiction |].
+  assert (ED : fl (B2R a - B2R (v ⊗ b)) = B2R a - B2R (v ⊗ b)).
+  { rewrite EP. apply ErrorFree.difference_is_number; auto using number_B2R; try lia.
+    apply Rle_trans with (2 := S). apply bpow_le. lia. }
+  generalize U_M (le_M (v ⊗ b)). intros [PU LM] MP.
+  assert (HP : Rabs (B2R (v ⊗ b) - B2R v * B2R b) <= U / 2).
+  { rewrite EP. apply half_ulp_U. now rewrite <- EP. }
+  assert (LQ : Rabs (B2R v * B2R b) <= M + U / 2).
+  { replace (B2R v * B2R b) with (B2R (v ⊗ b) - (B2R (v ⊗ b) - B2R v * B2R b)) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
+  assert (FD : finite (a ⊖ (v ⊗ b))).
+  { apply minus_fits; auto.
+    replace (B2R a - B2R (v ⊗ b)) with ((B2R a - B2R v * B2R b) + - (B2R (v ⊗ b) - B2R v * B2R b)) by ring.
+    apply Rle_lt_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp. lra. }
+  generalize FD. intros H. apply minus_finite in H. destruct H as (_ & _ & H). rewrite ED in H, R.
+  assert (FR : finite (a ⊖ (v ⊗ b) ⊖ e)).
+  { apply minus_fits; auto. rewrite H.
+    replace (B2R a - B2R (v ⊗ b) - B2R e) with (B2R a - B2R v * B2R b) by lra. lra. }
+  split; auto. apply minus_finite in FR. destruct FR as (_ & _ & ->). rewrite H. exact R.
+Qed.
+Lemma over_no_nan x y : finite x -> B2R y <> 0 -> no_nan (x ⊘ y).
+Proof.
+  intros X Y. generalize (Bdiv_correct p emax _ _ mode_NE x y Y). case Rlt_bool.
+  - intros (_ & H & _). rewrite X in H. revert H. unfold over, floats. now destruct (Bdiv mode_NE x y).
+  - intros H. revert H. unfold over, floats. now destruct (Bdiv mode_NE x y).
+Qed.
+Lemma inverse_between m n y : m <= y <= n -> 0 < m \/ n < 0 -> / n <= / y <= / m.
+Proof.
+  intros [H1 H2] [P | P].
+  - split; apply Rinv_le_contravar; lra.
+  - assert (- / m <= - / y /\ - / y <= - / n); [| lra].
+    rewrite !Ropp_inv_permute by lra. split; apply Rinv_le_contravar; lra.
+Qed.
+
+(** x - y b and the sign of b tell on which side of y the quotient x/b lies. *)
+Lemma quotient_above x b y : b <> 0 -> 0 <= (if Rlt_bool b 0 then - (x - y * b) else x - y * b) -> y <= x / b.
+Proof.
+  intros NB. case Rlt_bool_spec; intros C H.
+  - apply Rmult_le_reg_r with (- b); [lra |]. replace (x / b * - b) with (- x) by (field; auto). lra.
+  - apply Rmult_le_reg_r with b; [lra |]. replace (x / b * b) with x by (field; auto). lra.
+Qed.
+Lemma quotient_below x b y : b <> 0 -> (if Rlt_bool b 0 then - (x - y * b) else x - y * b) <= 0 -> x / b <= y.
+Proof.
+  intros NB H. enough (- y <= - x / b) by (unfold Rdiv in *; lra).
+  apply quotient_above; auto. revert H. case Rlt_bool_spec; intros; lra.
+Qed.
+
+Theorem interval_divide_known a A x b B y : interval_known a A x -> interval_known b B y ->
+  interval_known (a ⊘ b) (interval_divide _ F (a ⊘ b) a A b B) (x / y).
+Proof.
+  intros KA KB. destruct zero_value' as [Z0 Z]. unfold interval_divide.
+  destruct (negb (less _ F (integer _ F 0) (fst B)) && negb (less _ F (snd B) (integer _ F 0))) eqn:CB;
+    [left; reflexivity |].
+  assert (H : finite (fst B) /\ finite (snd B) /\ finite b /\
+    B2R (fst B) <= B2R b <= B2R (snd B) /\ B2R (fst B) <= y <= B2R (snd B)).
+  { destruct KB as [-> | KB]; [discriminate CB | exact KB]. }
+  destruct H as (FL & FU & FB & HB & HY).
+  assert (S : 0 < B2R (fst B) \/ B2R (snd B) < 0).
+  { rewrite !less_finite, Z in CB by assumption.
+    destruct (Rlt_bool_spec 0 (B2R (fst B))), (Rlt_bool_spec (B2R (snd B)) 0); try lra. }
+  clear CB. assert (NB : B2R b <> 0) by (destruct S; lra).
+  destruct (is_point _ F A && is_point _ F B) eqn:CP.
+  { apply andb_prop in CP. destruct CP as [CA CP].
+    destruct (is_point_true _ _ _ KA CA) as [FA ->], (is_point_true _ _ _ KB CP) as [_ ->].
+    clear KA KB CA CP.
+    assert (E : finite (a ⊘ b) -> B2R (a ⊘ b) = fl (B2R a / B2R b)).
+    { intros H. apply over_finite in H; [destruct H; assumption | assumption | assumption]. }
+    generalize (remainder_known a b).
+    destruct (remainder_of_division _ F a b (a ⊘ b)) as [r exact]. cbn [fst snd]. intros R.
+    destruct exact; [| apply one_step_known; exact E].
+    apply nearest_known; [exact E |]. intros FV. destruct (R FV FB NB eq_refl) as [FR ER].
+    generalize (quotient_above (B2R a) (B2R b) (B2R (a ⊘ b)) NB)
+      (quotient_below (B2R a) (B2R b) (B2R (a ⊘ b)) NB).
+    assert (FO : finite (opposite _ F r)) by (simpl; rewrite is_finite_Bopp; exact FR).
+    rewrite less_finite, Z, <- ER by assumption.
+    destruct (Rlt_bool (B2R b) 0); rewrite ?opposite_value; intros G1 G2;
+      (split; [assumption |]; split; [intros; apply G2; lra |]; split; [intros; apply G1; lra |];
+       intros; apply Rle_antisym; [apply G1 | apply G2]; lra). }
+  assert (NL : B2R (fst B) <> 0) by (destruct S; lra). assert (NU : B2R (snd B) <> 0) by (destruct S; lra).
+  apply hull_known with (B2R (fst A) / B2R (fst B)) (B2R (fst A) / B2R (snd B))
+    (B2R (snd A) / B2R (fst B)) (B2R (snd A) / B2R (snd B)).
+  - destruct KA as [-> | (LA & UA & _)].
+    + right. cbn [fst snd]. repeat split; intros H;
+        (apply over_finite in H; [destruct H; discriminate | assumption | assumption]).
+    + left. exact (conj (over_no_nan _ _ LA NL) (conj (over_no_nan _ _ LA NU)
+        (conj (over_no_nan _ _ UA NL) (over_no_nan _ _ UA NU)))).
+  - intros H1 H2 H3 H4. apply over_finite in H1, H2, H3, H4; try assumption.
+    destruct H1 as [H1 E1], H2 as [_ E2], H3 as [_ E3], H4 as [_ E4].
+    destruct KA as [-> | (_ & _ & _ & _ & HA)]; [discriminate H1 |].
+    split; [exact (conj E1 (conj E2 (conj E3 E4))) |].
+    generalize (inverse_between _ _ _ HY S). intros I. unfold Rdiv. split.
+    + destruct (corner_below _ _ _ _ _ _ HA I) as [G | [G | [G | G]]]; auto.
+    + destruct (corner_above _ _ _ _ _ _ HA I) as [G | [G | [G | G]]]; auto.
 Qed.
 End Rules.

@@ -94,6 +94,7 @@ struct interval {
                        rounded_product(a.bound.upper, b.bound.upper));
     }
     /// Unknown where b may be zero.
+    /// Proof: proofs/IeeeInterval.v, interval_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T, interval> a, operand<T, interval> b) {
         if (!(b.bound.lower > 0) && !(b.bound.upper < 0)) return unknown<T>();
