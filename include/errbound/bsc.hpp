@@ -109,7 +109,7 @@ struct linear_signs {
 /// Sign determination I (TTWM14): the sign of the linear form l at the only inner root of Y, where
 /// Y has the strict sign `before` left of it and the opposite one right of it.
 /// If Y(t_l) has the sign `before`, the root lies right of t_l, where l has the sign l(1).
-/// Proof: proofs/Bsc.v, sign_determination_1.
+/// Proof: proofs/BscSigns.v, sign_determination_1.
 template <class S>
 constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
                                      const bernstein<S, 1>& l) {
@@ -127,7 +127,7 @@ constexpr sign_type sign_at_crossing(const cubic<S>& y, sign_type before,
 /// Y(t_l) < 0 means t0 < t_l < t1. Else t_l lies outside, on the side of the extremum that
 /// the increasing d tells: d(t_l) < 0 left, so both roots are right of it. If Y(t_l)'s sign is
 /// uncertain, d(t_l) still tells it from the root on the other side of the extremum.
-/// Proof: proofs/Bsc.v, sign_determination_2.
+/// Proof: proofs/BscSigns.v, sign_determination_2.
 template <class S>
 constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
                                   const bernstein<S, 1>& l) {
@@ -155,7 +155,7 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 /// the cubic E by y3·E − e3·Y = s·J. At an inner root of Y, sign G = sign(y0·y3)·sign J.
 /// (A world may count an end value as strict that is zero in truth. J then vanishes at the root, so
 /// that no certain sign of J but zero can come out and nothing is concluded wrongly.)
-/// Proof: proofs/Bsc.v, reduction.
+/// Proof: proofs/BscSigns.v, reduction.
 template <class S>
 constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
     const std::array<S, 4> e{y[0] * g[1] - g[0] * y[1], y[0] * g[2] - g[0] * y[2],
@@ -166,7 +166,7 @@ constexpr bernstein<S, 2> reduced(const cubic<S>& y, const bernstein<S, 4>& g) {
 
 /// Polynomial decomposition: j0·j2·Y = M·J + s·t·R with M, R linear. At an inner root of Y,
 /// M·J = −s·t·R, so sign J = −sign M · sign R where M is not zero.
-/// Proof: proofs/Bsc.v, polynomial_decomposition.
+/// Proof: proofs/BscSigns.v, polynomial_decomposition.
 template <class S>
 struct decomposition {
     bernstein<S, 1> m, r;
@@ -223,7 +223,7 @@ constexpr sign_pair signs_at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
 /// Root-finding lemma, reduced at one end: by Euler, Y = A + t·D/3 = B − s·D/3 with the
 /// quadratics A (y0, 2y1/3, y2/3) and B, so at t_ex Y = A = B. Cancelling s² of A by D leaves
 /// d0·Y(t_ex) = t·M(t_ex), cancelling t² of B leaves d2·Y(t_ex) = s·M'(t_ex), with linear M, M'.
-/// Proof: proofs/Bsc.v, root_finding.
+/// Proof: proofs/BscSigns.v, root_finding.
 template <class S>
 constexpr sign_type sign_at_extremum(const cubic<S>& y, const bernstein<S, 2>& d) {
     // The sign of l at t_ex: d increases, so d(t_l) < 0 puts t_ex right of t_l.
