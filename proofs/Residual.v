@@ -1,0 +1,318 @@
+(** Bound rule `residual` (include/errbound/rules/residual.hpp), as the C++ code computes it; rounding
+    to nearest, ties to even, from 3 bits on, u a number (emin <= -p).
+
+    A number x is known by its value v, correction c and remainder r, |v + c - x| <= r.
+
+    What the rule's own arithmetic loses is counted by `covered k h exact computed`: a computed number
+    and what it stands for, exact <= computed (1 + u)^k + h, after k roundings; h is below zero where
+    the code added smallest numbers eta that nothing has used up yet. Of sums alone nothing underflows:
+    `summed k exact computed`. `inflated` pays for eight roundings and its own. *)
+
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core.
+From Errbound Require Import Format.
+Open Scope R_scope.
+
+Section Residual.
+
+Variables p emin : Z.
+Context {p_positive : Prec_gt_0 p}.
+
+Notation fl := (rnd p emin nearest).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation u := (u p).
+Notation eta := (eta emin).
+Notation smallest_normal := (smallest_normal p emin).
+
+(** The code, in its order of evaluation. *)
+Definition inflated (bound : R) : R := fl (bound * fl (1 + fl (8 * eps))).
+Definition half_ulp (v : R) : R := fl (fl (Rabs v * u) + eta).
+Definition roundings (x y first second : R) : R :=
+  fl (fl (fl (fl (Rabs x + Rabs y) + fl (Rabs first + Rabs second)) * u) + fl (4 * eta)).
+
+Definition residual_error (c r : R) : R :=
+  if Req_bool r 0 then Rabs c else inflated (fl (Rabs c + r)).
+Definition is_exact (c r : R) : bool := Req_bool c 0 && Req_bool r 0.
+Definition is_zero (v c r : R) : bool := Req_bool v 0 && is_exact c r.
+
+(** What v, c and r say of x. *)
+Definition holds (v c r x : R) : Prop :=
+  number v /\ number c /\ number r /\ Rabs (v + c - x) <= r.
+
+Lemma holds_nonnegative v c r x : holds v c r x -> 0 <= r.
+Proof. intros (_ & _ & _ & H). generalize (Rabs_pos (v + c - x)). lra. Qed.
+Lemma holds_exact v c r x : holds v c r x -> is_exact c r = true -> x = v.
+Proof.
+  intros (_ & _ & _ & H) E. apply andb_prop in E. destruct E as [E1 E2]. revert E1 E2.
+  do 2 (case Req_bool_spec; [| discriminate]). intros -> -> _ _.
+  apply Rabs_le_inv in H. lra.
+Qed.
+
+Hypothesis p_3 : (3 <= p)%Z.
+Hypothesis emin_p : (emin <= - p)%Z.
+
+Let an_error := rounding_error_nearest p emin ltac:(lia).
+Let rnd_exact := Format.rnd_exact p emin nearest.
+Let rnd_number := Format.rnd_number p emin nearest.
+Let rnd_above := Format.rnd_above p emin nearest.
+Let rnd_nonnegative := Format.rnd_nonnegative p emin nearest.
+Let sum_subnormal := Format.sum_subnormal p emin nearest.
+Let scaled_up := Format.scaled_up p emin nearest.
+
+Lemma u_8 : 0 < u <= / 8.
+Proof. generalize (u_positive p) (eps_le p 3 p_3) (eps_2u p). simpl. lra. Qed.
+
+(** One rounding, in units of its result. *)
+Lemma rounding_any s : Rabs (fl s - s) <= u * Rabs (fl s) + eta / 2.
+Proof.
+  generalize u_8 (eta_positive emin) (Rabs_pos (fl s)). intros.
+  destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
+  - apply Rle_trans with (eta / 2); [now apply (error_absolute _ _ _ _ _ an_error) | nra].
+  - generalize (nearest_relative_to_result p emin s S). unfold rnd_nearest. lra.
+Qed.
+Lemma rounding_sum x y : number x -> number y ->
+  Rabs (fl (x + y) - (x + y)) <= u * Rabs (fl (x + y)).
+Proof.
+  intros X Y. destruct (Rlt_or_le (Rabs (x + y)) smallest_normal) as [S | S].
+  - rewrite (sum_exact_below p emin nearest) by auto. replace (x + y - (x + y)) with 0 by ring.
+    rewrite Rabs_R0. apply Rmult_le_pos; [generalize u_8; lra | apply Rabs_pos].
+  - exact (nearest_relative_to_result p emin _ S).
+Qed.
+Lemma sum_lower x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= fl (x + y) * (1 + u).
+Proof.
+  intros X Y PX PY. generalize (rounding_sum x y X Y).
+  rewrite (Rabs_pos_eq (fl (x + y))) by (apply rnd_nonnegative; lra). intros H.
+  apply Rabs_le_inv in H. lra.
+Qed.
+Lemma any_lower s : 0 <= s -> s <= fl s * (1 + u) + eta / 2.
+Proof.
+  intros P. generalize (rounding_any s). rewrite (Rabs_pos_eq (fl s)) by now apply rnd_nonnegative.
+  intros H. apply Rabs_le_inv in H. lra.
+Qed.
+
+(** The factor pays for nine roundings. *)
+Lemma power_1 k : 1 <= (1 + u) ^ k.
+Proof. apply pow_R1_Rle. generalize u_8. lra. Qed.
+Lemma power_le k l : (k <= l)%nat -> (1 + u) ^ k <= (1 + u) ^ l.
+Proof. intros. apply Rle_pow; auto. generalize u_8. lra. Qed.
+Lemma nine_roundings : (1 + u) ^ 9 <= 1 + 16 * u.
+Proof.
+  generalize u_8. intros U. assert (U2 : u * u <= u / 8) by nra.
+  assert (U3 : u * u * u <= u / 64) by nra.
+  assert (S : (1 + u) ^ 2 <= 1 + 17 / 8 * u).
+  { replace ((1 + u) ^ 2) with (1 + 2 * u + u * u) by ring. lra. }
+  assert (T : (1 + u) ^ 4 <= 1 + 5 * u).
+  { replace ((1 + u) ^ 4) with ((1 + u) ^ 2 * (1 + u) ^ 2) by ring.
+    apply Rle_trans with ((1 + 17 / 8 * u) * (1 + 17 / 8 * u)).
+    - apply Rmult_le_compat; auto; apply pow_le; lra.
+    - lra. }
+  assert (V : (1 + u) ^ 8 <= (1 + 5 * u) * (1 + 5 * u)).
+  { replace ((1 + u) ^ 8) with ((1 + u) ^ 4 * (1 + u) ^ 4) by ring.
+    apply Rmult_le_compat; auto; apply pow_le; lra. }
+  replace ((1 + u) ^ 9) with ((1 + u) ^ 8 * (1 + u)) by ring.
+  apply Rle_trans with ((1 + 5 * u) * (1 + 5 * u) * (1 + u)).
+  - apply Rmult_le_compat_r; lra.
+  - lra.
+Qed.
+Lemma number_factor : number (1 + bpow radix2 (4 - p)).
+Proof.
+  destruct (Z.eq_dec p 3) as [P | P].
+  { replace (1 + bpow radix2 (4 - p)) with (IZR 3 * bpow radix2 0) by (rewrite P; simpl; lra).
+    apply number_integer; auto; [lia |]. rewrite P. simpl. lia. }
+  replace (1 + bpow radix2 (4 - p)) with (IZR (2 ^ (p - 4) + 1) * bpow radix2 (4 - p)).
+  - apply number_integer; auto; try lia.
+    assert (1 <= 2 ^ (p - 4))%Z by (apply (Z.pow_le_mono_r 2 0); lia).
+    rewrite Z.abs_eq by lia. replace p with (p - 4 + 4)%Z at 2 by lia.
+    rewrite Z.pow_add_r by lia. simpl (2 ^ 4)%Z. lia.
+  - rewrite plus_IZR, Rmult_plus_distr_r.
+    change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus.
+    replace (p - 4 + (4 - p))%Z with 0%Z by lia. simpl. lra.
+Qed.
+Lemma inflated_exact x : inflated x = fl (x * (1 + 16 * u)).
+Proof.
+  unfold inflated. replace (8 * eps) with (bpow radix2 (4 - p)).
+  - rewrite (rnd_exact (bpow radix2 (4 - p))) by (apply number_power; auto; lia).
+    rewrite (rnd_exact _ number_factor). f_equal. f_equal. f_equal.
+    unfold Zminus, Format.u. now rewrite bpow_plus.
+  - rewrite eps_2u. replace (4 - p)%Z with (4 + - p)%Z by lia. rewrite bpow_plus.
+    change (bpow radix2 4) with 16. unfold Format.u. ring.
+Qed.
+Lemma inflated_number x : number (inflated x).
+Proof. apply rnd_number. Qed.
+Lemma inflated_above x : number x -> 0 <= x -> x <= inflated x.
+Proof. intros X P. rewrite inflated_exact. apply scaled_up; auto. generalize u_8. lra. Qed.
+
+(** What a computed number stands for. *)
+Definition covered (k : nat) (h exact computed : R) : Prop :=
+  number computed /\ 0 <= computed /\ exact <= computed * (1 + u) ^ k + h.
+
+Lemma covered_number x : number x -> 0 <= x -> covered 0 0 x x.
+Proof. intros. repeat split; auto. simpl. lra. Qed.
+(** Some numbers eta that the code adds. *)
+Lemma covered_nothing x : number x -> 0 <= x -> covered 0 (- x) 0 x.
+Proof. intros. repeat split; auto. simpl. lra. Qed.
+Lemma covered_weaken k h X l j Y x : covered k h X x -> (k <= l)%nat -> h <= j -> Y <= X ->
+  covered l j Y x.
+Proof.
+  intros (N & P & H) L J D. repeat split; auto. generalize (power_le k l L). intros.
+  assert (x * (1 + u) ^ k <= x * (1 + u) ^ l) by (apply Rmult_le_compat_l; auto). lra.
+Qed.
+Lemma covered_plus k h X x l j Y y : covered k h X x -> covered l j Y y ->
+  covered (S (max k l)) (h + j) (X + Y) (fl (x + y)).
+Proof.
+  intros C D. apply (covered_weaken k h X (max k l) h X) in C; [| lia | lra | lra].
+  apply (covered_weaken l j Y (max k l) j Y) in D; [| lia | lra | lra].
+  destruct C as (NX & PX & C), D as (NY & PY & D). repeat split.
+  - apply rnd_number.
+  - apply rnd_nonnegative. lra.
+  - generalize (sum_lower x y NX NY PX PY) (power_1 (max k l)). intros S G.
+    assert (E : (x + y) * (1 + u) ^ max k l <= fl (x + y) * (1 + u) * (1 + u) ^ max k l).
+    { apply Rmult_le_compat_r; lra. }
+    rewrite <- tech_pow_Rmult. lra.
+Qed.
+Lemma covered_times k X x l Y y : covered k 0 X x -> covered l 0 Y y -> 0 <= X -> 0 <= Y ->
+  covered (S (k + l)) (eta / 2 * (1 + u) ^ (k + l)) (X * Y) (fl (x * y)).
+Proof.
+  intros (NX & PX & C) (NY & PY & D) PX' PY'. assert (P : 0 <= x * y) by now apply Rmult_le_pos.
+  repeat split.
+  - apply rnd_number.
+  - now apply rnd_nonnegative.
+  - apply Rle_trans with (x * y * (1 + u) ^ (k + l)).
+    + rewrite pow_add. replace (x * y * ((1 + u) ^ k * (1 + u) ^ l))
+        with (x * (1 + u) ^ k * (y * (1 + u) ^ l)) by ring.
+      apply Rmult_le_compat; lra.
+    + rewrite <- tech_pow_Rmult. generalize (any_lower _ P) (power_1 (k + l)). intros S G.
+      assert (E : x * y * (1 + u) ^ (k + l) <= (fl (x * y) * (1 + u) + eta / 2) * (1 + u) ^ (k + l)).
+      { apply Rmult_le_compat_r; lra. }
+      lra.
+Qed.
+Lemma inflated_covers k h X x : covered k h X x -> (k <= 8)%nat -> h <= - (eta / 2) ->
+  X <= inflated x.
+Proof.
+  intros C K H. apply (covered_weaken k h X 8 (- (eta / 2)) X) in C; [| lia | lra | lra].
+  destruct C as (N & P & C). rewrite inflated_exact. generalize u_8 nine_roundings. intros U F.
+  assert (S : x * (1 + 16 * u) <= fl (x * (1 + 16 * u)) * (1 + u) + eta / 2).
+  { apply any_lower. apply Rmult_le_pos; lra. }
+  assert (T : x * (1 + u) ^ 8 * (1 + u) <= x * (1 + 16 * u)).
+  { replace (x * (1 + u) ^ 8 * (1 + u)) with (x * (1 + u) ^ 9) by ring.
+    now apply Rmult_le_compat_l. }
+  apply Rmult_le_reg_r with (1 + u); [lra |]. generalize (eta_positive emin). intros.
+  apply Rle_trans with ((x * (1 + u) ^ 8 + - (eta / 2)) * (1 + u)).
+  - apply Rmult_le_compat_r; lra.
+  - assert (0 <= eta / 2 * u) by (apply Rmult_le_pos; lra). lra.
+Qed.
+
+(** Sums alone. *)
+Definition summed (k : nat) (exact computed : R) : Prop :=
+  covered k 0 exact computed /\ (computed < smallest_normal -> exact <= computed).
+
+Lemma summed_number x : number x -> 0 <= x -> summed 0 x x.
+Proof. intros. split; [now apply covered_number | lra]. Qed.
+Lemma summed_plus k X x l Y y : summed k X x -> summed l Y y ->
+  summed (S (max k l)) (X + Y) (fl (x + y)).
+Proof.
+  intros [C SX] [D SY]. split.
+  - rewrite <- (Rplus_0_r 0). now apply covered_plus.
+  - destruct C as (NX & PX & _), D as (NY & PY & _). intros H.
+    rewrite sum_subnormal in * by auto. generalize (SX ltac:(lra)) (SY ltac:(lra)). lra.
+Qed.
+Lemma inflated_summed k X x : summed k X x -> (k <= 8)%nat -> X <= inflated x.
+Proof.
+  intros [C S] K. apply (covered_weaken k 0 X 8 0 X) in C; [| lia | lra | lra].
+  destruct C as (N & P & C). generalize u_8 nine_roundings (smallest_normal_positive p emin). intros U F M.
+  destruct (Rlt_or_le x smallest_normal) as [L | L].
+  { apply Rle_trans with (1 := S L). now apply inflated_above. }
+  rewrite inflated_exact. assert (A : x <= x * (1 + 16 * u)) by nra.
+  assert (B : smallest_normal <= Rabs (x * (1 + 16 * u))) by (rewrite Rabs_pos_eq; lra).
+  generalize (nearest_relative_to_result p emin _ B). unfold rnd_nearest.
+  rewrite (Rabs_pos_eq (fl _)) by (apply rnd_nonnegative; lra). intros H. apply Rabs_le_inv in H.
+  apply Rmult_le_reg_r with (1 + u); [lra |].
+  apply Rle_trans with (x * (1 + u) ^ 9).
+  - replace (x * (1 + u) ^ 9) with (x * (1 + u) ^ 8 * (1 + u)) by ring. apply Rmult_le_compat_r; lra.
+  - apply Rle_trans with (x * (1 + 16 * u)); [now apply Rmult_le_compat_l | lra].
+Qed.
+
+Lemma error_above c r : number c -> number r -> 0 <= r -> Rabs c + r <= residual_error c r.
+Proof.
+  intros C N P. unfold residual_error. case Req_bool_spec; [lra |]. intros _.
+  apply inflated_summed with 1%nat; [| lia].
+  apply (summed_plus 0 _ _ 0); apply summed_number; auto using number_abs, Rabs_pos.
+Qed.
+Lemma error_number c r : number c -> number (residual_error c r).
+Proof.
+  intros C. unfold residual_error. case Req_bool; [now apply number_abs | apply inflated_number].
+Qed.
+
+(** At least the error of a result rounded to v. *)
+Lemma half_ulp_number v : number (half_ulp v).
+Proof. apply rnd_number. Qed.
+Lemma half_ulp_nonnegative v : 0 <= half_ulp v.
+Proof.
+  generalize u_8 (Rabs_pos v) (eta_positive emin). intros. apply rnd_nonnegative.
+  apply Rplus_le_le_0_compat; [| lra]. apply rnd_nonnegative, Rmult_le_pos; lra.
+Qed.
+Lemma half_ulp_above s : Rabs (fl s - s) <= half_ulp (fl s).
+Proof.
+  generalize u_8 (eta_positive emin). intros U P. unfold half_ulp. set (v := fl s).
+  assert (W : 0 <= fl (Rabs v * u)) by (apply rnd_nonnegative, Rmult_le_pos; [apply Rabs_pos | lra]).
+  destruct (Rle_or_lt (bpow radix2 (p + emin)) (Rabs v)) as [C | C].
+  - apply Rle_trans with (fl (Rabs v * u)).
+    2: { apply rnd_above; [apply rnd_number | lra]. }
+    apply Rle_trans with (/ 2 * ulp radix2 (FLT_exp emin p) v).
+    { apply error_le_half_ulp_round; auto with typeclass_instances. }
+    assert (NZ : v <> 0).
+    { intros Z. rewrite Z, Rabs_R0 in C. generalize (bpow_gt_0 radix2 (p + emin)). lra. }
+    apply rnd_above.
+    + rewrite ulp_neq_0; auto. replace (/ 2) with (bpow radix2 (-1)) by reflexivity.
+      rewrite <- bpow_plus. apply number_power; auto.
+      assert (p + emin < mag radix2 v)%Z by (apply mag_gt_bpow; auto).
+      unfold cexp, FLT_exp. lia.
+    + assert (ulp radix2 (FLT_exp emin p) v <= Rabs v * bpow radix2 (1 - p)).
+      { apply ulp_FLT_le; auto. apply Rle_trans with (2 := C). apply bpow_le. lia. }
+      change (bpow radix2 (1 - p)) with eps in *. rewrite eps_2u in *. lra.
+  - apply Rle_trans with eta; [| apply rnd_above; [now apply number_eta | lra]].
+    apply Rle_trans with (eta / 2); [| lra].
+    replace (eta / 2) with (/ 2 * ulp radix2 (FLT_exp emin p) v).
+    + apply error_le_half_ulp_round; auto with typeclass_instances.
+    + rewrite ulp_FLT_small; auto. unfold Format.eta. field. rewrite Z.add_comm. exact C.
+Qed.
+
+(** What the roundings of two products and of two sums take at most. *)
+Lemma number_4_eta : number (4 * eta).
+Proof.
+  replace (4 * eta) with (bpow radix2 (2 + emin)).
+  - apply number_power; auto. lia.
+  - now rewrite bpow_plus.
+Qed.
+Lemma roundings_cover X Y a b c d : number a -> number b -> number c -> number d ->
+  covered 3 (- (9 / 4 * eta))
+    (Rabs (fl X - X) + Rabs (fl Y - Y) + (Rabs (fl (a + b) - (a + b)) + Rabs (fl (c + d) - (c + d))))
+    (roundings (fl X) (fl Y) (fl (a + b)) (fl (c + d))).
+Proof.
+  intros A B C D. generalize u_8 (eta_positive emin). intros U P.
+  generalize (rounding_any X) (rounding_any Y) (rounding_sum a b A B) (rounding_sum c d C D).
+  unfold roundings. rewrite (rnd_exact (4 * eta)) by apply number_4_eta.
+  set (x := fl X). set (y := fl Y). set (f := fl (a + b)). set (s := fl (c + d)).
+  assert (N : forall z, covered 0 0 (Rabs (fl z)) (Rabs (fl z))).
+  { intros z. apply covered_number; [apply number_abs, rnd_number | apply Rabs_pos]. }
+  generalize (covered_plus _ _ _ _ _ _ _ _ (covered_plus _ _ _ _ _ _ _ _ (N X) (N Y))
+                (covered_plus _ _ _ _ _ _ _ _ (N (a + b)) (N (c + d)))).
+  fold x y f s. cbn [max]. set (t := fl (fl (Rabs x + Rabs y) + fl (Rabs f + Rabs s))).
+  set (T := Rabs x + Rabs y + (Rabs f + Rabs s)). intros (Nt & Pt & Ht) HX HY HA HC.
+  assert (Tu : covered 2 (eta / 2 * (1 + u) ^ 2) (T * u) (fl (t * u))).
+  { repeat split; [apply rnd_number | apply rnd_nonnegative, Rmult_le_pos; lra |].
+    generalize (scale_error p emin nearest _ _ an_error t (- p) Nt). change (bpow radix2 (- p)) with u.
+    intros E. apply Rabs_le_inv in E.
+    apply Rle_trans with (t * u * (1 + u) ^ 2).
+    - replace (t * u * (1 + u) ^ 2) with ((t * (1 + u) ^ 2 + (0 + 0 + (0 + 0))) * u) by ring.
+      apply Rmult_le_compat_r; lra.
+    - rewrite <- Rmult_plus_distr_r. apply Rmult_le_compat_r; [apply pow_le |]; lra. }
+  generalize (covered_plus _ _ _ _ _ _ _ _ Tu (covered_nothing (4 * eta) number_4_eta ltac:(lra))).
+  intros (NG & PG & G). repeat split; auto. cbn [max] in G.
+  apply Rle_trans with (T * u + eta); [unfold T; lra |].
+  assert ((1 + u) ^ 2 <= 3 / 2) by nra.
+  assert (eta / 2 * (1 + u) ^ 2 <= eta / 2 * (3 / 2)) by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+
+End Residual.
