@@ -297,11 +297,11 @@ Definition residual_divide (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :
       let inherited := fst sa - x in
       let numerator := own + inherited in
       let correction := numerator / b in
-      let c := abs correction + η in
+      let lost := unknown + η in
+      let c := abs correction + lost in
       let q := abs v in
       let left := (c * off + (q * snd sb + snd sa)) + roundings x #0 inherited numerator in
-      (correction,
-       residual_inflated (residual_inflated left / distance + half_ulp correction + (unknown + η))).
+      (correction, residual_inflated (residual_inflated left / distance + half_ulp correction + lost)).
 Definition residual_scale (v a : T) (sa : T * T) (e : Z) : T * T :=
   let correction := scale T A (fst sa) e in
   let remainder := scale T A (snd sa) e in

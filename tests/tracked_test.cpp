@@ -263,6 +263,27 @@ TEST(Tracked, ARuleMayKnowMoreThanItsError) {
     EXPECT_EQ(sign_of(three * eighth * tracked<double, interval>(8) - three), sign_type::zero);
 }
 
+// Near underflow the remainder of a division is not known: then the quotient's own rounding error
+// is inherited with the divisor's, which matters where that is as large as the divisor.
+TEST(Tracked, ResidualCountsAnUnknownRemainderWithTheDivisorsError) {
+    using number = tracked<double, errbound::residual>;
+    // The value of large + y − large is y rounded to 2^-1000, half of which the correction may be.
+    const auto sum = [](double y, double z) {
+        const double large = 0x1p-948;
+        return sample<number>{(number(large) + number(y)) - number(large) + number(z),
+                              exactly(y) + exactly(z)};
+    };
+    const auto a = sum(0x1.8p-1001, -0x1.71a1f58d0fac6p-1001);
+    const auto b = sum(0x1.051eb851eb852p-1001, -0x1.d1eb851eb851fp-1002);
+    const sample<number> quotient{a.number / b.number, a.exact / b.exact};
+    check(quotient, "quotient");
+    for (int i = -40; i <= 40; ++i) {
+        const double near = quotient.number.value() + i * 0x1p-54;
+        check<double, errbound::residual>(
+            {quotient.number - number(near), quotient.exact - exactly(near)}, std::to_string(i));
+    }
+}
+
 TEST(Tracked, DivisionByWhatMayBeZeroIsUnknown) {
     const auto b = tracked<double>::within(1e-3, 1e-3);
     EXPECT_EQ(sign_of(tracked<double>(1) / b), sign_type::uncertain);

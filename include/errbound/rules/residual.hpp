@@ -101,8 +101,8 @@ struct residual {
     }
     /// With q = v and the remainder of division r: a/b − q = N/b, N = r + ca − q·cb ± (ρa + |q|ρb),
     /// and N/b − N/vb = N/vb·(vb − b)/b. So c = N/vb, and what is left is at most
-    /// (|N/vb|(|cb| + ρb) + ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). Unknown where b may be
-    /// zero.
+    /// (|N/vb|(|cb| + ρb) + ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). Where r is not known, it is
+    /// left out of c: what N/vb then lacks, r/vb, is the error of q. Unknown where b may be zero.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T, residual> a, operand<T, residual> b) {
         using traits = number_traits<T>;
@@ -120,13 +120,14 @@ struct residual {
         const T inherited = a.bound.correction - x;
         const T numerator = own + inherited;
         const T correction = numerator / b.value;
-        // |N/vb| <= |c|(1 + u) + η/2. Inside and outside the inner factor 1 + 8ε there are eight
-        // and three roundings.
-        const T c = traits::abs(correction) + traits::underflow_unit(), q = traits::abs(v);
+        // |N/vb| <= |c|(1 + u) + η/2 + unknown. Inside and outside the inner factor 1 + 8ε there
+        // are eight and three roundings.
+        const T lost = unknown + traits::underflow_unit();
+        const T c = traits::abs(correction) + lost, q = traits::abs(v);
         const T left = (c * off + (q * b.bound.remainder + a.bound.remainder)) +
                        roundings<T>(x, T(0), inherited, numerator);
-        return {correction, inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) +
-                                        (unknown + traits::underflow_unit()))};
+        return {correction,
+                inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) + lost)};
     }
     /// Scaling by a power of two is exact unless it underflows: then value, correction and
     /// remainder are each off by at most η/2.
