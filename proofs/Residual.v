@@ -1,7 +1,11 @@
 (** Bound rule `residual` (include/errbound/rules/residual.hpp), as the C++ code computes it; rounding
     to nearest, ties to even, from 3 bits on, u a number (emin <= -p).
 
-    A number x is known by its value v, correction c and remainder r, |v + c - x| <= r.
+    A number x is known by its value v, correction c and remainder r, |v + c - x| <= r. Results:
+        residual_exact_sound, residual_within_sound, residual_negate_sound, residual_add_sound,
+        residual_subtract_sound, residual_scale_sound: the result is known by what the code returns;
+        residual_error_sound: the error that the code reports is one;
+        residual_sign_sound: the sign is right or uncertain.
 
     What the rule's own arithmetic loses is counted by `covered k h exact computed`: a computed number
     and what it stands for, exact <= computed (1 + u)^k + h, after k roundings; h is below zero where
@@ -10,7 +14,8 @@
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
-From Errbound Require Import Format.
+From Errbound Require Import Format ErrorFree.
+From Errbound Require Code.
 Open Scope R_scope.
 
 Section Residual.
@@ -33,6 +38,27 @@ Definition roundings (x y first second : R) : R :=
 
 Definition residual_error (c r : R) : R :=
   if Req_bool r 0 then Rabs c else inflated (fl (Rabs c + r)).
+Definition residual_sign (v c r : R) : Code.sign_type :=
+  let corrected := fl (v + c) in
+  if Req_bool corrected 0 && Req_bool r 0 then Code.zero
+  else if negb (Rlt_bool (inflated r) (Rabs corrected)) then Code.uncertain
+  else if Rlt_bool 0 corrected then Code.positive else Code.negative.
+Definition residual_exact (v : R) : R * R := (0, fl (v - v)).
+(** For error >= 0. *)
+Definition residual_within (v error : R) : R * R := (0, fl (error + fl (v - v))).
+Definition residual_add (v a ca ra b cb rb : R) : R * R :=
+  let own := snd (two_sum p emin a b) in
+  let inherited := two_sum p emin ca cb in
+  let correction := two_sum p emin own (fst inherited) in
+  (fst correction,
+   inflated (fl (fl (fl (ra + rb) + fl (Rabs (snd inherited) + Rabs (snd correction))) + fl (v - v)))).
+Definition residual_scale (v a ca ra : R) (e : Z) : R * R :=
+  let c := fl (ca * bpow radix2 e) in
+  let r := fl (ra * bpow radix2 e) in
+  let lossless := (0 <=? e)%Z ||
+    (Req_bool (fl (v * bpow radix2 (- e))) a && Req_bool (fl (c * bpow radix2 (- e))) ca &&
+     Req_bool (fl (r * bpow radix2 (- e))) ra) in
+  (c, if lossless then fl (r + fl (v - v)) else inflated (fl (r + fl (2 * eta)))).
 Definition is_exact (c r : R) : bool := Req_bool c 0 && Req_bool r 0.
 Definition is_zero (v c r : R) : bool := Req_bool v 0 && is_exact c r.
 
@@ -313,6 +339,152 @@ Proof.
   apply Rle_trans with (T * u + eta); [unfold T; lra |].
   assert ((1 + u) ^ 2 <= 3 / 2) by nra.
   assert (eta / 2 * (1 + u) ^ 2 <= eta / 2 * (3 / 2)) by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+
+(** The operations. *)
+Lemma nothing v : fl (v - v) = 0.
+Proof. replace (v - v) with 0 by ring. apply (Format.rnd_0 p emin nearest). Qed.
+
+Theorem residual_exact_sound v : number v ->
+  holds v (fst (residual_exact v)) (snd (residual_exact v)) v.
+Proof.
+  intros N. unfold residual_exact. cbn [fst snd]. rewrite nothing.
+  repeat split; auto using number_0. replace (v + 0 - v) with 0 by ring. rewrite Rabs_R0. lra.
+Qed.
+Theorem residual_within_sound v error x : number v -> number error -> Rabs (v - x) <= error ->
+  holds v (fst (residual_within v error)) (snd (residual_within v error)) x.
+Proof.
+  intros N E H. unfold residual_within. cbn [fst snd]. rewrite nothing, Rplus_0_r, (rnd_exact _ E).
+  repeat split; auto using number_0. now rewrite Rplus_0_r.
+Qed.
+Theorem residual_negate_sound v c r x : holds v c r x -> holds (- v) (- c) r (- x).
+Proof.
+  intros (V & C & N & H). repeat split; auto using number_opp.
+  replace (- v + - c - - x) with (- (v + c - x)) by ring. now rewrite Rabs_Ropp.
+Qed.
+
+Theorem residual_add_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
+  let bound := residual_add (fl (a + b)) a ca ra b cb rb in
+  holds (fl (a + b)) (fst bound) (snd bound) (x + y).
+Proof.
+  intros KA KB. generalize (holds_nonnegative _ _ _ _ KA) (holds_nonnegative _ _ _ _ KB). intros PA PB.
+  destruct KA as (A & CA & RA & HA), KB as (B & CB & RB & HB).
+  unfold residual_add. cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r.
+  assert (E : forall s t, number s -> number t ->
+    number (fst (two_sum p emin s t)) /\ number (snd (two_sum p emin s t)) /\
+    fst (two_sum p emin s t) + snd (two_sum p emin s t) = s + t).
+  { intros s t S T. split; [apply rnd_number |]. split; [apply rnd_number |].
+    apply two_sum_exact; auto; lia. }
+  destruct (E a b A B) as (_ & NO & EO). change (fst (two_sum p emin a b)) with (fl (a + b)) in EO.
+  set (v := fl (a + b)) in *. set (own := snd (two_sum p emin a b)) in *.
+  destruct (E ca cb CA CB) as (NI & NF & EI). set (inherited := two_sum p emin ca cb) in *.
+  destruct (E own (fst inherited) NO NI) as (NC & NG & EC).
+  set (correction := two_sum p emin own (fst inherited)) in *.
+  repeat split; auto using inflated_number. { apply rnd_number. }
+  rewrite (rnd_exact _ (rnd_number _)).
+  apply Rle_trans with (ra + rb + (Rabs (snd inherited) + Rabs (snd correction))).
+  - replace (v + fst correction - (x + y))
+      with ((a + ca - x) + (b + cb - y) + (- snd inherited + - snd correction)) by lra.
+    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+    + apply Rle_trans with (1 := Rabs_triang _ _). lra.
+    + apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_Ropp. lra.
+  - apply inflated_summed with 2%nat; [| lia].
+    apply (summed_plus 1 _ _ 1); apply (summed_plus 0 _ _ 0);
+      apply summed_number; auto using number_abs, Rabs_pos.
+Qed.
+Theorem residual_subtract_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
+  let bound := residual_add (fl (a - b)) a ca ra (- b) (- cb) rb in
+  holds (fl (a - b)) (fst bound) (snd bound) (x - y).
+Proof. intros KA KB. apply residual_add_sound; auto using residual_negate_sound. Qed.
+
+Theorem residual_scale_sound a ca ra x e : holds a ca ra x ->
+  let v := fl (a * bpow radix2 e) in
+  let bound := residual_scale v a ca ra e in
+  holds v (fst bound) (snd bound) (x * bpow radix2 e).
+Proof.
+  intros K. generalize (holds_nonnegative _ _ _ _ K). intros PA. destruct K as (A & C & N & H).
+  unfold residual_scale. cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r, (rnd_exact _ (rnd_number _)).
+  set (v := fl (a * bpow radix2 e)). set (c := fl (ca * bpow radix2 e)). set (r := fl (ra * bpow radix2 e)).
+  generalize (bpow_ge_0 radix2 e). intros PB.
+  assert (D : Rabs (a * bpow radix2 e + ca * bpow radix2 e - x * bpow radix2 e) <= ra * bpow radix2 e).
+  { replace (a * bpow radix2 e + ca * bpow radix2 e - x * bpow radix2 e)
+      with ((a + ca - x) * bpow radix2 e) by ring.
+    rewrite Rabs_mult, (Rabs_pos_eq (bpow _ _)) by auto. now apply Rmult_le_compat_r. }
+  assert (Nv : number v) by apply rnd_number. assert (Nc : number c) by apply rnd_number.
+  assert (Nr : number r) by apply rnd_number.
+  repeat split; auto.
+  { case orb; [exact Nr | apply inflated_number]. }
+  destruct (Z.leb_spec 0 e) as [P | P]; cbn [orb].
+  { unfold v, c, r. now rewrite !(scale_up p emin nearest). }
+  assert (L : Rabs (v + c - x * bpow radix2 e) <= inflated (fl (r + fl (2 * eta)))).
+  { assert (N2 : number (2 * eta)).
+    { replace (2 * eta) with (bpow radix2 (1 + emin)); [apply number_power; auto; lia |].
+      now rewrite bpow_plus. }
+    generalize (eta_positive emin). intros. rewrite (rnd_exact _ N2). apply Rle_trans with (r + 2 * eta).
+    - generalize (scale_error p emin nearest _ _ an_error a e A)
+        (scale_error p emin nearest _ _ an_error ca e C) (scale_error p emin nearest _ _ an_error ra e N).
+      fold v c r. intros DA DC DR. apply Rabs_le_inv in DA, DC, DR, D. apply Rabs_le. lra.
+    - apply inflated_summed with 1%nat; [| lia].
+      apply (summed_plus 0 _ _ 0); apply summed_number; auto; [| lra].
+      apply rnd_nonnegative. now apply Rmult_le_pos. }
+  destruct (Req_bool_spec (fl (v * bpow radix2 (- e))) a) as [B1 | B1]; auto.
+  destruct (Req_bool_spec (fl (c * bpow radix2 (- e))) ca) as [B2 | B2]; auto.
+  destruct (Req_bool_spec (fl (r * bpow radix2 (- e))) ra) as [B3 | B3]; auto.
+  cbn [andb]. apply (scale_back p emin nearest) in B1, B2, B3; auto. now rewrite B1, B2, B3.
+Qed.
+
+Theorem residual_error_sound v c r x : holds v c r x -> Rabs (v - x) <= residual_error c r.
+Proof.
+  intros K. generalize (holds_nonnegative _ _ _ _ K). intros P. destruct K as (V & C & N & H).
+  apply Rle_trans with (2 := error_above c r C N P).
+  replace (v - x) with (- c + (v + c - x)) by ring. apply Rle_trans with (1 := Rabs_triang _ _).
+  rewrite Rabs_Ropp. lra.
+Qed.
+
+(** Where the corrected value is larger than the inflated remainder, so was the exact sum. *)
+Lemma corrected_above v c r : number v -> number c -> number r -> 0 <= r ->
+  inflated r < Rabs (fl (v + c)) -> r < Rabs (v + c).
+Proof.
+  intros V C N P H. generalize u_8 (inflated_above r N P) (smallest_normal_positive p emin). intros U A M.
+  destruct (Rlt_or_le (Rabs (v + c)) smallest_normal) as [S | S].
+  { rewrite (sum_exact_below p emin nearest) in H by auto. lra. }
+  destruct (Rlt_or_le r smallest_normal) as [L | L]; [lra |].
+  assert (T : r * (1 + 16 * u) <= inflated r * (1 + u)).
+  { rewrite inflated_exact. assert (0 <= 16 * u * r) by (apply Rmult_le_pos; lra).
+    assert (B : smallest_normal <= Rabs (r * (1 + 16 * u))) by (rewrite Rabs_pos_eq; lra).
+    generalize (nearest_relative_to_result p emin _ B). unfold rnd_nearest.
+    rewrite (Rabs_pos_eq (fl _)) by (apply rnd_nonnegative; lra). intros E. apply Rabs_le_inv in E. lra. }
+  assert (W : Rabs (fl (v + c)) * (1 - u) <= Rabs (v + c)).
+  { generalize (rounding_sum v c V C) (Rabs_triang_inv (fl (v + c)) (v + c)). lra. }
+  apply Rlt_le_trans with (2 := W). apply Rmult_lt_reg_r with (1 + u); [lra |].
+  apply Rlt_le_trans with (Rabs (fl (v + c)) * (1 + u) * (1 - u)); [| right; ring].
+  apply Rle_lt_trans with (inflated r * (1 + u) * (1 - u)).
+  - apply Rle_trans with (r * (1 + 16 * u) * (1 - u)); [| apply Rmult_le_compat_r; lra].
+    rewrite Rmult_assoc. apply Rmult_le_compat_l; auto. assert (u * u <= u / 8) by nra. lra.
+  - apply Rmult_lt_compat_r; [lra |]. apply Rmult_lt_compat_r; lra.
+Qed.
+Theorem residual_sign_sound v c r x : holds v c r x ->
+  match residual_sign v c r with
+  | Code.negative => x < 0
+  | Code.zero => x = 0
+  | Code.positive => 0 < x
+  | Code.uncertain => True
+  end.
+Proof.
+  intros K. generalize (holds_nonnegative _ _ _ _ K). intros P. destruct K as (V & C & N & H).
+  unfold residual_sign. cbv zeta. apply Rabs_le_inv in H.
+  destruct (Req_bool (fl (v + c)) 0 && Req_bool r 0) eqn:Z.
+  { apply andb_prop in Z. destruct Z as [Z1 Z2]. revert Z1 Z2.
+    do 2 (case Req_bool_spec; [| discriminate]). intros R0 Z _ _.
+    generalize (rounding_sum v c V C). rewrite Z, Rabs_R0, Rmult_0_r. intros E. apply Rabs_le_inv in E. lra. }
+  destruct (Rlt_bool_spec (inflated r) (Rabs (fl (v + c)))) as [L | L]; cbn [negb]; auto.
+  generalize (corrected_above v c r V C N P L) (inflated_above r N P). intros A I.
+  case Rlt_bool_spec; intros S.
+  - assert (0 < v + c); [| rewrite Rabs_pos_eq in A; lra].
+    apply Rnot_le_lt. intros D. apply (rnd_below p emin nearest _ 0) in D; [lra | apply number_0].
+  - rewrite (Rabs_left1 (fl _)) in L by auto.
+    assert (v + c < 0); [| rewrite Rabs_left in A; lra].
+    apply Rnot_le_lt. intros D. apply rnd_nonnegative in D. lra.
 Qed.
 
 End Residual.

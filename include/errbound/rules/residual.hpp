@@ -34,15 +34,17 @@ struct residual {
         T correction, remainder;
     };
 
+    /// Proof: proofs/IeeeResidual.v, residual_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {T(0), value - value};  // NaN if the value is not finite
     }
+    /// Proof: proofs/IeeeResidual.v, residual_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
-    /// |c| + ρ.
+    /// |c| + ρ. Proof: proofs/IeeeResidual.v, residual_error_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -51,7 +53,7 @@ struct residual {
     }
     /// v + c is known to ρ, a bound of second order: that tells far more than error(). With
     /// s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; where s is subnormal, it
-    /// is exact.
+    /// is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -62,16 +64,19 @@ struct residual {
             return sign_type::uncertain;
         return corrected > 0 ? sign_type::positive : sign_type::negative;
     }
+    /// Proof: proofs/IeeeResidual.v, residual_negate_known.
     template <class T>
     static constexpr bound<T> negate(const bound<T>& b) {
         return {-b.correction, b.remainder};
     }
 
     /// a + b = v + δ + (ca + cb) ± (ρa + ρb); the two sums that make c are error-free too.
+    /// Proof: proofs/IeeeResidual.v, residual_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T, residual> a, operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, b.value, b.bound);
     }
+    /// Proof: proofs/IeeeResidual.v, residual_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T, residual> a, operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), negate<T>(b.bound));
@@ -130,7 +135,7 @@ struct residual {
                 inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) + lost)};
     }
     /// Scaling by a power of two is exact unless it underflows: then value, correction and
-    /// remainder are each off by at most η/2.
+    /// remainder are each off by at most η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T, residual> a, int e) {
         using traits = number_traits<T>;

@@ -1,0 +1,247 @@
+(** Bound rule `residual` (include/errbound/rules/residual.hpp) over IEEE formats (Ieee.v), to nearest,
+    overflow included; p >= 3, emax > p.
+
+    A number x is known by its value v, correction c and remainder r if r is not below zero (it may be
+    infinite or NaN) and, where c and r are finite, v is, and |v + c - x| <= r. Results: what the code
+    returns is known:
+        residual_exact_known, residual_within_known, residual_negate_known, residual_add_known,
+        residual_subtract_known, residual_scale_known
+        residual_error_known   the error is one, in the sense of IeeeRules.v
+        residual_sign_known    the rule's sign is right or uncertain *)
+
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Flocq Require Import Core IEEE754.BinarySingleNaN.
+From Errbound Require Import Code Ieee IeeeRules.
+From Errbound Require Format Residual ErrorFree IeeeInterval.
+Open Scope R_scope.
+
+Section Rules.
+
+Variables p emax : Z.
+Context {p_positive : Prec_gt_0 p}.
+Context {p_below : Prec_lt_emax p emax}.
+Hypothesis p_3 : (3 <= p)%Z.
+Notation float := (binary_float p emax).
+Notation F := (floats p emax).
+Notation emin := (3 - emax - p)%Z.
+Notation fl := (Format.rnd p emin Format.nearest).
+Notation finite x := (BinarySingleNaN.is_finite x = true).
+Notation nonnegative := (nonnegative p emax).
+Notation emin_p := (emin_p p emax p_3).
+Notation holds := (Residual.holds p emin).
+
+Infix "⊕" := (plus float F) (at level 50, left associativity).
+Infix "⊖" := (minus float F) (at level 50, left associativity).
+Infix "⊗" := (times float F) (at level 40, left associativity).
+
+(** Takes a finite result apart: finite operands, and its value. *)
+Ltac parts := repeat match goal with
+  | H : BinarySingleNaN.is_finite (_ ⊕ _) = true |- _ =>
+      apply plus_finite in H; destruct H as (? & ? & ?)
+  | H : BinarySingleNaN.is_finite (_ ⊖ _) = true |- _ =>
+      apply minus_finite in H; destruct H as (? & ? & ?)
+  | H : BinarySingleNaN.is_finite (_ ⊗ _) = true |- _ =>
+      apply times_finite in H; destruct H as (? & ? & ?)
+  | H : BinarySingleNaN.is_finite (abs _ _ _) = true |- _ =>
+      apply (abs_finite p emax p_3) in H; destruct H as (? & ?)
+  end.
+Ltac values := repeat match goal with
+  | |- context [B2R (integer _ F ?n)] => rewrite (proj2 (integer_value p emax p_3 n ltac:(lia)))
+  | |- context [B2R (epsilon _ F)] => rewrite (proj2 (eps_value p emax p_3))
+  | |- context [B2R (unit_roundoff _ F)] => rewrite (proj2 (u_value p emax p_3))
+  | |- context [B2R (underflow_unit _ F)] => rewrite (proj2 (eta_value p emax p_3))
+  | E : B2R ?x = _ |- context [B2R ?x] => rewrite E
+  end.
+Ltac positive := repeat first
+  [ apply nonnegative_plus | apply nonnegative_times
+  | apply nonnegative_abs; assumption | apply nonnegative_eps; assumption
+  | apply nonnegative_u; assumption | apply nonnegative_eta; assumption
+  | apply nonnegative_integer; [assumption | lia] | apply nonnegative_nothing; assumption
+  | assumption ].
+
+Definition residual_known (v : float) (b : float * float) (x : R) : Prop :=
+  nonnegative (snd b) /\
+  (finite (fst b) -> finite (snd b) -> finite v /\ holds (B2R v) (B2R (fst b)) (B2R (snd b)) x).
+
+Lemma zero_finite : finite (integer _ F 0).
+Proof. apply (zero_value p emax p_3). Qed.
+
+Lemma inflated_finite b : finite (residual_inflated _ F b) ->
+  finite b /\ B2R (residual_inflated _ F b) = Residual.inflated p emin (B2R b).
+Proof. unfold residual_inflated, Residual.inflated. intros H. parts. split; auto. now values. Qed.
+Lemma nonnegative_inflated b : nonnegative b -> nonnegative (residual_inflated _ F b).
+Proof. intros. unfold residual_inflated. positive. Qed.
+(** A finite error of two_sum is that over real numbers. *)
+Lemma two_sum_finite a b : finite (snd (two_sum _ F a b)) ->
+  finite a /\ finite b /\
+  B2R (fst (two_sum _ F a b)) = fst (ErrorFree.two_sum p emin (B2R a) (B2R b)) /\
+  B2R (snd (two_sum _ F a b)) = snd (ErrorFree.two_sum p emin (B2R a) (B2R b)).
+Proof.
+  unfold two_sum, ErrorFree.two_sum. cbn [fst snd]. intros H. parts. repeat split; auto; now values.
+Qed.
+
+Theorem residual_exact_known v : residual_known v (residual_exact _ F v) (B2R v).
+Proof.
+  split; [apply nonnegative_nothing; auto |]. unfold residual_exact. cbn [fst snd]. intros _ H. parts.
+  split; auto. values. apply Residual.residual_exact_sound; auto using number_B2R, emin_p.
+Qed.
+(** An error below zero, infinite or NaN says nothing. *)
+Theorem residual_within_known v error x :
+  (finite error -> Rabs (B2R v - x) <= B2R error) ->
+  residual_known v (residual_within _ F v error) x.
+Proof.
+  intros K. generalize (tight_within_known p emax p_3 v error x K).
+  unfold tight_within, residual_within. intros [P H].
+  split; [exact P |]. cbn [fst snd]. intros _ FR. destruct (H FR) as [V E]. split; auto.
+  values. repeat split; auto using number_B2R, Format.number_0. now rewrite Rplus_0_r.
+Qed.
+Theorem residual_negate_known v b x : residual_known v b x ->
+  residual_known (opposite _ F v) (residual_negate _ F b) (- x).
+Proof.
+  intros [P K]. split; [exact P |]. unfold residual_negate. cbn [fst snd]. intros C N.
+  apply opposite_finite in C. destruct (K C N) as [V H]. rewrite !opposite_value. split.
+  - simpl. now rewrite is_finite_Bopp.
+  - now apply Residual.residual_negate_sound.
+Qed.
+
+Lemma sum_known v a sa x b sb y : (finite v -> B2R v = fl (B2R a + B2R b)) ->
+  residual_known a sa x -> residual_known b sb y ->
+  residual_known v (residual_add _ F v a sa b sb) (x + y).
+Proof.
+  intros V [PA KA] [PB KB]. unfold residual_add. cbv zeta. split; cbn [fst snd].
+  { apply nonnegative_inflated. positive. }
+  intros FC FR. apply inflated_finite in FR. destruct FR as [FR ER]. parts.
+  match goal with H : finite v |- _ => specialize (V H) end.
+  match goal with H : finite (snd (two_sum _ _ (snd _) _)) |- _ =>
+    apply two_sum_finite in H; destruct H as (FO & _ & E1 & E2) end.
+  match goal with H : finite (snd (two_sum _ _ (fst sa) _)) |- _ =>
+    apply two_sum_finite in H; destruct H as (CA & CB & E3 & E4) end.
+  apply two_sum_finite in FO. destruct FO as (_ & _ & _ & E5).
+  destruct (KA ltac:(auto) ltac:(auto)) as [FA HA], (KB ltac:(auto) ltac:(auto)) as [FB HB].
+  split; auto. generalize (Residual.residual_add_sound p emin p_3 emin_p _ _ _ _ _ _ _ _ HA HB).
+  unfold Residual.residual_add. cbv zeta. cbn [fst snd]. now values.
+Qed.
+Theorem residual_add_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
+  residual_known (a ⊕ b) (residual_add _ F (a ⊕ b) a sa b sb) (x + y).
+Proof. apply sum_known. intros H. now apply plus_finite in H. Qed.
+Theorem residual_subtract_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
+  residual_known (a ⊖ b) (residual_subtract _ F (a ⊖ b) a sa b sb) (x - y).
+Proof.
+  intros KA KB. apply sum_known; auto using residual_negate_known. rewrite opposite_value.
+  intros H. now apply minus_finite in H.
+Qed.
+
+Theorem residual_scale_known a sa x e : residual_known a sa x ->
+  residual_known (scale _ F a e) (residual_scale _ F (scale _ F a e) a sa e) (x * bpow radix2 e).
+Proof.
+  intros [P K]. unfold residual_scale. cbv zeta.
+  set (v := scale _ F a e). set (c := scale _ F (fst sa) e). set (r := scale _ F (snd sa) e).
+  assert (Pr : nonnegative r) by now apply nonnegative_scale.
+  split; cbn [fst snd].
+  { destruct (_ || _); [positive | apply nonnegative_inflated; positive]. }
+  intros FC FR. generalize FC. intros C. apply scale_finite in C as [C EC]. change (B2R c = fl (B2R (fst sa) * bpow radix2 e)) in EC.
+  assert (FS : finite r /\ finite v).
+  { destruct (_ || _) eqn:L.
+    - parts. auto.
+    - apply inflated_finite in FR. destruct FR as [FR _]. parts. split; auto.
+      apply orb_false_iff in L. destruct L as [L _]. apply Z.leb_gt in L.
+      match goal with H : finite r |- _ => apply scale_finite in H; destruct H as [H _] end.
+      apply scale_down_finite; auto. now apply K. }
+  destruct FS as [FR' FV]. generalize FR' FV. intros R A.
+  apply scale_finite in R as [R ER]. apply scale_finite in A as [A EV].
+  change (B2R r = fl (B2R (snd sa) * bpow radix2 e)) in ER. change (B2R v = fl (B2R a * bpow radix2 e)) in EV.
+  split; auto. destruct (K C R) as [_ H].
+  generalize (Residual.residual_scale_sound p emin p_3 emin_p _ _ _ _ e H).
+  unfold Residual.residual_scale. cbv zeta. cbn [fst snd]. rewrite <- EV, <- EC, <- ER.
+  rewrite !(scale_equal p emax) in FR by auto. rewrite !(scale_equal p emax) by auto.
+  clear EV EC ER. destruct (_ || _); intros T.
+  - parts. now values.
+  - apply inflated_finite in FR. destruct FR as [FR E]. rewrite E. parts. now values.
+Qed.
+
+Lemma error_finite c r : finite (residual_error _ F (c, r)) ->
+  finite c /\ finite r /\ B2R (residual_error _ F (c, r)) = Residual.residual_error p emin (B2R c) (B2R r).
+Proof.
+  destruct (zero_value p emax p_3) as [Z0 Z]. unfold residual_error, Residual.residual_error. cbn [fst snd].
+  destruct (equal _ F r (integer _ F 0)) eqn:E.
+  - apply equal_true in E; auto. destruct E as [FR E]. rewrite E, Z, Req_bool_true by auto. intros H. parts. auto.
+  - intros H. apply inflated_finite in H. destruct H as [H EI]. parts. rewrite equal_finite, Z in E by auto.
+    rewrite E. repeat split; auto. now values.
+Qed.
+Theorem residual_error_known v b x : residual_known v b x -> known p emax v (residual_error _ F b) x.
+Proof.
+  destruct b as [c r]. intros [P K]. cbn [fst snd] in *. split.
+  - unfold residual_error. cbn [fst snd]. destruct (equal _ F r _); [positive |].
+    apply nonnegative_inflated. positive.
+  - intros H. apply error_finite in H. destruct H as (C & N & ->). destruct (K C N) as [V H]. split; auto.
+    apply (Residual.residual_error_sound p emin p_3 emin_p _ _ _ _ H).
+Qed.
+
+(** A sum that overflows is larger than any number. *)
+Lemma sign_value (v : float) : finite v -> if Bsign v then B2R v <= 0 else 0 <= B2R v.
+Proof.
+  destruct v as [s | | | s m e b]; try easy; simpl; intros _.
+  - destruct s; lra.
+  - destruct s; [apply F2R_le_0 | apply F2R_ge_0]; simpl; lia.
+Qed.
+Lemma sum_overflows v c (r : float) : finite v -> finite c -> ~ finite (v ⊕ c) ->
+  (v ⊕ c = B754_infinity false /\ Rabs (B2R r) < B2R v + B2R c) \/
+  (v ⊕ c = B754_infinity true /\ B2R v + B2R c < - Rabs (B2R r)).
+Proof.
+  intros V C N. generalize (Bplus_correct p emax _ _ mode_NE v c V C). case Rlt_bool_spec; intros L.
+  { intros (_ & H & _). easy. }
+  intros [O S].
+  assert (G : Rabs (B2R r) < Rabs (B2R v + B2R c)).
+  { apply Rnot_le_lt. intros D. apply (Rlt_not_le _ _ (abs_B2R_lt_emax p emax r)).
+    apply Rle_trans with (1 := L). apply (Format.rnd_abs_below p emin Format.nearest); auto.
+    apply Format.number_abs, number_B2R. }
+  generalize (sign_value v V) (sign_value c C). rewrite <- S.
+  assert (E : v ⊕ c = B754_infinity (Bsign v)).
+  { revert O. simpl plus. destruct (Bplus mode_NE v c); try discriminate. now intros [= ->]. }
+  rewrite E. destruct (Bsign v); intros PV PC.
+  - right. split; auto. rewrite (Rabs_left1 (_ + _)) in G; lra.
+  - left. split; auto. rewrite (Rabs_pos_eq (_ + _)) in G; lra.
+Qed.
+Theorem residual_sign_known v b x : residual_known v b x ->
+  match residual_sign _ F v b with
+  | negative => x < 0
+  | zero => x = 0
+  | positive => 0 < x
+  | uncertain => True
+  end.
+Proof.
+  destruct b as [c r]. intros [P K]. cbn [fst snd] in *. destruct (zero_value p emax p_3) as [Z0 Z].
+  unfold residual_sign. cbv zeta. cbn [fst snd].
+  assert (Real : finite (v ⊕ c) -> finite r -> finite (residual_inflated _ F r) ->
+    match Residual.residual_sign p emin (B2R v) (B2R c) (B2R r) with
+    | negative => x < 0 | zero => x = 0 | positive => 0 < x | uncertain => True end /\
+    Residual.residual_sign p emin (B2R v) (B2R c) (B2R r) =
+    if equal _ F (v ⊕ c) (integer _ F 0) && equal _ F r (integer _ F 0) then zero
+    else if negb (less _ F (residual_inflated _ F r) (abs _ F (v ⊕ c))) then uncertain
+    else if less _ F (integer _ F 0) (v ⊕ c) then positive else negative).
+  { intros S R I. generalize S. intros S'. apply plus_finite in S'. destruct S' as (V & C & E).
+    destruct (K C R) as [_ H]. split; [exact (Residual.residual_sign_sound p emin p_3 emin_p _ _ _ _ H) |].
+    assert (A : finite (abs _ F (v ⊕ c))) by now apply abs_finite_intro.
+    rewrite !equal_finite, !less_finite, Z by auto. destruct (abs_finite p emax p_3 _ A) as [_ ->].
+    apply inflated_finite in I. destruct I as [_ ->]. rewrite E. reflexivity. }
+  destruct (equal _ F (v ⊕ c) (integer _ F 0) && equal _ F r (integer _ F 0)) eqn:E0.
+  { apply andb_prop in E0. destruct E0 as [E1 E2]. apply equal_true in E1, E2; auto.
+    destruct E1 as [S E1], E2 as [R E2]. apply plus_finite in S. destruct S as (_ & C & S).
+    destruct (K C R) as [_ H].
+    generalize (Residual.residual_sign_sound p emin p_3 emin_p _ _ _ _ H).
+    unfold Residual.residual_sign. cbv zeta. rewrite <- S, E1, E2, Z, Req_bool_true by auto. auto. }
+  destruct (less _ F (residual_inflated _ F r) (abs _ F (v ⊕ c))) eqn:L; cbn [negb orb]; auto.
+  destruct (is_finite _ F (residual_error _ F (c, r))) eqn:FE; cbn [negb]; auto.
+  apply (IeeeInterval.is_finite_true p emax) in FE. apply error_finite in FE. destruct FE as (C & R & _).
+  destruct (K C R) as [V H].
+  destruct (BinarySingleNaN.is_finite (v ⊕ c)) eqn:S.
+  - assert (I : finite (residual_inflated _ F r)).
+    { generalize (nonnegative_inflated r P) (abs_finite_intro p emax (v ⊕ c) S). revert L.
+      destruct (residual_inflated _ F r) as [| t | |], (abs _ F (v ⊕ c)); simpl; try easy;
+        intros L ->; discriminate. }
+    destruct (Real eq_refl R I) as [T E]. rewrite E in T. cbn [negb] in T. exact T.
+  - clear Real. destruct H as (_ & _ & _ & H). apply Rabs_le_inv in H. generalize (Rle_abs (B2R r)). intros.
+    destruct (sum_overflows v c r V C) as [[-> G] | [-> G]]; [congruence | |]; simpl; lra.
+Qed.
+
+End Rules.
