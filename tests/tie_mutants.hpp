@@ -248,7 +248,7 @@ struct interval : copy_of<errbound::interval, interval<Without>> {
 template <int Without>
 struct residual : copy_of<errbound::residual, residual<Without>> {
     using Self = residual;
-    static constexpr int mutants = 4;
+    static constexpr int mutants = 8;
     template <class T>
     using bound = errbound::residual::bound<T>;
 
@@ -264,6 +264,30 @@ struct residual : copy_of<errbound::residual, residual<Without>> {
         const T remainder = (a.bound.remainder + b.bound.remainder) + (first + second) + (v - v);
         return {correction.value,
                 Without == 3 ? remainder : remainder * (1 + 8 * traits::epsilon())};
+    }
+    template <class T>
+    static bound<T> subtract(const T& v, operand<T, Self> a, operand<T, Self> b) {
+        const T value = -b.value;
+        if (Without == 5) return errbound::residual::add<T>(v, Self::original(a), {value, b.bound});
+        return errbound::residual::subtract<T>(v, Self::original(a), Self::original(b));
+    }
+    template <class T>
+    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+        const bound<T> used{b.bound.correction, Without == 6 ? T(0) : b.bound.remainder};
+        return errbound::residual::multiply<T>(v, Self::original(a), {b.value, used});
+    }
+    template <class T>
+    static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
+        const bound<T> used{b.bound.correction, Without == 7 ? T(0) : b.bound.remainder};
+        return errbound::residual::divide<T>(v, Self::original(a), {b.value, used});
+    }
+    template <class T>
+    static bound<T> scale(const T& v, operand<T, Self> a, int e) {
+        using traits = number_traits<T>;
+        if (Without == 8)
+            return {traits::scale(a.bound.correction, e),
+                    traits::scale(a.bound.remainder, e) + (v - v)};
+        return errbound::residual::scale<T>(v, Self::original(a), e);
     }
     template <class T>
     static errbound::sign_type sign(const T& v, const bound<T>& b) {
