@@ -7,6 +7,7 @@
         interval_subtract_known, interval_multiply_known, interval_divide_known,
         interval_scale_known
         interval_sign_known   the rule's sign is right or uncertain
+        interval_error_known  where the error is finite the value is, and |a - x| is at most the error
     On the way: two_sum does not overflow after its sum but into NaN (two_sum_known), and
     product_error_is_exact (product_known) and remainder_of_division (remainder_known) tell the truth
     whatever overflows. *)
@@ -764,5 +765,94 @@ Proof.
     generalize (inverse_between _ _ _ HY S). intros I. unfold Rdiv. split.
     + destruct (corner_below _ _ _ _ _ _ HA I) as [G | [G | [G | G]]]; auto.
     + destruct (corner_above _ _ _ _ _ _ HA I) as [G | [G | [G | G]]]; auto.
+Qed.
+
+(** The error. *)
+Lemma largest_value : finite (largest _ F) /\ B2R (largest _ F) = M.
+Proof.
+  split; [reflexivity |]. unfold largest, floats, Bmax_float. rewrite B2R_SF2B, M_product. unfold SF2R, F2R.
+  cbn [Fnum Fexp SpecFloat.cond_Zopp]. f_equal. f_equal.
+  assert (H : (2 <= 2 ^ p)%Z) by (change 2%Z with (2 ^ 1)%Z at 1; apply Z.pow_le_mono_r; lia).
+  assert (E : Z.pos (shift_pos (Z.to_pos p) 1) = (2 ^ p)%Z).
+  { rewrite shift_pos_correct, Z.mul_1_r. change (2 ^ Z.pos (Z.to_pos p) = 2 ^ p)%Z.
+    now rewrite Z2Pos.id by lia. }
+  rewrite Pos2Z.inj_sub by lia. now rewrite E.
+Qed.
+Lemma difference_0 x y : number x -> number y -> fl (x - y) = 0 -> x = y.
+Proof.
+  intros X Y H. enough (x - y = 0) by lra.
+  destruct (Rlt_or_le (Rabs (x - y)) (Format.smallest_normal p emin)) as [L | L].
+  - rewrite <- H. symmetry. apply (Format.sum_exact_below p emin Format.nearest); auto using Format.number_opp.
+  - exfalso. apply (Format.rnd_abs_above p emin Format.nearest) in L; [| now apply Format.number_smallest_normal].
+    rewrite H, Rabs_R0 in L. generalize (Format.smallest_normal_positive p emin). lra.
+Qed.
+Lemma max_finite m n : m = plus_infinity \/ finite m -> n = plus_infinity \/ finite n ->
+  max _ F m n = plus_infinity \/
+  (finite m /\ finite n /\ finite (max _ F m n) /\ B2R m <= B2R (max _ F m n) /\ B2R n <= B2R (max _ F m n)).
+Proof.
+  intros [-> | HM] [-> | HN]; auto.
+  - left. destruct n as [| [|] | |]; try discriminate; auto.
+  - left. destruct m as [| [|] | | [|]]; try discriminate; auto.
+  - right. unfold max. rewrite less_finite by auto. case Rlt_bool_spec; intros; repeat split; auto; lra.
+Qed.
+Lemma sign_range (x : float) : if Bsign x then B2R x <= 0 else 0 <= B2R x.
+Proof.
+  destruct x as [s | s | | s m e H]; simpl; try (destruct s; lra); try lra.
+  destruct s; [apply F2R_le_0 | apply F2R_ge_0]; simpl; lia.
+Qed.
+Lemma difference_above x y : finite x -> finite y -> B2R y <= B2R x ->
+  x ⊖ y = plus_infinity \/ finite (x ⊖ y).
+Proof.
+  intros X Y H. generalize (Bminus_correct p emax _ _ mode_NE x y X Y). case Rlt_bool_spec; intros C; [tauto |].
+  intros [E S]. left. generalize (sign_range x) (sign_range y). rewrite S in *.
+  destruct (Bsign y); simpl negb in *; intros S1 S2.
+  - revert E. simpl. destruct (Bminus mode_NE x y); try discriminate. intros E. now injection E as ->.
+  - exfalso. replace (B2R x - B2R y) with 0 in C by lra.
+    rewrite round_0, Rabs_R0 in C by auto with typeclass_instances. generalize (bpow_gt_0 radix2 emax). lra.
+Qed.
+
+Theorem interval_error_known a A x : interval_known a A x -> finite (interval_error _ F a A) ->
+  finite a /\ Rabs (B2R a - x) <= B2R (interval_error _ F a A).
+Proof.
+  destruct zero_value' as [Z0 Z]. destruct A as [l u]. intros [E | (L & W & FA & HA & HX)].
+  { injection E as -> ->. unfold interval_error. cbv zeta. cbn [fst snd].
+    set (off := max _ F (plus_infinity ⊖ a) (a ⊖ minus_infinity)).
+    assert (NF : ~ finite off /\ equal _ F off (integer _ F 0) = false)
+      by (unfold off; destruct a as [| [|] | |]; split; try discriminate; reflexivity).
+    destruct NF as [NF ->]. change (interval_sign _ F (minus_infinity, plus_infinity)) with uncertain.
+    cbn [andb]. intros H. apply above_finite in H. destruct H as [H _]. contradiction. }
+  cbn [fst snd] in *. unfold interval_error. cbv zeta. cbn [fst snd].
+  set (off := max _ F (u ⊖ a) (a ⊖ l)). set (enough := above _ F off).
+  match goal with |- context [?c && negb (less _ F enough _)] => set (certain := c) end.
+  assert (Certain : certain = true -> Rabs (B2R a - x) <= M).
+  { unfold certain, interval_sign. cbn [fst snd]. rewrite !less_finite, !equal_finite, Z by assumption.
+    generalize (le_M l) (le_M u). intros ML MU. apply Rabs_le_inv in ML, MU.
+    destruct (Rlt_bool_spec 0 (B2R l)); [intros _; apply Rabs_le; lra |].
+    destruct (Rlt_bool_spec (B2R u) 0); [intros _; apply Rabs_le; lra |].
+    destruct (Req_bool_spec (B2R l) 0), (Req_bool_spec (B2R u) 0); cbn [andb]; try discriminate.
+    intros _. apply Rabs_le. lra. }
+  assert (Far : finite off -> Rabs (B2R a - x) <= Rmax (B2R u - B2R a) (B2R a - B2R l) /\
+    fl (Rmax (B2R u - B2R a) (B2R a - B2R l)) <= B2R off).
+  { intros FO. split.
+    - apply Rabs_le. generalize (Rmax_l (B2R u - B2R a) (B2R a - B2R l)) (Rmax_r (B2R u - B2R a) (B2R a - B2R l)).
+      lra.
+    - destruct (max_finite _ _ (difference_above u a W FA (proj2 HA)) (difference_above a l FA L (proj1 HA)))
+        as [E | (F1 & F2 & _ & O1 & O2)];
+        [unfold off in FO; rewrite E in FO; discriminate FO |]; fold off in O1, O2.
+      apply minus_finite in F1, F2. destruct F1 as (_ & _ & E1), F2 as (_ & _ & E2).
+      rewrite E1 in O1. rewrite E2 in O2. apply Rmax_case; assumption. }
+  clearbody off certain. destruct (equal _ F off (integer _ F 0)) eqn:C0.
+  { intros FO. split; [exact FA |]. destruct (Far FO) as [F1 F2]. apply Rle_trans with (1 := F1).
+    set (d := Rmax _ _) in *. rewrite equal_finite, Z in C0 by assumption.
+    destruct (Req_bool_spec (B2R off) 0) as [O | O]; [| discriminate C0]. rewrite O in *.
+    assert (D1 : B2R u - B2R a <= d) by apply Rmax_l. assert (D2 : B2R a - B2R l <= d) by apply Rmax_r.
+    assert (D : 0 <= fl d) by (apply (Format.rnd_nonnegative p emin Format.nearest); lra).
+    assert (D0 : fl d = 0) by lra. revert D0. unfold d. apply Rmax_case; intros D0;
+      apply difference_0 in D0; try apply number_B2R; lra. }
+  destruct (certain && negb (less _ F enough (largest _ F))) eqn:C1.
+  - intros _. split; [exact FA |]. rewrite (proj2 largest_value).
+    apply andb_prop in C1. destruct C1 as [C1 _]. exact (Certain C1).
+  - intros H. split; [exact FA |]. unfold enough in *. apply above_finite in H as FO. destruct FO as [FO _].
+    destruct (Far FO) as [F1 F2]. apply Rle_trans with (1 := F1). apply above_true; assumption.
 Qed.
 End Rules.

@@ -44,6 +44,7 @@ struct interval {
         if (!(error > 0)) return unknown<T>();
         return checked<T>(value, below<T>(value - error), above<T>(value + error));
     }
+    /// Proof: proofs/IeeeInterval.v, interval_error_known.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
