@@ -13,6 +13,9 @@
 //  * overflow: an infinite or NaN value has an infinite or NaN bound, which no sign passes. (Under
 //    directed rounding an operation on values or bounds may overflow to the largest finite number
 //    instead; that is the one thing not noticed there.)
+//
+// Where nothing underflows the bound exceeds that of the rule `safe` by little, if at all:
+// proofs/ComputedComparison.v, tight_at_most_safe_computed.
 #pragma once
 
 #include <errbound/rules/operand.hpp>
