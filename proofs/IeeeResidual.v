@@ -5,14 +5,15 @@
     infinite or NaN) and, where c and r are finite, v is, and |v + c - x| <= r. Results: what the code
     returns is known:
         residual_exact_known, residual_within_known, residual_negate_known, residual_add_known,
-        residual_subtract_known, residual_scale_known
+        residual_subtract_known, residual_multiply_known, residual_divide_known (without fused
+        multiply-add), residual_scale_known
         residual_error_known   the error is one, in the sense of IeeeRules.v
         residual_sign_known    the rule's sign is right or uncertain *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee IeeeRules.
-From Errbound Require Format Residual ErrorFree IeeeInterval.
+From Errbound Require Format Residual ResidualProduct ErrorFree IeeeInterval.
 Open Scope R_scope.
 
 Section Rules.
@@ -33,6 +34,7 @@ Notation holds := (Residual.holds p emin).
 Infix "⊕" := (plus float F) (at level 50, left associativity).
 Infix "⊖" := (minus float F) (at level 50, left associativity).
 Infix "⊗" := (times float F) (at level 40, left associativity).
+Infix "⊘" := (over float F) (at level 40, left associativity).
 
 (** Takes a finite result apart: finite operands, and its value. *)
 Ltac parts := repeat match goal with
@@ -242,6 +244,170 @@ Proof.
     destruct (Real eq_refl R I) as [T E]. rewrite E in T. cbn [negb] in T. exact T.
   - clear Real. destruct H as (_ & _ & _ & H). apply Rabs_le_inv in H. generalize (Rle_abs (B2R r)). intros.
     destruct (sum_overflows v c r V C) as [[-> G] | [-> G]]; [congruence | |]; simpl; lra.
+Qed.
+
+(** Products and quotients. *)
+Lemma half_ulp_finite v : finite (half_ulp _ F v) ->
+  finite v /\ B2R (half_ulp _ F v) = Residual.half_ulp p emin (B2R v).
+Proof. unfold half_ulp, Residual.half_ulp. intros H. parts. split; auto. now values. Qed.
+Lemma nonnegative_half_ulp v : nonnegative (half_ulp _ F v).
+Proof. unfold half_ulp. positive. Qed.
+Lemma roundings_finite x y f s : finite (roundings _ F x y f s) ->
+  finite x /\ finite y /\
+  B2R (roundings _ F x y f s) = Residual.roundings p emin (B2R x) (B2R y) (B2R f) (B2R s).
+Proof. unfold roundings, Residual.roundings. intros H. parts. repeat split; auto. now values. Qed.
+Lemma is_exact_true b : residual_is_exact _ F b = true ->
+  finite (fst b) /\ finite (snd b) /\ B2R (fst b) = 0 /\ B2R (snd b) = 0.
+Proof.
+  destruct (zero_value p emax p_3) as [Z0 Z]. intros H. apply andb_prop in H. destruct H as [H1 H2].
+  apply equal_true in H1, H2; auto. rewrite Z in *. tauto.
+Qed.
+Lemma is_exact_value b : finite (fst b) -> finite (snd b) ->
+  residual_is_exact _ F b = Residual.is_exact (B2R (fst b)) (B2R (snd b)).
+Proof.
+  destruct (zero_value p emax p_3) as [Z0 Z]. intros C N. unfold residual_is_exact, Residual.is_exact.
+  now rewrite !equal_finite, Z.
+Qed.
+Lemma is_zero_value a b : finite a -> finite (fst b) -> finite (snd b) ->
+  residual_is_zero _ F a b = Residual.is_zero (B2R a) (B2R (fst b)) (B2R (snd b)).
+Proof.
+  destruct (zero_value p emax p_3) as [Z0 Z]. intros A C N. unfold residual_is_zero, Residual.is_zero.
+  now rewrite equal_finite, Z, is_exact_value.
+Qed.
+Lemma known_zero a b x : residual_known a b x -> residual_is_zero _ F a b = true -> x = 0 /\ B2R a = 0.
+Proof.
+  intros [_ K] H. generalize H. intros H'. apply andb_prop in H'. destruct H' as [_ E].
+  apply is_exact_true in E. destruct E as (C & N & _). destruct (K C N) as [A HA].
+  rewrite is_zero_value in H by auto. apply (ResidualProduct.holds_zero p emin _ _ _ _ HA H).
+Qed.
+(** A value that is zero for certain. *)
+Lemma zero_known v : (finite v -> B2R v = 0) -> residual_known v (residual_exact _ F v) 0.
+Proof.
+  intros Z. destruct (residual_exact_known v) as [P K]. split; auto. intros C N.
+  destruct (K C N) as [V H]. now rewrite (Z V) in H |- *.
+Qed.
+
+Theorem residual_multiply_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
+  residual_known (a ⊗ b) (residual_multiply _ F (a ⊗ b) a sa b sb) (x * y).
+Proof.
+  intros KA KB. destruct (zero_value p emax p_3) as [Z0 Z]. unfold residual_multiply.
+  destruct (residual_is_zero _ F a sa || residual_is_zero _ F b sb) eqn:CZ.
+  { assert (E : x * y = 0 /\ (B2R a = 0 \/ B2R b = 0)).
+    { apply orb_prop in CZ. destruct CZ as [C | C].
+      - destruct (known_zero _ _ _ KA C) as [-> A]. split; [ring | auto].
+      - destruct (known_zero _ _ _ KB C) as [-> B]. split; [ring | auto]. }
+    destruct E as [-> E]. apply zero_known. intros H. now apply (zero_times p emax). }
+  destruct KA as [PA KA], KB as [PB KB]. generalize (IeeeInterval.product_known p emax p_3 a b).
+  cbv zeta. set (error := snd (two_product _ F a b)).
+  set (known := product_error_is_exact _ F a b (two_product _ F a b)). set (v := a ⊗ b). intros KP.
+  assert (EV : finite v -> finite a /\ finite b /\ B2R v = fl (B2R a * B2R b)).
+  { apply times_finite. }
+  assert (KN : known = true -> B2R v + B2R error = B2R a * B2R b) by (intros H; now apply KP).
+  assert (FK : known = true -> finite v /\ finite error) by (intros H; split; now apply KP).
+  set (own := if known then error else integer _ F 0).
+  set (unknown := if known then integer _ F 0 else half_ulp _ F v).
+  assert (Pu : nonnegative unknown).
+  { unfold unknown. destruct known; [positive | apply nonnegative_half_ulp]. }
+  assert (O : finite unknown -> finite v /\ B2R own = (if known then B2R error else 0) /\
+    B2R unknown = if known then 0 else Residual.half_ulp p emin (B2R v)).
+  { unfold own, unknown. destruct known; intros H.
+    - split; [now apply FK | auto].
+    - apply half_ulp_finite in H. tauto. }
+  assert (Real : finite unknown -> finite (fst sa) -> finite (snd sa) -> finite (fst sb) -> finite (snd sb) ->
+    finite v /\ let (c, r) := ResidualProduct.residual_multiply p emin known (B2R error) (B2R v)
+      (B2R a) (B2R (fst sa)) (B2R (snd sa)) (B2R b) (B2R (fst sb)) (B2R (snd sb)) in
+      holds (B2R v) c r (x * y)).
+  { intros FU CA RA CB RB. destruct (O FU) as (FV & _). split; auto. destruct (EV FV) as (FA & FB & E).
+    rewrite E. apply (ResidualProduct.residual_multiply_sound p emin p_3 emin_p); auto using number_B2R.
+    - now apply KA.
+    - now apply KB.
+    - intros H. rewrite <- E. auto. }
+  destruct (residual_is_exact _ F sa && residual_is_exact _ F sb) eqn:CE; split; cbn [fst snd].
+  - exact Pu.
+  - intros _ FU. generalize CE. intros C. apply andb_prop in C. destruct C as [C1 C2].
+    apply is_exact_true in C1, C2. destruct C1 as (CA & RA & _), C2 as (CB & RB & _).
+    destruct (Real FU CA RA CB RB) as [FV T]. split; auto. destruct (O FU) as (_ & EO & EU).
+    destruct (EV FV) as (FA & FB & _). unfold ResidualProduct.residual_multiply in T.
+    rewrite <- !is_zero_value, CZ, <- !is_exact_value, CE in T by auto. now rewrite EO, EU.
+  - apply nonnegative_inflated. positive.
+  - intros FC FR. apply inflated_finite in FR. destruct FR as [FR ER]. rewrite ER. clear ER. parts.
+    match goal with H : finite (roundings _ _ _ _ _ _) |- _ => apply roundings_finite in H; destruct H as (FX & FY & ?) end.
+    parts. destruct (Real ltac:(auto) ltac:(auto) ltac:(auto) ltac:(auto) ltac:(auto)) as [FV T]. split; auto.
+    destruct (O ltac:(auto)) as (_ & EO & EU). unfold ResidualProduct.residual_multiply in T.
+    rewrite <- !is_zero_value, CZ, <- !is_exact_value, CE in T by auto. cbv zeta in T. rewrite <- EO, <- EU in T.
+    clear EO EU O Real. now values.
+Qed.
+
+(** Divided by a number whose distance from zero is known; where r is finite, so y is not zero. *)
+Theorem residual_divide_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
+  residual_known (a ⊘ b) (residual_divide _ F (a ⊘ b) a sa b sb) (x / y) /\
+  (finite (snd (residual_divide _ F (a ⊘ b) a sa b sb)) -> y <> 0).
+Proof.
+  intros KA KB. destruct (zero_value p emax p_3) as [Z0 Z]. unfold residual_divide. cbv zeta.
+  set (off := residual_error _ F sb). set (d := abs _ F b ⊖ off).
+  destruct (less _ F (integer _ F 0) d) eqn:C; cbn [negb];
+    [| split; [split; [reflexivity |] |]; discriminate].
+  generalize (residual_error_known _ _ _ KB). fold off. intros KO.
+  generalize (distance_positive p emax p_3 _ _ _ KO C). fold off d. intros (FB & FO & FD & D & NB & NY).
+  split; auto.
+  generalize FO. intros EO. unfold off in EO. destruct sb as [cb rb]. apply error_finite in EO. destruct EO as (CB & RB & EO).
+  fold off in EO. assert (ED : B2R d = fl (Rabs (B2R b) - Residual.residual_error p emin (B2R cb) (B2R rb))).
+  { rewrite <- EO. unfold d in FD |- *. apply minus_finite in FD. destruct FD as (FA & _ & ->).
+    now apply (abs_finite p emax p_3) in FA as [_ ->]. }
+  generalize (is_exact_value (cb, rb) CB RB). cbn [fst snd]. intros XB. clearbody d. set (v := a ⊘ b).
+  assert (EV : finite v -> finite a /\ B2R v = fl (B2R a / B2R b)) by now apply over_finite.
+  destruct (residual_is_zero _ F a sa) eqn:CZ.
+  { destruct (known_zero _ _ _ KA CZ) as [-> A]. unfold Rdiv. rewrite Rmult_0_l. apply zero_known.
+    now apply (zero_over p emax). }
+  generalize (IeeeInterval.remainder_known p emax p_3 a b). fold v.
+  destruct (remainder_of_division _ F a b v) as [value known]. cbn [fst snd]. intros KR.
+  destruct KA as [PA KA], KB as [PB KB]. destruct (KB CB RB) as [_ HB]. cbn [fst snd] in *. clear KB.
+  set (own := if known then value else integer _ F 0).
+  set (unknown := if known then integer _ F 0 else half_ulp _ F v).
+  assert (Pu : nonnegative unknown).
+  { unfold unknown. destruct known; [positive | apply nonnegative_half_ulp]. }
+  assert (O : finite v -> finite unknown -> finite own /\ B2R own = (if known then B2R value else 0) /\
+    B2R unknown = if known then 0 else Residual.half_ulp p emin (B2R v)).
+  { unfold own, unknown. intros V. destruct known; intros H.
+    - now destruct (KR V FB NB eq_refl).
+    - apply half_ulp_finite in H. tauto. }
+  assert (Real : finite v -> finite (fst sa) -> finite (snd sa) ->
+    match ResidualProduct.residual_divide p emin known (B2R value) (B2R v)
+      (B2R a) (B2R (fst sa)) (B2R (snd sa)) (B2R b) (B2R cb) (B2R rb) with
+    | None => True
+    | Some (c, r) => y <> 0 /\ holds (B2R v) c r (x / y)
+    end).
+  { intros FV CA RA. destruct (EV FV) as (FA & E). rewrite E.
+    apply (ResidualProduct.residual_divide_sound p emin p_3 emin_p); auto using number_B2R.
+    - now apply KA.
+    - intros H. rewrite <- E. now apply KR. }
+  unfold ResidualProduct.residual_divide in Real. cbv zeta in Real.
+  rewrite <- ED, Rlt_bool_true in Real by auto. cbn [negb] in Real. clear ED.
+  destruct (equal _ F own (integer _ F 0) && residual_is_exact _ F sa && residual_is_exact _ F (cb, rb)) eqn:CE;
+    split; cbn [fst snd].
+  - positive.
+  - intros _ FR. parts. generalize CE. intros E. apply andb_prop in E. destruct E as [E _].
+    apply andb_prop in E. destruct E as [_ E]. apply is_exact_true in E. destruct E as (CA & RA & _).
+    split; auto. destruct (O ltac:(auto) ltac:(auto)) as (FW & E1 & E2). destruct (EV ltac:(auto)) as (FA & _).
+    specialize (Real ltac:(auto) CA RA).
+    rewrite <- !is_zero_value, CZ, <- E1, <- E2, <- !is_exact_value in Real by auto.
+    rewrite equal_finite, Z in CE by auto.
+    rewrite <- XB, CE in Real. destruct Real as [_ Real]. clear E1 E2. now values.
+  - assert (PO : nonnegative off) by apply KO. apply nonnegative_inflated. positive.
+    apply nonnegative_over; auto; [| apply nonnegative_intro; auto; lra | lra].
+    apply nonnegative_inflated. positive.
+  - intros FC FR. apply inflated_finite in FR. destruct FR as [FR ER]. rewrite ER. clear ER. parts.
+    match goal with H : finite (_ ⊘ d) |- _ => apply over_finite in H; [destruct H as [FL EL] | auto | lra] end.
+    match goal with H : finite (half_ulp _ _ _) |- _ => apply half_ulp_finite in H; destruct H as [_ EH] end.
+    apply over_finite in FC; auto. destruct FC as [FN EC].
+    apply inflated_finite in FL. destruct FL as [FL EI]. parts.
+    match goal with H : finite (roundings _ _ _ _ _ _) |- _ => apply roundings_finite in H; destruct H as (FX & FY & ?) end.
+    parts. split; auto. destruct (O ltac:(auto) ltac:(auto)) as (FW & E1 & E2).
+    destruct (EV ltac:(auto)) as (FA & _). specialize (Real ltac:(auto) ltac:(auto) ltac:(auto)).
+    rewrite <- !is_zero_value, CZ, <- E1, <- E2, <- !is_exact_value in Real by auto.
+    rewrite equal_finite, Z in CE by auto.
+    rewrite <- XB, CE in Real. destruct Real as [_ Real].
+    clear EV O E1 E2 KR. now values.
 Qed.
 
 End Rules.

@@ -78,6 +78,7 @@ Hypothesis emin_p : (emin <= - p)%Z.
 Let rnd_exact := Format.rnd_exact p emin nearest.
 Let rnd_number := Format.rnd_number p emin nearest.
 Let rnd_nonnegative := Format.rnd_nonnegative p emin nearest.
+Let nothing := nothing p emin.
 Let u_8 := u_8 p p_3.
 Let covered_number := covered_number p emin.
 Let plus := covered_plus p emin p_3.
@@ -86,6 +87,7 @@ Let weaken := covered_weaken p emin p_3.
 Let pays := inflated_covers p emin p_3 emin_p.
 Let half_ulp_above := half_ulp_above p emin p_3.
 
+(** More of what a computed number stands for. *)
 Lemma sum k X x l Y y : covered k 0 X x -> covered l 0 Y y ->
   covered (S (max k l)) 0 (X + Y) (fl (x + y)).
 Proof. rewrite <- (Rplus_0_r 0) at 3. apply plus. Qed.
@@ -108,8 +110,6 @@ Proof.
   apply Rle_trans with (L * (D * (1 + u))); [now apply Rmult_le_compat_l |].
   replace (L * (D * (1 + u))) with (L * (1 + u) * D) by ring. apply Rmult_le_compat_r; lra.
 Qed.
-Lemma fl_nothing v : fl (v - v) = 0.
-Proof. replace (v - v) with 0 by ring. apply (rnd_0 p emin nearest). Qed.
 Lemma holds_zero v c r x : holds v c r x -> is_zero v c r = true -> x = 0 /\ v = 0.
 Proof.
   intros H Z. apply andb_prop in Z. destruct Z as [Z E]. revert Z. case Req_bool_spec; [| discriminate].
@@ -143,7 +143,7 @@ Proof.
   generalize (holds_nonnegative p emin _ _ _ _ HA) (holds_nonnegative p emin _ _ _ _ HB)
     (holds_within _ _ _ _ HA) (holds_within _ _ _ _ HB). intros Pra Prb EA EB.
   unfold residual_multiply. destruct (is_zero a ca ra || is_zero b cb rb) eqn:CZ.
-  { rewrite fl_nothing.
+  { rewrite nothing.
     assert (Z : a * b = 0 /\ x * y = 0).
     { apply orb_prop in CZ. destruct CZ as [C | C].
       - destruct (holds_zero _ _ _ _ HA C) as [-> ->]. lra.
@@ -251,11 +251,10 @@ Proof.
   set (off := residual_error cb rb) in *. set (D := Rabs b - off) in *.
   assert (NY : y <> 0) by (intros Z; rewrite Z, Rabs_R0 in DY; lra).
   assert (NB : b <> 0) by (intros Z; unfold D in PD; rewrite Z, Rabs_R0 in PD; lra).
-  assert (Nz : holds 0 0 0 0).
-  { split; [| split; [| split]]; auto using number_0. rewrite Rplus_0_r, Rminus_0_r, Rabs_R0. lra. }
   destruct (is_zero a ca ra) eqn:CZ.
-  { split; auto. rewrite fl_nothing. destruct (holds_zero _ _ _ _ HA CZ) as [-> ->].
-    unfold Rdiv. now rewrite !Rmult_0_l, (rnd_0 p emin nearest). }
+  { split; auto. rewrite nothing. destruct (holds_zero _ _ _ _ HA CZ) as [-> ->].
+    unfold Rdiv. rewrite !Rmult_0_l, (rnd_0 p emin nearest).
+    split; [| split; [| split]]; auto using number_0. rewrite Rplus_0_r, Rminus_0_r, Rabs_R0. lra. }
   set (v := fl (a / b)) in *. set (own := if known then value else 0).
   set (unknown := if known then 0 else half_ulp v). set (t := a / b - v - own / b).
   assert (Nv : number v) by apply rnd_number.
@@ -271,10 +270,10 @@ Proof.
   destruct (Req_bool own 0 && is_exact ca ra && is_exact cb rb) eqn:CE.
   { apply andb_prop in CE. destruct CE as [CE C2]. apply andb_prop in CE. destruct CE as [C1 CE].
     rewrite (holds_exact p emin _ _ _ _ HA CE), (holds_exact p emin _ _ _ _ HB C2). split; auto.
-    rewrite fl_nothing, Rplus_0_r, (rnd_exact unknown Nu). split; [| split; [| split]]; auto using number_0.
+    rewrite nothing, Rplus_0_r, (rnd_exact unknown Nu). split; [| split; [| split]]; auto using number_0.
     revert C1. case Req_bool_spec; [| discriminate]. intros Z _.
     replace (v + 0 - a / b) with (- t) by (unfold t; rewrite Z; field; auto). now rewrite Rabs_Ropp. }
-  split; auto. clear CZ CE Nz.
+  split; auto. clear CZ CE.
   generalize (holds_nonnegative p emin _ _ _ _ HA) (holds_nonnegative p emin _ _ _ _ HB)
     (holds_within _ _ _ _ HA) (holds_within _ _ _ _ HB). intros Pra Prb EA EB.
   destruct HA as (Na & Nca & Nra & _), HB as (Nb & Ncb & Nrb & _).

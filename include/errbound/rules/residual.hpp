@@ -6,9 +6,8 @@
 // u = 2^-p, η the smallest positive number, δ an operation's exact error. Before ρ stands what the
 // rule's own arithmetic needs:
 //  * every rounding of a correction is counted in ρ, as u times its result, or exactly where
-//  two_sum
-//    gives it; an underflow of a product on the way as η/2;
-//  * roundings of ρ: up to nine, paid for by the factor 1 + 8ε >= (1 + u)^9 (u <= 1/8);
+//    two_sum gives it; an underflow of a product on the way as η/2;
+//  * roundings of ρ: up to eight, paid for by the factor 1 + 8ε >= (1 + u)^9 (u <= 1/8);
 //  * where δ is not known exactly (near underflow; overflow inside Dekker's product), δ = 0 is
 //    taken and u|v| + η/2, which bounds it, goes into ρ;
 //  * exact numbers have c = ρ = 0; sums of numbers with ρ = 0 keep ρ = 0 as long as c holds their
@@ -83,6 +82,7 @@ struct residual {
     }
     /// ab = v + δ + (va·cb + ca·vb) + ca·cb, and with the remainders
     /// (|va| + |ca|)ρb + (|vb| + |cb| + ρb)ρa.
+    /// Proof: proofs/IeeeResidual.v, residual_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T, residual> a, operand<T, residual> b) {
         using traits = number_traits<T>;
@@ -108,6 +108,7 @@ struct residual {
     /// and N/b − N/vb = N/vb·(vb − b)/b. So c = N/vb, and what is left is at most
     /// (|N/vb|(|cb| + ρb) + ρa + |q|ρb + roundings)/(|vb| − |cb| − ρb). Where r is not known, it is
     /// left out of c: what N/vb then lacks, r/vb, is the error of q. Unknown where b may be zero.
+    /// Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T, residual> a, operand<T, residual> b) {
         using traits = number_traits<T>;
@@ -125,8 +126,8 @@ struct residual {
         const T inherited = a.bound.correction - x;
         const T numerator = own + inherited;
         const T correction = numerator / b.value;
-        // |N/vb| <= |c|(1 + u) + η/2 + unknown. Inside and outside the inner factor 1 + 8ε there
-        // are eight and three roundings.
+        // |N/vb| <= |c|(1 + u) + η/2 + unknown. The inner factor 1 + 8ε pays for seven roundings,
+        // that of the distance among them, the outer one for four.
         const T lost = unknown + traits::underflow_unit();
         const T c = traits::abs(correction) + lost, q = traits::abs(v);
         const T left = (c * off + (q * b.bound.remainder + a.bound.remainder)) +
