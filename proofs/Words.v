@@ -288,6 +288,14 @@ Proof.
   replace (size r) with (Z.of_nat n + size (skipn n r)) by lia. rewrite Z.pow_add_r by lia. nia.
 Qed.
 
+Lemma product_fits m n x y : fits m x -> fits n y -> fits (m + n) (x * y).
+Proof.
+  unfold fits. rewrite Nat2Z.inj_add, Z.pow_add_r by lia. generalize (power_positive m) (power_positive n).
+  set (M := B ^ Z.of_nat m). set (N := B ^ Z.of_nat n). intros PM PN FX FY.
+  assert (Q : Z.abs (2 * x) * Z.abs (2 * y) <= M * N) by (apply Z.mul_le_mono_nonneg; lia).
+  rewrite <- Z.abs_mul in Q. replace (2 * x * (2 * y)) with (4 * (x * y)) in Q by ring.
+  assert (0 < M * N) by (apply Z.mul_pos_pos; lia). lia.
+Qed.
 Theorem product_exact a b : a <> [] -> b <> [] -> words a -> words b ->
   signed (product a b) = signed a * signed b.
 Proof.
@@ -302,18 +310,10 @@ Proof.
   assert (Lt : length t = (length a + length b)%nat) by lia.
   assert (P : B ^ size t = B ^ size a * B ^ size b).
   { rewrite Lt, Nat2Z.inj_add, Z.pow_add_r by lia. reflexivity. }
-  generalize (signed_fits a A Na) (signed_fits b D Nb). unfold fits. intros Fa Fb.
   apply signed_is with
     (k := k + j - (if negative a then 1 else 0) * (if negative b then 1 else 0)); auto.
   - destruct t; [| easy]. simpl in Lt. destruct a; easy.
-  - unfold fits. rewrite P. generalize (power_positive (length a)) (power_positive (length b)).
-    intros Pa Pb. set (x := signed a) in *. set (y := signed b) in *. set (M := B ^ size a) in *.
-    set (M' := B ^ size b) in *.
-    clear - Fa Fb Pa Pb. clearbody x y M M'.
-    assert (Q : Z.abs (2 * x) * Z.abs (2 * y) <= M * M').
-    { apply Z.mul_le_mono_nonneg; lia. }
-    rewrite <- Z.abs_mul in Q. replace (2 * x * (2 * y)) with (4 * (x * y)) in Q by ring.
-    assert (0 < M * M') by (apply Z.mul_pos_pos; lia). lia.
+  - rewrite Lt. now apply product_fits; apply signed_fits.
   - rewrite E3, E2, E1. rewrite L2, L1, Nat2Z.inj_add, Z.pow_add_r by lia. rewrite P. unfold signed.
     destruct (negative a), (negative b); ring.
 Qed.

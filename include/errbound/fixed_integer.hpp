@@ -135,6 +135,7 @@ class fixed_integer {
         return x;
     }
     /// magnitude·2^shift, for shift >= 0, less whole multiples of 2^width where it does not fit.
+    /// Proof: proofs/WordBits.v, shifted_exact.
     static constexpr fixed_integer shifted(word magnitude, int shift) {
         fixed_integer x;
         const int whole = shift / 64, bits = shift % 64;
@@ -196,6 +197,7 @@ class fixed_integer {
     }
 
     /// The least n with −2^n <= x < 2^n.
+    /// Proof: proofs/WordBits.v, bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word(words_[Words - 1]);
         for (int i = Words - 1; i >= 0; --i) {
@@ -206,6 +208,7 @@ class fixed_integer {
     }
 
     /// ⌊x/2^shift⌋ in Result words, modulo their width, for shift >= 0.
+    /// Proof: proofs/WordBits.v, from_bit_exact.
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
         const word beyond = words::sign_word(words_[Words - 1]);

@@ -41,6 +41,7 @@ constexpr int count_filled(const word* x, int n) {
 
 /// r = a·b, for two's complement numbers of m and n words, b not zero, and an r of m + n. By the
 /// signed words of a.
+/// Proof: proofs/SparseProduct.v, sparse_product_exact.
 [[gnu::noinline]] constexpr void multiply_sparse(word* r, const word* a, int m, const word* b,
                                                  int n) {
     int low = 0;
@@ -75,7 +76,8 @@ constexpr int count_filled(const word* x, int n) {
     }
 }
 
-/// r = a·b, for two's complement numbers of m and n words and an r of m + n.
+/// r = a·b, for two's complement numbers of m and n words, trimmed, and an r of m + n.
+/// Proof: proofs/SparseProduct.v, any_product_exact.
 constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
     // Choosing words costs more than it saves unless most are left out.
     constexpr int worth = 4;
