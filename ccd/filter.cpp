@@ -10,6 +10,8 @@ namespace {
 
 using static_filter::above, static_filter::below;
 
+// Proof: proofs/FilterStages.v, filter_face_separate, filter_face_collides, filter_edges_separate,
+// filter_edges_collide, filter_bounded.
 template <template <class> class Forms, template <class> class Query>
 [[gnu::flatten]] verdict run_stages(const Query<double>& query, stage_report* report) {
     if (!is_finite(query)) return {outcome::uncertain, cause::range};

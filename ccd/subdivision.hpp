@@ -25,7 +25,7 @@ struct waiting_parts {
 }  // namespace detail
 
 /// `separate` and `collides` are certain; `uncertain` where halving further would not help.
-/// Proof: proofs/Subdivision.v, subdivision_separate and subdivision_collides.
+/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides.
 template <template <class> class Forms>
 constexpr outcome subdivide(const static_filter::whole_step<double, Forms>& whole) {
     using static_filter::above, static_filter::below;

@@ -617,14 +617,21 @@ Qed.
 Lemma normal_fits : vector_fits 3 (my * mz) (mz * mx) (mx * my) 2 12 (normal q).
 Proof. apply cross_fits; now apply moving_fits. Qed.
 
+Lemma cubic_fits : all_fit (mx * my * mz) 3 40 (cubic (coplanarity q)).
+Proof.
+  destruct sizes_nonnegative as (SX & SY & SZ).
+  assert (0 <= mx * my) by (apply Rmult_le_pos; lra).
+  destruct (dot_fits 2 1 (mx * my * mz) 12 0 (normal q) (p_ q) _ _ _ _ _ _ 2 1
+              ltac:(lia) ltac:(lia) normal_fits (moving_fits _ p_moving)
+              ltac:(right; ring) ltac:(right; ring) ltac:(right; ring)) as [F L].
+  apply (controlled_fits _ 3 32); auto; try lia; [repeat constructor; lia | apply Rmult_le_pos; lra].
+Qed.
+
 Theorem error_of_y_sound e : In e (cubic (coplanarity q)) ->
   Rabs (value e - exact e) + tiny / 1000 <= error_of_y mx my mz * (1 - eps).
 Proof.
   destruct sizes_nonnegative as (SX & SY & SZ). generalize eps_tiny W_1 (eta_positive emin).
   intros P HW PE. assert (Pxy : 0 <= mx * my) by (apply Rmult_le_pos; lra).
-  destruct (dot_fits 2 1 (mx * my * mz) 12 0 (normal q) (p_ q) _ _ _ _ _ _ 2 1
-              ltac:(lia) ltac:(lia) normal_fits (moving_fits _ p_moving)
-              ltac:(right; ring) ltac:(right; ring) ltac:(right; ring)) as [F L].
   assert (PV : 0 <= mx * my * mz) by (apply Rmult_le_pos; lra).
   assert (N1 : 0 <= fl (mx * my)) by (apply rnd_nonnegative; auto with typeclass_instances).
   assert (N2 : 0 <= fl (mx * my) * mz) by (apply Rmult_le_pos; lra).
@@ -633,8 +640,7 @@ Proof.
   - apply (query_shape (fun q => cubic (coplanarity q))). reflexivity.
   - lia.
   - lia.
-  - apply (controlled_fits _ 3 32); auto; try lia.
-    repeat constructor; lia.
+  - exact cubic_fits.
   - unfold cubic, controlled. simpl. eauto.
   - apply rnd_number; auto with typeclass_instances.
   - exact PV.
@@ -722,6 +728,14 @@ Proof.
     (apply Up with 48%nat; [lia | now apply M]) || (apply Up with 44%nat; [lia | assumption]).
 Qed.
 
+Lemma quartic_fits inside f : inside_fit inside -> In f inside -> all_fit (area * area) 4 60 (quartic f).
+Proof.
+  intros F I. destruct (proj1 (Forall_forall _ _) F f I) as [F1 F2].
+  apply (controlled_fits _ 4 52 [12; 3; 2; 3; 12]%Z f ltac:(lia) (eq_sym F2)); auto.
+  - repeat constructor; lia.
+  - apply Rle_0_sqr.
+Qed.
+
 Lemma error_of_g_sound (inside : query -> list form) :
   map shape (concat (map quartic (inside q))) = concat (map quartic (inside any_query)) ->
   inside_fit (inside q) -> inside q <> [] ->
@@ -753,9 +767,7 @@ Proof.
            (area * area) (fl (computed * computed)) 4 60 (2 * (W * W) + 2)); auto; try lia.
   - apply Forall_forall. intros e' I. apply in_concat in I. destruct I as (g & Ig & Ie').
     apply in_map_iff in Ig. destruct Ig as (f' & <- & If').
-    destruct (proj1 (Forall_forall _ _) F f' If') as [F1 F2].
-    apply (proj1 (Forall_forall _ _) (controlled_fits _ 4 52 [12; 3; 2; 3; 12]%Z f' ltac:(lia)
-      (eq_sym F2) ltac:(repeat constructor; lia) PA F1) e' Ie').
+    exact (proj1 (Forall_forall _ _) (quartic_fits _ f' F If') e' Ie').
   - destruct (inside q) as [| f' l]; [easy |].
     exists (at_ f' 0), (Constant 12). simpl. now left.
   - apply rnd_number; auto with typeclass_instances.

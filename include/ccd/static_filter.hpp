@@ -74,6 +74,7 @@ constexpr error_count worst_of(const control_values<error_count, N>& c) {
 
 /// The error that max_depth halvings of control values of size at most 1 add. Which half is taken
 /// each time is not known, so the worst error of a level is taken for all values of the next.
+/// Proof: proofs/FilterStages.v, halving_error_enough.
 template <int N>
 constexpr double halving_error() {
     control_values<error_count, N> c;
@@ -255,7 +256,8 @@ constexpr mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
 
 /// Whether one of nine fixed axes (x, y, z, x ± y, y ± z, z ± x) parts the features the same way
 /// at both ends of the step. The motion is linear, so it then parts them throughout.
-/// Proof: proofs/Decisions.v, face_parted and edges_parted.
+/// Proof: proofs/Decisions.v, face_parted, edges_parted.
+/// Proof of the margin: proofs/Parted.v, parted_face_separate, parted_edges_separate.
 ///
 /// Margins: a difference d̂ is off by at most ε·m, a sum of two axes by 2ε(1 + ε)(m_x + m_y), so two
 /// compared projections together by 4ε(1 + ε)(m_x + m_y); an edge's far end is a sum of two such,
