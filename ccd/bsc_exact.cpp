@@ -13,10 +13,13 @@
 //    contact at the triangle's border, or at an end of an edge; if N = 0, then so is every contact
 //    at that time (reference.cpp). The vertex/edge contacts decide either way. Contacts with all
 //    G_i > 0 there are none, or the answer had been "yes".
+//    Proof: proofs/BscExact.v, bsc_exact_inside.
 //  * "maybe_root" means Y ≡ 0. Take a contact, and follow it back in time to the first at which it
 //    holds without a break. If that is not t = 0, then N = 0 or some G_i = 0 there, for else the
 //    contact would hold shortly before: a vertex/edge contact again. If it is t = 0, the same, or
-//    all G_i(0) > 0.
+//    all G_i(0) > 0. Proof: proofs/BscExact.v, bsc_exact_root; proofs/Contact.v, face_coplanar,
+//    edges_coplanar.
+// The decision is right, then. Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
 #include <algorithm>
 #include <ccd/bsc.hpp>
 #include <ccd/bsc_exact.hpp>
