@@ -4,6 +4,7 @@
 // All coordinates are mapped to about [−1, 1] by one translation per axis and one scale for all,
 // and rounded to float: X̃ = fl((x − c)·s). Each of these operations preserves order though not
 // strictly, so X̃ < Ỹ proves x < y. Sums of two coordinates have an absolute error: see `margin`.
+// Proof: proofs/RoundedAxes.v, rounded_monotone, rounded_face_separate, rounded_edges_separate.
 #pragma once
 
 #include <algorithm>
@@ -41,14 +42,15 @@ class frame {
   public:
     frame() = default;
     explicit constexpr frame(const extent& e) {
-        // Halved before they are added or subtracted, so that nothing overflows. The scale is at
-        // most 2^1000, so that it is finite: of smaller scenes little or nothing is culled here.
-        double half_extent = 0;
+        // Halved before they are added, so that nothing overflows. Distances are taken from the
+        // middle as rounded, which lies well off the centre of a scene of a few ulps. The scale is
+        // at most 2^1000, so that it is finite: of smaller scenes little or nothing is culled here.
+        double radius = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             middle_[k] = e.low[k] / 2 + e.high[k] / 2;
-            half_extent = std::max(half_extent, e.high[k] / 2 - e.low[k] / 2);
+            radius = std::max(radius, std::max(e.high[k] - middle_[k], middle_[k] - e.low[k]));
         }
-        scale_ = 1 / std::max(half_extent, 0x1p-1000);
+        scale_ = 1 / std::max(radius, 0x1p-1000);
     }
     constexpr float operator()(std::size_t axis, double x) const {
         return static_cast<float>((x - middle_[axis]) * scale_);

@@ -40,6 +40,7 @@ class step_frames {
     /// axis is mapped to about [-1, 1] and rounded, which preserves order though not strictly:
     /// boxes that touch still do, and boxes that touch without a common end did so before. Where
     /// ends coincide, ask touch().
+    /// Proof: proofs/RoundedAxes.v, swept_face_separate, swept_edges_separate, swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<index, N>& element) const {
         box<double> exact;

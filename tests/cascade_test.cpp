@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ccd/integers.hpp"
+#include "ccd/rounded_axes.hpp"
 #include "query_families.hpp"
 
 namespace {
@@ -274,6 +275,17 @@ TEST(batch, refuses_what_it_cannot_do) {
     answers.resize(2);
     EXPECT_THROW(ccd::decide_batch(rows, span(good), answers), std::invalid_argument);
     ccd::decide_batch(rows, span(), std::span<ccd::outcome>());
+}
+
+// Where a scene's extent is an ulp or two of its position, the middle as rounded is one of its ends.
+TEST(rounded_axes, a_scene_becomes_the_unit_box_however_small_it_is) {
+    for (const int ulps : {0, 1, 2, 3, 5, 1000}) {
+        const double low = 3.0, high = low + ulps * 0x1p-51;
+        const ccd::rounded_axes::frame frame({{low, low, low}, {high, low, high}});
+        for (const double x : {low, high})
+            EXPECT_LE(std::abs(frame(0, x)), 1.001f) << ulps << " ulps";
+        EXPECT_EQ(frame(1, low), 0.0f);
+    }
 }
 
 TEST(static_filter, constants_are_those_of_the_forms) {
