@@ -1,8 +1,8 @@
 // Roots of a cubic in (0, 1), with coefficients of fixed width: counted, and put between brackets.
 //
 // A root's place is estimated in floating point; exact signs of the cubic at both ends of a bracket
-// around it prove it, so nothing depends on how the estimate was rounded. A bracket predicts the
-// next, with some 40 more bits.
+// around it prove it, so nothing depends on the estimate (proofs/CubicRoots.v). A bracket predicts
+// the next, with some 40 more bits.
 #pragma once
 
 #include <algorithm>
@@ -28,6 +28,7 @@ constexpr errbound::fixed_integer<Words> thrice(const errbound::fixed_integer<Wo
 }
 
 /// What the coefficients' signs tell about the roots of a cubic in (0, 1).
+/// Proof: proofs/CubicRoots.v, no_changes, one_change, odd_changes.
 struct inner_sign_changes {
     int count = 0;          ///< the number of roots, or an even number more (Descartes)
     bool opposite = false;  ///< the number is odd: just inside the ends, the signs are opposite
@@ -53,6 +54,8 @@ struct inner_sign_changes {
 /// The Hessian of a cubic form: a quadratic form that has its double root as a double root, and is
 /// zero if the root is triple. 4·h0·h2 − h1² is 3 times the discriminant: positive if there are
 /// three distinct real roots t/s, infinity included, negative if there is one and a complex pair.
+/// Proof of what follows: proofs/CubicRoots.v, any_change, one_real_root, double_root_place,
+/// triple_root_place.
 /// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
 template <int Words>
 constexpr errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(
@@ -142,6 +145,7 @@ constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
 
 /// A bracket around `place` for the part's root, where signs at the part's ends are opposite;
 /// nothing if the root is far from there. Numerators of `place` have at most 64·T − 2 bits.
+/// Proof, for any place: proofs/CubicRoots.v, bracket_near_right.
 template <int Words, int T>
 constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
                                                              const cubic_part<Words>& part,
@@ -153,10 +157,11 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
         return number::shifted(static_cast<std::uint64_t>(index), place.bits - part.level);
     };
     const number first = to_bits(part.index), last = to_bits(part.index + 1);
+    const number middle = std::min(std::max(place.numerator, first), last);
     for (const int radius : {4, 14, 24}) {
         const auto reach = number::shifted(1, radius);
-        root_bracket<Words, T> r{std::max(place.numerator - reach, first),
-                                 std::min(place.numerator + reach, last),
+        root_bracket<Words, T> r{std::max(middle - reach, first),
+                                 std::min(middle + reach, last),
                                  place.bits,
                                  {},
                                  {}};
