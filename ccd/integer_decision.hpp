@@ -24,6 +24,7 @@ namespace detail {
 
 /// VF and EE: the union that the head of ccd/reference.cpp states, vertex/edge contacts first.
 /// Every contact has Y = 0.
+/// Proof: proofs/InteriorContact.v, face_decision_right, edges_decision_right.
 template <int Words, template <class> class Query>
 constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
                              const Query<double>& original, const integer_units& units) {

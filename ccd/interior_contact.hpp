@@ -7,7 +7,8 @@
 // If Y ≡ 0, t = 0 alone is to be asked: let contact hold at some t > 0, and go back in time as long
 // as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is contact,
 // since contact is closed, but with some G_i = 0: a vertex/edge contact.
-// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar.
+// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; and that this
+// is what is found: proofs/InteriorContact.v, interior_contact_right.
 //
 // So G_i are needed at roots of Y alone, and are never expanded into quartics:
 //  * Roots at t = 0 and 1, double and triple roots are rational: G_i are evaluated there.
@@ -49,7 +50,8 @@ class interior_contact {
                                const cubic_form<3 * Words>& y, const integer_units& units)
         : forms_(forms), y_(y), units_(units) {}
 
-    /// Whether Y = 0 and all G_i > 0 at some t in [0, 1].
+    /// Whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1.
+    /// Proof: proofs/InteriorContact.v, interior_contact_right, interior_contact_ends.
     constexpr outcome operator()() {
         if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
         if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
@@ -82,6 +84,7 @@ class interior_contact {
     /// Asks at a multiple root of Y, if there is one inside, and finds out whether there are other
     /// roots to ask at, in which case the answer is `uncertain`. The Hessian's discriminant has 12W
     /// words (2^20.2·D^12), G at its root 28W (2^47·D^28).
+    /// Proof: proofs/CubicRoots.v, one_real_root, double_root_place, triple_root_place.
     constexpr outcome at_multiple_root() {
         const auto h = hessian(y_);
         const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
@@ -103,12 +106,14 @@ class interior_contact {
     /// Whether there are roots on the part that are not a double root. An odd number of sign
     /// changes says so, and any number if Y has three real roots: Descartes' count is then exact.
     /// Otherwise an even number stems from a complex pair or the double root.
+    /// Proof: proofs/CubicRoots.v, odd_changes, any_change, one_real_root.
     constexpr bool any_root(const inner_sign_changes& roots) const {
         return roots.opposite || (three_real_roots_ && roots.count > 0);
     }
 
     /// Parts with roots wait, the earliest last: halves have no more sign changes together than the
     /// whole, so there are never more of them than the cubic's three.
+    /// Proof: proofs/InteriorContact.v, by_halving_right, three_parts_wait.
     constexpr outcome by_halving(const part& whole) const {
         std::array<part, 3> waiting;
         std::size_t count = 0;
@@ -153,7 +158,7 @@ class interior_contact {
     }
 
     /// Decides by a bracket near that place of the part's only root (but for a double root);
-    /// nothing if no bracket holds it.
+    /// nothing if no bracket holds it. Proof: proofs/InteriorContact.v, near_right.
     template <int T>
     constexpr std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
         const auto bracket = bracket_near(y_, whole, place);
@@ -175,7 +180,7 @@ class interior_contact {
     }
 
     /// Whether N = 0 inside the bracket: a root of Y without contact, and the only one there if Y
-    /// has no multiple roots.
+    /// has no multiple roots. Proof: proofs/InteriorContact.v, normal_vanishes_right.
     template <int T>
     constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
         const auto end = number<T>::shifted(1, bracket.bits);
@@ -197,7 +202,8 @@ class interior_contact {
     /// What the signs of all G_i are between t = low/2^bits and (low + width)/2^bits, width <
     /// 2^width_bits: `collides` if all are positive, `separate` if one is negative, else
     /// `uncertain`. More is not known of the root, so the differences at low, times 2^bits, are cut
-    /// to T words, one unit for each axis.
+    /// to T words, one unit for each axis: of G_i's signs, those at roots of Y are kept.
+    /// Proof: proofs/InteriorContact.v, throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {
         using known = bounded_integer<T>;

@@ -29,7 +29,8 @@ Proof.
   { intros m M. destruct (Z.eqb_spec m 0) as [-> | N]; [simpl; lia |].
     pose proof (Z.log2_spec m ltac:(lia)). pose proof (Z.log2_nonneg m).
     replace (Z.log2 m + 1 - 1) with (Z.log2 m) by lia. rewrite <- Z.add_1_r in *. lia. }
-  destruct (Z.ltb_spec x 0) as [L | L]; [destruct (H (- x - 1)) as (A & B & C) | destruct (H x) as (A & B & C)];
+  destruct (Z.ltb_spec x 0) as [L | L]; [destruct (H (- x - 1)) as (A & B & C) | destruct (H x) as (A & B &
+    C)];
     try lia; repeat split; auto; intros; try (specialize (C ltac:(auto))); lia.
 Qed.
 
@@ -45,7 +46,8 @@ Definition mul (a b : bounded) : bounded :=
   Bounded (value a * value b)
     (2 + Z.max (Z.max (bit_length (value a) + error_bits b) (bit_length (value b) + error_bits a))
            (error_bits a + error_bits b)).
-Definition sign_of_integer (x : Z) : sign := match x ?= 0 with Lt => negative | Eq => zero | Gt => positive end.
+Definition sign_of_integer (x : Z) : sign := match x ?= 0 with Lt => negative | Eq => zero | Gt => positive
+  end.
 Definition sign_of (x : bounded) : sign :=
   if negb (is_exact x) && (bit_length (value x) <=? Z.max (error_bits x) 0) then uncertain
   else sign_of_integer (value x).
@@ -97,7 +99,8 @@ Proof.
   - lia.
   - unfold stands in *. intros Ea Eb. rewrite Ea in A. rewrite Eb in B. now rewrite A, B, minus_IZR.
   - intros _. apply Rle_lt_trans with (2 := sum_error a b x y A B). rewrite minus_IZR.
-    replace (x - y - (IZR (value a) - IZR (value b))) with (x - IZR (value a) + - (y - IZR (value b))) by ring.
+    replace (x - y - (IZR (value a) - IZR (value b))) with (x - IZR (value a) + - (y - IZR (value b))) by
+      ring.
     rewrite <- (Rabs_Ropp (y - _)). apply Rabs_triang.
 Qed.
 

@@ -85,7 +85,8 @@ Ltac four y L := destruct y as [| ?y0 [| ?y1 [| ?y2 [| ?y3 [|]]]]]; try discrimi
 Ltac four_signs a b c d :=
   cases_of_sign a; cases_of_sign b; cases_of_sign c; cases_of_sign d.
 
-Lemma same_four (a b c d a' b' c' d' : R) : a = a' -> b = b' -> c = c' -> d = d' -> [a; b; c; d] = [a'; b'; c'; d'].
+Lemma same_four (a b c d a' b' c' d' : R) : a = a' -> b = b' -> c = c' -> d = d' -> [a; b; c; d] = [a'; b';
+  c'; d'].
 Proof. now intros -> -> -> ->. Qed.
 
 Lemma changes_ends y : length y = 4%nat -> let c := inner_sign_changes y in
@@ -114,7 +115,8 @@ Proof.
 Qed.
 Lemma changes_moving y : length y = 4%nat -> (0 < count (inner_sign_changes y))%nat -> ~ Forall (eq 0) y.
 Proof.
-  intros L C Z. revert C. four y L. repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end.
+  intros L C Z. revert C. four y L. repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H
+    end.
   subst. unfold inner_sign_changes. cbn [map]. rewrite (sign_zero 0 eq_refl). simpl. lia.
 Qed.
 
@@ -152,12 +154,14 @@ Qed.
 (** A point just inside an interval. *)
 Lemma just_after s f a b : sign_after s f a -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
+  intros (d & D & H) L. exists (a + Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
+    lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 Lemma just_before s f a b : sign_before s f b -> a < b -> exists t, a < t < b /\ 0 < unit_of s * f t.
 Proof.
-  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt; lra).
+  intros (d & D & H) L. exists (b - Rmin d (b - a) / 2). assert (0 < Rmin d (b - a)) by (apply Rmin_glb_lt;
+    lra).
   pose proof (Rmin_l d (b - a)). pose proof (Rmin_r d (b - a)). split; [lra |]. apply H. lra.
 Qed.
 
@@ -265,12 +269,14 @@ Proof.
   apply linear_times_once. destruct C as [(A & D & B) | (A & D & B)]; [left | right]; intros u V.
   - assert (Q0 : 0 <= q0) by (apply (P r); lra). assert (Q2 : 0 <= q2) by (apply (P (1 - r)); lra).
     assert (Q1 : 0 <= q1).
-    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos; lra).
+    { assert (0 <= r * q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * q0) by (apply Rmult_le_pos;
+      lra).
       destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
     pose proof (positive_quadratic q0 q1 q2 u V Q0 Q1 Q2 ltac:(lra)). split; [lra |]. intros. lra.
   - assert (Q0 : 0 <= - q0) by (apply (P r); lra). assert (Q2 : 0 <= - q2) by (apply (P (1 - r)); lra).
     assert (Q1 : 0 <= - q1).
-    { assert (0 <= r * - q2) by (apply Rmult_le_pos; lra). assert (0 <= (1 - r) * - q0) by (apply Rmult_le_pos; lra).
+    { assert (0 <= r * - q2) by (apply Rmult_le_pos; lra).
+      assert (0 <= (1 - r) * - q0) by (apply Rmult_le_pos; lra).
       destruct B; [apply (P (1 - r)) | apply (P r)]; lra. }
     pose proof (positive_quadratic (- q0) (- q1) (- q2) u V Q0 Q1 Q2 ltac:(lra)) as H.
     replace (quadratic_value (- q0) (- q1) (- q2) u) with (- quadratic_value q0 q1 q2 u) in H
@@ -313,7 +319,8 @@ Proof.
     (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2)
     by (intros; unfold quadratic_value; ring).
   assert (S : forall u, 0 <= 4 * q0 * quadratic_value q0 q1 q2 u).
-  { intros u. rewrite E. assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
+  { intros u. rewrite E. assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos;
+    [lra | apply pow2_ge_0]).
     pose proof (pow2_ge_0 (2 * q0 * (1 - u) + q1 * u)). lra. }
   destruct (Rtotal_order q0 0) as [N | [-> | N]].
   - right. intros u _. specialize (S u). nra.
@@ -327,7 +334,8 @@ Proof.
   intros D U Z. assert (N : (1 - u) ^ 2 <> 0) by (apply pow_nonzero; lra).
   assert (A : 2 * q0 * (1 - u) + q1 * u = 0 /\ (4 * q0 * q2 - q1 ^ 2) * u ^ 2 = 0).
   { assert (E : (2 * q0 * (1 - u) + q1 * u) ^ 2 + (4 * q0 * q2 - q1 ^ 2) * u ^ 2 = 0)
-      by (transitivity (4 * q0 * quadratic_value q0 q1 q2 u); [unfold quadratic_value; ring | rewrite Z; ring]).
+      by (transitivity (4 * q0 * quadratic_value q0 q1 q2 u); [unfold quadratic_value; ring | rewrite Z;
+        ring]).
     assert (0 <= (4 * q0 * q2 - q1 ^ 2) * u ^ 2) by (apply Rmult_le_pos; [lra | apply pow2_ge_0]).
     pose proof (pow2_ge_0 (2 * q0 * (1 - u) + q1 * u)). split; [| lra].
     assert (B : (2 * q0 * (1 - u) + q1 * u) ^ 2 = 0) by lra. simpl in B. rewrite Rmult_1_r in B.
@@ -336,7 +344,8 @@ Proof.
   assert (B : q1 * (1 - u) = - (2 * q2 * u)).
   { apply Rmult_eq_reg_r with u; [| lra]. unfold quadratic_value in Z. nra. }
   assert (E1 : q1 = - (2 * q2 * u) / (1 - u)) by (apply Rmult_eq_reg_r with (1 - u); [field_simplify |]; lra).
-  assert (E0 : q0 = - (q1 * u) / (2 * (1 - u))) by (apply Rmult_eq_reg_r with (2 * (1 - u)); [field_simplify |]; lra).
+  assert (E0 : q0 = - (q1 * u) / (2 * (1 - u))) by (apply Rmult_eq_reg_r with (2 * (1 - u));
+    [field_simplify |]; lra).
   repeat split; [rewrite E0, E1 | rewrite E1 |]; field; lra.
 Qed.
 
@@ -358,10 +367,12 @@ Proof.
     split; [rewrite linear_times_at; unfold quadratic_value; ring | split; [apply pow2_ge_0 |]].
     intros Z. assert (Eu : u = r) by (apply NNPP; intros K; apply (pow_nonzero (u - r) 2); lra). subst u.
     split; [now exists a, b | ring]. }
-  assert (P : 0 < quadratic_value q0 q1 q2 r ^ 2) by (pose proof (pow2_ge_0 (quadratic_value q0 q1 q2 r)); pose proof (pow_nonzero _ 2 Nr); lra).
+  assert (P : 0 < quadratic_value q0 q1 q2 r ^ 2) by (pose proof (pow2_ge_0 (quadratic_value q0 q1 q2 r));
+    pose proof (pow_nonzero _ 2 Nr); lra).
   assert (S : q1 ^ 2 <= 4 * q0 * q2) by nra.
   assert (M : forall u, 0 < u < 1 -> quadratic_value q0 q1 q2 u = 0 ->
-    multiple_root (linear_times r q0 q1 q2) u /\ 3 * (q1 ^ 2 - 4 * q0 * q2) * quadratic_value q0 q1 q2 r ^ 2 = 0).
+    multiple_root (linear_times r q0 q1 q2) u /\ 3 * (q1 ^ 2 - 4 * q0 * q2) * quadratic_value q0 q1 q2 r ^ 2
+      = 0).
   { intros u V Z. destruct (semidefinite_root q0 q1 q2 u S V Z) as (c & -> & -> & ->). split; [| ring].
     exists (- r * c), ((1 - r) * c). unfold double_times, linear_times. apply same_four; ring. }
   apply linear_times_once. destruct (semidefinite q0 q1 q2 S) as [H | H]; [left | right]; auto.
@@ -375,20 +386,28 @@ Proof. intros N. unfold at_. simpl. field. easy. Qed.
 
 (** The discriminant is zero, and h2 is not: Y = 0 where t/s = -h1/(2 h2), and no other root is multiple. *)
 Theorem double_root_place y : length y = 4%nat -> discriminant y = 0 -> let h := hessian y in c2 h <> 0 ->
-  form y (2 * c2 h) (- c1 h) = 0 /\
-  forall r, 0 < r < 1 -> multiple_root y r -> 0 < c2 h /\ c1 h < 0 /\ r = - c1 h / (2 * c2 h - c1 h).
+  0 < c2 h /\ form y (2 * c2 h) (- c1 h) = 0 /\
+  forall r, 0 < r < 1 -> multiple_root y r -> c1 h < 0 /\ r = - c1 h / (2 * c2 h - c1 h).
 Proof.
-  intros L D h N. split.
+  intros L D h N. split; [| split].
+  - unfold h in *. four y L.
+    assert (E : 4 * c2 (hessian [y0; y1; y2; y3]) ^ 3 =
+      (2 * y2 ^ 3 - 9 * y1 * y2 * y3 + 27 * y0 * y3 ^ 2) ^ 2 + 9 * y3 ^ 2 * discriminant [y0; y1; y2; y3])
+      by (unfold discriminant, hessian; cbn [c0 c1 c2]; ring).
+    rewrite D in E. set (h2 := c2 (hessian [y0; y1; y2; y3])) in *. apply Rnot_le_lt. intros H.
+    assert (0 < (- h2) ^ 3) by (apply pow_lt; lra). replace ((- h2) ^ 3) with (- h2 ^ 3) in * by ring.
+    pose proof (pow2_ge_0 (2 * y2 ^ 3 - 9 * y1 * y2 * y3 + 27 * y0 * y3 ^ 2)). lra.
   - unfold h. four y L.
     transitivity ((- 9 * y0 * y3 ^ 2 + 3 * y1 * y2 * y3 - 2 / 3 * y2 ^ 3) * discriminant [y0; y1; y2; y3]).
     + unfold discriminant, hessian. cbn [c0 c1 c2]. simpl. field.
     + rewrite D. ring.
   - intros r U M. destruct (multiple_root_hessian y r U M) as (k & K & E). unfold h in *. rewrite E in *.
     cbn [c0 c1 c2] in *. assert (k <> 0) by (intros ->; apply N; ring).
-    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra). assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat; lra).
+    assert (0 < (1 - r) ^ 2) by (apply pow_lt; lra). assert (0 < r * (1 - r)) by (apply Rmult_lt_0_compat;
+      lra).
     assert (0 < k * (1 - r) ^ 2) by (apply Rmult_lt_0_compat; lra).
     assert (0 < k * (r * (1 - r))) by (apply Rmult_lt_0_compat; lra).
-    repeat split; try lra. apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra].
+    split; [lra |]. apply Rmult_eq_reg_r with (2 * (k * (1 - r) ^ 2) - - (2 * k * r * (1 - r))); [| lra].
     field. lra.
 Qed.
 (** h2 = 0 as well: a triple root, inside where there is more than one change of sign. *)
@@ -412,11 +431,13 @@ Proof.
     assert (0 <= x ^ 2) by apply pow2_ge_0.
     assert (x ^ 3 <= 0) by (replace (x ^ 3) with (x * x ^ 2) by ring; nra).
     destruct (Rtotal_order y3 0) as [S | [S | S]]; [| lra |].
-    - assert (- y3 * x ^ 3 <= 0) by nra. assert (3 * y3 * x ^ 2 <= 0) by nra. assert (- 3 * y3 * x <= 0) by nra.
+    - assert (- y3 * x ^ 3 <= 0) by nra. assert (3 * y3 * x ^ 2 <= 0) by nra.
+        assert (- 3 * y3 * x <= 0) by nra.
       rewrite (sign_negative y3 S) in C.
       cases_of_sign (- y3 * x ^ 3); cases_of_sign (3 * y3 * x ^ 2); cases_of_sign (- 3 * y3 * x);
         try lra; simpl in C; lia.
-    - assert (0 <= - y3 * x ^ 3) by nra. assert (0 <= 3 * y3 * x ^ 2) by nra. assert (0 <= - 3 * y3 * x) by nra.
+    - assert (0 <= - y3 * x ^ 3) by nra. assert (0 <= 3 * y3 * x ^ 2) by nra.
+        assert (0 <= - 3 * y3 * x) by nra.
       rewrite (sign_positive y3 S) in C.
       cases_of_sign (- y3 * x ^ 3); cases_of_sign (3 * y3 * x ^ 2); cases_of_sign (- 3 * y3 * x);
         try lra; simpl in C; lia. }
@@ -430,7 +451,8 @@ Proof.
   split; intros S.
   - assert (0 < - y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. intros u. rewrite R0.
     replace (- 3 * y3 * x / (- (3 * y3) + - 3 * y3 * x)) with (x / (1 + x)); [easy | field; nra].
-  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. split; [lra |].
+  - assert (0 < y3) by lra. assert (0 < y3 * x) by (apply Rmult_lt_0_compat; lra). split; [lra |]. split;
+      [lra |].
     intros u. rewrite R0.
     replace (- (- 3 * y3 * x) / (3 * y3 + - (- 3 * y3 * x))) with (x / (1 + x)); [easy | field; nra].
 Qed.
@@ -468,24 +490,29 @@ Proof.
     assert (P2 : 0 < h2).
     { apply Rnot_le_lt. intros N2. assert (h2 ^ 3 <= 0) by (pose proof (pow2_ge_0 h2);
         replace (h2 ^ 3) with (h2 * h2 ^ 2) by ring; nra). pose proof (pow2_ge_0 e). lra. }
-    set (q := sqrt h2). assert (Q : q * q = h2) by (apply sqrt_sqrt; lra). assert (Pq : 0 < q) by (now apply sqrt_lt_R0).
+    set (q := sqrt h2). assert (Q : q * q = h2) by (apply sqrt_sqrt; lra).
+      assert (Pq : 0 < q) by (now apply sqrt_lt_R0).
     assert (B : e < 2 * q ^ 3).
     { assert (0 < q ^ 3) by (apply pow_lt; easy).
       assert (e ^ 2 < (2 * q ^ 3) ^ 2).
       { replace ((2 * q ^ 3) ^ 2) with (4 * (q * q) ^ 3) by ring. rewrite Q, E. lra. }
       nra. }
     exists (3 * y3), (- y2 + q). split; [lra |]. split.
-    + destruct (Rlt_or_le y2 0); [lra |]. assert (y1 < 0) by lra. assert (0 < - y1 * y3) by (apply Rmult_lt_0_compat; lra).
+    + destruct (Rlt_or_le y2 0); [lra |]. assert (y1 < 0) by lra.
+        assert (0 < - y1 * y3) by (apply Rmult_lt_0_compat; lra).
       assert (y2 * y2 < q * q) by (rewrite Q; unfold h2; lra). apply Rnot_le_lt. intros W.
       assert (q * q <= y2 * y2) by (apply Rmult_le_compat; lra). lra.
     + replace (form [y0; y1; y2; y3] (3 * y3) (- y2 + q)) with (y3 * (e - 2 * q ^ 3)
         + 3 * q * y3 * (q * q - h2)).
-      * rewrite (Rminus_diag_eq _ _ Q). assert (0 < y3 * (2 * q ^ 3 - e)) by (apply Rmult_lt_0_compat; lra). lra.
+      * rewrite (Rminus_diag_eq _ _ Q). assert (0 < y3 * (2 * q ^ 3 - e)) by (apply Rmult_lt_0_compat; lra).
+          lra.
       * unfold e, h2. simpl. ring.
   - destruct (Z eq_refl) as (P2 & P1 & P0). exists (2 * y2), (- y1). split; [lra |]. split; [lra |].
-    replace (form [y0; y1; y2; 0] (2 * y2) (- y1)) with (- (2 * (y2 * y2)) * (y1 * y1 - 4 * (y0 * y2))) by (simpl; ring).
+    replace (form [y0; y1; y2; 0] (2 * y2) (- y1)) with (- (2 * (y2 * y2)) * (y1 * y1 - 4 * (y0 * y2))) by
+      (simpl; ring).
     assert (0 < y2 * y2) by nra.
-    replace (4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) - (y1 * y2 - 3 * (3 * (y0 * 0))) * (y1 * y2 - 3 * (3 * (y0 * 0))))
+    replace (4 * ((y1 * y1 - 3 * (y0 * y2)) * h2) - (y1 * y2 - 3 * (3 * (y0 * 0))) * (y1 * y2 - 3 * (3 * (y0
+      * 0))))
       with (3 * (y2 * y2) * (y1 * y1 - 4 * (y0 * y2))) in D by (unfold h2; ring).
     nra.
 Qed.
@@ -502,7 +529,8 @@ Proof.
     assert (V : at_ y (t / (s + t)) < 0).
     { four y L. rewrite cubic_at_ratio in N by lra. assert (0 < (s + t) ^ 3) by (apply pow_lt; lra). nra. }
     assert (U : 0 < t / (s + t) < 1).
-    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |]. field_simplify; lra. }
+    { split; [apply Rdiv_lt_0_compat; lra |]. apply Rmult_lt_reg_r with (s + t); [lra |]. field_simplify;
+      lra. }
     destruct (just_after _ _ _ (t / (s + t)) B ltac:(lra)) as (u & Hu & P). simpl in P.
     destruct (between_signs (at_ y) u (t / (s + t))) as (r & Hr & Z); [apply continuous_form | lra | nra |].
     exists r. split; auto. lra. }
@@ -510,7 +538,8 @@ Proof.
   destruct (opposite_changes y L) as (Ec & Eo & Ef). rewrite F in Ef.
   destruct (H (map Ropp y)) as (t & T & Z).
   - now rewrite map_length.
-  - four y L. replace (discriminant (map Ropp [y0; y1; y2; y3])) with (discriminant [y0; y1; y2; y3]); [easy |].
+  - four y L. replace (discriminant (map Ropp [y0; y1; y2; y3])) with (discriminant [y0; y1; y2; y3]);
+      [easy |].
     unfold discriminant, hessian. cbn [map c0 c1 c2]. ring.
   - now rewrite Ec.
   - now rewrite Eo.
@@ -530,7 +559,8 @@ Lemma halves_of_four y0 y1 y2 y3 :
     [y0 + y1 + y2 + y3; 6 * y3 + 4 * y2 + 2 * y1; 12 * y3 + 4 * y2; 8 * y3].
 Proof. split; unfold left_half_of, right_half_of, left_half; cbn; apply same_four; ring. Qed.
 
-Theorem halves_at y u : length y = 4%nat -> length (left_half_of y) = 4%nat /\ length (right_half_of y) = 4%nat /\
+Theorem halves_at y u : length y = 4%nat -> length (left_half_of y) = 4%nat /\ length (right_half_of y) =
+  4%nat /\
   at_ (left_half_of y) u = 8 * at_ y (u / 2) /\ at_ (right_half_of y) u = 8 * at_ y ((1 + u) / 2) /\
   discriminant (left_half_of y) = 64 * discriminant y /\ discriminant (right_half_of y) = 64 * discriminant y.
 Proof.
@@ -566,7 +596,8 @@ Theorem halves_changes y : length y = 4%nat ->
   (count (inner_sign_changes (left_half_of y)) + count (inner_sign_changes (right_half_of y)) <=
    count (inner_sign_changes y))%nat.
 Proof.
-  intros L. four y L. destruct (halves_of_four y0 y1 y2 y3) as (-> & ->). unfold inner_sign_changes. cbn [map].
+  intros L. four y L. destruct (halves_of_four y0 y1 y2 y3) as (-> & ->). unfold inner_sign_changes.
+    cbn [map].
   assert (All : forall x, In (sign_of_real x) [negative; zero; positive]).
   { intros x. cases_of_sign x; simpl; auto. }
   assert (Same : forall k a, 0 < k -> sign_of_real (k * a) = sign_of_real a).
@@ -576,18 +607,23 @@ Proof.
   assert (E : forall (P : sign -> bool) l x, forallb P l = true -> In x l -> P x = true)
     by (intros P l x F; now apply (proj1 (forallb_forall P l) F)).
   pose proof (E _ _ _ C (All y0)) as C1. pose proof (E _ _ _ C1 (All y1)) as C2.
-  pose proof (E _ _ _ C2 (All y2)) as C3. pose proof (E _ _ _ C3 (All y3)) as C4. clear C C1 C2 C3. cbv beta in C4.
+  pose proof (E _ _ _ C2 (All y2)) as C3. pose proof (E _ _ _ C3 (All y3)) as C4. clear C C1 C2 C3.
+    cbv beta in C4.
   assert (B : forall k l a b c, 0 < k -> 0 < l -> c = k * a + l * b ->
     In (sign_of_real c) (signs_between (sign_of_real a) (sign_of_real b)))
     by (intros; apply sign_between; eauto 6).
   pose proof (E _ _ _ C4 (B 12 4 y0 y1 _ ltac:(lra) ltac:(lra) eq_refl)) as C5. clear C4. cbv beta in C5.
   pose proof (E _ _ _ C5 (B 1 1 y1 y2 _ ltac:(lra) ltac:(lra) eq_refl)) as C6. clear C5. cbv beta in C6.
-  pose proof (E _ _ _ C6 (B 4 12 y2 y3 (12 * y3 + 4 * y2) ltac:(lra) ltac:(lra) ltac:(ring))) as C7. clear C6. cbv beta in C7.
-  pose proof (E _ _ _ C7 (B (/ 2) 2 (12 * y0 + 4 * y1) (1 * y1 + 1 * y2) (6 * y0 + 4 * y1 + 2 * y2) ltac:(lra) ltac:(lra) ltac:(field))) as C8.
+  pose proof (E _ _ _ C6 (B 4 12 y2 y3 (12 * y3 + 4 * y2) ltac:(lra) ltac:(lra) ltac:(ring))) as C7.
+    clear C6. cbv beta in C7.
+  pose proof (E _ _ _ C7 (B (/ 2) 2 (12 * y0 + 4 * y1) (1 * y1 + 1 * y2) (6 * y0 + 4 * y1 + 2 * y2)
+    ltac:(lra) ltac:(lra) ltac:(field))) as C8.
   clear C7. cbv beta in C8.
-  pose proof (E _ _ _ C8 (B 2 (/ 2) (1 * y1 + 1 * y2) (12 * y3 + 4 * y2) (6 * y3 + 4 * y2 + 2 * y1) ltac:(lra) ltac:(lra) ltac:(field))) as C9.
+  pose proof (E _ _ _ C8 (B 2 (/ 2) (1 * y1 + 1 * y2) (12 * y3 + 4 * y2) (6 * y3 + 4 * y2 + 2 * y1)
+    ltac:(lra) ltac:(lra) ltac:(field))) as C9.
   clear C8. cbv beta in C9.
-  pose proof (E _ _ _ C9 (B (/ 6) (/ 6) (6 * y0 + 4 * y1 + 2 * y2) (6 * y3 + 4 * y2 + 2 * y1) (y0 + y1 + y2 + y3) ltac:(lra) ltac:(lra) ltac:(field))) as C10.
+  pose proof (E _ _ _ C9 (B (/ 6) (/ 6) (6 * y0 + 4 * y1 + 2 * y2) (6 * y3 + 4 * y2 + 2 * y1) (y0 + y1 + y2
+    + y3) ltac:(lra) ltac:(lra) ltac:(field))) as C10.
   rewrite !(Same 8) by lra. now apply Nat.leb_le.
 Qed.
 
@@ -598,7 +634,8 @@ Definition strict (s : sign) : Prop := s = positive \/ s = negative.
 Lemma restricted a b a' b' f Q : crosses_once a b f Q -> a <= a' -> b' <= b -> crosses_once a' b' f Q.
 Proof. intros (l0 & l1 & q & H) A B. exists l0, l1, q. intros t T. apply H. lra. Qed.
 Lemma linear_sign s l q : 0 < s * (l * q) -> 0 <= q -> 0 < s * l.
-Proof. intros P Q. apply Rnot_le_lt. intros N. assert (0 <= - (s * l) * q) by (apply Rmult_le_pos; lra). lra. Qed.
+Proof. intros P Q. apply Rnot_le_lt. intros N. assert (0 <= - (s * l) * q) by (apply Rmult_le_pos; lra).
+  lra. Qed.
 
 (** The same sign at both ends: other roots alone. *)
 Lemma uncrossed a b f Q s t : crosses_once a b f Q -> sign_after s f a -> sign_before s f b ->
@@ -628,15 +665,18 @@ Proof.
     - destruct (just_after s f a m L ltac:(unfold m; lra)) as (u & U & P). exists u.
       split; [lra | split; [lra |]]. destruct (H u ltac:(unfold m in *; lra)) as (E & Qu & _). rewrite E in P.
       now apply linear_sign in P.
-    - exists l. split; [unfold m; lra | split; [lra |]]. destruct (H l ltac:(lra)) as (E & Qu & _). rewrite E in L.
+    - exists l. split; [unfold m; lra | split; [lra |]]. destruct (H l ltac:(lra)) as (E & Qu & _).
+        rewrite E in L.
       now apply linear_sign in L. }
   assert (Right : exists u, m < u <= h /\ u < b /\ unit_of s * (l0 + l1 * u) < 0).
   { assert (O : unit_of (opposed s) = - unit_of s) by (destruct s; simpl; ring).
     destruct (Req_EM_T h b) as [-> | N].
     - destruct (just_before (opposed s) f m b R ltac:(unfold m; lra)) as (u & U & P). exists u.
-      split; [lra | split; [lra |]]. destruct (H u ltac:(unfold m in *; lra)) as (E & Qu & _). rewrite E, O in P.
+      split; [lra | split; [lra |]]. destruct (H u ltac:(unfold m in *; lra)) as (E & Qu & _).
+        rewrite E, O in P.
       apply linear_sign in P; auto. lra.
-    - exists h. split; [unfold m; lra | split; [lra |]]. destruct (H h ltac:(lra)) as (E & Qu & _). rewrite E in R.
+    - exists h. split; [unfold m; lra | split; [lra |]]. destruct (H h ltac:(lra)) as (E & Qu & _).
+        rewrite E in R.
       assert (P : 0 < - unit_of s * ((l0 + l1 * h) * q h)) by lra. apply linear_sign in P; auto. lra. }
   destruct Left as (u & U & Ua & Pu), Right as (w & W & Wb & Pw). clear L R.
   assert (N : unit_of s * l1 < 0).
@@ -665,7 +705,8 @@ Proof.
   apply Rmult_integral in Zt, Zu. destruct Zt as [Zt | Zt]; auto. destruct Zu as [Zu | Zu]; auto. left.
   destruct (Req_dec l1 0) as [-> | N].
   - exfalso. destruct (just_after s f a t A ltac:(lra)) as (w & W & P). destruct (H w ltac:(lra)) as (E & _).
-    rewrite E in P. assert (l0 = 0) by lra. subst l0. rewrite !Rmult_0_l, Rplus_0_l, Rmult_0_l, Rmult_0_r in P. lra.
+    rewrite E in P. assert (l0 = 0) by lra. subst l0.
+      rewrite !Rmult_0_l, Rplus_0_l, Rmult_0_l, Rmult_0_r in P. lra.
   - assert (Z : l1 * (t - u) = 0) by lra. apply Rmult_integral in Z. lra.
 Qed.
 
@@ -690,7 +731,8 @@ Proof.
 Qed.
 Lemma over_le a b n : (0 <= n)%Z -> (a <= b)%Z -> over a n <= over b n.
 Proof.
-  intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left; now apply Rinv_0_lt_compat |].
+  intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left;
+    now apply Rinv_0_lt_compat |].
   now apply IZR_le.
 Qed.
 Lemma over_eq a b n : (0 <= n)%Z -> over a n = over b n -> a = b.
@@ -712,7 +754,8 @@ Qed.
 
 (** Signs just inside its ends. *)
 Lemma part_signs y p : is_part y p -> sign_after (first (roots p)) (at_ y) (part_start p) /\
-  sign_before (if opposite (roots p) then opposed (first (roots p)) else first (roots p)) (at_ y) (part_end p) /\
+  sign_before (if opposite (roots p) then opposed (first (roots p)) else first (roots p)) (at_ y) (part_end
+    p) /\
   strict (first (roots p)).
 Proof.
   intros (L & R & (Hl & _) & N & c & C & E). apply power_positive in Hl. rewrite R.
@@ -746,11 +789,13 @@ Lemma part_at y p : is_part y p -> exists c, 0 < c /\
 Proof.
   intros (_ & _ & (Hl & _) & _ & c & C & E). apply power_positive in Hl. exists (/ c).
   split; [now apply Rinv_0_lt_compat |]. intros t. rewrite E.
-  replace ((IZR (index p) + (t * IZR (2 ^ level p) - IZR (index p))) / IZR (2 ^ level p)) with t by (field; lra).
+  replace ((IZR (index p) + (t * IZR (2 ^ level p) - IZR (index p))) / IZR (2 ^ level p)) with t by (field;
+    lra).
   field. lra.
 Qed.
 
-Lemma whole_is_part y : length y = 4%nat -> ~ Forall (eq 0) y -> is_part y (Part y (inner_sign_changes y) 0 0).
+Lemma whole_is_part y : length y = 4%nat -> ~ Forall (eq 0) y -> is_part y (Part y (inner_sign_changes y) 0
+  0).
 Proof.
   intros L N. unfold is_part. cbn [part_y roots index level]. repeat split; auto; try lia.
   exists 1. split; [lra |]. intros u. rewrite Rplus_0_l. change (2 ^ 0)%Z with 1%Z.
@@ -759,7 +804,8 @@ Qed.
 Definition left_of (p : part) : part :=
   Part (left_half_of (part_y p)) (inner_sign_changes (left_half_of (part_y p))) (2 * index p) (level p + 1).
 Definition right_of (p : part) : part :=
-  Part (right_half_of (part_y p)) (inner_sign_changes (right_half_of (part_y p))) (2 * index p + 1) (level p + 1).
+  Part (right_half_of (part_y p)) (inner_sign_changes (right_half_of (part_y p))) (2 * index p + 1) (level p
+    + 1).
 
 Lemma halves_are_parts y p : is_part y p -> is_part y (left_of p) /\ is_part y (right_of p) /\
   part_start (left_of p) = part_start p /\ part_end (right_of p) = part_end p /\
@@ -779,7 +825,8 @@ Proof.
   split; [| split; [| split; [| split; [| split]]]]; auto.
   - repeat split; auto; try lia; try apply M. exists (8 * c). split; [lra |]. intros u.
     rewrite (proj1 (proj2 (proj2 (halves_at _ u L)))), E, P, !mult_IZR.
-    replace ((2 * IZR (index p) + u) / (2 * IZR (2 ^ level p))) with ((IZR (index p) + u / 2) / IZR (2 ^ level p))
+    replace ((2 * IZR (index p) + u) / (2 * IZR (2 ^ level p))) with ((IZR (index p) + u / 2) / IZR (2 ^
+      level p))
       by (field; lra). ring.
   - repeat split; auto; try lia; try apply M. exists (8 * c). split; [lra |]. intros u.
     rewrite (proj1 (proj2 (proj2 (proj2 (halves_at _ u L))))), E, P, plus_IZR, !mult_IZR.
@@ -865,9 +912,12 @@ Proof.
   assert (Hw : (begin < finish)%Z) by (unfold begin, finish; lia).
   assert (R : (1 <= 2 ^ radius <= 2 ^ 24)%Z).
   { split; [change 1%Z with (2 ^ 0)%Z |]; apply Z.pow_le_mono_r; lia. }
-  assert (T : (2 ^ bits = 2 ^ level p * 2 ^ (bits - level p))%Z) by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
-  assert (Bounds : (0 <= begin <= lo /\ lo < hi /\ hi <= finish /\ finish <= 2 ^ bits /\ hi - lo <= 2 ^ 25)%Z).
-  { change (2 ^ 25)%Z with (2 ^ 24 + 2 ^ 24)%Z. unfold lo, hi, middle. unfold begin, finish in *. rewrite T. nia. }
+  assert (T : (2 ^ bits = 2 ^ level p * 2 ^ (bits - level p))%Z) by (rewrite <- Z.pow_add_r by lia; f_equal;
+    lia).
+  assert (Bounds : (0 <= begin <= lo /\ lo < hi /\ hi <= finish /\ finish <= 2 ^ bits /\ hi - lo <= 2 ^
+    25)%Z).
+  { change (2 ^ 25)%Z with (2 ^ 24 + 2 ^ 24)%Z. unfold lo, hi, middle. unfold begin, finish in *. rewrite T.
+    nia. }
   destruct Bounds as (B0 & B1 & B2 & B3 & B4).
   assert (Pl : part_start p <= over lo bits) by (rewrite <- Es; apply over_le; lia).
   assert (Ph : over hi bits <= part_end p) by (rewrite <- Ef; apply over_le; lia).
@@ -884,7 +934,8 @@ Proof.
     - exfalso. destruct F as [F | F]; rewrite F in S0; discriminate.
     - destruct (sign_at y lo bits) eqn:S; try discriminate. destruct (Inner lo ltac:(lia) S) as (P & V).
       split; [lia |]. split; [lra |]. split; [lra |]. left. auto. }
-  destruct (same_sign (if (hi =? finish)%Z then opposed (first (roots p)) else sign_at y hi bits) zero) eqn:S1.
+  destruct (same_sign (if (hi =? finish)%Z then opposed (first (roots p)) else sign_at y hi bits) zero)
+    eqn:S1.
   { intros E. injection E as <- <-. destruct (Z.eqb_spec hi finish) as [K | K].
     - exfalso. destruct F as [F | F]; rewrite F in S1; discriminate.
     - destruct (sign_at y hi bits) eqn:S; try discriminate. destruct (Inner hi ltac:(lia) S) as (P & V).

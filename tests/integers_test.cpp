@@ -114,6 +114,26 @@ TEST(CubicRoots, AreBracketedWithinAFewUnits) {
     }
 }
 
+TEST(CubicRoots, NoBracketDependsOnTheEstimate) {
+    // Roots at 1/2, 1.1 and −7: signs beyond the end must not count.
+    using linear = ccd::linear_form<1>;
+    const auto y = linear{{-1, 1}} * linear{{11, 1}} * linear{{7, 8}};
+    const ccd::inner_sign_changes changes(y);
+    ASSERT_TRUE(changes.opposite);
+    ccd::cubic_part<3> all{{}, changes, 0, 0};
+    for (std::size_t i = 0; i < 4; ++i) all.y.h[i] = y.h[i];
+    constexpr int bits = 10;
+    const fixed_integer<1> end(1 << bits);
+    for (std::int64_t place = -4 << bits; place <= 8 << bits; ++place) {
+        const auto bracket = bracket_near(y, all, ccd::dyadic_point<1>{place, bits});
+        ASSERT_TRUE(bracket.has_value());  // the widest is all of the part
+        ASSERT_GE(bracket->low, 0);
+        ASSERT_LE(bracket->low, 1 << (bits - 1));
+        ASSERT_GE(bracket->high, 1 << (bits - 1));
+        ASSERT_LE(bracket->high, end);
+    }
+}
+
 TEST(BinaryDouble, IsTheNumber) {
     for (const double x : {0.0, 1.0, -1.5, 0x1p-1074, -0x1.8p-1070, 0x1.fffffffffffffp1023, 0.1}) {
         const errbound::binary_double d(x);
