@@ -33,7 +33,8 @@ struct axis_extent {
             low1 = std::min(low1, x1), high1 = std::max(high1, x1);
         }
         // Rounding is monotone, so a rounded difference below a power of two was below it before;
-        // one that overflows is below 2^1025, as the infinity's end_bit() says.
+        // one that overflows is below 2^1025, as the infinity's end_bit() says. Proof:
+        // proofs/IntegerUnits.v, extent_bits_enough.
         const errbound::binary_double extent(std::max(high0 - low0, high1 - low1));
         if (last == std::numeric_limits<int>::max()) return;  // all are zero
         unit = last;
@@ -53,7 +54,7 @@ struct integer_units {
     constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
 
     /// The query in integers of Words words, modulo their width: differences at one end of the step
-    /// are right if bits() < 64·Words.
+    /// are right if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
     template <int Words, class Query>
     constexpr auto converted(const Query& query) const {
         return transformed_points(query, [this](const point<double>& p) {
