@@ -162,16 +162,16 @@ Proof.
     assert (Lb : forall i, Rabs (rnd p emin nearest (b i - e i)) <= M) by (intros; apply L; simpl; auto).
     assert (Lc : forall i, Rabs (rnd p emin nearest (c i - e i)) <= M) by (intros; apply L; simpl; auto).
     assert (Ld : forall i, Rabs (rnd p emin nearest (d i - e i)) <= M) by (intros; apply L; simpl; auto).
-    simpl homogeneous. repeat split; auto; apply Z.le_trans with (2 := W); vm_compute; discriminate.
+    simpl homogeneous. repeat split; auto.
   - vm_compute. discriminate.
   - simpl. lia.
+  - apply Z.le_trans with (2 ^ 18)%Z; [vm_compute; discriminate |]. apply Z.pow_le_mono_r; lia.
   - simpl. lia.
   - change (StaticFilter.roundings p (lifted_volume a b c d e)) with 16%nat.
     apply Rle_trans with (bpow radix2 24 * Format.u p).
     + apply Rmult_le_compat_r; [generalize (u_positive p); lra |].
       rewrite INR_IZR_INZ, <- mult_IZR, <- IZR_Zpower by lia. now apply IZR_le.
     + unfold Format.u. rewrite <- bpow_plus. change 1 with (bpow radix2 0). apply bpow_le. lia.
-  - apply Z.le_trans with (2 ^ 24)%Z; [vm_compute; discriminate |]. apply Z.pow_le_mono_r; lia.
 Qed.
 
 End Predicates.

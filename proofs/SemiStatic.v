@@ -3,9 +3,8 @@
 
     Results: mass_covers_size            S <= m M^d + (a - 3/4) tau + a tau M^d
              semi_static_sign_certain    the sign that the code is certain of is right
-    where StaticFilter.v's theorems hold, m and a are whole numbers that the format has (at most
-    2^p), m d <= 2^(2p-6), all constants are numbers and not zero, and emin <= -4p - 5 (double and
-    float: -1074 <= -217, -149 <= -101). *)
+    where StaticFilter.v's theorems hold, the degree is at most 2^(p-6), and emin <= -4p - 5 (double and
+    float: -1074 <= -217, -149 <= -101). That m and a are exact the code finds out: `trusted`. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
@@ -67,8 +66,18 @@ Definition computed_power (n : nat) : R := code_power n n M.
 Definition semi_static_bound (e : expression) : R :=
   fl (fl (filter_constant p emin (roundings e) / 2) *
       fl (fl (fl (2 * mass e) * computed_power (degree e)) + fl (fl (2 * allowances e) * tau))).
+(** The code trusts m and a below 2^p; a constant 0 has an infinite mass, and so has all that is made of it. *)
+Fixpoint constants_not_zero (e : expression) : bool :=
+  match e with
+  | Coordinate _ | Difference _ _ => true
+  | Constant c => negb (c =? 0)%Z
+  | Sum x y | Minus x y | Product x y => constants_not_zero x && constants_not_zero y
+  | Negation x => constants_not_zero x
+  end.
+Definition trusted (e : expression) : bool :=
+  constants_not_zero e && Rlt_bool (mass e) (IZR (2 ^ p)) && Rlt_bool (allowances e) (IZR (2 ^ p)).
 Definition semi_static_sign (e : expression) : sign :=
-  if Rlt_bool (semi_static_bound e) (Rabs (value e)) then
+  if trusted e && Rlt_bool (semi_static_bound e) (Rabs (value e)) then
     if Rlt_bool 0 (value e) then positive else negative
   else uncertain.
 
@@ -89,12 +98,21 @@ Fixpoint whole_allowances (e : expression) : Z :=
       2 * (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x) + 2
   | Negation x => whole_allowances x
   end%Z.
-Fixpoint homogeneous (e : expression) : Prop :=
+Fixpoint measured (e : expression) : Prop :=
   (whole_mass e <= 2 ^ p)%Z /\ (whole_allowances e <= 2 ^ p)%Z /\
   match e with
   | Coordinate c => Rabs c <= M
   | Difference a b => Rabs (fl (a - b)) <= M
   | Constant c => c <> 0%Z
+  | Sum x y | Minus x y => measured x /\ measured y /\ degree x = degree y
+  | Product x y => measured x /\ measured y
+  | Negation x => measured x
+  end.
+Fixpoint homogeneous (e : expression) : Prop :=
+  match e with
+  | Coordinate c => Rabs c <= M
+  | Difference a b => Rabs (fl (a - b)) <= M
+  | Constant _ => True
   | Sum x y | Minus x y => homogeneous x /\ homogeneous y /\ degree x = degree y
   | Product x y => homogeneous x /\ homogeneous y
   | Negation x => homogeneous x
@@ -112,10 +130,10 @@ Proof.
 Qed.
 Lemma fl_whole n : (0 <= n <= 2 ^ p)%Z -> fl (IZR n) = IZR n.
 Proof. intros H. apply rnd_exact; auto using whole_number with typeclass_instances. Qed.
-Lemma masses e : homogeneous e -> (1 <= whole_mass e)%Z /\ (0 <= whole_allowances e)%Z /\
+Lemma masses e : measured e -> (1 <= whole_mass e)%Z /\ (0 <= whole_allowances e)%Z /\
   mass e = IZR (whole_mass e) /\ allowances e = IZR (whole_allowances e).
 Proof.
-  assert (S : forall x y, homogeneous x -> homogeneous y ->
+  assert (S : forall x y, measured x -> measured y ->
     (whole_mass x + whole_mass y <= 2 ^ p)%Z -> (whole_allowances x + whole_allowances y <= 2 ^ p)%Z ->
     (1 <= whole_mass x)%Z /\ (0 <= whole_allowances x)%Z /\
       mass x = IZR (whole_mass x) /\ allowances x = IZR (whole_allowances x) ->
@@ -127,7 +145,7 @@ Proof.
   { intros x y _ _ LM LA (X1 & X2 & -> & ->) (Y1 & Y2 & -> & ->). rewrite <- !plus_IZR.
     rewrite !fl_whole by lia. repeat split; lia. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
-    cbn [homogeneous whole_mass whole_allowances mass allowances]; intros (LM & LA & H);
+    cbn [measured whole_mass whole_allowances mass allowances]; intros (LM & LA & H);
     try (repeat split; reflexivity || lia).
   - repeat split; try lia. rewrite (fl_abs p emin), <- abs_IZR. apply fl_whole. lia.
   - destruct H as (A & B & _). auto.
@@ -162,14 +180,14 @@ Proof.
   - assert (M ^ i <= 1); [| nra]. rewrite <- (pow1 i). apply pow_incr. lra.
 Qed.
 
-Theorem mass_covers_size e : homogeneous e ->
+Lemma measured_mass_covers_size e : measured e ->
   exact_size e <= IZR (whole_mass e) * M ^ degree e +
     (if (whole_allowances e =? 0)%Z then 0
      else (IZR (whole_allowances e) - 3 / 4) * tau + IZR (whole_allowances e) * tau * M ^ degree e).
 Proof.
   generalize tau_positive; intros T.
   (* as a sum, whether there are allowances or not *)
-  assert (Sum : forall x y, homogeneous x -> homogeneous y -> degree x = degree y ->
+  assert (Sum : forall x y, measured x -> measured y -> degree x = degree y ->
     exact_size x <= IZR (whole_mass x) * M ^ degree x +
       (if (whole_allowances x =? 0)%Z then 0
        else (IZR (whole_allowances x) - 3 / 4) * tau + IZR (whole_allowances x) * tau * M ^ degree x) ->
@@ -187,7 +205,7 @@ Proof.
     destruct (Z.eqb_spec a 0) as [Ea | Ea], (Z.eqb_spec b 0) as [Eb | Eb],
       (Z.eqb_spec (a + b) 0) as [Ec | Ec]; try lia; try rewrite Ea; try rewrite Eb; lra. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
-    cbn [homogeneous]; intros (LM & LA & H).
+    cbn [measured]; intros (LM & LA & H).
   - simpl. lra.
   - simpl. lra.
   - cbn [StaticFilter.exact_size whole_mass whole_allowances degree]. simpl (0 =? 0)%Z. cbv iota.
@@ -210,7 +228,7 @@ Proof.
       as [E | _]; [nia |].
     generalize (exact_size_nonnegative p emin ltac:(lia) x)
       (exact_size_nonnegative p emin ltac:(lia) y). intros Sx Sy.
-    assert (Ax : homogeneous x) by exact A. assert (Ay : homogeneous y) by exact B.
+    assert (Ax : measured x) by exact A. assert (Ay : measured y) by exact B.
     assert (HX : (whole_allowances x <= 2 ^ p)%Z) by (destruct x; apply A).
     assert (HY : (whole_allowances y <= 2 ^ p)%Z) by (destruct y; apply B).
     rewrite plus_IZR, !mult_IZR, plus_IZR, !mult_IZR.
@@ -375,10 +393,10 @@ Proof.
   assert (0 <= INR n * eta) by (apply Rmult_le_pos; lra). unfold computed_power. lra.
 Qed.
 
-Lemma degree_roundings e : homogeneous e -> (degree e <= S (roundings e))%nat.
+Lemma degree_roundings e : measured e -> (degree e <= S (roundings e))%nat.
 Proof.
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
-    cbn [homogeneous degree StaticFilter.roundings]; intros (_ & _ & H); try lia.
+    cbn [measured degree StaticFilter.roundings]; intros (_ & _ & H); try lia.
   - destruct H as (A & _). specialize (IHx A). lia.
   - destruct H as (A & _). specialize (IHx A). lia.
   - destruct H as (A & B). specialize (IHx A). specialize (IHy B). lia.
@@ -414,7 +432,7 @@ Proof.
   - nra.
 Qed.
 
-Theorem semi_static_bound_covers e : admissible p emin e -> homogeneous e ->
+Lemma measured_bound_covers e : admissible p emin e -> measured e ->
   (1 <= whole_allowances e)%Z -> (1 <= degree e)%nat -> (1 <= roundings e)%nat ->
   64 * INR (roundings e + 3) * u <= 1 ->
   (whole_mass e * Z.of_nat (degree e) <= 2 ^ (2 * p - 6))%Z ->
@@ -428,7 +446,7 @@ Proof.
   assert (LM : (whole_mass e <= 2 ^ p)%Z /\ (whole_allowances e <= 2 ^ p)%Z)
     by (destruct e; split; apply Ho).
   unfold semi_static_bound. rewrite Em, Ea. fold k d.
-  generalize (mass_covers_size e Ho). fold d.
+  generalize (measured_mass_covers_size e Ho). fold d.
   destruct (Z.eqb_spec (whole_allowances e) 0) as [Z | _]; [lia |]. intros S0.
   set (mz := whole_mass e) in *. set (az := whole_allowances e) in *.
   assert (Dr : (d <= S k)%nat) by now apply degree_roundings.
@@ -583,14 +601,152 @@ Proof.
     apply Rmult_le_compat_r; auto. apply Rmult_le_compat_l; lra.
 Qed.
 
+(** What is trusted was counted exactly: no part's m or a exceeds the whole's. *)
+Lemma fl_whole_below n : (0 <= n)%Z -> fl (IZR n) < IZR (2 ^ p) -> fl (IZR n) = IZR n /\ (n < 2 ^ p)%Z.
+Proof.
+  intros P L. assert (B : (n < 2 ^ p)%Z).
+  { apply Z.lt_nge. intros C. apply IZR_le in C. apply (Rlt_not_le _ _ L).
+    apply rnd_above; auto using whole_number with typeclass_instances.
+    apply whole_number. split; [apply Z.pow_nonneg; lia | lia]. }
+  split; auto. apply fl_whole. lia.
+Qed.
+Lemma fl_above n x : (0 <= n <= 2 ^ p)%Z -> IZR n <= x -> IZR n <= fl x.
+Proof. intros P L. apply rnd_above; auto using whole_number with typeclass_instances. Qed.
+Lemma number_mass e : number (mass e) /\ number (allowances e).
+Proof.
+  assert (N : forall x, number (fl x)) by (intros; apply rnd_number; auto with typeclass_instances).
+  induction e; cbn [mass allowances]; split; auto using number_1, number_0; try apply N; try apply IHe.
+  now apply number_abs.
+Qed.
+(** A number is no more than what it is added to, or what a factor of at least 1 makes of it. *)
+Lemma part_of_sum x y : number x -> 0 <= y -> x <= fl (x + y).
+Proof. intros N P. apply rnd_above; auto with typeclass_instances. lra. Qed.
+Lemma part_of_product x y : number x -> 0 <= x -> 1 <= y -> x <= fl (x * y).
+Proof. intros N P Q. apply rnd_above; auto with typeclass_instances. nra. Qed.
+Lemma mass_1 e : constants_not_zero e = true -> 1 <= mass e /\ 0 <= allowances e.
+Proof.
+  assert (P2 : (1 <= 2 ^ p)%Z) by (generalize (Z.pow_le_mono_r 2 0 p); unfold Prec_gt_0 in p_positive; lia).
+  assert (Z0 : forall x, 0 <= x -> 0 <= fl x) by (intros; now apply rnd_nonnegative; auto with typeclass_instances).
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+    cbn [constants_not_zero mass allowances]; try (intros _; lra).
+  - intros C. apply negb_true_iff, Z.eqb_neq in C. split; [| lra]. rewrite (fl_abs p emin), <- abs_IZR.
+    apply (fl_above 1); [lia |]. apply IZR_le. lia.
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+    split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+    split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+    split.
+    + apply Rle_trans with (mass x); auto. apply part_of_product; auto. lra.
+    + apply Z0. assert (0 <= fl (2 * fl (fl (mass x * allowances y) + fl (mass y * allowances x)))); [| lra].
+      apply Z0, Rmult_le_pos; [lra |]. apply Z0, Rplus_le_le_0_compat; apply Z0, Rmult_le_pos; lra.
+  - auto.
+Qed.
+Lemma trusted_measured e : homogeneous e -> constants_not_zero e = true ->
+  mass e < IZR (2 ^ p) -> allowances e < IZR (2 ^ p) ->
+  measured e /\ (whole_mass e < 2 ^ p)%Z /\ (whole_allowances e < 2 ^ p)%Z.
+Proof.
+  assert (P2 : (1 < 2 ^ p)%Z).
+  { unfold Prec_gt_0 in p_positive. change 1%Z with (2 ^ 0)%Z. apply Z.pow_lt_mono_r; lia. }
+  assert (S : forall x y, constants_not_zero x && constants_not_zero y = true ->
+    (constants_not_zero x = true -> mass x < IZR (2 ^ p) -> allowances x < IZR (2 ^ p) ->
+      measured x /\ (whole_mass x < 2 ^ p)%Z /\ (whole_allowances x < 2 ^ p)%Z) ->
+    (constants_not_zero y = true -> mass y < IZR (2 ^ p) -> allowances y < IZR (2 ^ p) ->
+      measured y /\ (whole_mass y < 2 ^ p)%Z /\ (whole_allowances y < 2 ^ p)%Z) ->
+    fl (mass x + mass y) < IZR (2 ^ p) -> fl (allowances x + allowances y) < IZR (2 ^ p) ->
+    measured x /\ measured y /\ (whole_mass x + whole_mass y < 2 ^ p)%Z /\
+    (whole_allowances x + whole_allowances y < 2 ^ p)%Z).
+  { intros x y C IHx IHy M2 A2. apply andb_prop in C. destruct C as (Cx & Cy).
+    destruct (mass_1 x Cx), (mass_1 y Cy), (number_mass x), (number_mass y).
+    assert (X1 : mass x <= fl (mass x + mass y)) by (apply part_of_sum; auto; lra).
+    assert (X2 : mass y <= fl (mass x + mass y)) by (rewrite Rplus_comm; apply part_of_sum; auto; lra).
+    assert (X3 : allowances x <= fl (allowances x + allowances y)) by (apply part_of_sum; auto).
+    assert (X4 : allowances y <= fl (allowances x + allowances y)) by (rewrite Rplus_comm; apply part_of_sum; auto).
+    destruct (IHx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
+    destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
+    rewrite E1, E3, <- plus_IZR in M2. rewrite E2, E4, <- plus_IZR in A2.
+    apply fl_whole_below in M2, A2; try lia. tauto. }
+  induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+    cbn [homogeneous constants_not_zero mass allowances measured whole_mass whole_allowances].
+  - intros H _ _ _. repeat split; auto; lia.
+  - intros H _ _ _. repeat split; auto; lia.
+  - intros _ C L _. apply negb_true_iff, Z.eqb_neq in C. rewrite (fl_abs p emin), <- abs_IZR in L.
+    apply fl_whole_below in L; [| lia]. repeat split; auto; lia.
+  - intros (Hx & Hy & D) C M2 A2. destruct (S x y C (IHx Hx) (IHy Hy) M2 A2) as (Mx & My & L & K).
+    repeat split; auto; lia.
+  - intros (Hx & Hy & D) C M2 A2. destruct (S x y C (IHx Hx) (IHy Hy) M2 A2) as (Mx & My & L & K).
+    repeat split; auto; lia.
+  - intros (Hx & Hy) C M2 A2. apply andb_prop in C. destruct C as (Cx & Cy).
+    destruct (mass_1 x Cx), (mass_1 y Cy), (number_mass x), (number_mass y).
+    assert (N : forall r, number (fl r)) by (intros; apply rnd_number; auto with typeclass_instances).
+    assert (Z0 : forall r, 0 <= r -> 0 <= fl r) by (intros; now apply rnd_nonnegative; auto with typeclass_instances).
+    assert (X1 : mass x <= fl (mass x * mass y)) by (apply part_of_product; auto; lra).
+    assert (X2 : mass y <= fl (mass x * mass y)) by (rewrite Rmult_comm; apply part_of_product; auto; lra).
+    set (a := fl (mass x * allowances y)) in *. set (b := fl (mass y * allowances x)) in *.
+    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos; lra).
+    assert (X3 : allowances y <= a) by (unfold a; rewrite Rmult_comm; apply part_of_product; auto).
+    assert (X4 : allowances x <= b) by (unfold b; rewrite Rmult_comm; apply part_of_product; auto).
+    assert (X5 : a <= fl (a + b)) by (apply part_of_sum; auto; apply N).
+    assert (X6 : b <= fl (a + b)) by (rewrite Rplus_comm; apply part_of_sum; auto; apply N).
+    set (s := fl (a + b)) in *.
+    assert (X7 : s <= fl (2 * s)) by (rewrite Rmult_comm; apply part_of_product; [apply N | lra | lra]).
+    set (d := fl (2 * s)) in *.
+    assert (X8 : d <= fl (d + 2)) by (apply part_of_sum; [apply N | lra]).
+    destruct (IHx Hx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Hy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
+    destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
+    rewrite E1, E3, <- mult_IZR in M2. apply fl_whole_below in M2; [| lia].
+    assert (La : a < IZR (2 ^ p)) by lra. assert (Lb : b < IZR (2 ^ p)) by lra.
+    assert (Ls : s < IZR (2 ^ p)) by lra. assert (Ld : d < IZR (2 ^ p)) by lra.
+    unfold a in La. rewrite E1, E4, <- mult_IZR in La. apply fl_whole_below in La; [| lia].
+    unfold b in Lb. rewrite E3, E2, <- mult_IZR in Lb. apply fl_whole_below in Lb; [| lia].
+    assert (Ea : a = IZR (whole_mass x * whole_allowances y)) by (unfold a; rewrite E1, E4, <- mult_IZR; apply La).
+    assert (Eb : b = IZR (whole_mass y * whole_allowances x)) by (unfold b; rewrite E3, E2, <- mult_IZR; apply Lb).
+    unfold s in Ls. rewrite Ea, Eb, <- plus_IZR in Ls. apply fl_whole_below in Ls; [| lia].
+    assert (Es : s = IZR (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x))
+      by (unfold s; rewrite Ea, Eb, <- plus_IZR; apply Ls).
+    unfold d in Ld. rewrite Es, <- mult_IZR in Ld. apply fl_whole_below in Ld; [| lia].
+    assert (Ed : d = IZR (2 * (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x)))
+      by (unfold d; rewrite Es, <- mult_IZR; apply Ld).
+    rewrite Ed, <- plus_IZR in A2. apply fl_whole_below in A2; [| lia].
+    repeat split; auto; lia.
+  - intros Hx C M2 A2. destruct (IHx Hx C M2 A2) as (Mx & L & K). repeat split; auto; lia.
+Qed.
+Lemma trusted_parts e : homogeneous e -> trusted e = true ->
+  measured e /\ (whole_mass e < 2 ^ p)%Z /\ (whole_allowances e < 2 ^ p)%Z.
+Proof.
+  intros H T. apply andb_prop in T. destruct T as (T & A). apply andb_prop in T. destruct T as (C & B).
+  destruct (Rlt_bool_spec (mass e) (IZR (2 ^ p))) as [Lm |]; [| discriminate].
+  destruct (Rlt_bool_spec (allowances e) (IZR (2 ^ p))) as [La |]; [| discriminate].
+  now apply trusted_measured.
+Qed.
+
+Theorem mass_covers_size e : homogeneous e -> trusted e = true ->
+  exact_size e <= IZR (whole_mass e) * M ^ degree e +
+    (if (whole_allowances e =? 0)%Z then 0
+     else (IZR (whole_allowances e) - 3 / 4) * tau + IZR (whole_allowances e) * tau * M ^ degree e).
+Proof. intros H T. apply measured_mass_covers_size. now apply trusted_parts. Qed.
+
+Theorem semi_static_bound_covers e : admissible p emin e -> homogeneous e -> trusted e = true ->
+  (1 <= whole_allowances e)%Z -> (1 <= degree e)%nat -> (Z.of_nat (degree e) <= 2 ^ (p - 6))%Z ->
+  (1 <= roundings e)%nat -> 64 * INR (roundings e + 3) * u <= 1 ->
+  Rabs (unrounded p emin e - exact e) <= semi_static_bound e.
+Proof.
+  intros A H T Ha Hd Hp Hr Hk. destruct (trusted_parts e H T) as (Me & L & _).
+  destruct (masses e Me) as (M1 & _). apply measured_bound_covers; auto.
+  assert (P6 : (0 <= p - 6)%Z).
+  { apply Z.le_ngt. intros C. rewrite Z.pow_neg_r in Hp by lia. lia. }
+  replace (2 * p - 6)%Z with (p + (p - 6))%Z by lia. rewrite Z.pow_add_r by (unfold Prec_gt_0 in *; lia).
+  apply Z.mul_le_mono_nonneg; lia.
+Qed.
+
 Theorem semi_static_sign_certain e : admissible p emin e -> homogeneous e ->
-  (1 <= whole_allowances e)%Z -> (1 <= degree e)%nat -> (1 <= roundings e)%nat ->
-  64 * INR (roundings e + 3) * u <= 1 ->
-  (whole_mass e * Z.of_nat (degree e) <= 2 ^ (2 * p - 6))%Z ->
+  (1 <= whole_allowances e)%Z -> (1 <= degree e)%nat -> (Z.of_nat (degree e) <= 2 ^ (p - 6))%Z ->
+  (1 <= roundings e)%nat -> 64 * INR (roundings e + 3) * u <= 1 ->
   sign_is_right (semi_static_sign e) (exact e).
 Proof.
-  intros A Ho Ha Hd Hr H Hm. generalize (semi_static_bound_covers e A Ho Ha Hd Hr H Hm). intros B.
-  apply Rabs_le_inv in B. unfold semi_static_sign.
+  intros A H Ha Hd Hp Hr Hk. destruct (trusted e) eqn:T; [| unfold semi_static_sign; now rewrite T].
+  generalize (semi_static_bound_covers e A H T Ha Hd Hp Hr Hk). intros B.
+  apply Rabs_le_inv in B. unfold semi_static_sign. rewrite T. cbn [andb].
   destruct (Rlt_bool_spec (semi_static_bound e) (Rabs (value e))) as [L | L]; [| exact Logic.I].
   rewrite (value_rounds p emin e A) in *.
   assert (Nb : number (semi_static_bound e)) by (apply rnd_number; auto with typeclass_instances).

@@ -103,6 +103,20 @@ static_assert(!errbound::incircle.has_semi_static_filter &&
               !errbound::segment_intersects_triangle.has_semi_static_filter &&
               !errbound::power_insphere.has_semi_static_filter);
 
+/// Of a mass that T has not the bits for, and with a constant 0.
+template <int Factor>
+constexpr auto heavy = errbound::predicate<errbound::points<2>>([](const auto& a) {
+    return (Factor * (a[0] * a[0])) * (Factor * (a[0] * a[0])) * a[1];
+});
+static_assert(heavy<0>.has_semi_static_filter);
+
+TYPED_TEST(Predicates, SemiStaticFiltersTrustNoMassThatIsNotExact) {
+    const std::array<TypeParam, 2> p{2, 3};
+    EXPECT_FALSE(std::isinf(heavy<100>.template estimate<>(p).bound));
+    EXPECT_TRUE(std::isinf(heavy<1 << 30>.template estimate<>(p).bound));
+    EXPECT_TRUE(std::isinf(heavy<0>.template estimate<>(p).bound));
+}
+
 TYPED_TEST(Predicates, SemiStaticBoundsHold) {
     attack<TypeParam, 2, 2>(sextic, surface::flat);
     attack<TypeParam, 3, 5>(errbound::insphere, surface::round);

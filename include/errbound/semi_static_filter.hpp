@@ -23,8 +23,10 @@
 // Source of the kind: Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay
 // triangulations.
 //
-// Proof: proofs/SemiStatic.v, mass_covers_size. (Without contraction; m and a of at most p bits, no
-// constant 0.)
+// m and a are trusted below 2^p = 1/u, where they are whole and exact; else, and where a constant is
+// 0, the bound is infinite. All that is known to the compiler.
+//
+// Proof: proofs/SemiStatic.v, mass_covers_size. (Without contraction.)
 #pragma once
 
 #include <concepts>
@@ -37,6 +39,8 @@ namespace errbound {
 /// known to the compiler.
 template <std::floating_point T, int Roundings, int Degree>
 struct semi_static {
+    static_assert(Roundings < 1000 && Degree < 1000,
+                  "errbound: the derivation of the bound assumes fewer");
     using value_type = T;
     static constexpr int roundings = Roundings, degree = Degree;
 
@@ -47,8 +51,11 @@ struct semi_static {
     constexpr semi_static operator-() const { return {-value, mass, allowances}; }
 
     /// |value| <= bound(M) leaves the sign open.
-    /// Proof: proofs/SemiStatic.v, semi_static_bound_covers.
+    /// Proof: proofs/SemiStatic.v, semi_static_bound_covers, semi_static_sign_certain.
     constexpr T bound(T largest) const {
+        constexpr T most = 1 / number_traits<T>::unit_roundoff();
+        const bool trusted = mass < most && allowances < most;
+        if (!trusted) return number_traits<T>::infinity();
         const T size =
             2 * mass * power<Degree>(largest) + 2 * allowances * filtered<T, 0, 0, true>::allowance;
         return filter_constant<T>(Roundings) / 2 * size;
@@ -139,9 +146,12 @@ constexpr auto operator*(const X& x, const Y& y) {
 /// By a whole number. (Sums with one are of mixed degree, and not for this filter.)
 template <semi_static_operand X>
 constexpr auto operator*(const X& x, std::same_as<int> auto c) {
-    const auto factor = filtered_constant<typename X::value_type>(c);
-    return as_semi_static(x) * semi_static<typename X::value_type, decltype(factor)::roundings, 0>{
-                                   factor.value, factor.size, 0};
+    using T = typename X::value_type;
+    const auto factor = filtered_constant<T>(c);
+    // Times 0 a part's mass would be lost.
+    const T mass = c == 0 ? number_traits<T>::infinity() : factor.size;
+    return as_semi_static(x) *
+           semi_static<T, decltype(factor)::roundings, 0>{factor.value, mass, 0};
 }
 template <semi_static_operand X>
 constexpr auto operator*(std::same_as<int> auto c, const X& x) {
