@@ -33,7 +33,7 @@ using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
 /// The query, of finite coordinates, in integers: each axis times a power of two of its own.
 /// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
 /// by positive factors, and integers stay short when one axis is much smaller than the others.
-/// Proof: proofs/BscExact.v, face_units, edges_units, vertex_edge_units.
+/// Proof: proofs/UnboundedIntegers.v, to_integers_right, face_units, edges_units, vertex_edge_units.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
     constexpr int none = std::numeric_limits<int>::max();
@@ -61,6 +61,7 @@ Query<integer> to_integers(const Query<double>& query) {
 /// W × E = 0 and W·(W − E) <= 0 at some t in [0, 1], with W = v − e0, E = e1 − e0. (On the line, v
 /// lies between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
 /// too, where it says W = 0.) The times are the roots of the three quadratics' common factor.
+/// Proof: proofs/UnboundedIntegers.v, integer_contact_right.
 inline bool contact(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
@@ -94,6 +95,7 @@ inline bool contact(const vertex_edge<integer>& query) {
 
 /// Whether the vertex of a VF query meets one of the face's edges, or an end of one edge of an EE
 /// query the other edge. `original`: the same query before its conversion.
+/// Proof: proofs/UnboundedIntegers.v, face_border_right, edges_border_right.
 template <template <class> class Query>
 bool contact_at_border(const Query<integer>& query, const Query<double>& original) {
     const auto edges = vertex_edge_queries(query);

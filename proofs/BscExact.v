@@ -4,13 +4,12 @@
         bsc_exact_root     the answer "maybe_root": Y = 0 at every t
         bsc_exact_inside   the answer "maybe_inside": at some root of Y in [0, 1] no G is negative and
                            one is zero, and at none are all positive
-    and of collisions:
-        face_units, edges_units, vertex_edge_units   they do not depend on the axes' units
-        bsc_exact_face, bsc_exact_edges   what bsc_exact.cpp decides is right, if what it is told of
-                           contact at the border is *)
+    and of what bsc_exact.cpp decides, given doubles, common_factor and real_roots as in
+    UnboundedIntegers.v:
+        bsc_exact_face, bsc_exact_edges   it is `collides` exactly if they do *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein Bsc Contact Decisions.
+From Errbound Require Import Sign Bernstein Bsc Contact Decisions UnboundedIntegers.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -26,9 +25,6 @@ Notation five gs := (Forall (fun g : list S => length g = 5%nat) gs).
 Implicit Types (y g l d j : list S) (gs : list (list S)).
 
 (** ** Signs *)
-
-(** s is the sign of v. *)
-Definition tells (s : sign) (v : R) : Prop := s <> uncertain /\ sign_is_right s v.
 
 Lemma sign_tells (x : S) : tells (sign_of x) (exact x).
 Proof. split; [apply Exact | apply sign_right]. Qed.
@@ -776,99 +772,46 @@ Qed.
 
 End Exact.
 
-(** ** Integers *)
+(** ** The decision in integers *)
 
-(** Every axis in units of its own: to_integers of ccd/unbounded_integers.hpp. *)
-Definition stretched (k p : point) : point := Point (x k * x p) (y k * y p) (z k * z p).
-Definition stretched_motion (k : point) (m : moving) : moving := Moving (stretched k (start m))
-  (stretched k (finish m)).
-Definition units (k : point) : Prop := 0 < x k /\ 0 < y k /\ 0 < z k.
-
-Lemma place_stretched k m t : place (stretched_motion k m) t = stretched k (place m t).
-Proof. unfold place, stretched_motion, stretched. apply same_point; simpl; ring. Qed.
-Lemma stretched_same k p q : units k -> stretched k p = stretched k q <-> p = q.
-Proof.
-  intros (Kx & Ky & Kz). split; [| now intros ->]. intros E. apply point_eq in E. destruct E as (X & Y &
-    Z). simpl in *.
-  apply same_point; eapply Rmult_eq_reg_l; eauto; lra.
-Qed.
-Lemma stretched_along k p s a b :
-  stretched k (along p s (minus a b)) = along (stretched k p) s (minus (stretched k a) (stretched k b)).
-Proof. unfold stretched. coordinates. apply same_point; simpl; ring. Qed.
-
-Lemma segment_stretched k p a b : units k -> in_segment (stretched k p) (stretched k a) (stretched k b)
-  <-> in_segment p a b.
-Proof.
-  intros K. split; intros (u & U & E); exists u; split; auto; rewrite <- stretched_along in *; first
-    [now apply -> (stretched_same k) in E | now rewrite E].
-Qed.
-
-Theorem face_units k v f0 f1 f2 : units k -> vertex_face_collides (stretched_motion k v)
-  (stretched_motion k f0)
-  (stretched_motion k f1) (stretched_motion k f2) <-> vertex_face_collides v f0 f1 f2.
-Proof.
-  intros K. split; intros (t & T & (u & w & U & W & V & E)); exists t; split; auto; exists u, w;
-    rewrite ?place_stretched, <- ?stretched_along in *; repeat split; auto; first [now apply ->
-      (stretched_same k) in E | now rewrite E].
-Qed.
-Theorem edges_units k a0 a1 b0 b1 : units k -> edge_edge_collides (stretched_motion k a0)
-  (stretched_motion k a1)
-  (stretched_motion k b0) (stretched_motion k b1) <-> edge_edge_collides a0 a1 b0 b1.
-Proof.
-  intros K. split; intros (t & T & (p & A & B)); exists t; (split; [exact T |]); rewrite
-    ?place_stretched in *.
-  - destruct A as (u & U & ->). exists (along (place a0 t) u (minus (place a1 t) (place a0 t))). split;
-    [now exists u |].
-    rewrite <- stretched_along in B. now apply segment_stretched in B.
-  - exists (stretched k p). now split; apply segment_stretched.
-Qed.
-Theorem vertex_edge_units k v e0 e1 : units k ->
-  vertex_edge_collides (stretched_motion k v) (stretched_motion k e0) (stretched_motion k e1) <->
-    vertex_edge_collides v e0 e1.
-Proof.
-  intros K. split; intros (t & T & H); exists t; rewrite ?place_stretched in *;
-    destruct (segment_stretched k (place v t) (place e0 t) (place e1 t) K); auto.
-Qed.
-
-Definition sign_of_integer (n : Z) : sign := match n with Z0 => zero | Zpos _ => positive | Zneg _ =>
-  negative end.
-Program Definition integers : scalar := {|
-  number := Z; add := Z.add; sub := Z.sub; mul := Z.mul; opp := Z.opp; whole := fun n => n;
-  twice := fun n => Z.add n n; normalized := fun p => p; sign_of := sign_of_integer; exact := IZR;
-  exact_add := plus_IZR; exact_sub := minus_IZR; exact_mul := mult_IZR; exact_opp := opp_IZR |}.
-Next Obligation. rewrite plus_IZR. ring. Qed.
-Next Obligation.
-  exists 1. split; [lra |]. rewrite map_map. apply map_ext. intros. ring.
-Qed.
-Next Obligation. match goal with n : Z |- _ => destruct n end; simpl; [easy | now apply IZR_lt | now
-  apply IZR_lt]. Qed.
+Definition bsc_exact_decides_face (finder : root_finder) (v f0 f1 f2 : given) : bool :=
+  let i := to_integers [v; f0; f1; f2] in
+  let b := difference (i f1) (i f0) in
+  let c := difference (i f2) (i f0) in
+  let p := difference (i v) (i f0) in
+  decision (y_form b c p) (inside_face_forms b c p) (face_border finder v f0 f1 f2).
+Definition bsc_exact_decides_edges (finder : root_finder) (a0 a1 b0 b1 : given) : bool :=
+  let i := to_integers [a0; a1; b0; b1] in
+  let b := difference (i a1) (i a0) in
+  let c := difference (i b1) (i b0) in
+  let p := difference (i b0) (i a0) in
+  decision (y_form b c p) (inside_edges_forms b c p) (edges_border finder a0 a1 b0 b1).
 
 Lemma integers_exact (n : integers) : sign_of n <> uncertain.
-Proof. destruct n; discriminate. Qed.
+Proof. apply integer_tells. Qed.
 
-(** What to_integers makes of a moving point. *)
-Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop := exact_motion i =
-  stretched_motion k m.
-
-Theorem bsc_exact_face k v f0 f1 f2 V F0 F1 F2 border : units k ->
-  in_integers k v V -> in_integers k f0 F0 -> in_integers k f1 F1 -> in_integers k f2 F2 ->
-  border = true <-> face_border_collides v f0 f1 f2 ->
-  let b := difference F1 F0 in let c := difference F2 F0 in let p := difference V F0 in
-  decision (y_form b c p) (inside_face_forms b c p) border = true <-> vertex_face_collides v f0 f1 f2.
+Theorem bsc_exact_face finder v f0 f1 f2 : bsc_exact_decides_face finder v f0 f1 f2 = true <->
+  vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
 Proof.
-  intros K Ev E0 E1 E2 Border b c p. rewrite <- (face_units k v f0 f1 f2 K). unfold in_integers in *.
-    rewrite <- Ev, <- E0, <- E1, <- E2.
-  apply face_decision; [apply integers_exact |]. unfold face_border_collides in *.
-  now rewrite Ev, E0, E1, E2, !(vertex_edge_units k).
+  unfold bsc_exact_decides_face. set (q := [v; f0; f1; f2]).
+  assert (In v q /\ In f0 q /\ In f1 q /\ In f2 q) as (I & I0 & I1 & I2) by (simpl; tauto).
+  destruct (to_integers_right q v I) as (K & E). destruct (to_integers_right q f0 I0) as (_ & E0).
+  destruct (to_integers_right q f1 I1) as (_ & E1). destruct (to_integers_right q f2 I2) as (_ & E2).
+  unfold in_integers in *. rewrite <- (face_units (unit_of q)) by exact K. rewrite <- E, <- E0, <- E1,
+    <- E2.
+  apply face_decision; [apply integers_exact |]. rewrite face_border_right. unfold face_border_collides.
+  now rewrite E, E0, E1, E2, !(vertex_edge_units (unit_of q)).
 Qed.
-Theorem bsc_exact_edges k a0 a1 b0 b1 A0 A1 B0 B1 border : units k ->
-  in_integers k a0 A0 -> in_integers k a1 A1 -> in_integers k b0 B0 -> in_integers k b1 B1 ->
-  border = true <-> edges_border_collides a0 a1 b0 b1 ->
-  let b := difference A1 A0 in let c := difference B1 B0 in let p := difference B0 A0 in
-  decision (y_form b c p) (inside_edges_forms b c p) border = true <-> edge_edge_collides a0 a1 b0 b1.
+Theorem bsc_exact_edges finder a0 a1 b0 b1 : bsc_exact_decides_edges finder a0 a1 b0 b1 = true <->
+  edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
 Proof.
-  intros K Ea Eb Ec Ed Border b c p. rewrite <- (edges_units k a0 a1 b0 b1 K). unfold in_integers in *.
-    rewrite <- Ea, <- Eb, <- Ec, <- Ed.
-  apply edges_decision; [apply integers_exact |]. unfold edges_border_collides in *.
-  now rewrite Ea, Eb, Ec, Ed, !(vertex_edge_units k).
+  unfold bsc_exact_decides_edges. set (q := [a0; a1; b0; b1]).
+  assert (In a0 q /\ In a1 q /\ In b0 q /\ In b1 q) as (I0 & I1 & I2 & I3) by (simpl; tauto).
+  destruct (to_integers_right q a0 I0) as (K & E0). destruct (to_integers_right q a1 I1) as (_ & E1).
+  destruct (to_integers_right q b0 I2) as (_ & E2). destruct (to_integers_right q b1 I3) as (_ & E3).
+  unfold in_integers in *. rewrite <- (edges_units (unit_of q)) by exact K. rewrite <- E0, <- E1, <- E2,
+    <- E3.
+  apply edges_decision; [apply integers_exact |]. rewrite edges_border_right. unfold
+    edges_border_collides.
+  now rewrite E0, E1, E2, E3, !(vertex_edge_units (unit_of q)).
 Qed.
