@@ -24,7 +24,7 @@ namespace errbound {
 
 /// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1 (leading and trailing zero
 /// coefficients); empty if p is identically zero. Its coefficients are those of the power basis in
-/// x = t/s, in which (0, 1) is (0, ∞).
+/// x = t/s, in which (0, 1) is (0, ∞). Proof: proofs/Reference.v, without_end_roots_right.
 template <exact_number Integer, int N>
 integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
     std::size_t first = 0, last = N + 1;
@@ -65,6 +65,7 @@ class real_roots {
     using number = typename staged_polynomial<Integer>::number;
 
     /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
+    /// Proof: proofs/RootIsolation.v, real_roots_right.
     explicit real_roots(const integer_form<Integer>& p) : p_(p) {
         const point zero;
         exact().isolate(zero, exact().upper_bound(), intervals_);

@@ -168,6 +168,7 @@ class root_isolation {
     point greatest_negative() const { return -unlikely_root(left_.lower - 1); }
 
     /// Appends the roots in [low, high], low <= high, in ascending order.
+    /// Proof: proofs/RootIsolation.v, isolate_right.
     void isolate(const point& low, const point& high, std::vector<interval>& roots) const {
         const std::size_t first = roots.size();
         append_if_root(low, roots);
@@ -197,6 +198,7 @@ class root_isolation {
 
     /// The sign of g at the root; refines it. Zero is decided by a common factor, any other sign
     /// when all of g's control values on the interval have it.
+    /// Proof: proofs/RootIsolation.v, sign_at_root_right.
     sign_type sign_at_root(const form& g, interval& root) const {
         if (g.empty()) return sign_type::zero;
         form common;
@@ -247,6 +249,7 @@ class root_isolation {
 
     /// Keeps one of 2^bits parts of the interval if the root is in the one where the secant has it,
     /// and otherwise what lies on the root's side of that; one half if bits is 1.
+    /// Proof: proofs/RootIsolation.v, keep_part_right, secant_part_right.
     bool keep_part(interval& root, int bits) const {
         const form& f = squarefree();
         const point at_low = value_at(f, root.low), at_high = value_at(f, root.high);
@@ -292,6 +295,7 @@ class root_isolation {
     }
 
     /// b: control values on the part, which came of this many halvings.
+    /// Proof: proofs/RootIsolation.v, on_part_right.
     static void on_part(const form& p, const point& low, const point& high, form b, int halvings,
                         std::vector<interval>& roots) {
         const int variations = sign_variations(b.size(), [&b](std::size_t i) {
@@ -358,6 +362,7 @@ class root_isolation {
     /// finds to more and more bits: they lie on either side of it, or in neither of the circles
     /// that have its sides as diameters, so that no sign change is left. Tried after 0, 8, 16, 32,
     /// ... halvings; false if nothing comes of it. b: control values in doubles, not 0 at the ends.
+    /// Proof: proofs/SignVariations.v, two_variations_two_roots.
     static bool add_pair(const form& p, const point& low, const point& high,
                          const std::vector<double>& b, int halvings, std::vector<interval>& roots) {
         if (halvings % 8 != 0 || (halvings & (halvings - 1)) != 0) return false;

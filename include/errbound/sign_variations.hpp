@@ -7,6 +7,7 @@ namespace errbound {
 
 /// The number of sign changes among sign(0), ..., sign(count − 1), which are 1, −1 or 0, zeros left
 /// out.
+/// Proof: proofs/SignVariations.v, no_variation_no_root, one_variation_one_root.
 template <class Sign>
 int sign_variations(std::size_t count, const Sign& sign) {
     int changes = 0, last = 0;
@@ -23,6 +24,7 @@ int sign_variations(std::size_t count, const Sign& sign) {
 /// standing for all above 2 and for an uncertain sign at an end. 0 and 1 are the number itself,
 /// whose parity the ends' signs tell. (Uncertain signs between opposite ones add two for each two
 /// of them; between equal ones already the first adds two.)
+/// Proof: proofs/SignVariations.v, most_variations_right.
 template <class Sign>
 int most_sign_variations(std::size_t count, const Sign& sign) {
     int last = sign(0), most = 0, open = 0;
