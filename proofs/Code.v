@@ -13,6 +13,7 @@ Record arithmetic (T : Type) := {
   minus : T -> T -> T;
   times : T -> T -> T;
   over : T -> T -> T;
+  fma : T -> T -> T -> T;
   opposite : T -> T;
   less : T -> T -> bool;
   at_most : T -> T -> bool;
@@ -35,6 +36,9 @@ Section Code.
 
 Variable T : Type.
 Variable A : arithmetic T.
+(** Whether fma is one instruction. In constant expressions two_product is that without, while
+    product_error_is_exact asks has_fast_fma still: the same, from 4 digits on, of any product. *)
+Variable has_fast_fma : bool.
 
 Declare Scope code.
 Infix "+" := (plus T A) : code.
@@ -64,7 +68,7 @@ Definition sign_of (value error : T) : sign_type :=
   else if (value == #0) && (error == #0) then zero
   else uncertain.
 
-(** error_free.hpp, without fused multiply-add *)
+(** error_free.hpp *)
 Definition two_sum (a b : T) : T * T :=
   let sum := a + b in
   let b_in_sum := sum - a in
@@ -76,16 +80,18 @@ Definition split (x : T) : T * T :=
   (high, x - high).
 Definition two_product (a b : T) : T * T :=
   let v := a * b in
-  let (a_high, a_low) := split a in
-  let (b_high, b_low) := split b in
-  let first := a_high * b_high - v in
-  let middle := (first + a_high * b_low) + a_low * b_high in
-  (v, middle + a_low * b_low).
+  if has_fast_fma then (v, fma T A a b (- v))
+  else
+    let (a_high, a_low) := split a in
+    let (b_high, b_low) := split b in
+    let first := a_high * b_high - v in
+    let middle := (first + a_high * b_low) + a_low * b_high in
+    (v, middle + a_low * b_low).
 Definition product_error_is_exact (a b : T) (product : T * T) : bool :=
   let (value, error) := product in
   if negb (is_finite value) || negb (is_finite error) then false
   else if (a == #0) || (b == #0) then true
-  else if (digits T A <? 4)%Z then false
+  else if negb has_fast_fma && (digits T A <? 4)%Z then false
   else η / u / u <= abs value.
 Definition remainder_of_division (a b q : T) : T * bool :=
   if a == #0 then (#0, is_finite q)

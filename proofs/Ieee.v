@@ -27,6 +27,7 @@ Definition floats : arithmetic float := {|
   minus := Bminus mode_NE;
   times := Bmult mode_NE;
   over := Bdiv mode_NE;
+  fma := Bfma mode_NE;
   opposite := Bopp;
   less := Bltb;
   at_most := Bleb;
@@ -85,6 +86,16 @@ Proof.
   intros Y N H. generalize (Bdiv_correct p emax _ _ mode_NE x y N). case Rlt_bool.
   - intros (E & F & _). simpl in H. rewrite F in H. tauto.
   - intros O. exfalso. revert H O. simpl. destruct (Bdiv mode_NE x y); discriminate.
+Qed.
+Lemma fma_finite x y z : finite (fma _ floats x y z) ->
+  finite x /\ finite y /\ finite z /\ B2R (fma _ floats x y z) = fl (B2R x * B2R y + B2R z).
+Proof.
+  intros H. assert (F : finite x /\ finite y /\ finite z).
+  { revert H. destruct x as [s | s | | s m e b], y as [t | t | | t n f c], z as [w | w | | w o g d];
+      simpl; auto; try destruct (Bool.eqb _ _); try discriminate. }
+  destruct F as (X & Y & Z). repeat split; auto.
+  generalize (Bfma_correct p emax _ _ mode_NE x y z X Y Z). cbv zeta. case Rlt_bool; [tauto |].
+  intros O. exfalso. revert H O. unfold fma, floats. destruct (Bfma mode_NE x y z); discriminate.
 Qed.
 Lemma scale_finite x e : finite (scale _ floats x e) ->
   finite x /\ B2R (scale _ floats x e) = fl (B2R x * bpow radix2 e).

@@ -10,7 +10,7 @@
         interval_error_known  where the error is finite the value is, and |a - x| is at most the error
     On the way: two_sum does not overflow after its sum but into NaN (two_sum_known), and
     product_error_is_exact (product_known) and remainder_of_division (remainder_known) tell the truth
-    whatever overflows. *)
+    whatever overflows. Products and quotients: with fused multiply-add and without (`fused`). *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN Sterbenz.
@@ -24,6 +24,7 @@ Variables p emax : Z.
 Context {p_positive : Prec_gt_0 p}.
 Context {p_below : Prec_lt_emax p emax}.
 Hypothesis p_3 : (3 <= p)%Z.
+Variable fused : bool.  (* has_fast_fma *)
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
@@ -523,41 +524,75 @@ Proof.
   unfold ErrorFree.split, ErrorFree.half_bits. cbn [fst snd]. change ((p + 1) / 2)%Z with s.
   rewrite E1, E2, E3, E4, E5. auto.
 Qed.
-Lemma product_known a b : product_error_is_exact _ F a b (two_product _ F a b) = true ->
-  finite (a ⊗ b) /\ finite (snd (two_product _ F a b)) /\ finite a /\ finite b /\
-  B2R (a ⊗ b) + B2R (snd (two_product _ F a b)) = B2R a * B2R b /\
-  ErrorFree.product_error_is_exact p emin (B2R a) (B2R b) (B2R (a ⊗ b), B2R (snd (two_product _ F a b))).
+Lemma product_value a b : fst (two_product _ F fused a b) = a ⊗ b.
+Proof. unfold two_product. destruct fused, (split _ F a), (split _ F b); reflexivity. Qed.
+(** Over real numbers. *)
+Let real_product (a b : R) : R * R :=
+  if fused then ErrorFree.two_product_fma p emin a b else ErrorFree.two_product p emin a b.
+Lemma real_product_value a b : fst (real_product a b) = fl (a * b).
 Proof.
-  unfold product_error_is_exact, two_product. generalize (split_finite a) (split_finite b).
-  destruct (split _ F a) as [ah al], (split _ F b) as [bh bl]. cbn [fst snd]. intros SA SB.
-  destruct (is_finite _ F (a ⊗ b)) eqn:C1; [| discriminate]. cbn [negb orb].
-  match goal with |- context [is_finite _ F ?e] => set (err := e) end.
-  destruct (is_finite _ F err) eqn:C2; [| discriminate]. cbn [negb orb].
-  apply is_finite_true in C1, C2. intros H. generalize C1. intros FV. apply times_finite in C1.
-  destruct C1 as (FA & FB & EV).
-  assert (Real : B2R err = snd (ErrorFree.two_product p emin (B2R a) (B2R b))).
-  { unfold err in *. apply plus_finite in C2. destruct C2 as (H1 & H2 & E1).
-    apply times_finite in H2. destruct H2 as (HA & HB & E2). apply plus_finite in H1. destruct H1 as (H1 & H3 & E3).
-    apply times_finite in H3. destruct H3 as (_ & _ & E4). apply plus_finite in H1. destruct H1 as (H1 & H3 & E5).
-    apply times_finite in H3. destruct H3 as (_ & _ & E6). apply minus_finite in H1. destruct H1 as (H1 & _ & E7).
-    apply times_finite in H1. destruct H1 as (_ & _ & E8).
-    destruct (SA HA) as (_ & _ & S1 & S2), (SB HB) as (_ & _ & S3 & S4).
-    unfold ErrorFree.two_product. destruct (ErrorFree.split p emin (B2R a)) as [rah ral].
-    destruct (ErrorFree.split p emin (B2R b)) as [rbh rbl]. cbn [fst snd] in *.
-    rewrite E1, E2, E3, E4, E5, E6, E7, E8, EV, S1, S2, S3, S4. reflexivity. }
-  split; auto. split; auto. split; auto. split; auto. rewrite Real, EV.
-  destruct zero_value' as [Z0 Z]. rewrite !equal_finite, Z in H by auto.
+  unfold real_product, ErrorFree.two_product. destruct fused; [reflexivity |].
+  now destruct (ErrorFree.split p emin a), (ErrorFree.split p emin b).
+Qed.
+Lemma real_product_exact a b : number a -> number b -> fused = true \/ (4 <= p)%Z ->
+  ErrorFree.product_error_is_exact p emin a b (real_product a b) ->
+  fst (real_product a b) + snd (real_product a b) = a * b.
+Proof.
+  generalize (p_emax p emax). unfold real_product. intros L A B P. destruct fused.
+  - apply ErrorFree.two_product_fma_exact; auto; lia.
+  - destruct P as [P | P]; [discriminate |]. apply ErrorFree.two_product_exact; auto; lia.
+Qed.
+Lemma real_product_0 a b : a = 0 \/ b = 0 -> real_product a b = (0, 0).
+Proof.
   assert (R0 : fl 0 = 0) by apply (Format.rnd_0 p emin Format.nearest).
   assert (S0 : ErrorFree.split p emin 0 = (0, 0)).
   { unfold ErrorFree.split. cbv zeta. now repeat rewrite ?Rmult_0_r, ?Rminus_0_r, ?R0. }
-  destruct (Req_bool_spec (B2R a) 0) as [A0 | A0].
-  { split; [| now left]. rewrite A0. unfold ErrorFree.two_product. rewrite S0. destruct (ErrorFree.split p emin (B2R b)) as [rh rl].
-    cbv beta iota zeta. cbn [snd]. repeat rewrite ?Rmult_0_l, ?Rminus_0_r, ?Rplus_0_r, ?R0. ring. }
-  destruct (Req_bool_spec (B2R b) 0) as [B0 | B0].
-  { split; [| right; now left]. rewrite B0. unfold ErrorFree.two_product. rewrite S0. destruct (ErrorFree.split p emin (B2R a)) as [rh rl].
-    cbv beta iota zeta. cbn [snd]. repeat rewrite ?Rmult_0_r, ?Rminus_0_r, ?Rplus_0_r, ?R0. ring. }
-  cbn [orb] in H. change (digits _ F) with p in H.
-  destruct (Z.ltb_spec p 4) as [P | P]; [discriminate |].
+  unfold real_product, ErrorFree.two_product_fma, ErrorFree.two_product.
+  intros [-> | ->]; rewrite S0; [destruct (ErrorFree.split p emin b) | destruct (ErrorFree.split p emin a)];
+    destruct fused; cbv zeta; now repeat rewrite ?Rmult_0_l, ?Rmult_0_r, ?Rminus_0_r, ?Rplus_0_r, ?R0.
+Qed.
+Lemma product_finite a b : finite (a ⊗ b) -> finite (snd (two_product _ F fused a b)) ->
+  B2R (snd (two_product _ F fused a b)) = snd (real_product (B2R a) (B2R b)).
+Proof.
+  unfold two_product, real_product. generalize (split_finite a) (split_finite b).
+  destruct (split _ F a) as [ah al], (split _ F b) as [bh bl]. cbn [fst snd]. intros SA SB FV.
+  apply times_finite in FV. destruct FV as (FA & FB & EV). destruct fused; cbn [snd]; intros H.
+  { apply fma_finite in H. destruct H as (_ & _ & _ & ->). rewrite opposite_value, EV. reflexivity. }
+  apply plus_finite in H. destruct H as (H1 & H2 & E1).
+  apply times_finite in H2. destruct H2 as (HA & HB & E2). apply plus_finite in H1. destruct H1 as (H1 & H3 & E3).
+  apply times_finite in H3. destruct H3 as (_ & _ & E4). apply plus_finite in H1. destruct H1 as (H1 & H3 & E5).
+  apply times_finite in H3. destruct H3 as (_ & _ & E6). apply minus_finite in H1. destruct H1 as (H1 & _ & E7).
+  apply times_finite in H1. destruct H1 as (_ & _ & E8).
+  destruct (SA HA) as (_ & _ & S1 & S2), (SB HB) as (_ & _ & S3 & S4).
+  unfold ErrorFree.two_product. destruct (ErrorFree.split p emin (B2R a)) as [rah ral].
+  destruct (ErrorFree.split p emin (B2R b)) as [rbh rbl]. cbn [fst snd] in *.
+  rewrite E1, E2, E3, E4, E5, E6, E7, E8, EV, S1, S2, S3, S4. reflexivity.
+Qed.
+Lemma product_known a b : product_error_is_exact _ F fused a b (two_product _ F fused a b) = true ->
+  finite (a ⊗ b) /\ finite (snd (two_product _ F fused a b)) /\ finite a /\ finite b /\
+  B2R (a ⊗ b) + B2R (snd (two_product _ F fused a b)) = B2R a * B2R b /\
+  ErrorFree.product_error_is_exact p emin (B2R a) (B2R b)
+    (B2R (a ⊗ b), B2R (snd (two_product _ F fused a b))).
+Proof.
+  generalize (product_finite a b). unfold product_error_is_exact.
+  rewrite (surjective_pairing (two_product _ F fused a b)) at 3. rewrite product_value.
+  set (error := snd (two_product _ F fused a b)). intros Real.
+  destruct (is_finite _ F (a ⊗ b)) eqn:C1; [| discriminate]. cbn [negb orb].
+  destruct (is_finite _ F error) eqn:C2; [| discriminate]. cbn [negb orb].
+  apply is_finite_true in C1, C2. intros H. specialize (Real C1 C2). generalize C1. intros FV.
+  apply times_finite in C1. destruct C1 as (FA & FB & EV).
+  split; auto. split; auto. split; auto. split; auto. rewrite Real, EV.
+  destruct zero_value' as [Z0 Z]. rewrite !equal_finite, Z in H by auto.
+  assert (Zero : B2R a = 0 \/ B2R b = 0 -> fl (B2R a * B2R b) + snd (real_product (B2R a) (B2R b)) = B2R a * B2R b).
+  { intros C. rewrite <- real_product_value, real_product_0 by auto. cbn [fst snd].
+    destruct C as [-> | ->]; ring. }
+  destruct (Req_bool_spec (B2R a) 0) as [A0 | A0]; [split; [auto | now left] |].
+  destruct (Req_bool_spec (B2R b) 0) as [B0 | B0]; [split; [auto | right; now left] |].
+  clear Zero. cbn [orb] in H. change (digits _ F) with p in H.
+  assert (P : fused = true \/ (4 <= p)%Z).
+  { revert H. destruct fused; [auto |]. destruct (Z.ltb_spec p 4); [discriminate | auto]. }
+  replace (negb fused && (p <? 4)%Z) with false in H.
+  2: { destruct P as [-> | P]; [reflexivity |]. destruct (Z.ltb_spec p 4), fused; auto; lia. }
   destruct (u_value p emax p_3) as [Fu Vu]. destruct (eta_value p emax p_3) as [Fe Ve].
   assert (Nu : B2R (unit_roundoff _ F) <> 0) by (rewrite Vu; apply Rgt_not_eq, bpow_gt_0).
   set (w := underflow_unit _ F ⊘ unit_roundoff _ F ⊘ unit_roundoff _ F) in *.
@@ -572,21 +607,13 @@ Proof.
     rewrite EM, EV in H. generalize Fw. intros H'. apply over_finite in H'; auto. destruct H' as [H' E1].
     apply over_finite in H'; auto. destruct H' as [_ E2]. fold w in E1. rewrite E1, E2, Vu, Ve in H.
     revert H. now case Rle_bool_spec. }
-  generalize (p_emax p emax). intros L.
-  assert (X : ErrorFree.product_error_is_exact p emin (B2R a) (B2R b)
-                (ErrorFree.two_product p emin (B2R a) (B2R b))).
-  { right. right. unfold ErrorFree.two_product. destruct (ErrorFree.split p emin (B2R a)).
-    destruct (ErrorFree.split p emin (B2R b)). exact T. }
-  split.
-  - rewrite <- (ErrorFree.two_product_exact p emin ltac:(lia) (B2R a) (B2R b) P
-                (number_B2R _ _ a) (number_B2R _ _ b) X) at 2.
-    unfold ErrorFree.two_product. destruct (ErrorFree.split p emin (B2R a)).
-    destruct (ErrorFree.split p emin (B2R b)). reflexivity.
-  - right. right. exact T.
+  split; [| right; right; exact T].
+  rewrite <- real_product_value. apply real_product_exact; auto using number_B2R.
+  right. right. now rewrite real_product_value.
 Qed.
 
 Theorem interval_multiply_known a A x b B y : interval_known a A x -> interval_known b B y ->
-  interval_known (a ⊗ b) (interval_multiply _ F (a ⊗ b) a A b B) (x * y).
+  interval_known (a ⊗ b) (interval_multiply _ F fused (a ⊗ b) a A b B) (x * y).
 Proof.
   intros KA KB. unfold interval_multiply.
   destruct (is_zero_interval _ F A || is_zero_interval _ F B) eqn:CZ.
@@ -600,7 +627,7 @@ Proof.
     destruct (is_point_true _ _ _ KA CA) as [FA ->], (is_point_true _ _ _ KB CB) as [FB ->].
     assert (E : finite (a ⊗ b) -> B2R (a ⊗ b) = fl (B2R a * B2R b)).
     { intros H. now apply times_finite in H. }
-    destruct (product_error_is_exact _ F a b (two_product _ F a b)) eqn:CE; [| now apply one_step_known].
+    destruct (product_error_is_exact _ F fused a b (two_product _ F fused a b)) eqn:CE; [| now apply one_step_known].
     apply product_known in CE. destruct CE as (_ & FE & _ & _ & EX & _).
     apply nearest_known; auto. intros _. split; auto. lra. }
   apply hull_known with (B2R (fst A) * B2R (fst B)) (B2R (fst A) * B2R (snd B))
@@ -645,12 +672,10 @@ Proof.
 Qed.
 
 (** Division. *)
-Lemma product_value a b : fst (two_product _ F a b) = a ⊗ b.
-Proof. unfold two_product. destruct (split _ F a), (split _ F b). reflexivity. Qed.
 Lemma remainder_known a b : finite (a ⊘ b) -> finite b -> B2R b <> 0 ->
-  snd (remainder_of_division _ F a b (a ⊘ b)) = true ->
-  finite (fst (remainder_of_division _ F a b (a ⊘ b))) /\
-  B2R (fst (remainder_of_division _ F a b (a ⊘ b))) = B2R a - B2R (a ⊘ b) * B2R b.
+  snd (remainder_of_division _ F fused a b (a ⊘ b)) = true ->
+  finite (fst (remainder_of_division _ F fused a b (a ⊘ b))) /\
+  B2R (fst (remainder_of_division _ F fused a b (a ⊘ b))) = B2R a - B2R (a ⊘ b) * B2R b.
 Proof.
   intros FV FB NB. destruct zero_value' as [Z0 Z]. generalize (p_emax p emax). intros PE.
   generalize FV. intros H. apply over_finite in H; auto. destruct H as [FA EV].
@@ -662,7 +687,7 @@ Proof.
   rewrite equal_finite, Z in CQ by auto.
   destruct (Req_bool_spec (B2R v) 0) as [NQ | NQ]; [discriminate CQ |]. clear CQ.
   apply product_known in CP. rewrite product_value. destruct CP as (FP & FE & _ & _ & EX & D).
-  set (e := snd (two_product _ F v b)) in *.
+  set (e := snd (two_product _ F fused v b)) in *.
   assert (EP : B2R (v ⊗ b) = fl (B2R v * B2R b)) by now apply times_finite in FP.
   assert (R : ErrorFree.remainder_of_division p emin (B2R a) (B2R (v ⊗ b), B2R e) = B2R a - B2R v * B2R b).
   { rewrite EV. rewrite EV in EX, EP, D, NQ.
@@ -720,7 +745,7 @@ Proof.
 Qed.
 
 Theorem interval_divide_known a A x b B y : interval_known a A x -> interval_known b B y ->
-  interval_known (a ⊘ b) (interval_divide _ F (a ⊘ b) a A b B) (x / y).
+  interval_known (a ⊘ b) (interval_divide _ F fused (a ⊘ b) a A b B) (x / y).
 Proof.
   intros KA KB. destruct zero_value' as [Z0 Z]. unfold interval_divide.
   destruct (negb (less _ F (integer _ F 0) (fst B)) && negb (less _ F (snd B) (integer _ F 0))) eqn:CB;
@@ -740,7 +765,7 @@ Proof.
     assert (E : finite (a ⊘ b) -> B2R (a ⊘ b) = fl (B2R a / B2R b)).
     { intros H. apply over_finite in H; [destruct H; assumption | assumption | assumption]. }
     generalize (remainder_known a b).
-    destruct (remainder_of_division _ F a b (a ⊘ b)) as [r exact]. cbn [fst snd]. intros R.
+    destruct (remainder_of_division _ F fused a b (a ⊘ b)) as [r exact]. cbn [fst snd]. intros R.
     destruct exact; [| apply one_step_known; exact E].
     apply nearest_known; [exact E |]. intros FV. destruct (R FV FB NB eq_refl) as [FR ER].
     generalize (quotient_above (B2R a) (B2R b) (B2R (a ⊘ b)) NB)

@@ -5,8 +5,8 @@
     infinite or NaN) and, where c and r are finite, v is, and |v + c - x| <= r. Results: what the code
     returns is known:
         residual_exact_known, residual_within_known, residual_negate_known, residual_add_known,
-        residual_subtract_known, residual_multiply_known, residual_divide_known (without fused
-        multiply-add), residual_scale_known
+        residual_subtract_known, residual_multiply_known, residual_divide_known (with fused
+        multiply-add and without, `fused`), residual_scale_known
         residual_error_known   the error is one, in the sense of IeeeRules.v
         residual_sign_known    the rule's sign is right or uncertain *)
 
@@ -22,6 +22,7 @@ Variables p emax : Z.
 Context {p_positive : Prec_gt_0 p}.
 Context {p_below : Prec_lt_emax p emax}.
 Hypothesis p_3 : (3 <= p)%Z.
+Variable fused : bool.  (* has_fast_fma *)
 Notation float := (binary_float p emax).
 Notation F := (floats p emax).
 Notation emin := (3 - emax - p)%Z.
@@ -288,7 +289,7 @@ Proof.
 Qed.
 
 Theorem residual_multiply_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
-  residual_known (a ⊗ b) (residual_multiply _ F (a ⊗ b) a sa b sb) (x * y).
+  residual_known (a ⊗ b) (residual_multiply _ F fused (a ⊗ b) a sa b sb) (x * y).
 Proof.
   intros KA KB. destruct (zero_value p emax p_3) as [Z0 Z]. unfold residual_multiply.
   destruct (residual_is_zero _ F a sa || residual_is_zero _ F b sb) eqn:CZ.
@@ -297,9 +298,9 @@ Proof.
       - destruct (known_zero _ _ _ KA C) as [-> A]. split; [ring | auto].
       - destruct (known_zero _ _ _ KB C) as [-> B]. split; [ring | auto]. }
     destruct E as [-> E]. apply zero_known. intros H. now apply (zero_times p emax). }
-  destruct KA as [PA KA], KB as [PB KB]. generalize (IeeeInterval.product_known p emax p_3 a b).
-  cbv zeta. set (error := snd (two_product _ F a b)).
-  set (known := product_error_is_exact _ F a b (two_product _ F a b)). set (v := a ⊗ b). intros KP.
+  destruct KA as [PA KA], KB as [PB KB]. generalize (IeeeInterval.product_known p emax p_3 fused a b).
+  cbv zeta. set (error := snd (two_product _ F fused a b)).
+  set (known := product_error_is_exact _ F fused a b (two_product _ F fused a b)). set (v := a ⊗ b). intros KP.
   assert (EV : finite v -> finite a /\ finite b /\ B2R v = fl (B2R a * B2R b)).
   { apply times_finite. }
   assert (KN : known = true -> B2R v + B2R error = B2R a * B2R b) by (intros H; now apply KP).
@@ -340,8 +341,8 @@ Qed.
 
 (** Divided by a number whose distance from zero is known; where r is finite, so y is not zero. *)
 Theorem residual_divide_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
-  residual_known (a ⊘ b) (residual_divide _ F (a ⊘ b) a sa b sb) (x / y) /\
-  (finite (snd (residual_divide _ F (a ⊘ b) a sa b sb)) -> y <> 0).
+  residual_known (a ⊘ b) (residual_divide _ F fused (a ⊘ b) a sa b sb) (x / y) /\
+  (finite (snd (residual_divide _ F fused (a ⊘ b) a sa b sb)) -> y <> 0).
 Proof.
   intros KA KB. destruct (zero_value p emax p_3) as [Z0 Z]. unfold residual_divide. cbv zeta.
   set (off := residual_error _ F sb). set (d := abs _ F b ⊖ off).
@@ -359,8 +360,8 @@ Proof.
   destruct (residual_is_zero _ F a sa) eqn:CZ.
   { destruct (known_zero _ _ _ KA CZ) as [-> A]. unfold Rdiv. rewrite Rmult_0_l. apply zero_known.
     now apply (zero_over p emax). }
-  generalize (IeeeInterval.remainder_known p emax p_3 a b). fold v.
-  destruct (remainder_of_division _ F a b v) as [value known]. cbn [fst snd]. intros KR.
+  generalize (IeeeInterval.remainder_known p emax p_3 fused a b). fold v.
+  destruct (remainder_of_division _ F fused a b v) as [value known]. cbn [fst snd]. intros KR.
   destruct KA as [PA KA], KB as [PB KB]. destruct (KB CB RB) as [_ HB]. cbn [fst snd] in *. clear KB.
   set (own := if known then value else integer _ F 0).
   set (unknown := if known then integer _ F 0 else half_ulp _ F v).
