@@ -63,6 +63,12 @@ struct copy_of {
     }
 };
 
+/// Of a rule whose bound is an error.
+template <class T, class Rule>
+bool is_zero(const operand<T, Rule>& a) {
+    return a.value == 0 && a.bound.error == 0;
+}
+
 template <int Without>
 struct tight : copy_of<errbound::tight, tight<Without>> {
     using Self = tight;
@@ -122,10 +128,6 @@ struct tight : copy_of<errbound::tight, tight<Without>> {
     static T inflated(const T& b) {
         return Mutant != 0 && Without == Mutant ? b : b * (1 + 8 * number_traits<T>::epsilon());
     }
-    template <class T>
-    static bool is_zero(operand<T, Self> a) {
-        return a.value == 0 && a.bound.error == 0;
-    }
 };
 
 template <int Without>
@@ -172,10 +174,6 @@ struct sharp : copy_of<errbound::sharp, sharp<Without>> {
     template <class T>
     static T inflated(const T& b) {
         return b * (1 + 4 * number_traits<T>::epsilon());
-    }
-    template <class T>
-    static bool is_zero(operand<T, Self> a) {
-        return a.value == 0 && a.bound.error == 0;
     }
 };
 

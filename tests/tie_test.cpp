@@ -4,8 +4,10 @@
 // in which order, is what is enumerated there. Rules with a term dropped give others.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <errbound/error_free.hpp>
 #include <errbound/tracked.hpp>
@@ -13,8 +15,8 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
