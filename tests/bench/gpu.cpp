@@ -24,14 +24,12 @@ namespace {
 
 using ccd::cuda::precision;
 
-void check(cudaError_t e) {
-    if (e != cudaSuccess) throw std::runtime_error(std::string("CUDA: ") + cudaGetErrorString(e));
-}
+using bench::check;
 void check(const ccd::cuda::status& s) {
     if (!s) throw std::runtime_error(s.error);
 }
 
-/// Device memory with a copy of host memory.
+/// Device memory, with a copy of host memory if given.
 template <class T>
 class on_device {
   public:
@@ -40,8 +38,8 @@ class on_device {
         check(cudaMalloc(&memory, std::max<std::size_t>(1, count) * sizeof(T)));
         data_ = static_cast<T*>(memory);
     }
-    explicit on_device(const std::vector<T>& host) : on_device(host.size()) {
-        check(cudaMemcpy(data_, host.data(), count_ * sizeof(T), cudaMemcpyHostToDevice));
+    on_device(const T* host, std::size_t count) : on_device(count) {
+        check(cudaMemcpy(data_, host, count_ * sizeof(T), cudaMemcpyHostToDevice));
     }
     ~on_device() { (void)cudaFree(data_); }
     on_device(const on_device&) = delete;
@@ -59,22 +57,16 @@ class on_device {
     std::size_t count_;
 };
 
-std::vector<double> numbers_of(const ccd::mesh& m) {
-    std::vector<double> numbers;
-    for (const auto& p : m.vertices) numbers.insert(numbers.end(), {p.x, p.y, p.z});
-    return numbers;
-}
-
 /// A scene's positions on the device.
 struct device_scene {
     on_device<double> before, after;
     ccd::cuda::positions at;
 
-    explicit device_scene(const bench::scene& s)
-        : before(numbers_of(s.before)),
-          after(numbers_of(s.after)),
+    explicit device_scene(const ccd::vertex_rows& rows)
+        : before(rows.before, 3 * rows.vertices),
+          after(rows.after, 3 * rows.vertices),
           at(ccd::cuda::coordinates<double>::rows(before.data()),
-             ccd::cuda::coordinates<double>::rows(after.data()), s.before.vertices.size()) {}
+             ccd::cuda::coordinates<double>::rows(after.data()), rows.vertices) {}
 };
 
 std::string name_of(precision p) {
@@ -94,7 +86,7 @@ void methods(const bench::scene& s, const device_scene& device,
     std::vector<ccd::outcome> truth(candidates.size());
     candidates.decide_batch(0, truth, {.threads = 0});
 
-    const on_device<indices> device_rows(rows);
+    const on_device<indices> device_rows(rows.data(), rows.size());
     const on_device<ccd::outcome> answers(rows.size());
     const std::size_t bytes = ccd::cuda::scratch_bytes(device.at.vertices, rows.size());
     const on_device<std::byte> memory(bytes);
@@ -115,10 +107,10 @@ void methods(const bench::scene& s, const device_scene& device,
         check(finish(device.at, all, answers.data(), scratch, c.options));
         const auto found = answers.copied();
         for (std::size_t i = 0; i < truth.size(); ++i) {
-            const bool said = found[i] != ccd::outcome::separate,
-                       true_ = truth[i] != ccd::outcome::separate;
-            c.false_positives += said && !true_;
-            c.false_negatives += !said && true_;
+            const bool said = found[i] != ccd::outcome::separate;
+            const bool is = truth[i] != ccd::outcome::separate;
+            c.false_positives += said && !is;
+            c.false_negatives += !said && is;
         }
         passes.emplace_back([&] {
             check(decide_batch(device.at, all, answers.data(), scratch, c.options));
@@ -278,7 +270,7 @@ int main(int argc, char** argv) try {
             continue;
         }
         if (!s.is_step()) continue;
-        const device_scene on_it(s);
+        const device_scene on_it({s.before, s.after});
         methods(s, on_it, s.queries.vertex_face, queries, peaks, o, out);
         methods(s, on_it, s.queries.edge_edge, queries, peaks, o, out);
         steps(s, on_it, o, out);

@@ -1,18 +1,19 @@
 // What the device can do at most, as measured: copies, and products and sums that are not fused.
-#include "gpu_peaks.hpp"
-
 #include <cuda_runtime.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "gpu_peaks.hpp"
+
 namespace bench {
-namespace {
 
 void check(cudaError_t e) {
     if (e != cudaSuccess) throw std::runtime_error(std::string("CUDA: ") + cudaGetErrorString(e));
 }
+
+namespace {
 
 constexpr int rounds = 2048, chains = 8, threads = 256, blocks = 4096;
 
@@ -21,7 +22,8 @@ __global__ void multiply_and_add(T* result, T factor) {
     T x[chains];
     for (int c = 0; c < chains; ++c) x[c] = T(threadIdx.x + c);
     for (int i = 0; i < rounds; ++i)
-        for (int c = 0; c < chains; ++c) x[c] = x[c] * factor + factor;  // two operations: -fmad=false
+        for (int c = 0; c < chains; ++c)
+            x[c] = x[c] * factor + factor;  // two operations: -fmad=false
     T sum = 0;
     for (int c = 0; c < chains; ++c) sum += x[c];
     if (sum == T(-1)) *result = sum;  // never, but the compiler cannot know

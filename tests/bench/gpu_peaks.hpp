@@ -1,7 +1,12 @@
 // What the device can do at most, as measured.
 #pragma once
 
+#include <cuda_runtime_api.h>
+
 namespace bench {
+
+/// Throws std::runtime_error, in CUDA's words, unless all is well.
+void check(cudaError_t e);
 
 struct device_peaks {
     double bytes_per_second = 0;  ///< read and written
@@ -9,7 +14,7 @@ struct device_peaks {
     double double_operations = 0;
 };
 
-/// Throws std::runtime_error on CUDA's errors.
+/// Throws as check does.
 device_peaks measured_peaks();
 
 }  // namespace bench

@@ -1,5 +1,4 @@
-// Counts the floating-point operations of the stages of `exact`, by running them on a scalar that
-// counts.
+// Floating-point operations of the stages of `exact`, by running them on a scalar that counts.
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -12,7 +11,7 @@
 
 namespace bench {
 
-/// Sums, products, comparisons and extrema count one each; sizes and signs nothing.
+/// Sums, products, comparisons and extrema count one each; absolute values and negation nothing.
 template <class T>
 struct counted {
     T value{};
