@@ -1,9 +1,10 @@
 // A mesh that moves on the device: its vertices never leave it, and neither do the colliding pairs.
 //
-// A square cloth falls onto another; each step asks for the pairs that collide. Exit status 77 where
-// there is no device.
+// A square cloth falls onto another; each step asks for the pairs that collide. Exit status 77
+// where there is no device.
 #include <ccd/cuda.hpp>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace {

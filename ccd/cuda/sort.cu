@@ -10,8 +10,8 @@ void device_launcher::sort(std::uint32_t* keys, std::uint32_t* values, std::size
     if (!ok()) return;
     cub::DoubleBuffer<std::uint32_t> k(keys, spare_.data()), v(values, spare_.data() + n);
     with_temporary([&](void* memory, std::size_t& bytes) {
-        return cub::DeviceRadixSort::SortPairs(memory, bytes, k, v,
-                                               static_cast<std::int64_t>(n), 0, 32, stream_);
+        return cub::DeviceRadixSort::SortPairs(memory, bytes, k, v, static_cast<std::int64_t>(n), 0,
+                                               32, stream_);
     });
     const auto bring_back = [&](std::uint32_t* to, const std::uint32_t* from) {
         if (ok() && to != from)
