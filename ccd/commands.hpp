@@ -63,8 +63,8 @@ struct report_arguments {
     std::optional<std::string> commit;
 };
 
-/// Measures methods and bound rules on data sets and writes a report. False if a method broke its
-/// promise.
+/// Measures methods and bound rules on data sets and writes a report.
+/// False if a method broke its promise.
 bool run_report(const report_arguments& arguments);
 
 /// Prints what methods there are.

@@ -33,8 +33,7 @@ template <template <class> class Forms, template <class> class Query>
         if (rootless) return {outcome::separate, cause::none};
     }
     {
-        // The axes across cost one query more than Y's four coefficients do; not so a pack in
-        // float.
+        // The axes across cost one query more than Y's four coefficients do, a pack of floats less.
         stage_turn turn(report, stage::axes);
         const bool parted = static_filter::parted_by_diagonals<double>(forms, sizes);
         turn.count(0, parted, 0);  // it entered above

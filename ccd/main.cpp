@@ -1,5 +1,6 @@
 // The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
-// broke its promise, in `ccd stress` and `ccd report`), 2 bad usage.
+// broke its promise, in `ccd stress` and `ccd report`, or a CUDA device that is missing or failed),
+// 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>

@@ -37,7 +37,7 @@ struct result {
 
 template <class Query>
 void decide_all(const std::vector<Query>& queries, const device_choice& device, result& out) {
-    // Bytes, since packing bits is work that is not the method's.
+    // Made into bits afterwards, since that is work which is not the method's.
     std::vector<outcome> outcomes(queries.size());
     double fastest = std::numeric_limits<double>::infinity();
     const steady_clock::time_point start = steady_clock::now();

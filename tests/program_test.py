@@ -352,7 +352,7 @@ class Device(ProgramTest):
     """What holds with CUDA and a device, without the device, and in builds without CUDA."""
 
     def device(self):
-        """The runs' error, or None where there is a device."""
+        """The exit status of every run on a device, or None where that is 0."""
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
         pairs = self.directory / "pairs"
         done = self.run_program("step", *frames, "--device", "cuda", "--pairs", pairs)

@@ -17,7 +17,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 struct CUstream_st;  // CUDA's; cudaStream_t points to one
 
@@ -160,8 +159,8 @@ status finish(const positions& positions, const candidates<edge_edge_indices>& c
 
 /// Writes the numbers of the answers other than `separate`, ascending, to found[0], ...,
 /// found[room − 1] and how many there are to *count, which may exceed `room`: then call again with
-/// more. Only queues work. Scratch memory as above; what decide_batch left there is lost, so finish
-/// first.
+/// more. Only queues work. Scratch memory as above: finish() first, since this overwrites what
+/// decide_batch left there.
 status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
                         std::size_t room, index* count, scratch memory, stream stream = nullptr);
 
@@ -197,7 +196,7 @@ class mesh_steps {
 };
 
 /// ccd::step() on the device, which throws what that throws: copies both frames there and the pairs
-/// back. options.threads and set are of no use here; of the seconds, those of both phases are taken
+/// back. Of the options only the method counts; of the seconds, those of both phases are taken
 /// together as the narrow's.
 status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
             step_result& result);

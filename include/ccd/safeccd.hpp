@@ -257,8 +257,7 @@ class solver {
     /// falls below zero, times direction. The better of two bounds on the least f': that of its
     /// Bernstein coefficients on [p, q], certified one by one; and the least value of the computed
     /// f', at an end or at its vertex, less all errors of its coefficients and what evaluation and
-    /// the vertex' own rounding (second order) can add. Neither rests on where the true f' has its
-    /// vertex.
+    /// the vertex' own rounding (second order) can add. The true f' may have its vertex anywhere.
     constexpr T slack_of(const errbound::bernstein<scalar, 2>& slope, T vertex, T direction, T p,
                          T q) const {
         const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };

@@ -5,6 +5,7 @@
 // is lost is small beside the query itself, however far it lies from the origin.
 #pragma once
 
+#include <algorithm>
 #include <ccd/bsc.hpp>
 #include <ccd/safeccd.hpp>
 #include <ccd/transform.hpp>
@@ -39,7 +40,7 @@ constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precisio
     // The room is that of tracked_query for floats. Beyond 2^±1000 differences overflow or vanish.
     constexpr int room = errbound::number_traits<float>::max_exponent / 32, most = 1000;
     const int e = largest > 0 && traits::is_finite(largest) ? traits::exponent(largest) : 0;
-    const int bounded = e > most ? most : e < -most ? -most : e;
+    const int bounded = std::clamp(e, -most, most);
     const bool moderate = bounded >= -room && bounded <= room;
     const double factor = moderate ? 1.0 : traits::scale(1.0, -bounded);
     const auto converted = [factor](double d) {

@@ -61,8 +61,7 @@ class conjunction {
 
     constexpr void require_nonnegative(sign_type s) {
         if (s == sign_type::negative) excluded_ = true;
-        // An exact zero satisfies G >= 0, but all G vanish where the normal does: not a certain
-        // yes.
+        // An exact zero satisfies G >= 0; but all G vanish where the normal does: no certain yes.
         if (s != sign_type::positive) all_positive_ = false;
     }
     constexpr bool excluded() const { return excluded_; }
@@ -180,8 +179,7 @@ struct decomposition {
     }
 };
 
-/// sign J from those of M and R; where M vanishes at the root, the root is M's and J is asked
-/// there.
+/// sign J from those of M and R; where M vanishes at the root, J is asked at M's root.
 template <class S>
 constexpr sign_type combined(sign_type m, sign_type r, const bernstein<S, 1>& m_form,
                              const bernstein<S, 2>& j) {
@@ -431,8 +429,7 @@ constexpr existence by_halving(const part<S, M>& whole) {
     while (count > 0) {
         const std::size_t last = count - 1;
         if (const auto found = without_halving(waiting[last])) {
-            // A "maybe" ends the search: an undecidable query must not visit all 2^max_halvings
-            // parts.
+            // A "maybe" ends the search, lest an undecidable query visit all 2^max_halvings parts.
             if (*found != existence::no) return *found;
             --count;
             continue;

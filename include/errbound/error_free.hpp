@@ -20,8 +20,8 @@ struct with_error {
 /// a + b = value + error exactly, value = a ⊕ b.
 /// Precondition: no overflow, of the sum or on the way to the error (an operand of the largest size
 /// only); else value or error is infinite or NaN. Underflow does no harm: sums that underflow are
-/// exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B
-/// (TwoSum); any precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
+/// exact. Cost: 6 operations. Source: Knuth, TAOCP 2, Section 4.2.2, Theorem B (TwoSum); any
+/// precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
     const T x = rounded(a), y = rounded(b);

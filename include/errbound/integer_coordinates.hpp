@@ -12,8 +12,7 @@
 
 namespace errbound {
 
-/// The size of the largest coordinate, as bits of a double; infinities and NaN are larger than all
-/// other.
+/// The size of the largest coordinate, as bits of a double; infinities and NaN exceed all others.
 template <std::size_t N>
 constexpr std::uint64_t largest_size(const std::array<double, N>& coordinates) {
     std::uint64_t largest = 0;

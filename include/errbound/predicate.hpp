@@ -449,8 +449,7 @@ class predicate_type {
             return sign_type::uncertain;
         }
         if constexpr (has_semi_static_filter) {
-            // Products of smaller coordinates are all subnormal, which is slow, and decides
-            // nothing.
+            // Products of smaller coordinates are all subnormal: slow, and nothing is decided.
             const int exponent = static_cast<int>(largest >> 52) - 1021;
             const bool in_range = exponent * counts.degree > std::numeric_limits<T>::min_exponent;
             if (!std::is_constant_evaluated() && in_range) {

@@ -115,10 +115,9 @@ template <class Predicate, class... Ranges>
     for (std::size_t i = 0; i < block_size; ++i) {
         const auto x = Predicate::template estimate<true>(p[i]...);
         const T size = number_traits<T>::abs(x.value);
-        // Instruction sets with fused multiply-add may use it: static_filter.hpp asks for this
-        // then.
         const T code = x.value > 0 ? T(2) : T(0);
         const T decided = size > x.bound ? code : T(3);
+        // Kernels may fuse multiply-adds, and must then ask for this (static_filter.hpp).
         codes[i] = size <= number_traits<T>::largest() ? decided : T(3);
     }
     unsigned all = 0;

@@ -94,8 +94,7 @@ constexpr auto line_line(const auto& a, const auto& b, const auto& c, const auto
     const auto along = (c[0] - a[0]) * v - (c[1] - a[1]) * u;
     return implicit_point2d{a, x * along, y * along, x * v - y * u};
 }
-/// Where the line through a and b meets the plane through p, q and r; w = 0: nowhere, or
-/// everywhere.
+/// Where the line through a and b meets the plane through p, q and r; w = 0: nowhere or everywhere.
 constexpr auto line_plane(const auto& a, const auto& b, const auto& p, const auto& q,
                           const auto& r) {
     const auto x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2];
@@ -230,8 +229,7 @@ struct homogeneous_options : predicate_options {
 };
 
 /// Closed segments ab and cd. Positive: they cross, in one point inside both; zero: they touch
-/// otherwise, or overlap; negative: they are apart. Degenerate segments are the points that they
-/// are.
+/// otherwise, or overlap; negative: they are apart. Degenerate segments count as points.
 inline constexpr auto segments_intersect3d = predicate<points<3, 3, 3, 3>, homogeneous_options>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::segments_intersect(a, b, c, d);

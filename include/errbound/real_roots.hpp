@@ -249,8 +249,7 @@ class real_roots {
         return sign_of(value_at(p_.floating(), x));
     }
 
-    /// Narrows a root's interval to about double's precision, without integers; false if that
-    /// fails.
+    /// Narrows a root's interval to about double's precision, without integers. False on failure.
     bool narrow(interval& root) {
         if (root.is_point() || root.multiplicity % 2 == 0) return false;
         const sign_type before = floating_sign_at(enclosure({root.low, root.low}));

@@ -1,5 +1,4 @@
-// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), with its gaps
-// closed.
+// Bound rule `safe`: SafeBound (Wang 2014; Section 4.2 of the TightCCD paper), its gaps closed.
 //
 // A number is known by (B, k): |f| <= B and |f̂ − f| <= B[(1 + ε)^k − 1]. Closed here:
 //  * B is itself rounded: every B is multiplied by 1 + 4ε, so that it is at least the exact
