@@ -1,10 +1,14 @@
 // Batches on the device: arguments are checked, memory is shared out, the method's stages queued.
 #include <algorithm>
+#include <array>
 #include <ccd/cuda.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
-#include <vector>
+#include <type_traits>
+#include <utility>
 
 #include "ccd/cuda/batch.cuh"
 #include "ccd/cuda/device_methods.cuh"
@@ -18,10 +22,13 @@ struct entry {
     ccd::method method;
     const device_method* functions;  ///< null: exact
 };
-const entry table[] = {
-    {method::float_, &device_float},   {method::safe, &device_safe},
-    {method::tight, &device_tight},    {method::safeccd, &device_safeccd},
-    {method::exact, nullptr},          {method::safeccd_tight, &device_safeccd_tight},
+constexpr entry table[] = {
+    {method::float_, &device_float},
+    {method::safe, &device_safe},
+    {method::tight, &device_tight},
+    {method::safeccd, &device_safeccd},
+    {method::safeccd_tight, &device_safeccd_tight},
+    {method::exact, nullptr},
 };
 
 /// For CUB's own use: a few bytes for every thousand items, and what it keeps for each block.
@@ -29,23 +36,28 @@ std::size_t temporary_bytes(std::size_t candidates) {
     return (std::size_t(4) << 20) + candidates / 16;
 }
 
-/// Scratch memory, shared out.
+/// Scratch memory, of which fault_of_scratch finds nothing wrong: CUB's, and the rest.
 struct shares {
-    arena temporary, rest;
+    arena rest, temporary;
 
-    shares(const scratch& memory, std::size_t candidates) {
-        const std::size_t first = std::min(memory.bytes, temporary_bytes(candidates));
-        const std::size_t aligned = (first + arena::alignment - 1) / arena::alignment *
-                                    arena::alignment;
-        temporary = arena(memory.data, first);
-        if (aligned <= memory.bytes)
-            rest = arena(static_cast<std::byte*>(memory.data) + aligned, memory.bytes - aligned);
-    }
+    shares(const scratch& memory, std::size_t candidates)
+        : rest(memory.data, memory.bytes),
+          temporary(rest.take<std::byte>(temporary_bytes(candidates)),
+                    temporary_bytes(candidates)) {}
 };
 
-std::string needed(const std::string& what, std::size_t found, std::size_t expected) {
+std::string found_of(const std::string& what, std::size_t found, std::size_t expected) {
     return "ccd::cuda: found " + what + " of " + std::to_string(found) + ", expected " +
            std::to_string(expected);
+}
+
+std::string fault_of_scratch(const scratch& memory, std::size_t vertices, std::size_t candidates) {
+    if (memory.data == nullptr) return "ccd::cuda: found a null pointer, expected scratch memory";
+    if (reinterpret_cast<std::uintptr_t>(memory.data) % arena::alignment != 0)
+        return "ccd::cuda: found scratch memory at an address that is no multiple of 256";
+    const std::size_t bytes = scratch_bytes(vertices, candidates);
+    if (memory.bytes < bytes) return found_of("scratch memory", memory.bytes, bytes) + " bytes";
+    return {};
 }
 
 /// The largest number of candidates in one call: they are numbered in 32 bits, and one more.
@@ -54,31 +66,23 @@ constexpr std::size_t most_candidates = std::numeric_limits<std::uint32_t>::max(
 template <class Indices>
 std::string fault_of(const positions& at, const candidates<Indices>& candidates,
                      const outcome* answers, const scratch& memory, method m) {
-    if (std::ranges::find(device_methods(), m) == device_methods().end())
-        return "ccd::cuda: found the method " + std::string(info(m).name) +
-               ", expected one of device_methods()";
+    if (std::string fault = fault_of_method(m); !fault.empty()) return fault;
     if (candidates.count > most_candidates)
-        return needed("candidates", candidates.count, most_candidates) + " at most";
+        return found_of("candidates", candidates.count, most_candidates) + " at most";
     if (candidates.count == 0) return {};
     if (at.vertices == 0)
         return "ccd::cuda: found no vertices, or frames of different strides, expected positions";
     if (at.vertices > most_candidates)
-        return needed("vertices", at.vertices, most_candidates) + " at most";
-    const bool named =
-        candidates.of_rows != nullptr ||
-        (candidates.columns[0] != nullptr && candidates.columns[1] != nullptr &&
-         (candidates.elements != nullptr ||
-          (candidates.columns[2] != nullptr && candidates.columns[3] != nullptr)));
-    if (!named || !has_coordinates(at) || answers == nullptr || memory.data == nullptr)
+        return found_of("vertices", at.vertices, most_candidates) + " at most";
+    const bool named = candidates.of_rows != nullptr ||
+                       (candidates.columns[0] != nullptr && candidates.columns[1] != nullptr &&
+                        (candidates.elements != nullptr ||
+                         (candidates.columns[2] != nullptr && candidates.columns[3] != nullptr)));
+    if (!named || !has_coordinates(at) || answers == nullptr)
         return "ccd::cuda: found a null pointer, expected device memory";
     if (reinterpret_cast<std::uintptr_t>(candidates.of_rows) % 16 != 0)
         return "ccd::cuda: found rows of indices at an address that is no multiple of 16";
-    if (reinterpret_cast<std::uintptr_t>(memory.data) % arena::alignment != 0)
-        return "ccd::cuda: found scratch memory at an address that is no multiple of 256";
-    const std::size_t bytes = scratch_bytes(at.vertices, candidates.count);
-    if (memory.bytes < bytes)
-        return needed("scratch memory", memory.bytes, bytes) + " bytes";
-    return {};
+    return fault_of_scratch(memory, at.vertices, candidates.count);
 }
 
 template <class Indices>
@@ -88,15 +92,14 @@ status decide_any(const positions& at, const candidates<Indices>& candidates, ou
         !fault.empty())
         return {std::move(fault)};
     if (candidates.count == 0) return {};
-    const shares parts(memory, candidates.count);
+    shares parts(memory, candidates.count);
     device_launcher launcher(options.stream, parts.temporary);
-    arena rest = parts.rest;
     if (options.method == method::exact) {
-        const exact_memory all(rest, at.vertices, candidates.count);
+        const exact_memory all(parts.rest, at.vertices, candidates.count);
         run_rounding(launcher, at, all.scene, all.rows);
         queue_exact(launcher, at, candidates, answers, all, options.precision);
     } else {
-        queue_float_method(launcher, at, candidates, answers, rest, options);
+        queue_float_method(launcher, at, candidates, answers, parts.rest, options);
     }
     return launcher.result();
 }
@@ -109,32 +112,32 @@ status finish_any(const positions& at, const candidates<Indices>& candidates, ou
         return {std::move(fault)};
     if (counts != nullptr) *counts = {};
     if (candidates.count == 0 || options.method != method::exact) return {};
-    const shares parts(memory, candidates.count);
+    shares parts(memory, candidates.count);
     device_launcher launcher(options.stream, parts.temporary);
-    arena rest = parts.rest;
-    const exact_memory all(rest, at.vertices, candidates.count);
+    const exact_memory all(parts.rest, at.vertices, candidates.count);
     const exact_counters c = finish_exact(launcher, at, candidates, answers, all);
     if (launcher.ok() && c.left > candidates.count)
-        launcher.fail("ccd::cuda: found scratch memory that decide_batch did not leave for these "
-                      "candidates");
+        launcher.fail(
+            "ccd::cuda: found scratch memory that decide_batch did not leave for these "
+            "candidates");
     if (counts != nullptr && launcher.ok())
-        *counts = {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside,
-                   c.subdivision, c.one_word, c.two_words, c.left};
+        *counts = {static_cast<std::uint32_t>(candidates.count),
+                   c.coplanarity,
+                   c.inside,
+                   c.subdivision,
+                   c.one_word,
+                   c.two_words,
+                   c.left};
     return launcher.result();
 }
 
-template <class Indices>
-void queue_by(const device_method& m, device_launcher& launcher, const positions& at,
-              const candidates<Indices>& candidates, outcome* answers, arena memory,
-              precision p) {
-    const auto& functions = p == precision::float32 ? m.float32 : m.float64;
-    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
-        functions.vertex_face(launcher, at, candidates, answers, memory);
-    else
-        functions.edge_edge(launcher, at, candidates, answers, memory);
-}
-
 }  // namespace
+
+std::string fault_of_method(method m) {
+    if (std::ranges::find(table, m, &entry::method) != std::end(table)) return {};
+    return "ccd::cuda: found the method " + std::string(info(m).name) +
+           ", expected one of device_methods()";
+}
 
 bool has_coordinates(const positions& at) {
     const auto all = [](const positions::frame& frame) {
@@ -147,8 +150,12 @@ template <class Indices>
 void queue_float_method(device_launcher& launcher, const positions& at,
                         const candidates<Indices>& candidates, outcome* answers, arena memory,
                         const batch_options& options) {
-    queue_by(*std::ranges::find(table, options.method, &entry::method)->functions, launcher, at,
-             candidates, answers, memory, options.precision);
+    const device_method& m = *std::ranges::find(table, options.method, &entry::method)->functions;
+    const auto& functions = options.precision == precision::float32 ? m.float32 : m.float64;
+    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
+        functions.vertex_face(launcher, at, candidates, answers, memory);
+    else
+        functions.edge_edge(launcher, at, candidates, answers, memory);
 }
 template void queue_float_method(device_launcher&, const positions&,
                                  const candidates<vertex_face_indices>&, outcome*, arena,
@@ -158,26 +165,28 @@ template void queue_float_method(device_launcher&, const positions&,
                                  const batch_options&);
 
 std::span<const method> device_methods() {
-    static constexpr method all[] = {method::float_,  method::safe,          method::tight,
-                                     method::safeccd, method::safeccd_tight, method::exact};
+    static constexpr auto all = [] {
+        std::array<method, std::size(table)> methods{};
+        std::ranges::transform(table, methods.begin(), &entry::method);
+        return methods;
+    }();
     return all;
 }
 
 status device_status() {
     int count = 0;
     device_launcher launcher(nullptr);
-    if (launcher.check(cudaGetDeviceCount(&count)) && count == 0)
-        launcher.fail("CUDA: no device");
+    if (launcher.check(cudaGetDeviceCount(&count)) && count == 0) launcher.fail("CUDA: no device");
     return launcher.result();
 }
 
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates) {
-    arena exact, other, place;
+    arena temporary, exact, other, place;
+    temporary.take<std::byte>(temporary_bytes(candidates));
     (void)exact_memory(exact, vertices, candidates);
     (void)method_memory(other, candidates);
     place.take<std::uint32_t>(candidates + 1);
-    return (temporary_bytes(candidates) + arena::alignment) / arena::alignment * arena::alignment +
-           std::max({exact.used(), other.used(), place.used()});
+    return temporary.used() + std::max({exact.used(), other.used(), place.used()});
 }
 
 status decide_batch(const positions& positions, const candidates<vertex_face_indices>& candidates,
@@ -202,19 +211,16 @@ status finish(const positions& positions, const candidates<edge_edge_indices>& c
 status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
                         std::size_t room, index* count, scratch memory, stream stream) {
     if (answer_count > most_candidates)
-        return {needed("answers", answer_count, most_candidates) + " at most"};
+        return {found_of("answers", answer_count, most_candidates) + " at most"};
     if ((answer_count > 0 && answers == nullptr) || (room > 0 && found == nullptr) ||
-        count == nullptr || memory.data == nullptr)
+        count == nullptr)
         return {"ccd::cuda: found a null pointer, expected device memory"};
-    if (reinterpret_cast<std::uintptr_t>(memory.data) % arena::alignment != 0)
-        return {"ccd::cuda: found scratch memory at an address that is no multiple of 256"};
-    if (memory.bytes < scratch_bytes(0, answer_count))
-        return {needed("scratch memory", memory.bytes, scratch_bytes(0, answer_count)) + " bytes"};
-    const shares parts(memory, answer_count);
+    if (std::string fault = fault_of_scratch(memory, 0, answer_count); !fault.empty())
+        return {std::move(fault)};
+    shares parts(memory, answer_count);
     device_launcher launcher(stream, parts.temporary);
-    arena rest = parts.rest;
     run_select(launcher, answers, answer_count, found, room, count,
-               rest.take<std::uint32_t>(answer_count + 1));
+               parts.rest.take<std::uint32_t>(answer_count + 1));
     return launcher.result();
 }
 

@@ -1,9 +1,14 @@
 // What steps use of batches. Internal.
 #pragma once
 
+#include <string>
+
 #include "ccd/cuda/launch.cuh"
 
 namespace ccd::cuda {
+
+/// What is wrong with asking a device for that method, as status tells it; empty if nothing.
+std::string fault_of_method(method m);
 
 /// Whether no pointer to coordinates is null.
 bool has_coordinates(const positions& at);

@@ -35,7 +35,7 @@ struct scene_extent {
     rounded_axes::extent box;
     bool finite;
 
-    /// A power of two by which no difference of coordinates exceeds 4 in size.
+    /// A power of two, times which no difference of coordinates exceeds 4 in size.
     constexpr double power_of_two() const {
         using traits = errbound::number_traits<double>;
         double half_extent = 0;
@@ -56,13 +56,12 @@ struct extent_of_vertex {
 
     constexpr scene_extent operator()(std::uint32_t v) const {
         auto e = scene_extent::nothing();
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double before = coordinate_before(at, k, v), after = coordinate_after(at, k, v);
-            e.box.widen(k, before);
-            e.box.widen(k, after);
-            e.finite = e.finite && errbound::number_traits<double>::is_finite(before) &&
-                       errbound::number_traits<double>::is_finite(after);
-        }
+        for (const auto* frame : {&at.before, &at.after})
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double x = coordinate_at(at, *frame, k, v);
+                e.box.widen(k, x);
+                e.finite = e.finite && errbound::number_traits<double>::is_finite(x);
+            }
         return e;
     }
 };
@@ -85,23 +84,22 @@ struct round_vertex {
 
     constexpr void operator()(std::uint32_t v) const {
         const rounded_axes::frame rounded(scene->box);
-        const auto row = [&](const auto& coordinate) {
-            return rounded_position{rounded(0, coordinate(0)), rounded(1, coordinate(1)),
-                                    rounded(2, coordinate(2)), 0};
+        const auto row = [&](const positions::frame& frame) {
+            const auto x = [&](std::size_t k) {
+                return rounded(k, coordinate_at(at, frame, k, v));
+            };
+            return rounded_position{x(0), x(1), x(2), 0};
         };
-        rows[2 * std::size_t(v)] =
-            row([&](std::size_t axis) { return coordinate_before(at, axis, v); });
-        rows[2 * std::size_t(v) + 1] =
-            row([&](std::size_t axis) { return coordinate_after(at, axis, v); });
+        rows[2 * std::size_t(v)] = row(at.before);
+        rows[2 * std::size_t(v) + 1] = row(at.after);
     }
 };
 
 /// What every stage knows.
 template <class Indices>
 struct exact_stage {
-    using forms_type = typename query_kind<Indices>::template forms<double>;
     template <class S>
-    using forms_template = typename query_kind<Indices>::template forms<S>;
+    using forms = typename query_kind<Indices>::template forms<S>;
 
     positions at;
     cuda::candidates<Indices> candidates;
@@ -141,18 +139,17 @@ struct axes_stage : exact_stage<Indices> {
 /// What the tests of coefficients share. In floats, differences come in units of the scene's size.
 template <class Indices, class Real>
 struct coefficient_stage : exact_stage<Indices> {
-    using forms_type = typename query_kind<Indices>::template forms<Real>;
     template <class S>
-    using forms_template = typename query_kind<Indices>::template forms<S>;
+    using forms = typename exact_stage<Indices>::template forms<S>;
 
     const scene_extent* scene;
 
   protected:
     /// The query's forms. Differences are rounded once in doubles, and to floats where asked for:
     /// off by at most ε each, as error_count::difference() says, and by η where that underflows.
-    constexpr forms_type forms_of_query(const query_of_kind<Indices, double>& query) const {
+    constexpr forms<Real> forms_of_query(const query_of_kind<Indices, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
-            return forms_type(query);
+            return forms<double>(query);
         } else {
             const double unit = scene->power_of_two();
             const auto converted = [unit](const vector_form<double, 1>& v) {
@@ -162,8 +159,9 @@ struct coefficient_stage : exact_stage<Indices> {
                 };
                 return vector_form<float, 1>{of(v.x), of(v.y), of(v.z)};
             };
-            const typename query_kind<Indices>::template forms<double> exact(query);
-            return forms_type(converted(exact.b), converted(exact.c), converted(exact.p));
+            const forms<double> in_doubles(query);
+            return forms<float>(converted(in_doubles.b), converted(in_doubles.c),
+                                converted(in_doubles.p));
         }
     }
     /// Whether comparisons may be believed.
@@ -190,7 +188,7 @@ struct coplanarity_stage : coefficient_stage<Indices, Real> {
         const auto forms = this->forms_of_query(query);
         const static_filter::sizes<Real> sizes(forms);
         const auto y = errbound::control_values_of(forms.y());
-        const Real error = sizes.template error_of_y<base::template forms_template>();
+        const Real error = sizes.template error_of_y<base::template forms>();
         const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
         if (!this->usable(sizes) || !rootless) this->open.push(i);
     }
@@ -204,7 +202,7 @@ struct inside_stage : coefficient_stage<Indices, Real> {
     constexpr void operator()(std::uint32_t i) const {
         const auto forms = this->forms_of_query(this->query(i));
         const static_filter::sizes<Real> sizes(forms);
-        const static_filter::whole_step<Real, base::template forms_template> whole(forms, sizes);
+        const static_filter::whole_step<Real, base::template forms> whole(forms, sizes);
         if (!this->usable(sizes) || !whole.outside()) this->open.push(i);
     }
 };
@@ -215,11 +213,10 @@ struct subdivision_stage : exact_stage<Indices> {
     using base = exact_stage<Indices>;
 
     constexpr void operator()(std::uint32_t i) const {
-        const typename base::forms_type forms(this->query(i));
+        const typename base::template forms<double> forms(this->query(i));
         const static_filter::sizes<double> sizes(forms);
         if (sizes.usable) {
-            const static_filter::whole_step<double, base::template forms_template> whole(forms,
-                                                                                         sizes);
+            const static_filter::whole_step<double, base::template forms> whole(forms, sizes);
             const outcome found = subdivide(whole);
             this->answers[i] = found;
             if (found != outcome::uncertain) return;
@@ -261,10 +258,15 @@ struct exact_memory {
     std::uint32_t *first, *second;  ///< queues' items, in turn
     std::uint32_t* left;
 
+    /// In braces, so that memory is taken in one order always.
     exact_memory(arena& from, std::size_t vertices, std::size_t candidates)
+        : exact_memory{from, from.take<scene_extent>(1), from.take<rounded_position>(2 * vertices),
+                       candidates} {}
+    /// Of positions whose rounding has a place already.
+    exact_memory(arena& from, scene_extent* scene_, rounded_position* rows_, std::size_t candidates)
         : counters(from.take<exact_counters>(1)),
-          scene(from.take<scene_extent>(1)),
-          rows(from.take<rounded_position>(2 * vertices)),
+          scene(scene_),
+          rows(rows_),
           first(from.take<std::uint32_t>(queue_items(candidates))),
           second(from.take<std::uint32_t>(queue_items(candidates))),
           left(from.take<std::uint32_t>(candidates)) {}
@@ -320,14 +322,6 @@ void run_exact_stages(Launcher& launcher, const positions& at,
     launcher.for_each_queued(after_subdivision,
                              integer_stage<Indices, 1>{stage(after_one_word), left});
     launcher.for_each_queued(after_one_word, integer_stage<Indices, 2>{stage(left), left});
-}
-
-/// Queues everything.
-template <class Launcher, class Indices>
-void run_exact(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
-               outcome* answers, const exact_memory& memory, precision p) {
-    run_rounding(launcher, at, memory.scene, memory.rows);
-    run_exact_stages(launcher, at, candidates, answers, memory, p);
 }
 
 }  // namespace ccd::cuda

@@ -51,10 +51,11 @@ struct padded {
     }
 };
 
-/// Runs bodies on the current device, in order on one stream. After the first error it does no more.
+/// Runs bodies on the current device, in order on one stream; after the first error, nothing.
 class device_launcher {
   public:
-    explicit device_launcher(stream s, std::optional<arena> temporary = {}) : stream_(s), temporary_(temporary) {}
+    explicit device_launcher(stream s, std::optional<arena> temporary = {})
+        : stream_(s), temporary_(temporary) {}
 
     template <class T>
     class buffer {
@@ -119,9 +120,8 @@ class device_launcher {
     void reduce(std::size_t n, const Of& of, const Combine& combine, const T& start, T* r) {
         const auto items = thrust::make_counting_iterator(std::uint32_t(0));
         with_temporary([&](void* memory, std::size_t& bytes) {
-            return cub::DeviceReduce::TransformReduce(memory, bytes, items, r,
-                                                      static_cast<std::int64_t>(n), combine, of,
-                                                      start, stream_);
+            return cub::DeviceReduce::TransformReduce(
+                memory, bytes, items, r, static_cast<std::int64_t>(n), combine, of, start, stream_);
         });
     }
     template <class In, class Out>
@@ -184,8 +184,8 @@ class device_launcher {
         check(cudaLaunchKernelEx(&configuration, kernel, arguments...));
     }
 
-    /// Calls one of CUB's functions, first for what memory it needs. That comes from `temporary`, or
-    /// from a buffer if there is none.
+    /// Calls one of CUB's functions, first for what memory it needs. That comes from `temporary`,
+    /// or from a buffer if there is none.
     template <class Call>
     void with_temporary(const Call& call) {
         if (!ok()) return;

@@ -1,14 +1,13 @@
 // How kernel bodies are run: by loops on the host here, by kernels in ccd/cuda/launch.cuh.
 //
-// A body is a small object, all of whose members may be copied to the device, and
-// body(i) does the work for item i. The functions are constexpr, which makes them device code where
-// nvcc compiles them (--expt-relaxed-constexpr), and plain host code elsewhere: so tests run the
-// same bodies, indices and queues without a device.
+// A body is a small object, all of whose members may be copied to the device, and body(i) does the
+// work for item i. The functions are constexpr, which makes them device code where nvcc compiles
+// them (--expt-relaxed-constexpr), and plain host code elsewhere: so tests run the same bodies,
+// indices and queues without a device.
 //
 // A launcher has:
-//   buffer<T>                          memory that bodies see: resize(launcher, n), which loses
-//   what
-//                                      is there, extend(launcher, n), data(), size()
+//   buffer<T>                          memory that bodies see: resize(launcher, n), which may lose
+//                                      what is there, extend(launcher, n), data(), size()
 //   for_each(n, body)                  body(i) for all i < n, in any order
 //   for_each_queued(queue, body)       body(item) for all items that the queue holds by then
 //   set(p, value)                      *p = value, in the order of the other work
@@ -34,8 +33,7 @@ struct queue {
     std::uint32_t* items;
     std::uint32_t* size;
 
-    /// On the device from any thread. Those of a warp that push together share one atomic
-    /// operation.
+    /// On the device from any thread; those of a warp that push together share one atomic addition.
     constexpr void push(std::uint32_t item) const {
 #ifdef __CUDA_ARCH__
         const unsigned active = __activemask();
@@ -52,7 +50,7 @@ struct queue {
     }
 };
 
-/// A part of one piece of memory after the other. Without memory it only counts.
+/// Shares out one piece of memory, part after part. Without memory it only counts.
 class arena {
   public:
     static constexpr std::size_t alignment = 256;

@@ -37,9 +37,9 @@ struct scatter_answers {
     constexpr void operator()(std::uint32_t k) const { answers[numbers[k]] = found[k]; }
 };
 
-/// Decides on the host, by all its threads, what run_exact left open; waits until the answers are
-/// written. Returns the counters; if more candidates were left than there are, the memory is not
-/// that of these candidates, and nothing is done.
+/// Decides on the host, by all its threads, what run_exact_stages left open; waits until the
+/// answers are written. Returns the counters; if more candidates were left than there are, the
+/// memory is not that of these candidates, and nothing is done.
 template <class Launcher, class Indices>
 exact_counters finish_exact(Launcher& launcher, const positions& at,
                             const candidates<Indices>& candidates, outcome* answers,

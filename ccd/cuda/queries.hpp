@@ -59,28 +59,22 @@ constexpr Indices indices_of(const candidates<Indices>& c, std::uint32_t i) {
     }
 }
 
-/// The number at `place`, which double holds exactly.
-constexpr double number_at(const void* numbers, bool in_floats, std::size_t place) {
-    return in_floats ? double(static_cast<const float*>(numbers)[place])
-                     : static_cast<const double*>(numbers)[place];
-}
-
-/// Coordinate `axis` of a vertex at t = 0.
-constexpr double coordinate_before(const positions& p, std::size_t axis, index vertex) {
-    return number_at(p.before.axis[axis], p.in_floats, p.stride * vertex);
-}
-constexpr double coordinate_after(const positions& p, std::size_t axis, index vertex) {
-    return number_at(p.after.axis[axis], p.in_floats, p.stride * vertex);
+/// Coordinate `axis` of a vertex in one of the two frames; double holds floats exactly.
+constexpr double coordinate_at(const positions& p, const positions::frame& frame, std::size_t axis,
+                               index vertex) {
+    const std::size_t place = p.stride * vertex;
+    return p.in_floats ? double(static_cast<const float*>(frame.axis[axis])[place])
+                       : static_cast<const double*>(frame.axis[axis])[place];
 }
 
 /// A query's points, in T: double, or float where positions are in floats.
 template <class T, class Indices>
 constexpr query_of_kind<Indices, T> query_at(const positions& p, const Indices& indices) {
     const auto at = [&](const positions::frame& frame, index v) {
-        const auto number = [&](std::size_t axis) {
-            return static_cast<T>(number_at(frame.axis[axis], p.in_floats, p.stride * v));
+        const auto coordinate = [&](std::size_t axis) {
+            return static_cast<T>(coordinate_at(p, frame, axis, v));
         };
-        return point<T>{number(0), number(1), number(2)};
+        return point<T>{coordinate(0), coordinate(1), coordinate(2)};
     };
     const auto moving = [&](index v) { return moving_point<T>{at(p.before, v), at(p.after, v)}; };
     const auto [a, b, c, d] = vertices_of(indices);

@@ -1,6 +1,4 @@
 // Steps on the device, and batches from and to host memory.
-#include "ccd/cuda/step.hpp"
-
 #include <algorithm>
 #include <ccd/cuda.hpp>
 #include <stdexcept>
@@ -9,8 +7,8 @@
 
 #include "ccd/cuda/batch.cuh"
 #include "ccd/cuda/device_methods.cuh"
-#include "ccd/cuda/method_stages.hpp"
 #include "ccd/cuda/pairs.hpp"
+#include "ccd/cuda/step.hpp"
 #include "ccd/step_parts.hpp"
 
 namespace ccd::cuda {
@@ -49,9 +47,8 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
                 std::to_string(state_->vertices)};
     if (positions.vertices > 0 && !has_coordinates(positions))
         return {"ccd::cuda: found a null pointer, expected positions"};
-    if (std::ranges::find(device_methods(), options.method) == device_methods().end())
-        return {"ccd::cuda: found the method " + std::string(info(options.method).name) +
-                ", expected one of device_methods()"};
+    if (std::string fault = fault_of_method(options.method); !fault.empty())
+        return {std::move(fault)};
     if (positions.vertices == 0) return {};
     device_launcher& launcher = state_->launcher;
     launcher.begin(options.stream);
@@ -63,7 +60,7 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
     const auto decide = [&](const auto& block, outcome* answers, scene_extent* scene,
                             rounded_position* rows) -> std::size_t {
         arena needed;
-        (void)exact_memory(needed, 0, block.count);
+        (void)exact_memory(needed, scene, rows, block.count);  // a method_memory needs less
         state_->batch.resize(launcher, needed.used());
         if (!launcher.ok()) return 0;
         arena given(state_->batch.data(), state_->batch.size());
@@ -71,17 +68,15 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
             queue_float_method(launcher, positions, block, answers, given, options);
             return 0;
         }
-        exact_memory all(given, 0, block.count);
-        all.scene = scene;
-        all.rows = rows;
+        const exact_memory all(given, scene, rows, block.count);
         queue_exact(launcher, positions, block, answers, all, options.precision);
         return finish_exact(launcher, positions, block, answers, all).left;
     };
     const auto pairs = memory.run(launcher, positions, decide);
     if (launcher.ok() && !pairs.finite) return {"ccd::cuda: a coordinate is not finite"};
     if (launcher.ok())
-        found = {memory.vertex_face().data(), pairs.vertex_face,
-                 memory.edge_edge().data(),   pairs.edge_edge,
+        found = {memory.vertex_face().data(),  pairs.vertex_face,
+                 memory.edge_edge().data(),    pairs.edge_edge,
                  pairs.vertex_face_candidates, pairs.edge_edge_candidates,
                  pairs.finished_on_host};
     return launcher.result();
@@ -89,23 +84,18 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
 
 namespace {
 
-const double* numbers_of(const std::vector<point<double>>& points) {
-    static_assert(sizeof(point<double>) == 3 * sizeof(double));
-    return reinterpret_cast<const double*>(points.data());
-}
-
 /// Rows of vertices in device memory.
 struct device_frames {
     device_launcher::buffer<double> before, after;
 
-    positions copy(device_launcher& launcher, const double* at_start, const double* at_end,
-                   std::size_t vertices) {
-        before.resize(launcher, 3 * vertices);
-        after.resize(launcher, 3 * vertices);
-        launcher.write(before.data(), 3 * vertices, at_start);
-        launcher.write(after.data(), 3 * vertices, at_end);
+    positions copy(device_launcher& launcher, const vertex_rows& host) {
+        const std::size_t numbers = 3 * host.vertices;
+        before.resize(launcher, numbers);
+        after.resize(launcher, numbers);
+        launcher.write(before.data(), numbers, host.before);
+        launcher.write(after.data(), numbers, host.after);
         return positions(coordinates<double>::rows(before.data()),
-                         coordinates<double>::rows(after.data()), vertices);
+                         coordinates<double>::rows(after.data()), host.vertices);
     }
 };
 
@@ -116,7 +106,7 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
         throw std::invalid_argument("ccd::cuda::decide: " + std::to_string(queries.size()) +
                                     " queries, but room for " + std::to_string(answers.size()) +
                                     " answers");
-    constexpr std::size_t block = std::size_t(1) << 20, points = 4;
+    constexpr std::size_t block = std::size_t(1) << 20;
     device_launcher launcher(options.stream);
     device_frames frames;
     device_launcher::buffer<Indices> rows;
@@ -132,8 +122,7 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
             indices.push_back({v, v + 1, v + 2, v + 3});
             for (const auto& p : points_of(q)) before.push_back(p.t0), after.push_back(p.t1);
         }
-        const positions at = frames.copy(launcher, numbers_of(before), numbers_of(after),
-                                         points * part.size());
+        const positions at = frames.copy(launcher, vertex_rows(before, after));
         rows.resize(launcher, part.size());
         launcher.write(rows.data(), part.size(), indices.data());
         found.resize(launcher, part.size());
@@ -167,8 +156,7 @@ status step(const mesh& before, const mesh& after, const step_options& options, 
     device_launcher launcher(nullptr);
     device_frames frames;
     mesh_steps steps(before.faces, before.vertices.size());
-    const positions at = frames.copy(launcher, numbers_of(before.vertices),
-                                     numbers_of(after.vertices), before.vertices.size());
+    const positions at = frames.copy(launcher, vertex_rows(before, after));
     if (!launcher.ok()) return launcher.result();
     result.prepare_seconds = watch.lap();
 

@@ -83,12 +83,13 @@ constexpr bool exactly_touch(const positions& at, const std::array<index, A>& a,
                              const std::array<index, B>& b) {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto range = [&](const auto& vertices) {
-            double low = coordinate_before(at, k, vertices[0]), high = low;
-            for (const index v : vertices) {
-                const double x0 = coordinate_before(at, k, v), x1 = coordinate_after(at, k, v);
-                low = std::min(low, std::min(x0, x1));
-                high = std::max(high, std::max(x0, x1));
-            }
+            double low = coordinate_at(at, at.before, k, vertices[0]), high = low;
+            for (const auto* frame : {&at.before, &at.after})
+                for (const index v : vertices) {
+                    const double x = coordinate_at(at, *frame, k, v);
+                    low = std::min(low, x);
+                    high = std::max(high, x);
+                }
             return std::pair(low, high);
         };
         const auto x = range(a), y = range(b);
@@ -194,6 +195,14 @@ struct make_node {
     }
 };
 
+/// Calls visit with the candidate of two elements, if they are one. `certain`: their boxes are
+/// known to touch.
+template <std::size_t A, std::size_t B, class Visit>
+constexpr void visit_candidate(const positions& at, const std::array<index, A>& a,
+                               const std::array<index, B>& b, bool certain, const Visit& visit) {
+    if (!share_vertex(a, b) && (certain || exactly_touch(at, a, b))) visit(candidate_of(a, b));
+}
+
 /// Calls visit(candidate) for all candidates of the vertices in the tree with face i.
 struct face_search {
     using indices = vertex_face_indices;
@@ -209,8 +218,7 @@ struct face_search {
         const rounded_box b = swept_box(rows, f);
         tree.find(b, 0, [&](std::uint32_t leaf) {
             const std::array<index, 1> v{tree.order[leaf]};
-            if (share_vertex(v, f)) return;
-            if (tree.boxes[leaf].overlaps(b) || exactly_touch(at, v, f)) visit(candidate_of(v, f));
+            visit_candidate(at, v, f, tree.boxes[leaf].overlaps(b), visit);
         });
     }
 };
@@ -219,7 +227,6 @@ struct face_search {
 struct edge_search {
     using indices = edge_edge_indices;
     positions at;
-    const rounded_position* rows;
     box_levels tree;  ///< of all edges
     elements<2> searching;
 
@@ -229,9 +236,7 @@ struct edge_search {
         const rounded_box b = tree.boxes[i];
         tree.find(b, std::size_t(i) + 1, [&](std::uint32_t leaf) {
             const edge other = searching[tree.order[leaf]];
-            if (share_vertex(mine, other)) return;
-            if (!tree.boxes[leaf].overlaps(b) && !exactly_touch(at, mine, other)) return;
-            visit(candidate_of(mine, other));
+            visit_candidate(at, mine, other, tree.boxes[leaf].overlaps(b), visit);
         });
     }
 };
@@ -332,7 +337,7 @@ class step_memory {
         }
         {
             const box_levels tree = make_tree(launcher, edges, tree_, order_);
-            const edge_search search{at, rows_.data(), tree, edges};
+            const edge_search search{at, tree, edges};
             found.edge_edge_candidates =
                 run_search(launcher, search, edges.count, decide, edge_edge_, found.edge_edge,
                            found.finished_on_host);
@@ -383,8 +388,8 @@ class step_memory {
         launcher.read(numbers_.data() + searches, 1, &total);
 
         const auto at_once = static_cast<std::size_t>(std::min<std::uint64_t>(total, block_));
-        // A buffer of rows of four indices serves both kinds.
-        auto* const rows = reinterpret_cast<Indices*>(block_rows(launcher, at_once));
+        block_rows_.resize(launcher, at_once);
+        auto* const rows = reinterpret_cast<Indices*>(block_rows_.data());
         answers_.resize(launcher, at_once);
         place_.resize(launcher, at_once + 1);
         numbers_found_.resize(launcher, at_once);
@@ -410,11 +415,6 @@ class step_memory {
         return static_cast<std::size_t>(total);
     }
 
-    std::array<index, 4>* block_rows(Launcher& launcher, std::size_t count) {
-        block_rows_.resize(launcher, count);
-        return block_rows_.data();
-    }
-
     std::size_t block_;
     std::size_t vertices_ = 0;
     buffer<face> faces_;
@@ -424,7 +424,7 @@ class step_memory {
     buffer<rounded_box> tree_;
     buffer<std::uint32_t> keys_, order_, search_order_, counts_, place_;
     buffer<std::uint64_t> numbers_;
-    buffer<std::array<index, 4>> block_rows_;
+    buffer<std::array<index, 4>> block_rows_;  // of either kind
     buffer<outcome> answers_;
     buffer<index> numbers_found_, count_found_;
     buffer<vertex_face_indices> vertex_face_;

@@ -2,23 +2,29 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <ccd/bsc.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/single_precision.hpp>
 #include <ccd/step.hpp>
+#include <ccd/transform.hpp>
 #include <cstddef>
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "ccd/cuda/exact_stages.hpp"
-#include "ccd/cuda/method_stages.hpp"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/step.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/step_parts.hpp"
+#include "tests/cuda/on_host.hpp"
 #include "tests/cuda/sets.hpp"
 
 #if defined(__SSE2__)
@@ -34,43 +40,11 @@ using ccd::cuda::coordinates;
 using ccd::cuda::host_launcher;
 using ccd::cuda::positions;
 using ccd::cuda::precision;
+using cuda_on_host::decide_by;
+using cuda_on_host::laid_out;
 using cuda_sets::batch;
-
-/// Memory for a layout: `make(arena)` is called once to count, once to take.
-template <class Memory>
-class laid_out {
-  public:
-    template <class... Sizes>
-    explicit laid_out(Sizes... sizes) : bytes_(counted(sizes...)), memory_(taken(sizes...)) {}
-    const Memory& operator*() const { return memory_; }
-    const Memory* operator->() const { return &memory_; }
-
-  private:
-    template <class... Sizes>
-    static std::size_t counted(Sizes... sizes) {
-        ccd::cuda::arena count;
-        (void)Memory(count, sizes...);
-        return count.used() + ccd::cuda::arena::alignment;
-    }
-    template <class... Sizes>
-    Memory taken(Sizes... sizes) {
-        void* start = bytes_.data();
-        std::size_t room = bytes_.size();
-        std::align(ccd::cuda::arena::alignment, 1, start, room);
-        ccd::cuda::arena from(start, room);
-        return Memory(from, sizes...);
-    }
-
-    std::vector<std::byte> bytes_;
-    Memory memory_;
-};
-
-template <class Indices>
-positions positions_of(const batch<Indices>& set) {
-    return positions(coordinates<double>::rows(cuda_sets::numbers_of(set.before)),
-                     coordinates<double>::rows(cuda_sets::numbers_of(set.after)),
-                     set.before.size());
-}
+using cuda_sets::data_folder;
+using cuda_sets::positions_of;
 
 /// `exact` to the end, host's part included.
 template <class Indices>
@@ -81,7 +55,8 @@ std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>
     // Nothing may rely on what was there.
     std::vector<outcome> answers(all.count, outcome::collides);
     const laid_out<ccd::cuda::exact_memory> memory(at.vertices, all.count);
-    run_exact(launcher, at, all, answers.data(), *memory, p);
+    run_rounding(launcher, at, memory->scene, memory->rows);
+    run_exact_stages(launcher, at, all, answers.data(), *memory, p);
     // What is left to the host must not look separate to those who do not ask it.
     for (std::uint32_t k = 0; k < memory->counters->left; ++k)
         EXPECT_EQ(answers[memory->left[k]], outcome::uncertain);
@@ -90,20 +65,8 @@ std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>
     return answers;
 }
 
-template <class Method, class T, class Indices>
-std::vector<outcome> decide_by(const batch<Indices>& set) {
-    host_launcher launcher;
-    std::vector<outcome> answers(set.size(), outcome::collides);
-    const laid_out<ccd::cuda::method_memory> memory(set.size());
-    ccd::cuda::run_method<Method, T>(launcher, positions_of(set),
-                                     candidates<Indices>::rows(set.rows.data(), set.size()),
-                                     answers.data(), *memory);
-    return answers;
-}
-
 std::uint64_t queries_per_family() {
-    const char* text = std::getenv("ERRBOUND_DEVICE_QUERIES");
-    return text == nullptr ? 200 : std::strtoull(text, nullptr, 10);
+    return cuda_sets::queries_per_family(200);
 }
 
 template <class Indices>
@@ -112,80 +75,114 @@ const batch<Indices>& difficult() {
     return set;
 }
 
-fs::path data_folder() {
-    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
-    return ERRBOUND_SHARED_DATA;
-}
-
 template <class Indices>
 class device_bodies : public testing::Test {};
 using kinds = testing::Types<ccd::vertex_face_indices, ccd::edge_edge_indices>;
 TYPED_TEST_SUITE(device_bodies, kinds);
 
+/// How many queries entered each stage of `exact`, the first one to the host.
+using entered = std::array<std::size_t, 7>;
+
 template <class Indices>
-void expect_exact(const batch<Indices>& set) {
+entered expect_exact(const batch<Indices>& set, const std::vector<outcome>& truth, precision p) {
+    ccd::cuda::exact_counters c{};
+    const auto answers = decide_exact(set.positions(), set.candidates(), p, &c);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) wrong += answers[i] != truth[i];
+    EXPECT_EQ(wrong, 0u);
+    return {set.size(), c.coplanarity, c.inside, c.subdivision, c.one_word, c.two_words, c.left};
+}
+template <class Indices>
+std::vector<outcome> truth_of(const batch<Indices>& set) {
     std::vector<outcome> truth;
     for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
-    std::cout << set.size() << " queries, " << std::ranges::count(truth, outcome::collides)
-              << " collide\n";
-    for (const precision p : {precision::float64, precision::float32}) {
-        ccd::cuda::exact_counters counters{};
-        const auto answers =
-            decide_exact(positions_of(set), candidates<Indices>::rows(set.rows.data(), set.size()),
-                         p, &counters);
-        for (std::size_t i = 0; i < set.size(); ++i)
-            ASSERT_EQ(answers[i], truth[i]) << "query " << i;
-        std::cout << "past the axes " << counters.coplanarity << ", coplanarity " << counters.inside
-                  << ", inside " << counters.subdivision << "; integers of one word "
-                  << counters.one_word << ", of two " << counters.two_words << ", left to the host "
-                  << counters.left << '\n';
+    return truth;
+}
+/// Else a stage could be left out unnoticed: the next ones would decide its queries as well.
+void expect_every_stage_to_settle_some(const entered& stages) {
+    const char* const names[] = {"axes",        "coplanarity",      "inside",
+                                 "subdivision", "integers, 1 word", "integers, 2 words"};
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
+        std::cout << names[i] << ' ' << stages[i] << ", ";
+        EXPECT_LT(stages[i + 1], stages[i]) << names[i];
     }
+    std::cout << "host " << stages.back() << '\n';
 }
 
 TYPED_TEST(device_bodies, exact_is_exact) {
-    expect_exact(difficult<TypeParam>());
+    const auto& set = difficult<TypeParam>();
+    const auto truth = truth_of(set);
+    expect_every_stage_to_settle_some(expect_exact(set, truth, precision::float64));
+    // All families are one scene here, in whose units floats tell next to nothing.
+    expect_exact(set, truth, precision::float32);
 }
 
 // Each family is a scene of its own, of one scale or another, where floats tell something.
 TYPED_TEST(device_bodies, exact_is_exact_in_scenes_of_one_scale) {
-    for (const auto& family : query_families::families) {
-        SCOPED_TRACE(family.name);
-        expect_exact(cuda_sets::of_family<TypeParam>(family, queries_per_family(), 12));
+    for (const precision p : {precision::float64, precision::float32}) {
+        entered all{};
+        for (const auto& family : query_families::families) {
+            SCOPED_TRACE(family.name);
+            const auto set = cuda_sets::of_family<TypeParam>(family, queries_per_family(), 12);
+            const auto stages = expect_exact(set, truth_of(set), p);
+            std::ranges::transform(all, stages, all.begin(), std::plus<>());
+        }
+        expect_every_stage_to_settle_some(all);
     }
 }
 
 TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
     if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    expect_exact(cuda_sets::stored<TypeParam>(data_folder()));
+    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    const auto truth = truth_of(set);
+    for (const precision p : {precision::float64, precision::float32})
+        expect_every_stage_to_settle_some(expect_exact(set, truth, p));
 }
 
-/// In doubles the answers are those of decide(); in floats they are right wherever certain, and as
-/// certain as those in doubles.
+/// A method's answer from floats alone.
+template <class Rule, class Query>
+ccd::verdict in_single_precision(ccd::cuda::bsc_method<Rule>, const Query& query) {
+    return ccd::decide_bsc_in_single_precision<Rule>(query);
+}
+template <class Rule, class Query>
+ccd::verdict in_single_precision(ccd::cuda::safeccd_method<Rule>, const Query& query) {
+    return ccd::decide_safeccd_in_single_precision<Rule>(query);
+}
+
+/// In doubles the answers are those of decide(). In floats they are those of floats alone where
+/// these are certain, and then right; else those of doubles.
 template <class Method, class Indices>
 void expect_as_on_host(const batch<Indices>& set, ccd::method m) {
-    const auto in_doubles = decide_by<Method, double>(set);
-    const auto in_floats = decide_by<Method, float>(set);
-    std::size_t uncertain_doubles = 0, uncertain_floats = 0;
+    constexpr bool promises = !std::is_same_v<typename Method::rule, errbound::none>;
+    const auto at = set.positions();
+    const auto all = set.candidates();
+    std::size_t asked_in_doubles = 0, uncertain = 0;
+    const auto in_doubles = decide_by<Method, double>(at, all);
+    const auto in_floats = decide_by<Method, float>(at, all, &asked_in_doubles);
     for (std::size_t i = 0; i < set.size(); ++i) {
-        ASSERT_EQ(in_doubles[i], ccd::decide(m, set.queries[i]).outcome)
-            << info(m).name << ", query " << i;
-        uncertain_doubles += in_doubles[i] == outcome::uncertain;
-        uncertain_floats += in_floats[i] == outcome::uncertain;
-        if (m == ccd::method::float_ || in_floats[i] == outcome::uncertain) continue;
-        ASSERT_EQ(in_floats[i], ccd::decide_exact(set.queries[i]).outcome)
-            << info(m).name << " in floats, query " << i;
+        SCOPED_TRACE(i);
+        ASSERT_EQ(in_doubles[i], ccd::decide(m, set.queries[i]).outcome);
+        const outcome floats_say = in_single_precision(Method(), set.queries[i]).outcome;
+        if (!promises) {
+            ASSERT_EQ(in_floats[i], floats_say);
+        } else if (floats_say == outcome::uncertain) {
+            ++uncertain;
+            ASSERT_EQ(in_floats[i], in_doubles[i]);
+        } else {
+            ASSERT_EQ(in_floats[i], floats_say);
+            ASSERT_EQ(floats_say, ccd::decide_exact(set.queries[i]).outcome);
+        }
     }
-    EXPECT_LE(uncertain_floats, m == ccd::method::float_ ? set.size() : uncertain_doubles);
+    EXPECT_EQ(asked_in_doubles, uncertain);
+    EXPECT_LT(uncertain, set.size());
 }
 
 template <class Indices>
 void expect_methods_as_on_host(const batch<Indices>& set) {
-    using ccd::cuda::bsc_method, ccd::cuda::safeccd_method;
-    expect_as_on_host<bsc_method<errbound::none>>(set, ccd::method::float_);
-    expect_as_on_host<bsc_method<errbound::safe>>(set, ccd::method::safe);
-    expect_as_on_host<bsc_method<errbound::tight>>(set, ccd::method::tight);
-    expect_as_on_host<safeccd_method<errbound::safe>>(set, ccd::method::safeccd);
-    expect_as_on_host<safeccd_method<errbound::tight>>(set, ccd::method::safeccd_tight);
+    cuda_on_host::for_each_float_method([&]<class Method>(ccd::method m) {
+        SCOPED_TRACE(info(m).name);
+        expect_as_on_host<Method>(set, m);
+    });
 }
 
 TYPED_TEST(device_bodies, methods_decide_as_on_the_host) {
@@ -209,9 +206,9 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
         auto& p = (number < 12 ? set.before : set.after)[4 * i + number % 4];
         (number % 3 == 0 ? p.x : number % 3 == 1 ? p.y : p.z) = poisons[i % 3];
     }
-    const auto rows = candidates<TypeParam>::rows(set.rows.data(), set.size());
-    const auto answers = decide_exact(positions_of(set), rows);
-    const auto tight = decide_by<ccd::cuda::bsc_method<errbound::tight>, float>(set);
+    const auto answers = decide_exact(set.positions(), set.candidates());
+    const auto tight =
+        decide_by<ccd::cuda::bsc_method<errbound::tight>, float>(set.positions(), set.candidates());
     for (std::size_t i = 0; i < set.size(); ++i) {
         if (poisoned(i)) {
             EXPECT_EQ(answers[i], outcome::uncertain) << i;
@@ -238,8 +235,7 @@ TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
                 float_rows[frame].push_back(x);
                 columns[frame][k].push_back(x);
             }
-    const positions in_doubles(coordinates<double>::rows(rows[0].data()),
-                               coordinates<double>::rows(rows[1].data()), vertices);
+    const auto in_doubles = positions_of({rows[0].data(), rows[1].data(), vertices});
     const positions in_floats(coordinates<float>::rows(float_rows[0].data()),
                               coordinates<float>::rows(float_rows[1].data()), vertices);
     const auto columns_of = [&](std::size_t frame) {
@@ -282,6 +278,35 @@ TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
     EXPECT_EQ(decide_exact(in_floats, by_rows), expected);
     EXPECT_EQ(decide_exact(in_columns, by_pairs), expected);
     EXPECT_EQ(decide_exact(in_columns, by_columns, precision::float32), expected);
+}
+
+// Their differences are floats' own, which leave other queries open than rounded differences do.
+TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
+    using tight = ccd::cuda::bsc_method<errbound::tight>;
+    const auto to_float = [](double x) { return static_cast<float>(std::clamp(x, -3e38, 3e38)); };
+    batch<TypeParam> set;
+    for (const auto& q : difficult<TypeParam>().queries)
+        set.add(transformed(q, [&](double x) { return double{to_float(x)}; }));
+    const auto narrowed = [&](const std::vector<ccd::point<double>>& points) {
+        std::vector<float> numbers;
+        for (const auto& p : points)
+            for (const double x : {p.x, p.y, p.z}) numbers.push_back(to_float(x));
+        return numbers;
+    };
+    const std::vector<float> before = narrowed(set.before), after = narrowed(set.after);
+    const positions at(coordinates<float>::rows(before.data()),
+                       coordinates<float>::rows(after.data()), set.before.size());
+    std::size_t asked_in_doubles = 0, uncertain = 0;
+    const auto found = decide_by<tight, float>(at, set.candidates(), &asked_in_doubles);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const auto& query = set.queries[i];
+        const outcome floats_say =
+            ccd::decide_bsc<errbound::tight>(transformed(query, to_float)).outcome;
+        const bool open = floats_say == outcome::uncertain;
+        uncertain += open;
+        ASSERT_EQ(found[i], open ? ccd::decide(ccd::method::tight, query).outcome : floats_say);
+    }
+    EXPECT_EQ(asked_in_doubles, uncertain);
 }
 
 #if defined(__SSE2__)
@@ -357,9 +382,7 @@ TEST(device_tree, finds_every_leaf_that_touches_once) {
 ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
     host_launcher launcher;
     ccd::cuda::step_memory<host_launcher> memory(block);
-    const positions at(coordinates<double>::rows(cuda_sets::numbers_of(before.vertices)),
-                       coordinates<double>::rows(cuda_sets::numbers_of(after.vertices)),
-                       before.vertices.size());
+    const positions at = positions_of({before, after});
     const auto edges = ccd::unique_edges(before.faces);
     memory.set_mesh(launcher, before.vertices.size(), before.faces, edges);
     ccd::step_result result;
@@ -370,11 +393,9 @@ ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, st
             memory.run(launcher, at,
                        [&](const auto& part, outcome* answers, ccd::cuda::scene_extent* scene,
                            ccd::cuda::rounded_position* rows) -> std::size_t {
-                           const laid_out<ccd::cuda::exact_memory> own(std::size_t(0), part.count);
-                           ccd::cuda::exact_memory all = *own;
-                           all.scene = scene, all.rows = rows;
-                           run_exact_stages(launcher, at, part, answers, all, precision::float32);
-                           return finish_exact(launcher, at, part, answers, all).left;
+                           const laid_out<ccd::cuda::exact_memory> all(scene, rows, part.count);
+                           run_exact_stages(launcher, at, part, answers, *all, precision::float32);
+                           return finish_exact(launcher, at, part, answers, *all).left;
                        });
         result.vertex_face_candidates = found.vertex_face_candidates;
         result.edge_edge_candidates = found.edge_edge_candidates;
@@ -437,8 +458,7 @@ TEST(device_step, refuses_coordinates_that_are_not_finite) {
         host_launcher launcher;
         ccd::cuda::step_memory<host_launcher> memory;
         memory.set_mesh(launcher, 5, mesh.faces, ccd::unique_edges(mesh.faces));
-        const positions at(coordinates<double>::rows(cuda_sets::numbers_of(mesh.vertices)),
-                           coordinates<double>::rows(cuda_sets::numbers_of(broken.vertices)), 5);
+        const positions at = positions_of({mesh, broken});
         const auto never = [](const auto&, outcome*, ccd::cuda::scene_extent*,
                               ccd::cuda::rounded_position*) -> std::size_t {
             ADD_FAILURE() << "nothing is to be decided";

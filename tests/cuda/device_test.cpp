@@ -8,16 +8,13 @@
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
-#include "ccd/cuda/launch.hpp"
-#include "ccd/cuda/method_stages.hpp"
 #include "ccd/io/mesh_file.hpp"
-#include "ccd/step_parts.hpp"
+#include "tests/cuda/on_host.hpp"
 #include "tests/cuda/sets.hpp"
 
 namespace {
@@ -35,33 +32,9 @@ class on_device : public testing::Test {
     }
 };
 
-fs::path data_folder() {
-    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
-    return ERRBOUND_SHARED_DATA;
-}
-
-std::uint64_t queries_per_family() {
-    const char* text = std::getenv("ERRBOUND_DEVICE_QUERIES");
-    return text == nullptr ? 2000 : std::strtoull(text, nullptr, 10);
-}
-
-/// What the same stages give on the host.
-template <class Method, class T, class Indices>
-std::vector<outcome> on_host(const batch<Indices>& set) {
-    ccd::cuda::host_launcher launcher;
-    std::vector<outcome> answers(set.size());
-    ccd::cuda::arena count;
-    (void)ccd::cuda::method_memory(count, set.size());
-    std::vector<std::max_align_t> bytes(count.used() / sizeof(std::max_align_t) + 1);
-    ccd::cuda::arena from(bytes.data(), bytes.size() * sizeof(std::max_align_t));
-    const ccd::cuda::method_memory memory(from, set.size());
-    const ccd::cuda::positions at(
-        ccd::cuda::coordinates<double>::rows(cuda_sets::numbers_of(set.before)),
-        ccd::cuda::coordinates<double>::rows(cuda_sets::numbers_of(set.after)), set.before.size());
-    ccd::cuda::run_method<Method, T>(
-        launcher, at, ccd::cuda::candidates<Indices>::rows(set.rows.data(), set.size()),
-        answers.data(), memory);
-    return answers;
+template <class Indices>
+batch<Indices> difficult() {
+    return cuda_sets::of_families<Indices>(cuda_sets::queries_per_family(2000), 21);
 }
 
 template <class Indices>
@@ -77,35 +50,29 @@ void expect_same(const batch<Indices>& set, ccd::method m, precision p,
 
 template <class Indices>
 void expect_all_methods_same(const batch<Indices>& set) {
-    using namespace ccd::cuda;
-    using ccd::method;
     std::vector<outcome> truth;
     for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
     for (const precision p : {precision::float64, precision::float32})
-        expect_same(set, method::exact, p, truth);
-    const auto both = [&]<class Method>(Method, method m) {
-        expect_same(set, m, precision::float64, on_host<Method, double>(set));
-        expect_same(set, m, precision::float32, on_host<Method, float>(set));
-    };
-    both(bsc_method<errbound::none>{}, method::float_);
-    both(bsc_method<errbound::safe>{}, method::safe);
-    both(bsc_method<errbound::tight>{}, method::tight);
-    both(safeccd_method<errbound::safe>{}, method::safeccd);
-    both(safeccd_method<errbound::tight>{}, method::safeccd_tight);
+        expect_same(set, ccd::method::exact, p, truth);
+    const auto at = set.positions();
+    const auto all = set.candidates();
+    cuda_on_host::for_each_float_method([&]<class Method>(ccd::method m) {
+        expect_same(set, m, precision::float64, cuda_on_host::decide_by<Method, double>(at, all));
+        expect_same(set, m, precision::float32, cuda_on_host::decide_by<Method, float>(at, all));
+    });
     std::cout << set.size() << " queries by every method\n";
 }
 
 TEST_F(on_device, decides_difficult_queries_as_the_host_does) {
-    expect_all_methods_same(
-        cuda_sets::of_families<ccd::vertex_face_indices>(queries_per_family(), 21));
-    expect_all_methods_same(
-        cuda_sets::of_families<ccd::edge_edge_indices>(queries_per_family(), 21));
+    expect_all_methods_same(difficult<ccd::vertex_face_indices>());
+    expect_all_methods_same(difficult<ccd::edge_edge_indices>());
 }
 
 TEST_F(on_device, decides_stored_queries_as_the_host_does) {
-    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
-    expect_all_methods_same(cuda_sets::stored<ccd::vertex_face_indices>(data_folder()));
-    expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_indices>(data_folder()));
+    const fs::path data = cuda_sets::data_folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
+    expect_all_methods_same(cuda_sets::stored<ccd::vertex_face_indices>(data));
+    expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_indices>(data));
 }
 
 void expect_same_step(const fs::path& scene, const char* first, const char* second) {
@@ -147,8 +114,7 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     const std::size_t bytes = ccd::cuda::scratch_bytes(set.before.size(), set.size());
     const ccd::cuda::scratch memory{copied(std::vector<std::byte>(bytes)), bytes};
 
-    const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(before),
-                                  ccd::cuda::coordinates<double>::rows(after), set.before.size());
+    const auto at = cuda_sets::positions_of({before, after, set.before.size()});
     const auto all = ccd::cuda::candidates<ccd::vertex_face_indices>::rows(rows, set.size());
     const ccd::cuda::batch_options options{ccd::method::exact, precision::float64, stream};
     ccd::cuda::stage_counts counts;

@@ -7,6 +7,7 @@
 #include <ccd/transform.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,15 +15,22 @@
 #include <utility>
 #include <vector>
 
+#include "ccd/cuda/queries.hpp"
 #include "tests/query_families.hpp"
 
 namespace cuda_sets {
+
+/// Positions in the memory where the rows are.
+inline ccd::cuda::positions positions_of(const ccd::vertex_rows& rows) {
+    using coordinates = ccd::cuda::coordinates<double>;
+    return {coordinates::rows(rows.before), coordinates::rows(rows.after), rows.vertices};
+}
 
 /// Queries of one kind, each with four vertices of its own.
 template <class Indices>
 struct batch {
     static constexpr bool of_faces = std::is_same_v<Indices, ccd::vertex_face_indices>;
-    using query = std::conditional_t<of_faces, ccd::vertex_face<double>, ccd::edge_edge<double>>;
+    using query = ccd::cuda::query_of_kind<Indices, double>;
 
     std::vector<query> queries;
     std::vector<ccd::point<double>> before, after;
@@ -38,6 +46,11 @@ struct batch {
         }
     }
     std::size_t size() const { return queries.size(); }
+    /// As device code takes them, in this batch's memory.
+    ccd::cuda::positions positions() const { return positions_of({before, after}); }
+    ccd::cuda::candidates<Indices> candidates() const {
+        return ccd::cuda::candidates<Indices>::rows(rows.data(), size());
+    }
 };
 
 template <class Indices>
@@ -83,8 +96,15 @@ batch<Indices> stored(const std::filesystem::path& folder) {
     return all;
 }
 
-inline const double* numbers_of(const std::vector<ccd::point<double>>& points) {
-    return reinterpret_cast<const double*>(points.data());
+/// How many queries of a family: the environment's ERRBOUND_DEVICE_QUERIES, else `usual`.
+inline std::uint64_t queries_per_family(std::uint64_t usual) {
+    const char* text = std::getenv("ERRBOUND_DEVICE_QUERIES");
+    return text == nullptr ? usual : std::strtoull(text, nullptr, 10);
+}
+
+inline std::filesystem::path data_folder() {
+    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
+    return ERRBOUND_SHARED_DATA;
 }
 
 }  // namespace cuda_sets
