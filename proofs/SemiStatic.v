@@ -3,10 +3,11 @@
 
     Results: mass_covers_size            S <= m M^d + (a - 3/4) tau + a tau M^d
              semi_static_sign_certain    the sign that the code is certain of is right
+             semi_static_overflow_uncertain   likewise with a largest number, whatever overflows
     where StaticFilter.v's theorems hold, the degree is at most 2^(p-6), and emin <= -4p - 5 (double and
     float: -1074 <= -217, -149 <= -101). That m and a are exact the code finds out: `trusted`. *)
 
-From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
+From Coq Require Import Reals ZArith Lia Lra Psatz Bool Classical_Prop.
 From Flocq Require Import Core.
 From Errbound Require Import Format Sign StaticFilter.
 Open Scope R_scope.
@@ -463,7 +464,8 @@ Proof.
     assert (u * INR d <= u * (INR k + 1)) by (apply Rmult_le_compat_l; lra). unfold t in *. lra. }
   generalize (pos_INR d). intros D0.
   assert (De : 2 * INR d * eta <= 1).
-  { generalize eta_p. intros. assert (INR d * eta <= IZR (2 ^ p) * eta) by (apply Rmult_le_compat_r; lra). lra. }
+  { generalize eta_p. intros. assert (INR d * eta <= IZR (2 ^ p) * eta) by (apply Rmult_le_compat_r; lra).
+    lra. }
   destruct (computed_power_lower d Hd De) as [Pw P0]. set (P := computed_power d) in *.
   assert (m1 : 1 <= IZR mz) by now apply IZR_le.
   assert (a1 : 1 <= IZR az) by now apply IZR_le.
@@ -499,7 +501,8 @@ Proof.
   assert (AT : IZR az * tau <= u / 16).
   { apply Rmult_le_reg_l with (IZR (2 ^ p)).
     - rewrite <- (Rmult_1_l (IZR (2 ^ p))). nra.
-    - replace (IZR (2 ^ p) * (u / 16)) with (/ 16) by (unfold Rdiv; rewrite <- Rmult_assoc, (Rmult_comm _ u), Up; ring).
+    - replace (IZR (2 ^ p) * (u / 16)) with (/ 16) by (unfold Rdiv;
+      rewrite <- Rmult_assoc, (Rmult_comm _ u), Up; ring).
       generalize tau_small. intros. apply Rle_trans with (IZR (2 ^ p) * (IZR (2 ^ p) * tau)); auto.
       apply Rmult_le_compat_l; [apply IZR_le; lia |]. apply Rmult_le_compat_r; [lra | apply IZR_le; lia]. }
   assert (S1 : exact_size e <= pw * (1 + u / 16) * (IZR mz * P) + (IZR az - / 2) * tau).
@@ -517,7 +520,8 @@ Proof.
   assert (Ptau : number (2 * IZR az * tau)).
   { rewrite (allowance_exact p emin) by lia.
     replace (2 * IZR az * bpow radix2 (emin + 2 * p + 1))
-      with (IZR az * bpow radix2 (emin + 2 * p + 1 + 1)) by (rewrite bpow_plus; change (bpow radix2 1) with 2; ring).
+      with (IZR az * bpow radix2 (emin + 2 * p + 1 + 1)) by (rewrite bpow_plus;
+        change (bpow radix2 1) with 2; ring).
     apply number_integer; auto; lia. }
   assert (Twice : forall z, (0 <= z <= 2 ^ p)%Z -> fl (2 * IZR z) = 2 * IZR z).
   { intros z Hz. apply rnd_exact; auto with typeclass_instances.
@@ -626,16 +630,20 @@ Proof. intros N P Q. apply rnd_above; auto with typeclass_instances. nra. Qed.
 Lemma mass_1 e : constants_not_zero e = true -> 1 <= mass e /\ 0 <= allowances e.
 Proof.
   assert (P2 : (1 <= 2 ^ p)%Z) by (generalize (Z.pow_le_mono_r 2 0 p); unfold Prec_gt_0 in p_positive; lia).
-  assert (Z0 : forall x, 0 <= x -> 0 <= fl x) by (intros; now apply rnd_nonnegative; auto with typeclass_instances).
+  assert (Z0 : forall x, 0 <= x -> 0 <= fl x) by (intros; now apply rnd_nonnegative;
+    auto with typeclass_instances).
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
     cbn [constants_not_zero mass allowances]; try (intros _; lra).
   - intros C. apply negb_true_iff, Z.eqb_neq in C. split; [| lra]. rewrite (fl_abs p emin), <- abs_IZR.
     apply (fl_above 1); [lia |]. apply IZR_le. lia.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
+    (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
+    (number_mass y).
     split; [| apply Z0; lra]. apply Rle_trans with (mass x); auto. apply part_of_sum; auto. lra.
-  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x), (number_mass y).
+  - intros H. apply andb_prop in H. destruct H as (A & B). destruct (IHx A), (IHy B), (number_mass x),
+    (number_mass y).
     split.
     + apply Rle_trans with (mass x); auto. apply part_of_product; auto. lra.
     + apply Z0. assert (0 <= fl (2 * fl (fl (mass x * allowances y) + fl (mass y * allowances x)))); [| lra].
@@ -661,7 +669,8 @@ Proof.
     assert (X1 : mass x <= fl (mass x + mass y)) by (apply part_of_sum; auto; lra).
     assert (X2 : mass y <= fl (mass x + mass y)) by (rewrite Rplus_comm; apply part_of_sum; auto; lra).
     assert (X3 : allowances x <= fl (allowances x + allowances y)) by (apply part_of_sum; auto).
-    assert (X4 : allowances y <= fl (allowances x + allowances y)) by (rewrite Rplus_comm; apply part_of_sum; auto).
+    assert (X4 : allowances y <= fl (allowances x + allowances y)) by (rewrite Rplus_comm;
+      apply part_of_sum; auto).
     destruct (IHx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
     destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
     rewrite E1, E3, <- plus_IZR in M2. rewrite E2, E4, <- plus_IZR in A2.
@@ -679,11 +688,13 @@ Proof.
   - intros (Hx & Hy) C M2 A2. apply andb_prop in C. destruct C as (Cx & Cy).
     destruct (mass_1 x Cx), (mass_1 y Cy), (number_mass x), (number_mass y).
     assert (N : forall r, number (fl r)) by (intros; apply rnd_number; auto with typeclass_instances).
-    assert (Z0 : forall r, 0 <= r -> 0 <= fl r) by (intros; now apply rnd_nonnegative; auto with typeclass_instances).
+    assert (Z0 : forall r, 0 <= r -> 0 <= fl r) by (intros; now apply rnd_nonnegative;
+      auto with typeclass_instances).
     assert (X1 : mass x <= fl (mass x * mass y)) by (apply part_of_product; auto; lra).
     assert (X2 : mass y <= fl (mass x * mass y)) by (rewrite Rmult_comm; apply part_of_product; auto; lra).
     set (a := fl (mass x * allowances y)) in *. set (b := fl (mass y * allowances x)) in *.
-    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos; lra).
+    assert (Pa : 0 <= a) by (apply Z0, Rmult_le_pos; lra). assert (Pb : 0 <= b) by (apply Z0, Rmult_le_pos;
+      lra).
     assert (X3 : allowances y <= a) by (unfold a; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X4 : allowances x <= b) by (unfold b; rewrite Rmult_comm; apply part_of_product; auto).
     assert (X5 : a <= fl (a + b)) by (apply part_of_sum; auto; apply N).
@@ -692,15 +703,18 @@ Proof.
     assert (X7 : s <= fl (2 * s)) by (rewrite Rmult_comm; apply part_of_product; [apply N | lra | lra]).
     set (d := fl (2 * s)) in *.
     assert (X8 : d <= fl (d + 2)) by (apply part_of_sum; [apply N | lra]).
-    destruct (IHx Hx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _), (IHy Hy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
+    destruct (IHx Hx Cx ltac:(lra) ltac:(lra)) as (Mx & _ & _),
+      (IHy Hy Cy ltac:(lra) ltac:(lra)) as (My & _ & _).
     destruct (masses x Mx) as (U1 & U2 & E1 & E2), (masses y My) as (V1 & V2 & E3 & E4).
     rewrite E1, E3, <- mult_IZR in M2. apply fl_whole_below in M2; [| lia].
     assert (La : a < IZR (2 ^ p)) by lra. assert (Lb : b < IZR (2 ^ p)) by lra.
     assert (Ls : s < IZR (2 ^ p)) by lra. assert (Ld : d < IZR (2 ^ p)) by lra.
     unfold a in La. rewrite E1, E4, <- mult_IZR in La. apply fl_whole_below in La; [| lia].
     unfold b in Lb. rewrite E3, E2, <- mult_IZR in Lb. apply fl_whole_below in Lb; [| lia].
-    assert (Ea : a = IZR (whole_mass x * whole_allowances y)) by (unfold a; rewrite E1, E4, <- mult_IZR; apply La).
-    assert (Eb : b = IZR (whole_mass y * whole_allowances x)) by (unfold b; rewrite E3, E2, <- mult_IZR; apply Lb).
+    assert (Ea : a = IZR (whole_mass x * whole_allowances y)) by (unfold a; rewrite E1, E4, <- mult_IZR;
+      apply La).
+    assert (Eb : b = IZR (whole_mass y * whole_allowances x)) by (unfold b; rewrite E3, E2, <- mult_IZR;
+      apply Lb).
     unfold s in Ls. rewrite Ea, Eb, <- plus_IZR in Ls. apply fl_whole_below in Ls; [| lia].
     assert (Es : s = IZR (whole_mass x * whole_allowances y + whole_mass y * whole_allowances x))
       by (unfold s; rewrite Ea, Eb, <- plus_IZR; apply Ls).
@@ -763,5 +777,141 @@ Proof.
     rewrite Rabs_left1 in W; lra.
 Qed.
 
+Section Overflow.
+
+(** The format's largest number; operations that exceed it give an infinity or NaN, as in StaticFilter.v. *)
+Variable largest : R.
+Hypothesis largest_p : 2 * IZR (2 ^ p) <= largest.
+Notation in_range := (in_range largest).
+Notation value_in_range := (value_in_range p emin largest).
+
+(** No operation of the bound overflows (those of m, a, tau and the constant cannot). *)
+Fixpoint power_in_range (fuel n : nat) (x : R) : Prop :=
+  in_range x /\
+  match fuel with
+  | O => True
+  | S fuel =>
+      if (n <=? 1)%nat then True
+      else if Nat.even n then power_in_range fuel (Nat.div2 n) (fl (x * x))
+      else power_in_range fuel (n - 1) x /\ in_range (fl (code_power fuel (n - 1) x * x))
+  end.
+Definition bound_in_range (e : expression) : Prop :=
+  let size := fl (fl (2 * mass e) * computed_power (degree e)) in
+  trusted e = true /\ power_in_range (degree e) (degree e) M /\ in_range size /\
+  in_range (fl (size + fl (fl (2 * allowances e) * tau))) /\ in_range (semi_static_bound e).
+(** sign_of, on what the machine has: the bound is infinite or NaN where it is not in range. *)
+Definition semi_static_machine_sign (v b : ieee) : sign :=
+  if less b (magnitude v) then if less (finite 0) v then positive else negative else uncertain.
+
+Lemma parts_in_range k m d :
+  (forall x, admissible p emin x -> measured x -> (roundings x <= k)%nat -> (whole_mass x <= m)%Z ->
+    (degree x <= d)%nat -> in_range (value x)) ->
+  forall e, admissible p emin e -> measured e -> (roundings e <= k)%nat -> (whole_mass e <= m)%Z ->
+    (degree e <= d)%nat -> value_in_range e.
+Proof.
+  intros R. induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A Me K L D;
+    (split; [now apply R |]); auto;
+    cbn [measured whole_mass degree StaticFilter.roundings admissible] in *; destruct A as (_ & A),
+      Me as (_ & _ & Me).
+  - destruct A as (A & B), Me as (X & Y & E). destruct (masses x X) as (X1 & _), (masses y Y) as (Y1 & _).
+    split; [apply IHx | apply IHy]; auto; lia.
+  - destruct A as (A & B), Me as (X & Y & E). destruct (masses x X) as (X1 & _), (masses y Y) as (Y1 & _).
+    split; [apply IHx | apply IHy]; auto; lia.
+  - destruct A as (A & B), Me as (X & Y). destruct (masses x X) as (X1 & _), (masses y Y) as (Y1 & _).
+    split; [apply IHx | apply IHy]; auto; try lia; apply Z.le_trans with (2 := L); nia.
+  - apply IHx; auto.
+Qed.
+
+(** Where the bound does not overflow nothing of the expression does. *)
+Lemma bound_in_range_value e : admissible p emin e -> homogeneous e -> (1 <= degree e)%nat ->
+  64 * INR (roundings e + 3) * u <= 1 -> bound_in_range e -> value_in_range e.
+Proof.
+  intros A Ho Hd Hk (T & _ & B & _). destruct (trusted_parts e Ho T) as (Me & Lm & _).
+  destruct (masses e Me) as (M1 & _ & Em & _).
+  pose proof (degree_roundings e Me) as Dr.
+  generalize (u_positive p) (eta_positive emin) tau_positive tau_small. intros U E Tp Ts.
+  assert (P2 : (1 <= 2 ^ p)%Z) by (generalize (Z.pow_le_mono_r 2 0 p); unfold Prec_gt_0 in p_positive; lia).
+  apply IZR_le in P2. set (k := roundings e) in *. set (m := whole_mass e) in *. set (d := degree e) in *.
+  assert (Ku : INR k * u + 3 * u <= / 64) by (rewrite plus_INR in Hk; simpl (INR 3) in Hk; lra).
+  pose proof (pos_INR k) as K0. assert (0 <= INR k * u) by (apply Rmult_le_pos; lra).
+  assert (Pk : power (S k) <= 1.02).
+  { generalize (power_quadratic u (S k) ltac:(lra)). rewrite S_INR. intros Q. specialize (Q ltac:(lra)).
+    fold (power (S k)) in Q. apply Rle_trans with (1 := Q).
+    assert ((INR k + 1) * u * ((INR k + 1) * u) <= / 64 * / 64) by (apply Rmult_le_compat; lra). lra. }
+  apply (parts_in_range k m d); auto; [| apply Z.le_refl]. intros x Ax Mx Kx Lx Dx.
+  destruct (masses x Mx) as (Mx1 & Ax0 & _ & _).
+  destruct (proj1 (expression_near p emin ltac:(lia) ltac:(lia) x Ax)) as (_ & V & _).
+  pose proof (exact_size_nonnegative p emin ltac:(lia) x) as S0.
+  assert (V' : Rabs (value x) <= 1.02 * exact_size x).
+  { apply Rle_trans with (1 := V). apply Rmult_le_compat_r; auto. apply Rle_trans with (2 := Pk).
+    apply power_le; auto; lia. }
+  generalize (measured_mass_covers_size x Mx). intros Sx.
+  assert (At : IZR (whole_allowances x) * tau <= / 16).
+  { assert (Wa : (whole_allowances x <= 2 ^ p)%Z) by (destruct x; apply Mx). apply IZR_le in Wa.
+    apply Rle_trans with (IZR (2 ^ p) * tau); [apply Rmult_le_compat_r; lra |].
+    apply Rle_trans with (2 := Ts). assert (0 <= IZR (2 ^ p) * tau) by (apply Rmult_le_pos; lra). nra. }
+  pose proof M1 as Mz. apply IZR_le in Mx1, Lx, Ax0, M1. pose proof (power_nonnegative (degree x)) as N.
+  assert (S1 : exact_size x <= (IZR m + / 16) * M ^ degree x + / 16).
+  { apply Rle_trans with (1 := Sx).
+    assert (IZR (whole_mass x) * M ^ degree x <= IZR m * M ^ degree x) by (apply Rmult_le_compat_r; auto).
+    destruct (whole_allowances x =? 0)%Z; [lra |].
+    assert (IZR (whole_allowances x) * tau * M ^ degree x <= / 16 * M ^ degree x) by (apply
+      Rmult_le_compat_r; auto).
+    lra. }
+  unfold StaticFilter.in_range in *. destruct (Rle_or_lt M 1) as [C | C].
+  - assert (M ^ degree x <= 1) by (rewrite <- (pow1 (degree x)); apply pow_incr; lra).
+    assert ((IZR m + / 16) * M ^ degree x <= (IZR m + / 16) * 1) by (apply Rmult_le_compat_l; lra).
+    apply Z.lt_le_incl, IZR_le in Lm. lra.
+  - assert (Md : M ^ degree x <= M ^ d) by (apply Rle_pow; [lra | exact Dx]).
+    assert (Md1 : 1 <= M ^ d) by (apply pow_R1_Rle; lra).
+    assert (De : 2 * INR d * eta <= / 64).
+    { assert (Dp : INR d * u <= / 64).
+      { apply le_INR in Dr. rewrite S_INR in Dr. apply Rle_trans with ((INR k + 1) * u);
+        [apply Rmult_le_compat_r; lra | lra]. }
+      assert (Eu : eta <= u / 2).
+      { unfold Format.eta, Format.u, Rdiv. change (/ 2) with (bpow radix2 (-1)). rewrite <- bpow_plus.
+        apply bpow_le. lia. }
+      assert (INR d * eta <= INR d * (u / 2)) by (apply Rmult_le_compat_l; [apply pos_INR | lra]). lra. }
+    destruct (computed_power_lower d Hd ltac:(lra)) as (Pw & P0). set (P := computed_power d) in *.
+    assert (Pd : power d <= 1.02) by (apply Rle_trans with (2 := Pk); apply power_le; auto; lia).
+    assert (Q1 : M ^ d <= 1.02 * (P + / 64)).
+    { apply Rle_trans with (1 := Pw). pose proof (pos_INR d).
+      assert (0 <= INR d * eta) by (apply Rmult_le_pos; lra).
+      apply Rmult_le_compat; try lra. pose proof (power_1 p ltac:(lia) d). lra. }
+    rewrite Em in B. fold m in B.
+    assert (Twice : fl (2 * IZR m) = 2 * IZR m).
+    { apply rnd_exact; auto with typeclass_instances.
+      replace (2 * IZR m) with (IZR m * bpow radix2 1) by (change (bpow radix2 1) with 2; ring).
+      apply number_integer; auto; lia. }
+    rewrite Twice in B. assert (Pp : 0 <= 2 * IZR m * P) by (apply Rmult_le_pos; lra).
+    pose proof (product_upper _ Pp) as Up.
+    assert (B0 : 0 <= fl (2 * IZR m * P)) by (apply rnd_nonnegative; auto with typeclass_instances).
+    rewrite (Rabs_pos_eq _ B0) in B. set (b := fl (2 * IZR m * P)) in *.
+    assert (Q2 : IZR m * M ^ d <= IZR m * (1.02 * (P + / 64))) by (apply Rmult_le_compat_l; lra).
+    assert (Q3 : IZR m <= IZR m * M ^ d) by (rewrite <- (Rmult_1_r (IZR m)) at 1; apply Rmult_le_compat_l; lra).
+    assert (Q4 : (IZR m + / 16) * M ^ degree x <= (IZR m + / 16) * M ^ d) by (apply Rmult_le_compat_l; lra).
+    assert (Q5 : M ^ d <= IZR m * M ^ d) by (rewrite <- (Rmult_1_l (M ^ d)) at 1; apply Rmult_le_compat_r; lra).
+    assert (u * b <= / 64 * b) by (apply Rmult_le_compat_r; lra).
+    assert (eta <= / 64) by (assert (eta <= 2 * INR d * eta) by (apply le_INR in Hd; simpl (INR 1) in Hd;
+      nra); lra).
+    lra.
+Qed.
+
+Theorem semi_static_overflow_uncertain e v b : admissible p emin e -> homogeneous e ->
+  (1 <= whole_allowances e)%Z -> (1 <= degree e)%nat -> (Z.of_nat (degree e) <= 2 ^ (p - 6))%Z ->
+  (1 <= roundings e)%nat -> 64 * INR (roundings e + 3) * u <= 1 ->
+  (value_in_range e -> v = finite (value e)) ->
+  (bound_in_range e -> b = finite (semi_static_bound e)) ->
+  (~ bound_in_range e -> b = plus_infinity \/ b = nan) ->
+  sign_is_right (semi_static_machine_sign v b) (exact e).
+Proof.
+  intros A Ho Ha Hd Hp Hr Hk V B B'. unfold semi_static_machine_sign.
+  destruct (classic (bound_in_range e)) as [I | I].
+  - generalize (semi_static_sign_certain e A Ho Ha Hd Hp Hr Hk). unfold semi_static_sign.
+    rewrite (proj1 I), (V (bound_in_range_value e A Ho Hd Hk I)), (B I). easy.
+  - destruct (B' I) as [-> | ->]; destruct v; exact Logic.I.
+Qed.
+
+End Overflow.
 End Filter.
 End SemiStatic.

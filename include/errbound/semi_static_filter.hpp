@@ -20,6 +20,7 @@
 //
 // Overflow: where 2m·M^d is finite no number of the expression can have overflown, fused or not.
 // NaN in a coordinate that M misses is one in the value.
+// Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain.
 // Source of the kind: Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay
 // triangulations.
 //
