@@ -11,8 +11,8 @@
 // other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
 // crossing edges) that did not hold at t = 0 began at an edge (or an end).
 // Proof: proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
-// edges_coplanar; that the code asks just that: proofs/Reference.v, reference_face, reference_edges,
-// reference_vertex_edge, reference_vertex_vertex.
+// edges_coplanar; that the code asks just that: proofs/Reference.v, reference_face,
+// reference_edges, reference_vertex_edge, reference_vertex_vertex.
 #include <ccd/forms.hpp>
 #include <ccd/reference.hpp>
 #include <cstddef>

@@ -30,8 +30,6 @@ Lemma sign_tells (x : S) : tells (sign_of x) (exact x).
 Proof. split; [apply Exact | apply sign_right]. Qed.
 Lemma always_certain (x : S) : certain (sign_of x) = true.
 Proof. pose proof (Exact x). now destruct (sign_of x). Qed.
-Lemma negate_tells s v : tells s v -> tells (negate s) (- v).
-Proof. intros (C & R). destruct s; split; simpl in *; try easy; lra. Qed.
 
 Lemma inside_certain l : inside l <> uncertain.
 Proof.
@@ -76,8 +74,8 @@ Proof.
   lra.
 Qed.
 
-Lemma zero_form l : length l = 2%nat -> opposite l = false -> inside l = zero -> Forall (eq 0) (exacts
-  l).
+Lemma zero_form l : length l = 2%nat -> opposite l = false -> inside l = zero ->
+  Forall (eq 0) (exacts l).
 Proof. intros L O E. pose proof (inside_signs l L O) as H. now rewrite E in H. Qed.
 Lemma normalized_zero (p : list S) : Forall (eq 0) (exacts (normalized p)) -> Forall (eq 0) (exacts p).
 Proof.
@@ -125,8 +123,8 @@ Proof.
     specialize (D ltac:(lra)); destruct s; simpl in *; tauto.
 Qed.
 
-Lemma hull_tells (p : list S) t : 0 < t < 1 -> certain (sign_inside p) = true -> tells (sign_inside p)
-  (form_at p t).
+Lemma hull_tells (p : list S) t : 0 < t < 1 -> certain (sign_inside p) = true ->
+  tells (sign_inside p) (form_at p t).
 Proof. intros T C. split; [now destruct (sign_inside p) | now apply sign_inside_right]. Qed.
 Lemma length_parts y j : length (decomposition_m y j) = 2%nat /\ length (decomposition_r y j) = 2%nat.
 Proof. unfold decomposition_m, decomposition_r. now rewrite !length_normalized. Qed.
@@ -299,8 +297,8 @@ Lemma at_ends y : length y = 4%nat -> form_at y 0 = exact (y#0) /\ form_at y 1 =
 Proof. intros L. split; [apply at_start; now destruct y | now apply at_finish]. Qed.
 
 Lemma on_increasing_answers y gs : length y = 4%nat -> five gs ->
-  (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) -> answers (on_increasing y gs)
-    (roots y) gs.
+  (forall a b, 0 <= a -> a < b -> b <= 1 -> form_at y a < form_at y b) ->
+  answers (on_increasing y gs) (roots y) gs.
 Proof.
   intros L F M. destruct (at_ends y L) as (E0 & E3). pose proof (ends_answer y gs L F) as Ends.
   unfold on_increasing. rewrite !always_certain. cbn [andb].
@@ -323,10 +321,9 @@ Proof.
 Qed.
 
 
-Lemma at_pair_answers y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) -> five
-  gs ->
-  convex (form_at y) (form_at d) -> 0 < exact (y#0) -> 0 < exact (y#3) -> answers (at_pair y d true gs)
-    (inner y) gs.
+Lemma at_pair_answers y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) ->
+  five gs -> convex (form_at y) (form_at d) -> 0 < exact (y#0) -> 0 < exact (y#3) ->
+  answers (at_pair y d true gs) (inner y) gs.
 Proof.
   intros L Ld Ed F C Y0 Y3. pose proof C as (T & M). destruct (at_ends y L) as (E0 & E3).
   assert (Nd : d <> []) by now destruct d.
@@ -380,8 +377,7 @@ Proof.
 Qed.
 
 Lemma on_convex_answers y d gs : length y = 4%nat -> length d = 3%nat -> exacts d = exacts (dy y) ->
-  five gs ->
-  convex (form_at y) (form_at d) -> answers (on_convex y d gs) (roots y) gs.
+  five gs -> convex (form_at y) (form_at d) -> answers (on_convex y d gs) (roots y) gs.
 Proof.
   intros L Ld Ed F C. destruct (at_ends y L) as (E0 & E3). pose proof (ends_answer y gs L F) as Ends.
   pose proof (at_pair_answers y d gs L Ld Ed F C) as Pair.
@@ -527,9 +523,8 @@ Proof.
     + apply Parts; now apply Uc.
 Qed.
 
-Lemma on_curved_answers y gs curvature : length y = 4%nat -> five gs -> signs_inside curvature (exacts
-  (ddy y)) ->
-  curvature = negative \/ curvature = positive -> answers (on_curved y gs curvature) (roots y) gs.
+Lemma on_curved_answers y gs curvature : length y = 4%nat -> five gs ->
+  signs_inside curvature (exacts (ddy y)) -> curvature = negative \/ curvature = positive -> answers (on_curved y gs curvature) (roots y) gs.
 Proof.
   intros L F K C.
   destruct (on_whole_part_answered y gs curvature (fun _ => maybe_root) L F K) as [(_ & Z) | A]; auto;
@@ -592,10 +587,9 @@ Qed.
 Lemma split_answers y gs : length y = 4%nat -> five gs -> opposite (ddy y) = true ->
   let (v, w) := linear_root (ddy y) in
   let parts_of f := let (a, b) := split f v w in (normalized a, normalized b) in
-  answers (either (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of (ddy y #
-    0)))
-                  (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y #
-                    1))))
+  answers
+    (either (on_curved (fst (parts_of y)) (map (fun f => fst (parts_of f)) gs) (sign_of (ddy y # 0)))
+            (on_curved (snd (parts_of y)) (map (fun f => snd (parts_of f)) gs) (sign_of (ddy y # 1))))
     (roots y) gs.
 Proof.
   intros L F O. assert (Ls : length (ddy y) = 2%nat) by now four y L.
@@ -639,16 +633,16 @@ Proof.
 Qed.
 
 (** No part is halved. *)
-Lemma on_part_answered y gs halvings : length y = 4%nat -> five gs -> answered (on_part y gs halvings) y
-  gs.
+Lemma on_part_answered y gs halvings : length y = 4%nat -> five gs ->
+  answered (on_part y gs halvings) y gs.
 Proof.
   intros L F. destruct halvings; (apply on_whole_part_answered; simpl; auto; [discriminate |]); intros O
     _; rewrite O;
     pose proof (split_answers y gs L F O) as A; destruct (linear_root (ddy y)); exact A.
 Qed.
 
-Lemma root_with_nonnegative_answered y gs : length y = 4%nat -> five gs -> answered
-  (root_with_nonnegative y gs) y gs.
+Lemma root_with_nonnegative_answered y gs : length y = 4%nat -> five gs ->
+  answered (root_with_nonnegative y gs) y gs.
 Proof.
   intros L F. unfold root_with_nonnegative.
   assert (Whole : forall p : list S, is_part p (normalized p) 0 1).
@@ -669,18 +663,18 @@ Proof.
     + right. auto.
 Qed.
 
-Theorem bsc_exact_root y gs t : length y = 4%nat -> five gs -> root_with_nonnegative y gs = maybe_root
-  -> form_at y t = 0.
+Theorem bsc_exact_root y gs t : length y = 4%nat -> five gs ->
+  root_with_nonnegative y gs = maybe_root -> form_at y t = 0.
 Proof.
   intros L F E. destruct (root_with_nonnegative_answered y gs L F) as [(_ & Z) | A]; auto. now rewrite E
     in A.
 Qed.
 
-Theorem bsc_exact_inside y gs : length y = 4%nat -> five gs -> root_with_nonnegative y gs = maybe_inside
-  ->
-  (exists t, 0 <= t <= 1 /\ form_at y t = 0 /\ (forall g, In g gs -> 0 <= form_at g t) /\ exists g, In g
-    gs /\ form_at g t = 0)
-  /\ forall t, 0 <= t <= 1 -> form_at y t = 0 -> ~ forall g, In g gs -> 0 < form_at g t.
+Theorem bsc_exact_inside y gs : length y = 4%nat -> five gs ->
+  root_with_nonnegative y gs = maybe_inside ->
+  (exists t, 0 <= t <= 1 /\ form_at y t = 0 /\ (forall g, In g gs -> 0 <= form_at g t) /\
+    exists g, In g gs /\ form_at g t = 0) /\
+  forall t, 0 <= t <= 1 -> form_at y t = 0 -> ~ forall g, In g gs -> 0 < form_at g t.
 Proof.
   intros L F E. destruct (root_with_nonnegative_answered y gs L F) as [(N & _) | A]; [congruence |].
   rewrite E in A. destruct A as ((t & (T & Z) & P & Q) & N). split.
@@ -699,8 +693,8 @@ Definition decision y gs (border : bool) : bool :=
   | maybe_inside => border
   end.
 
-Lemma all_at_start gs : five gs -> forallb (fun g => same_sign (sign_of (g#0)) positive) gs = true <->
-  all_positive gs 0.
+Lemma all_at_start gs : five gs ->
+  forallb (fun g => same_sign (sign_of (g#0)) positive) gs = true <-> all_positive gs 0.
 Proof.
   intros F. rewrite forallb_forall. unfold all_positive. rewrite Forall_forall in *.
   assert (A : forall g, In g gs -> same_sign (sign_of (g#0)) positive = true <-> 0 < form_at g 0).
@@ -711,8 +705,8 @@ Proof.
 Qed.
 
 Lemma face_decision v f0 f1 f2 border :
-  border = true <-> face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1)
-    (exact_motion f2) ->
+  border = true <->
+    face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2) ->
   let b := difference f1 f0 in let c := difference f2 f0 in let p := difference v f0 in
   decision (y_form b c p) (inside_face_forms b c p) border = true <-> face_collides v f0 f1 f2.
 Proof.
@@ -741,8 +735,8 @@ Proof.
 Qed.
 
 Lemma edges_decision a0 a1 b0 b1 border :
-  border = true <-> edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0)
-    (exact_motion b1) ->
+  border = true <->
+    edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1) ->
   let b := difference a1 a0 in let c := difference b1 b0 in let p := difference b0 a0 in
   decision (y_form b c p) (inside_edges_forms b c p) border = true <-> edges_collide a0 a1 b0 b1.
 Proof.

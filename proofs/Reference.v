@@ -261,8 +261,8 @@ Proof.
   now rewrite E0, E1, E2, E3, !(vertex_edge_units (unit_of q)).
 Qed.
 
-Definition reference_decides_vertex_edge (v e0 e1 : given) : bool := edge_contact finder [v; e0; e1] v
-  e0 e1.
+Definition reference_decides_vertex_edge (v e0 e1 : given) : bool :=
+  edge_contact finder [v; e0; e1] v e0 e1.
 Theorem reference_vertex_edge (v e0 e1 : given) : reference_decides_vertex_edge v e0 e1 = true <->
   vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
 Proof. unfold reference_decides_vertex_edge. rewrite edge_contact_right by (simpl; auto). easy. Qed.
@@ -272,8 +272,8 @@ End Reference.
 (** contact(vertex_vertex) of ccd/features.hpp *)
 Definition vertices_contact (v w : @moving_point integers) : bool :=
   let d := difference v w in
-  let at_end (i : nat) := @VectorForm integers [nth i (vx d) 0%Z] [nth i (vy d) 0%Z] [nth i (vz d) 0%Z]
-    in
+  let at_end (i : nat) :=
+    @VectorForm integers [nth i (vx d) 0%Z] [nth i (vy d) 0%Z] [nth i (vz d) 0%Z] in
   let c := cross_form (at_end 0%nat) (at_end 1%nat) in
   let zero_first (f : list Z) := Z.eqb (nth 0 f 0%Z) 0 in
   zero_first (vx c) && zero_first (vy c) && zero_first (vz c) &&

@@ -21,16 +21,17 @@ Definition tells (s : sign) (v : R) : Prop := s <> uncertain /\ sign_is_right s 
 
 (** ** Integers *)
 
-Definition sign_of_integer (n : Z) : sign := match n with Z0 => zero | Zpos _ => positive | Zneg _ =>
-  negative end.
+Definition sign_of_integer (n : Z) : sign :=
+  match n with Z0 => zero | Zpos _ => positive | Zneg _ => negative end.
 Program Definition integers : scalar := {|
   number := Z; add := Z.add; sub := Z.sub; mul := Z.mul; opp := Z.opp; whole := fun n => n;
   twice := fun n => Z.add n n; normalized := fun p => p; sign_of := sign_of_integer; exact := IZR;
   exact_add := plus_IZR; exact_sub := minus_IZR; exact_mul := mult_IZR; exact_opp := opp_IZR |}.
 Next Obligation. rewrite plus_IZR. ring. Qed.
 Next Obligation. exists 1. split; [lra |]. rewrite map_map. apply map_ext. intros. ring. Qed.
-Next Obligation. match goal with n : Z |- _ => destruct n end; simpl; [easy | now apply IZR_lt | now
-  apply IZR_lt]. Qed.
+Next Obligation.
+  match goal with n : Z |- _ => destruct n end; simpl; [easy | now apply IZR_lt | now apply IZR_lt].
+Qed.
 
 Lemma integer_tells (n : integers) : tells (sign_of n) (exact n).
 Proof. split; [now destruct n | apply sign_right]. Qed.
@@ -39,58 +40,57 @@ Proof. split; [now destruct n | apply sign_right]. Qed.
 
 (** Every axis in units of its own. *)
 Definition stretched (k p : point) : point := Point (x k * x p) (y k * y p) (z k * z p).
-Definition stretched_motion (k : point) (m : moving) : moving := Moving (stretched k (start m))
-  (stretched k (finish m)).
+Definition stretched_motion (k : point) (m : moving) : moving :=
+  Moving (stretched k (start m)) (stretched k (finish m)).
 Definition units (k : point) : Prop := 0 < x k /\ 0 < y k /\ 0 < z k.
 
 Lemma place_stretched k m t : place (stretched_motion k m) t = stretched k (place m t).
 Proof. unfold place, stretched_motion, stretched. apply same_point; simpl; ring. Qed.
 Lemma stretched_same k p q : units k -> stretched k p = stretched k q <-> p = q.
 Proof.
-  intros (Kx & Ky & Kz). split; [| now intros ->]. intros E. apply point_eq in E. destruct E as (X & Y &
-    Z). simpl in *.
+  intros (Kx & Ky & Kz). split; [| now intros ->]. intros E.
+  apply point_eq in E. destruct E as (X & Y & Z). simpl in *.
   apply same_point; eapply Rmult_eq_reg_l; eauto; lra.
 Qed.
 Lemma stretched_along k p s a b :
   stretched k (along p s (minus a b)) = along (stretched k p) s (minus (stretched k a) (stretched k b)).
 Proof. unfold stretched. coordinates. apply same_point; simpl; ring. Qed.
-Lemma segment_stretched k p a b : units k -> in_segment (stretched k p) (stretched k a) (stretched k b)
-  <-> in_segment p a b.
+Lemma segment_stretched k p a b : units k ->
+  in_segment (stretched k p) (stretched k a) (stretched k b) <-> in_segment p a b.
 Proof.
   intros K. split; intros (u & U & E); exists u; split; auto; rewrite <- stretched_along in *;
     first [now apply -> (stretched_same k) in E | now rewrite E].
 Qed.
 
-Theorem face_units k v f0 f1 f2 : units k -> vertex_face_collides (stretched_motion k v)
-  (stretched_motion k f0)
-  (stretched_motion k f1) (stretched_motion k f2) <-> vertex_face_collides v f0 f1 f2.
+Theorem face_units k v f0 f1 f2 : units k -> let in_units := stretched_motion k in
+  vertex_face_collides (in_units v) (in_units f0) (in_units f1) (in_units f2) <->
+  vertex_face_collides v f0 f1 f2.
 Proof.
-  intros K. split; intros (t & T & (u & w & U & W & V & E)); exists t; split; auto; exists u, w;
+  intros K in_units. unfold in_units. split; intros (t & T & (u & w & U & W & V & E)); exists t; split; auto; exists u, w;
     rewrite ?place_stretched, <- ?stretched_along in *; repeat split; auto;
     first [now apply -> (stretched_same k) in E | now rewrite E].
 Qed.
-Theorem edges_units k a0 a1 b0 b1 : units k -> edge_edge_collides (stretched_motion k a0)
-  (stretched_motion k a1)
-  (stretched_motion k b0) (stretched_motion k b1) <-> edge_edge_collides a0 a1 b0 b1.
+Theorem edges_units k a0 a1 b0 b1 : units k -> let in_units := stretched_motion k in
+  edge_edge_collides (in_units a0) (in_units a1) (in_units b0) (in_units b1) <->
+  edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros K. split; intros (t & T & (p & A & B)); exists t; (split; [exact T |]); rewrite
-    ?place_stretched in *.
-  - destruct A as (u & U & ->). exists (along (place a0 t) u (minus (place a1 t) (place a0 t))). split;
-    [now exists u |].
+  intros K in_units. unfold in_units. split; intros (t & T & (p & A & B)); exists t; (split; [exact T |]);
+    rewrite ?place_stretched in *.
+  - destruct A as (u & U & ->). exists (along (place a0 t) u (minus (place a1 t) (place a0 t))).
+    split; [now exists u |].
     rewrite <- stretched_along in B. now apply segment_stretched in B.
   - exists (stretched k p). now split; apply segment_stretched.
 Qed.
-Theorem vertex_edge_units k v e0 e1 : units k ->
-  vertex_edge_collides (stretched_motion k v) (stretched_motion k e0) (stretched_motion k e1) <->
-    vertex_edge_collides v e0 e1.
+Theorem vertex_edge_units k v e0 e1 : units k -> let in_units := stretched_motion k in
+  vertex_edge_collides (in_units v) (in_units e0) (in_units e1) <-> vertex_edge_collides v e0 e1.
 Proof.
-  intros K. split; intros (t & T & H); exists t; rewrite ?place_stretched in *;
+  intros K in_units. unfold in_units. split; intros (t & T & H); exists t; rewrite ?place_stretched in *;
     destruct (segment_stretched k (place v t) (place e0 t) (place e1 t) K); auto.
 Qed.
 
 (** What moves as m, in integers. *)
-Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop := exact_motion i =
-  stretched_motion k m.
+Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop :=
+  exact_motion i = stretched_motion k m.
 
 (** ** to_integers *)
 
@@ -102,19 +102,19 @@ Record given := Given { at0 : doubles; at1 : doubles }.
 Definition given_point (p : doubles) : point := Point (double (dx p)) (double (dy p)) (double (dz p)).
 Definition given_motion (m : given) : moving := Moving (given_point (at0 m)) (given_point (at1 m)).
 
-Definition lower (bound : Z) (d : dyadic) : Z := if Z.eqb (mantissa d) 0 then bound else Z.min bound
-  (exponent d).
+Definition lower (bound : Z) (d : dyadic) : Z :=
+  if Z.eqb (mantissa d) 0 then bound else Z.min bound (exponent d).
 Definition lowest (axis : doubles -> dyadic) (query : list given) : Z :=
   fold_left (fun bound m => lower (lower bound (axis (at0 m))) (axis (at1 m))) query (2 ^ 31 - 1)%Z.
 Definition to_integer (d : dyadic) (unit : Z) : Z :=
   if Z.eqb (mantissa d) 0 then 0%Z else Z.shiftl (mantissa d) (exponent d - unit).
 Definition to_integers (query : list given) (m : given) : @moving_point integers :=
   let ux := lowest dx query in let uy := lowest dy query in let uz := lowest dz query in
-  let convert (p : doubles) := @Position integers (to_integer (dx p) ux) (to_integer (dy p) uy)
-    (to_integer (dz p) uz) in
+  let convert (p : doubles) :=
+    @Position integers (to_integer (dx p) ux) (to_integer (dy p) uy) (to_integer (dz p) uz) in
   MovingPoint (convert (at0 m)) (convert (at1 m)).
-Definition unit_of (query : list given) : point := Point (powerRZ 2 (- lowest dx query))
-  (powerRZ 2 (- lowest dy query)) (powerRZ 2 (- lowest dz query)).
+Definition unit_of (query : list given) : point := Point
+  (powerRZ 2 (- lowest dx query)) (powerRZ 2 (- lowest dy query)) (powerRZ 2 (- lowest dz query)).
 
 Lemma lowest_right axis query m : In m query ->
   (mantissa (axis (at0 m)) = 0%Z \/ (lowest axis query <= exponent (axis (at0 m)))%Z) /\
@@ -132,8 +132,8 @@ Proof.
   pose proof (Down q (lower (lower bound (axis (at0 m))) (axis (at1 m)))).
   destruct (Lower bound (axis (at0 m))), (Lower (lower bound (axis (at0 m))) (axis (at1 m))). lia.
 Qed.
-Lemma to_integer_right d unit : mantissa d = 0%Z \/ (unit <= exponent d)%Z -> IZR (to_integer d unit) =
-  powerRZ 2 (- unit) * double d.
+Lemma to_integer_right d unit : mantissa d = 0%Z \/ (unit <= exponent d)%Z ->
+  IZR (to_integer d unit) = powerRZ 2 (- unit) * double d.
 Proof.
   unfold to_integer, double. destruct (Z.eqb_spec (mantissa d) 0) as [-> | N]; [intros; ring |]. intros
     [| H]; [easy |].
@@ -176,8 +176,8 @@ Proof. unfold poly. induction l as [| a l IH]; simpl; [ring | rewrite IH; ring].
 Lemma poly_trimmed l x : poly (rev (without_zeros l)) x = poly (rev l) x.
 Proof. induction l as [| a l IH]; [easy |]. destruct a; [| easy | easy]. simpl. now rewrite IH,
   poly_without_last. Qed.
-Lemma without_zeros_head p : without_zeros p = [] /\ Forall (eq 0%Z) p \/ hd 0%Z (without_zeros p) <>
-  0%Z.
+Lemma without_zeros_head p :
+  without_zeros p = [] /\ Forall (eq 0%Z) p \/ hd 0%Z (without_zeros p) <> 0%Z.
 Proof.
   induction p as [| a l IH]; [left; auto |]. destruct a; [| right; easy | right; easy].
   simpl. destruct IH as [(-> & F) |]; auto.
@@ -217,8 +217,8 @@ Proof.
   destruct p as [| a l]; [easy |]. unfold at_time, poly. cbn [map]. rewrite power_basis by lra.
   rewrite map_length. now replace (length (a :: l) - 1)%nat with (length l) by (simpl; lia).
 Qed.
-Lemma inner_signs (p : list integers) t : p <> [] -> 0 < t < 1 -> let v := poly (without_end_roots p) (t
-  / (1 - t)) in
+Lemma inner_signs (p : list integers) t : p <> [] -> 0 < t < 1 ->
+  let v := poly (without_end_roots p) (t / (1 - t)) in
   (at_time p t = 0 <-> v = 0) /\ forall s, tells s v -> tells s (at_time p t).
 Proof.
   intros N T. cbv zeta. destruct (without_end_roots_value p t N T) as (c & C & ->). split.
@@ -239,9 +239,8 @@ Record root_finder := {
     forall x, poly (common_factor f g) x = 0 <-> poly f x = 0 /\ poly g x = 0;
   real_roots_right : forall p x, trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 ->
     (exists k, In k (real_roots p) /\ where_is k = x) <-> 0 < x /\ poly p x = 0;
-  sign_at_root_right : forall p g k, trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 -> In k
-    (real_roots p) ->
-    trimmed g -> tells (sign_at_root g k) (poly g (where_is k))
+  sign_at_root_right : forall p g k, trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 ->
+    In k (real_roots p) -> trimmed g -> tells (sign_at_root g k) (poly g (where_is k))
 }.
 
 Section Contact.
@@ -251,11 +250,11 @@ Notation "p '#' i" := (nth i p 0%Z) (at level 20).
 Notation form_at := (@at_time integers).
 Implicit Types (f b : list Z) (fs : list (list Z)).
 
-Definition on_line fs : list Z := fold_left (fun all f => common_factor finder all (without_end_roots
-  f)) fs [].
+Definition on_line fs : list Z :=
+  fold_left (fun all f => common_factor finder all (without_end_roots f)) fs [].
 
-Lemma on_line_right fs : trimmed (on_line fs) /\ (on_line fs = [] <-> Forall (fun f => without_end_roots
-  f = []) fs) /\
+Lemma on_line_right fs : trimmed (on_line fs) /\
+  (on_line fs = [] <-> Forall (fun f => without_end_roots f = []) fs) /\
   forall x, poly (on_line fs) x = 0 <-> Forall (fun f => poly (without_end_roots f) x = 0) fs.
 Proof.
   unfold on_line. assert (H : forall fs all, trimmed all ->
@@ -283,8 +282,9 @@ Definition touches fs b : bool :=
   else match on_line fs with
     | [] => (b#1 <? 0)%Z && (4 * (b#0) * (b#2) <=? (b#1) * (b#1))%Z
     | [_] => false
-    | p => existsb (fun k => negb (same_sign (sign_at_root finder (without_end_roots b) k) positive))
-      (real_roots finder p)
+    | p =>
+        existsb (fun k => negb (same_sign (sign_at_root finder (without_end_roots b) k) positive))
+          (real_roots finder p)
     end.
 
 Definition meets fs b (t : R) : Prop := Forall (fun f => form_at f t = 0) fs /\ form_at b t <= 0.
@@ -441,8 +441,8 @@ Definition parted_along (axis : point -> R) (v e0 e1 : moving) : bool :=
   let v0 := axis (start v) in let v1 := axis (finish v) in
   let a0 := axis (start e0) in let a1 := axis (finish e0) in
   let b0 := axis (start e1) in let b1 := axis (finish e1) in
-  less a0 v0 && less a1 v1 && less b0 v0 && less b1 v1 || less v0 a0 && less v1 a1 && less v0 b0 && less
-    v1 b1.
+  less a0 v0 && less a1 v1 && less b0 v0 && less b1 v1 ||
+  less v0 a0 && less v1 a1 && less v0 b0 && less v1 b1.
 Definition parted (v e0 e1 : moving) : bool :=
   parted_along x v e0 e1 || parted_along y v e0 e1 || parted_along z v e0 e1.
 
@@ -469,16 +469,16 @@ Qed.
 (** contact_at_border: the query as given, and in integers. *)
 Definition edge_contact (query : list given) (v e0 e1 : given) : bool :=
   let integer := to_integers query in
-  negb (parted (given_motion v) (given_motion e0) (given_motion e1)) && contact (integer v) (integer e0)
-    (integer e1).
+  negb (parted (given_motion v) (given_motion e0) (given_motion e1)) &&
+  contact (integer v) (integer e0) (integer e1).
 Definition face_border (v f0 f1 f2 : given) : bool :=
   let on := edge_contact [v; f0; f1; f2] in on v f0 f1 || on v f1 f2 || on v f2 f0.
 Definition edges_border (a0 a1 b0 b1 : given) : bool :=
   let on := edge_contact [a0; a1; b0; b1] in on a0 b0 b1 || on a1 b0 b1 || on b0 a0 a1 || on b1 a0 a1.
 
 Lemma edge_contact_right query (v e0 e1 : given) : In v query -> In e0 query -> In e1 query ->
-  edge_contact query v e0 e1 = true <-> vertex_edge_collides (given_motion v) (given_motion e0)
-    (given_motion e1).
+  edge_contact query v e0 e1 = true <->
+  vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
 Proof.
   intros V E0 E1. destruct (to_integers_right query v V) as (K & Vi). destruct (to_integers_right query
     e0 E0) as (_ & E0i).
