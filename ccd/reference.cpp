@@ -28,8 +28,7 @@ namespace {
 using errbound::sign_type;
 using form = errbound::integer_form<integer>;
 
-/// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1]. Proof: proofs/Reference.v,
-/// regular_contact_right.
+/// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
 template <template <class> class Query>
 bool regular_contact(const Query<integer>& query) {
     const auto forms = forms_of(query);
@@ -63,8 +62,7 @@ bool regular_contact(const Query<integer>& query) {
     return false;
 }
 
-/// VF and EE: the union stated at the head of this file. Proof: proofs/Reference.v,
-/// reference_face_right, reference_edges_right.
+/// VF and EE: the union stated at the head of this file.
 template <template <class> class Query>
 bool contact(const Query<integer>& query, const Query<double>& original) {
     return regular_contact(query) || contact_at_border(query, original);

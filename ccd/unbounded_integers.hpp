@@ -62,8 +62,7 @@ Query<integer> to_integers(const Query<double>& query) {
 /// W × E = 0 and W·(W − E) <= 0 at some t in [0, 1], with W = v − e0, E = e1 − e0. (On the line, v
 /// lies between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
 /// too, where it says W = 0.) The times are the roots of the three quadratics' common factor.
-/// Proof: proofs/UnboundedIntegers.v, integer_contact_right; by the roots isolated:
-/// proofs/Reference.v, vertex_edge_roots_right.
+/// Proof: proofs/UnboundedIntegers.v, integer_contact_right.
 inline bool contact(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);

@@ -24,7 +24,8 @@ namespace errbound {
 
 /// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1 (leading and trailing zero
 /// coefficients); empty if p is identically zero. Its coefficients are those of the power basis in
-/// x = t/s, in which (0, 1) is (0, ∞). Proof: proofs/Reference.v, without_end_roots_right.
+/// x = t/s, in which (0, 1) is (0, ∞). Proof: proofs/UnboundedIntegers.v,
+/// without_end_roots_value.
 template <exact_number Integer, int N>
 integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
     std::size_t first = 0, last = N + 1;
