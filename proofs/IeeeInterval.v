@@ -8,9 +8,10 @@
         interval_scale_known
         interval_sign_known   the rule's sign is right or uncertain
         interval_error_known  where the error is finite the value is, and |a - x| is at most the error
-    On the way: two_sum does not overflow after its sum but into NaN (two_sum_known), and
-    product_error_is_exact (product_known) and remainder_of_division (remainder_known) tell the truth
-    whatever overflows. Products and quotients: with fused multiply-add and without (`fused`). *)
+        product_known         what product_error_is_exact calls exact is, whatever overflows
+        remainder_known       likewise of remainder_of_division
+    Products and quotients with fused multiply-add and without (`fused`). On the way: two_sum does not
+    overflow after its sum but into NaN (two_sum_known). *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN Sterbenz.
@@ -568,7 +569,7 @@ Proof.
   destruct (ErrorFree.split p emin (B2R b)) as [rbh rbl]. cbn [fst snd] in *.
   rewrite E1, E2, E3, E4, E5, E6, E7, E8, EV, S1, S2, S3, S4. reflexivity.
 Qed.
-Lemma product_known a b : product_error_is_exact _ F fused a b (two_product _ F fused a b) = true ->
+Theorem product_known a b : product_error_is_exact _ F fused a b (two_product _ F fused a b) = true ->
   finite (a ⊗ b) /\ finite (snd (two_product _ F fused a b)) /\ finite a /\ finite b /\
   B2R (a ⊗ b) + B2R (snd (two_product _ F fused a b)) = B2R a * B2R b /\
   ErrorFree.product_error_is_exact p emin (B2R a) (B2R b)
@@ -672,7 +673,7 @@ Proof.
 Qed.
 
 (** Division. *)
-Lemma remainder_known a b : finite (a ⊘ b) -> finite b -> B2R b <> 0 ->
+Theorem remainder_known a b : finite (a ⊘ b) -> finite b -> B2R b <> 0 ->
   snd (remainder_of_division _ F fused a b (a ⊘ b)) = true ->
   finite (fst (remainder_of_division _ F fused a b (a ⊘ b))) /\
   B2R (fst (remainder_of_division _ F fused a b (a ⊘ b))) = B2R a - B2R (a ⊘ b) * B2R b.

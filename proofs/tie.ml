@@ -23,6 +23,7 @@ let draw n =
 type 't format = {
   name : string;
   a : 't arithmetic;
+  fused : bool;  (* has_fast_fma *)
   values : 't array;
   bounds : 't array;  (* those that are not negative *)
   put : 't -> unit;  (* zeros alike, NaN alike *)
@@ -57,8 +58,10 @@ let tiny p exponent_bits =
   let values =
     List.filter (fun c -> c <= nan || (c >= codes / 2 && c < nan + (codes / 2))) (List.init codes Fun.id) in
   { name = Printf.sprintf "tiny_float<%d,%d>" p exponent_bits;
+    fused = false;
     a = {
       plus = results f.plus; minus = results f.minus; times = results f.times; over = results f.over;
+      fma = (fun x y v -> encode (f.fma decoded.(x) decoded.(y) decoded.(v)));
       opposite = (fun x -> opposites.(x));
       less = table2 f.less; at_most = table2 f.at_most; equal = table2 f.equal;
       scale = (fun x e -> scaled.(x).(of_z e + most_scale));
@@ -109,7 +112,7 @@ let ieee name p exponent_bits words samples =
   state := 1;
   let signed = List.init 150 (fun _ -> number true) in
   let unsigned = List.init 100 (fun _ -> number false) in
-  { name; a; put; samples;
+  { name; a; put; samples; fused = false;
     values = Array.of_list (special @ [ a.opposite a.infinity; a.opposite a.largest ] @ signed);
     bounds = Array.of_list (special @ unsigned) }
 
@@ -120,7 +123,7 @@ let exponents = Array.init 25 (fun i -> i - 12)
 
 (* Every operation: its name, its number of cases, and what puts the results of one. *)
 let operations f =
-  let a = f.a and put = f.put in
+  let a = f.a and put = f.put and fused = f.fused in
   let put2 (x, y) = put x; put y in
   let count = Array.length in
   let of_two name first second case =
@@ -155,14 +158,21 @@ let operations f =
   let residual_bounds = pairs f.values f.bounds in
   let residual_states = pairs f.values residual_bounds in
   let of_one name states case = (name, count states, fun i -> case states.(i)) in
+  (* exact operands, of which a selection of all states has few *)
+  let of_exact rule exact multiply divide =
+    let named operation = rule ^ "." ^ operation ^ "_exact" in
+    [ of_two (named "multiply") f.values f.values (fun x y ->
+          put2 (multiply a fused (a.times x y) x (exact x) y (exact y)));
+      of_two (named "divide") f.values f.values (fun x y ->
+          put2 (divide a fused (a.over x y) x (exact x) y (exact y))) ] in
   [ of_two "sign_of" f.values f.values (fun v e -> put_sign (sign_of a v e));
     of_two "two_sum" f.values f.values (fun x y -> put2 (two_sum a x y));
     of_two "two_product" f.values f.values (fun x y ->
-        let product = two_product a x y in
+        let product = two_product a fused x y in
         put2 product;
-        put_word (if product_error_is_exact a x y product then 1 else 0));
+        put_word (if product_error_is_exact a fused x y product then 1 else 0));
     of_two "remainder_of_division" f.values f.values (fun x y ->
-        let r, exact = remainder_of_division a x y (a.over x y) in
+        let r, exact = remainder_of_division a fused x y (a.over x y) in
         put r; put_word (if exact then 1 else 0));
     of_one "none.error" f.values (fun v -> put (none_error a v));
     of_one "tight.exact" f.values (fun v -> put (tight_exact a v));
@@ -197,9 +207,10 @@ let operations f =
   @ arithmetic "interval" interval_states
       (fun v _ s _ t -> put2 (interval_add a v s t))
       (fun v _ s _ t -> put2 (interval_subtract a v s t))
-      (fun v x s y t -> put2 (interval_multiply a v x s y t))
-      (Some (fun v x s y t -> put2 (interval_divide a v x s y t)))
+      (fun v x s y t -> put2 (interval_multiply a fused v x s y t))
+      (Some (fun v x s y t -> put2 (interval_divide a fused v x s y t)))
       (fun v _ s e -> put2 (interval_scale a v s e))
+  @ of_exact "interval" (fun x -> (x, x)) interval_multiply interval_divide
   @ [ of_one "residual.exact" f.values (fun v -> put2 (residual_exact a v));
       of_two "residual.within" f.values f.values (fun v e -> put2 (residual_within a v e));
       of_one "residual.error" residual_bounds (fun b -> put (residual_error a b));
@@ -207,23 +218,36 @@ let operations f =
   @ arithmetic "residual" residual_states
       (fun v x s y t -> put2 (residual_add a v x s y t))
       (fun v x s y t -> put2 (residual_subtract a v x s y t))
-      (fun v x s y t -> put2 (residual_multiply a v x s y t))
-      (Some (fun v x s y t -> put2 (residual_divide a v x s y t)))
+      (fun v x s y t -> put2 (residual_multiply a fused v x s y t))
+      (Some (fun v x s y t -> put2 (residual_divide a fused v x s y t)))
       (fun v x s e -> put2 (residual_scale a v x s e))
+  @ of_exact "residual" (fun _ -> (a.integer Z0, a.integer Z0)) residual_multiply residual_divide
 
 (* All cases, or a selection where there are more than that. *)
-let write f exhaustive =
-  List.iter (fun (name, total, case) ->
+let write ?(only = fun _ -> true) f exhaustive =
+  List.iter (fun (name, total, case) -> if only name then begin
       hash := 2166136261;
       let cases = if total <= exhaustive then total else min total f.samples in
       state := 1;
       for i = 0 to cases - 1 do case (if cases = total then i else draw total) done;
-      Printf.printf "%s %s %d %08x\n%!" f.name name cases !hash)
+      Printf.printf "%s %s %d %08x\n%!" f.name name cases !hash end)
     (operations f)
+
+(* With fused multiply-add: what differs. *)
+let write_fused f =
+  let fused = { f with name = f.name ^ ",fma"; fused = true } in
+  let asks name =
+    List.mem name [ "two_product"; "remainder_of_division" ] ||
+    List.exists (fun rule ->
+        List.exists (fun operation -> List.mem name [ rule ^ operation; rule ^ operation ^ "_exact" ])
+          [ ".multiply"; ".divide" ])
+      [ "interval"; "residual" ] in
+  write ~only:asks fused 0
 
 let () =
   write (tiny 3 3) (1 lsl 24);
   write (tiny 5 3) (1 lsl 20);
   write (tiny 4 4) (1 lsl 20);
-  write (ieee "float" 24 8 1 2000) 0;
-  write (ieee "double" 53 11 2 2000) 0
+  let float = ieee "float" 24 8 1 2000 and double = ieee "double" 53 11 2 2000 in
+  write float 0; write_fused float;
+  write double 0; write_fused double

@@ -215,7 +215,7 @@ struct safe : copy_of<errbound::safe, safe<Without>> {
 template <int Without>
 struct interval : copy_of<errbound::interval, interval<Without>> {
     using Self = interval;
-    static constexpr int mutants = 3;
+    static constexpr int mutants = 4;
     template <class T>
     using bound = errbound::interval::bound<T>;
 
@@ -239,14 +239,17 @@ struct interval : copy_of<errbound::interval, interval<Without>> {
     static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
         if (Without == 3 && b.bound.lower == 0 && b.bound.upper > 0)
             return {a.bound.lower / b.bound.upper, a.bound.upper / b.bound.lower};
-        return errbound::interval::divide<T>(v, Self::original(a), Self::original(b));
+        const auto q = errbound::interval::divide<T>(v, Self::original(a), Self::original(b));
+        if (Without == 4 && b.value < 0)  // the remainder's sign as it is
+            return {v - (q.upper - v), v + (v - q.lower)};
+        return q;
     }
 };
 
 template <int Without>
 struct residual : copy_of<errbound::residual, residual<Without>> {
     using Self = residual;
-    static constexpr int mutants = 8;
+    static constexpr int mutants = 9;
     template <class T>
     using bound = errbound::residual::bound<T>;
 
@@ -272,7 +275,11 @@ struct residual : copy_of<errbound::residual, residual<Without>> {
     template <class T>
     static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
         const bound<T> used{b.bound.correction, Without == 6 ? T(0) : b.bound.remainder};
-        return errbound::residual::multiply<T>(v, Self::original(a), {b.value, used});
+        bound<T> product = errbound::residual::multiply<T>(v, Self::original(a), {b.value, used});
+        const bool exact = a.bound.correction == 0 && a.bound.remainder == 0 &&
+                           b.bound.correction == 0 && b.bound.remainder == 0;
+        if (Without == 9 && exact) product.remainder = T(0);  // error unknown
+        return product;
     }
     template <class T>
     static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {

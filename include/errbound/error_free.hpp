@@ -78,8 +78,7 @@ constexpr with_error<T> split(const T& x) {
 /// a·b = value + error exactly, value = a ⊙ b, where product_error_is_exact(a, b, result) holds;
 /// elsewhere error is unreliable, infinite or NaN.
 /// Cost: 2 operations with hardware FMA, else 17. Source: Dekker 1971 (TwoProduct).
-/// Proof: proofs/ErrorFree.v, two_product_exact.
-/// Proof: proofs/ErrorFree.v, two_product_fma_exact.
+/// Proof: proofs/ErrorFree.v, two_product_exact, two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
     const T v = rounded_product(a, b);
@@ -103,7 +102,8 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
 /// nothing overflowed. Derivation: the error, and each number on Dekker's way to it, is a multiple
 /// of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since |a| < 2^p·ulp(a),
 /// |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and |ab| >= |value|/(1 + u), so it is
-/// larger than η/2.
+/// larger than η/2. With fused multiply-add there is nothing on the way that could overflow.
+/// Proof: proofs/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;
@@ -114,7 +114,7 @@ constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T
            traits::underflow_unit() / traits::unit_roundoff() / traits::unit_roundoff();
 }
 
-/// The remainder a − q·b of a rounded quotient q = a ⊘ b, b not zero.
+/// The remainder a − q·b of a rounded quotient q = a ⊘ b, b finite and not zero.
 template <class T>
 struct division_remainder {
     T value;
@@ -125,7 +125,8 @@ struct division_remainder {
 /// v is between a/2 and 2a and a − v is exact (Sterbenz). The remainder (a − v) − e is a multiple
 /// of ulp(q)·ulp(b), which is at least η, and at most |b|·ulp(q)/2: fewer than p bits, so exact
 /// too. Cost: a two_product and 2 operations. Source: Pichat 1976; Bohlender, Walter, Kornerup,
-/// Matula 1991. Proof: proofs/ErrorFree.v, remainder_of_division_exact.
+/// Matula 1991. Proof: proofs/ErrorFree.v, remainder_of_division_exact; with what may overflow,
+/// proofs/IeeeInterval.v, remainder_known.
 template <class T>
 constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, const T& q) {
     using traits = number_traits<T>;
