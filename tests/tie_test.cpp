@@ -244,8 +244,8 @@ void add_exact_operations(const std::vector<operand_state<T, Rule>>& exact,
         }));
     all_operations.push_back(
         of_two("divide_exact", exact, exact, [](hash& h, const state& a, const state& b) {
-            States::put(h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(),
-                                                    b.as_operand()));
+            States::put(
+                h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(), b.as_operand()));
         }));
 }
 
