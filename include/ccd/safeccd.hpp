@@ -369,7 +369,7 @@ class solver {
     }
 
     Query<scalar> query_;
-    limits limits_;
+    [[no_unique_address]] limits limits_;  // GCC warns that an empty one is uninitialized
     decltype(power_forms(std::declval<const Query<scalar>&>(),
                          std::declval<const limits&>())) forms_;
     bool doubt_ = false;
