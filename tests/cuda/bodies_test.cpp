@@ -207,6 +207,7 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
         (number % 3 == 0 ? p.x : number % 3 == 1 ? p.y : p.z) = poisons[i % 3];
     }
     const auto answers = decide_exact(set.positions(), set.candidates());
+    EXPECT_EQ(answers, decide_exact(set.positions(), set.candidates(), precision::float32));
     const auto tight =
         decide_by<ccd::cuda::bsc_method<errbound::tight>, float>(set.positions(), set.candidates());
     for (std::size_t i = 0; i < set.size(); ++i) {
