@@ -19,7 +19,8 @@ class prime_field {
     using word = std::uint64_t;
     __extension__ using double_word = unsigned __int128;
 
-    /// p < 2^62 odd.
+    /// p < 2^62 odd, more than 2.
+    /// Proof: proofs/PrimeField.v, negative_inverse_right, constants_right.
     explicit constexpr prime_field(word p) : p_(p) {
         word inverse = p;  // right modulo 2^3; each step doubles the number of right bits
         for (int i = 0; i < 5; ++i) inverse *= 2 - p * inverse;
@@ -28,18 +29,21 @@ class prime_field {
         square_ = static_cast<word>(double_word(one_) * one_ % p);
     }
 
+    // Proof that zero is kept as zero, and nothing else is: proofs/PrimeField.v, nonzero_form; of
+    // sums, differences and what leads in and out of the form: field_add, field_subtract,
+    // field_forms.
     constexpr word modulus() const { return p_; }
     constexpr word one() const { return one_; }
     constexpr word add(word a, word b) const { return a + b >= p_ ? a + b - p_ : a + b; }
     constexpr word subtract(word a, word b) const { return a >= b ? a - b : a + p_ - b; }
-    /// a·b/R
+    /// a·b/R. Proof: proofs/PrimeField.v, field_multiply.
     constexpr word multiply(word a, word b) const {
         const double_word t = double_word(a) * b;
         const word m = static_cast<word>(t) * negative_inverse_;
         const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
         return r >= p_ ? r - p_ : r;
     }
-    /// (a·b − c·d)/R
+    /// (a·b − c·d)/R. Proof: proofs/PrimeField.v, field_multiply_and_subtract.
     constexpr word multiply_and_subtract(word a, word b, word c, word d) const {
         // Below 2p², so that the sum is below 2p² + pR and the quotient below 3p/2.
         const double_word t = double_word(a) * b + double_word(c) * (p_ - d);
