@@ -1,9 +1,11 @@
-(** The definitions of Code.v over IEEE floats, as a program: tie.ml evaluates them on tiny formats, on
-    float and on double, and tests/tie_test.cpp holds the C++ code to what comes out. *)
+(** The definitions of Code.v over IEEE floats, and those of integers of words, as a program: tie.ml
+    evaluates them on tiny formats, on float and on double, and on integers of up to four words, and
+    tests/tie_test.cpp holds the C++ code to what comes out. *)
 
 From Coq Require Import ZArith Extraction ExtrOcamlBasic.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee.
+From Errbound Require Words WordBits SparseProduct.
 
 Section Bits.
 
@@ -35,6 +37,16 @@ Definition float_of_code (c : Z) : binary_float p emax :=
 
 End Bits.
 
+Definition words_sum := Words.sum.
+Definition words_difference := Words.difference.
+Definition words_product := Words.product.
+Definition words_sparse_product := SparseProduct.sparse_product.
+Definition words_shift := Words.shifted.
+Definition words_compare := Words.compare.
+Definition words_bit_length := WordBits.bit_length.
+Definition words_from_bit := WordBits.from_bit.
+Definition words_shifted := WordBits.shifted.
+
 Extraction "code.ml" code_of_float float_of_code floats
   sign_of none_error
   tight_exact tight_within tight_add tight_multiply tight_divide tight_scale
@@ -44,4 +56,6 @@ Extraction "code.ml" code_of_float float_of_code floats
   interval_multiply interval_divide interval_scale
   residual_exact residual_within residual_error residual_sign residual_add residual_subtract
   residual_multiply residual_divide residual_scale
-  two_sum two_product product_error_is_exact remainder_of_division.
+  two_sum two_product product_error_is_exact remainder_of_division
+  words_sum words_difference words_product words_sparse_product words_shift words_compare
+  words_bit_length words_from_bit words_shifted.

@@ -244,7 +244,55 @@ let write_fused f =
       [ "interval"; "residual" ] in
   write ~only:asks fused 0
 
+(* Integers of n words: words of zeros, of ones, with one bit, and random ones. Words are put as two of
+   32 bits, the upper first. *)
+let words n =
+  let word () =
+    let kind = draw 8 in
+    let upper = draw (1 lsl 32) in
+    let lower = draw (1 lsl 32) in
+    let join upper lower = Z.add (Z.mul (z upper) (z (1 lsl 32))) (z lower) in
+    let ones = (1 lsl 32) - 1 in
+    match kind with
+    | 0 | 1 -> Z0 | 2 | 3 -> join ones ones | 4 -> z 1 | 5 -> join (1 lsl 31) 0
+    | _ -> join upper lower in
+  let put_words =
+    let rec bits i = function
+      | XH -> [ i ] | XI q -> i :: bits (i + 1) q | XO q -> bits (i + 1) q in
+    List.iter (fun w ->
+        let set = match w with Zpos q -> bits 0 q | _ -> [] in
+        for half = 1 downto 0 do
+          put_word (List.fold_left
+                      (fun sum i -> if i / 32 = half then sum + (1 lsl (i mod 32)) else sum) 0 set)
+        done) in
+  let rec nat n = if n = 0 then O else S (nat (n - 1)) in
+  state := n;
+  let values = Array.init 24 (fun _ -> List.init n (fun _ -> word ())) in
+  let write name cases put =
+    hash := 2166136261;
+    Array.iter put cases;
+    Printf.printf "fixed_integer<%d> %s %d %08x\n%!" n name (Array.length cases) !hash in
+  let pairs first second =
+    Array.concat (Array.to_list (Array.map (fun x -> Array.map (fun y -> (x, y)) second) first)) in
+  let both = pairs values values in
+  let with_bits most = pairs values (Array.init (most + 1) Fun.id) in
+  write "sum" both (fun (x, y) -> put_words (words_sum x y));
+  write "difference" both (fun (x, y) -> put_words (words_difference x y));
+  write "product" both (fun (x, y) -> put_words (words_product x y));
+  write "sparse_product" both (fun (x, y) ->
+      if List.exists (fun w -> w <> Z0) y then put_words (words_sparse_product x y));
+  write "compare" both (fun (x, y) ->
+      put_word (match words_compare x y with Lt -> 0 | Eq -> 1 | Gt -> 2));
+  write "bit_length" values (fun x -> put_word (of_z (words_bit_length x)));
+  write "shift" (with_bits 63) (fun (x, bits) -> put_words (words_shift x (z bits)));
+  write "from_bit" (with_bits ((64 * n) + 70)) (fun (x, bits) ->
+      put_words (words_from_bit x (z bits) (nat n));
+      put_words (words_from_bit x (z bits) (nat 1)));
+  write "shifted" (with_bits ((64 * n) + 70)) (fun (x, bits) ->
+      put_words (words_shifted (List.hd x) (z bits) (nat n)))
+
 let () =
+  List.iter words [ 1; 2; 3; 4 ];
   write (tiny 3 3) (1 lsl 24);
   write (tiny 5 3) (1 lsl 20);
   write (tiny 4 4) (1 lsl 20);
