@@ -516,9 +516,8 @@ class integer_cases {
             put(h, x.template from_bit<Words>(bits));
             put(h, x.template from_bit<1>(bits));
         });
-        of_bits("shifted", 64 * Words + 70, [](hash& h, const integer& x, int bits) {
-            put(h, integer::shifted(x[0], bits));
-        });
+        of_bits("shifted", 64 * Words + 70,
+                [](hash& h, const integer& x, int bits) { put(h, integer::shifted(x[0], bits)); });
     }
 
   private:
@@ -569,8 +568,7 @@ class integer_cases {
         compare(name, values_.size() * static_cast<std::size_t>(most + 1), h);
     }
     void compare(const std::string& name, std::uint64_t cases, const hash& h) const {
-        const auto line =
-            expected_.find("fixed_integer<" + std::to_string(Words) + "> " + name);
+        const auto line = expected_.find("fixed_integer<" + std::to_string(Words) + "> " + name);
         ASSERT_NE(line, expected_.end()) << name;
         EXPECT_EQ(line->second.cases, cases) << name;
         EXPECT_EQ(line->second.hash, h.value()) << Words << " words, " << name;
