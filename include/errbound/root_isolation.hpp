@@ -36,6 +36,7 @@ struct isolating_interval {
 /// not zero. INT_MIN: p has no positive root.
 /// Proof: with M the largest (|c_i|/|c_n|)^(1/(n−i)) over the c_i of the other sign than c_n's, and
 /// x >= 2M, these terms are at most |c_n|x^n·Σ 2^(i−n) < |c_n|x^n in sum.
+/// Checked: proofs/ControlValues.v, root_exponent_right.
 template <class Integer>
 int positive_root_exponent(const integer_form<Integer>& p) {
     const int n = static_cast<int>(p.size()) - 1;
@@ -68,6 +69,7 @@ std::vector<Number> inverse_binomials(std::size_t n) {
 }
 
 /// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
+/// Proof: proofs/ControlValues.v, control_values_on_right.
 template <class Integer>
 integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
                                         const dyadic<Integer>& high) {
@@ -108,6 +110,7 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
 }
 
 /// The control values on the two halves, times 2^n (de Casteljau).
+/// Proof: proofs/ControlValues.v, halves_right.
 template <class Integer>
 std::pair<integer_form<Integer>, integer_form<Integer>> halves(integer_form<Integer> b) {
     const std::size_t n = b.size() - 1;
@@ -217,7 +220,7 @@ class root_isolation {
 
   private:
     /// A square-free polynomial, and bounds 2^lower < x < 2^upper of its positive
-    /// roots x; upper < lower if there is none.
+    /// roots x; upper < lower if there is none. Proof: proofs/ControlValues.v, half_line_right.
     struct half_line {
         form p;
         int lower = 1, upper = 0;
