@@ -52,6 +52,7 @@ integer_form<Integer> mirrored(integer_form<Integer> p) {
 }
 
 /// a = quotient·b; empty if b, which is not zero, does not divide a over the integers.
+/// Proof: proofs/CommonFactor.v, divided_right.
 template <class Integer>
 integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
     integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
@@ -169,7 +170,7 @@ bool surely_squarefree(const integer_form<Integer>& p) {
 /// By images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
 /// greatest common divisors, JACM 18, 1971): their degree is at least that of the divisor sought,
 /// so coprime polynomials are found out by the first prime; a divisor put together from several is
-/// checked by division.
+/// checked by division. Proof: proofs/CommonFactor.v, common_factor_right.
 template <exact_number Integer>
 integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b) {
     trim(a);

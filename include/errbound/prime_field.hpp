@@ -125,6 +125,7 @@ inline std::vector<std::uint64_t> derivative(const prime_field& field,
 
 /// A multiple, not zero, of the greatest common divisor modulo p, of polynomials in the power basis
 /// whose last coefficients are not 0. In and out: residues in Montgomery's form.
+/// Proof: proofs/CommonFactor.v, images_in_ideal.
 inline std::vector<std::uint64_t> common_factor(const prime_field& field,
                                                 std::vector<std::uint64_t> a,
                                                 std::vector<std::uint64_t> b) {
