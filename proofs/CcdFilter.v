@@ -80,6 +80,7 @@ Fixpoint shape (e : counted) : counted :=
   | Minus x y => Minus (shape x) (shape y)
   | Product x y => Product (shape x) (shape y)
   | Negation x => Negation (shape x)
+  | Converted _ _ _ => Converted 0 0 0
   end.
 Notation count := (count p emin).
 Lemma count_shape e : count (shape e) = count e.

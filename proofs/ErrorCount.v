@@ -14,7 +14,8 @@ From Flocq Require Import Core.
 From Errbound Require Import Format.
 Open Scope R_scope.
 
-(** Inputs come with M, a bound on their sizes as computed; constants are whole. *)
+(** Inputs come with M, a bound on their sizes as computed; constants are whole. Converted is what a
+    difference of longer numbers became (RoundedAxes.v, converted_difference_near). *)
 Inductive counted :=
 | Exact (x M : R)
 | Difference (a b M : R)
@@ -22,7 +23,8 @@ Inductive counted :=
 | Sum (x y : counted)
 | Minus (x y : counted)
 | Product (x y : counted)
-| Negation (x : counted).
+| Negation (x : counted)
+| Converted (computed x M : R).
 
 Fixpoint exact (e : counted) : R :=
   match e with
@@ -33,10 +35,11 @@ Fixpoint exact (e : counted) : R :=
   | Minus x y => exact x - exact y
   | Product x y => exact x * exact y
   | Negation x => - exact x
+  | Converted _ x _ => x
   end.
 Fixpoint unit (e : counted) : R :=
   match e with
-  | Exact _ M | Difference _ _ M => M
+  | Exact _ M | Difference _ _ M | Converted _ _ M => M
   | Constant _ => 1
   | Sum x y | Minus x y => Rmax (unit x) (unit y)
   | Product x y => unit x * unit y
@@ -44,7 +47,7 @@ Fixpoint unit (e : counted) : R :=
   end.
 Fixpoint degree (e : counted) : nat :=
   match e with
-  | Exact _ _ | Difference _ _ _ => 1
+  | Exact _ _ | Difference _ _ _ | Converted _ _ _ => 1
   | Constant _ => 0
   | Sum x y | Minus x y => Nat.max (degree x) (degree y)
   | Product x y => degree x + degree y
@@ -52,7 +55,7 @@ Fixpoint degree (e : counted) : nat :=
   end.
 Fixpoint height (e : counted) : nat :=
   match e with
-  | Exact _ _ | Difference _ _ _ => 0
+  | Exact _ _ | Difference _ _ _ | Converted _ _ _ => 0
   | Constant c => Z.to_nat (Z.log2_up (Z.abs c))
   | Sum x y | Minus x y => 4 + Nat.max (height x) (height y)
   | Product x y => 4 + (height x + height y)
@@ -84,6 +87,7 @@ Fixpoint value (e : counted) : R :=
   | Minus x y => fl (value x - value y)
   | Product x y => fl (value x * value y)
   | Negation x => - value x
+  | Converted computed _ _ => computed
   end.
 
 Record error_count := { magnitude : R; error : R; underflow : R }.
@@ -110,6 +114,7 @@ Fixpoint count (e : counted) : error_count :=
   | Sum x y | Minus x y => count_sum (count x) (count y)
   | Product x y => count_product (count x) (count y)
   | Negation x => count x
+  | Converted _ _ _ => {| magnitude := 1; error := 1; underflow := 1 |}
   end.
 
 Variable W : R.
@@ -124,6 +129,8 @@ Fixpoint admissible (e : counted) : Prop :=
   | Sum x y | Minus x y => admissible x /\ admissible y
   | Product x y => admissible x /\ admissible y /\ (1 <= degree x + degree y)%nat
   | Negation x => admissible x
+  | Converted computed x M =>
+      number computed /\ Rabs computed <= M <= W /\ Rabs (computed - x) <= eps * Rabs computed + eta
   end.
 
 Hypothesis p_10 : (10 <= p)%Z.
@@ -379,7 +386,7 @@ Proof. intros H. rewrite <- abs_IZR. apply IZR_le. lia. Qed.
 Lemma count_proper e : admissible e -> proper (count e).
 Proof.
   generalize number_1 (number_0 p emin); intros N1 N0.
-  induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl.
+  induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M]; simpl.
   - intros _. repeat split; simpl; auto; lra.
   - intros _. repeat split; simpl; auto; lra.
   - intros [C D]. repeat split; simpl; auto using constant_1. now apply number_abs.
@@ -387,6 +394,7 @@ Proof.
   - intros [A B]. now apply sum_proper; auto.
   - intros (A & B & _). now apply product_proper; auto.
   - auto.
+  - intros _. repeat split; simpl; auto; lra.
 Qed.
 
 (** Counts below powers of two. *)
@@ -497,7 +505,7 @@ Proof.
   { intros x y A B X Y. apply sum_of_counts_below; auto using count_proper.
     - apply below_more with (2 := X). lia.
     - apply below_more with (2 := Y). lia. }
-  induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+  induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M];
     cbn [admissible height count].
   - unfold below. simpl. lra.
   - unfold below. simpl. lra.
@@ -510,6 +518,7 @@ Proof.
   - intros [A B]. now apply S; auto.
   - intros (A & B & _). apply product_of_counts_below; auto using count_proper.
   - auto.
+  - unfold below. simpl. lra.
 Qed.
 
 (** Soundness. *)
@@ -524,7 +533,7 @@ Proof.
                 0 <= Rmax x y <= W ^ Nat.max i j).
   { intros x y i j X Y. generalize (power_W_le i (Nat.max i j) ltac:(lia))
       (power_W_le j (Nat.max i j) ltac:(lia)). unfold Rmax. destruct (Rle_dec x y); lra. }
-  induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl.
+  induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M0]; simpl.
   - intros [_ H]. generalize (Rabs_pos x). lra.
   - intros (_ & _ & H). generalize (Rabs_pos (fl (a - b))). lra.
   - lra.
@@ -534,13 +543,14 @@ Proof.
     + apply Rmult_le_pos; lra.
     + apply Rmult_le_compat; lra.
   - auto.
+  - intros (_ & H & _). generalize (Rabs_pos c). lra.
 Qed.
 Lemma underflow_of_constants e : admissible e -> degree e = O -> underflow (count e) = 0.
 Proof.
   assert (Z : rounded (flc (0 + 0)) = 0).
   { unfold rounded. rewrite Rplus_0_l, (rnd_0 p emin nearest), Rmult_0_l.
     apply rnd_0. auto with typeclass_instances. }
-  induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; simpl; auto;
+  induction e as [x M0 | a b M0 | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M0]; simpl; auto;
     try discriminate.
   - intros [A B] D. rewrite IHx, IHy by (auto; lia). exact Z.
   - intros [A B] D. rewrite IHx, IHy by (auto; lia). exact Z.
@@ -739,7 +749,7 @@ Proof.
     - split; [lra | apply Rmax_r].
     - apply Max. lia.
     - apply Max. lia. }
-  induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+  induction e as [x M | a b M | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | c x M];
     cbn [admissible height]; intros A H.
   - destruct A as [_ A]. unfold near. simpl. replace (x - x) with 0 by ring. rewrite Rabs_R0. lra.
   - destruct A as (Na & Nb & A). unfold near. simpl.
@@ -793,6 +803,8 @@ Proof.
     + apply IHx; auto. lia.
     + apply IHy; auto. lia.
   - simpl. apply near_opp. apply IHx; auto.
+  - destruct A as (_ & L & E). unfold near, scale. simpl. split; [lra |].
+    assert (eps * Rabs c <= eps * M) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 
 Theorem count_sound e : admissible e -> (Z.of_nat (height e) + emin <= 0)%Z ->

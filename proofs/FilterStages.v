@@ -819,7 +819,7 @@ Proof.
       apply Rplus_le_compat; apply Rmult_le_compat; try lra. apply Rmult_le_compat; lra.
     - rewrite Rmult_1_l, <- bpow_plus. apply Rle_trans with (2 * bpow radix2 860); [simpl Z.add; lra |].
       change 2 with (bpow radix2 1). rewrite <- bpow_plus. apply bpow_le. lia. }
-  induction e as [| | | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx];
+  induction e as [| | | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx | ];
     cbn [steps In degree height admissible]; intros A D H I;
     (destruct I as [<- | I]; [apply Self; auto |]); try easy; try (apply in_app_iff in I).
   - destruct A, I; [apply IHx | apply IHy]; auto; lia.

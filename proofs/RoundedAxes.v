@@ -7,6 +7,8 @@
                                  what an axis parts as computed in float is apart throughout the step
              swept_face_separate, swept_edges_separate
                                  rounded swept boxes that do not touch: no contact
+             converted_difference_near   a difference in units of a power of two, rounded to double and then to
+                                 float, is off by at most eps of itself or by eta
              swept_boxes_touch   rounded boxes that touch without a common end do so before rounding *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
@@ -515,4 +517,93 @@ Theorem swept_boxes_touch k a l b m :
 Proof. intros H. apply rounded_less in H; auto. lra. Qed.
 
 End Boxes.
+(** ** Differences that become floats *)
+
+(** forms_of_query of ccd/cuda/exact_stages.hpp: a difference of doubles, in units of a power of two.
+  It is as if
+    rounded once, to a neighbour among the floats. *)
+Definition converted_difference (a b : R) (e : Z) : R := single (double (double (a - b) * bpow radix2 (- e))).
+
+Notation down r := (round radix2 (FLT_exp (-149) 24) Zfloor r).
+Notation up r := (round radix2 (FLT_exp (-149) 24) Zceil r).
+Lemma neighbour_near r c : c = down r \/ c = up r -> Rabs (c - r) <= eps * Rabs c + eta (-149).
+Proof.
+  assert (G : forall d (V : Valid_rnd d), Rabs (rnd 24 (-149) d r - r) <= eps * Rabs (rnd 24 (-149) d r) +
+    eta (-149)).
+  { intros d V. pose proof (bpow_gt_0 radix2 (-149)) as Q. fold (eta (-149)) in Q.
+    destruct (Rlt_or_le (Rabs r) (smallest_normal 24 (-149))) as [S | S].
+    - pose proof (absolute_error_any 24 (-149) d r S).
+      assert (0 <= eps * Rabs (rnd 24 (-149) d r)) by (apply Rmult_le_pos;
+        [apply bpow_ge_0 | apply Rabs_pos]). lra.
+    - apply Rle_trans with (ulp radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r)).
+      + apply error_le_ulp_round; auto with typeclass_instances.
+      + apply Rle_trans with (Rabs (rnd 24 (-149) d r) * eps); [| lra].
+        apply ulp_FLT_le. apply rnd_abs_above; auto with typeclass_instances.
+        apply number_smallest_normal; auto with typeclass_instances. }
+  intros [-> | ->]; [exact (G Zfloor _) | exact (G Zceil _)].
+Qed.
+(** A float on the grid of r's is a double, scaled. *)
+Lemma neighbour_number d (V : Valid_rnd d) r e : (-1074 <= cexp radix2 (FLT_exp (-149) 24) r + e)%Z ->
+  number (rnd 24 (-149) d r * bpow radix2 e).
+Proof.
+  intros C. pose proof (rnd_number 24 (-149) d r) as N.
+  destruct (Req_dec (rnd 24 (-149) d r) 0) as [Z | Z]; [rewrite Z, Rmult_0_l; apply number_0 |].
+  assert (M : (cexp radix2 (FLT_exp (-149) 24) r <= cexp radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r))%Z).
+  { apply monotone_exp; [auto with typeclass_instances |]. apply mag_round_ge; auto with typeclass_instances. }
+  rewrite N. unfold F2R. simpl. rewrite Rmult_assoc, <- bpow_plus. apply number_integer;
+    [exact eq_refl | lia |].
+  assert (L : (Z.abs (Ztrunc (scaled_mantissa radix2 (FLT_exp (-149) 24) (rnd 24 (-149) d r))) < 2 ^ 24)%Z).
+  { apply lt_IZR. rewrite abs_IZR, <- scaled_mantissa_generic by exact N.
+    change (IZR (2 ^ 24)) with (bpow radix2 24).
+    apply Rlt_le_trans with (1 := scaled_mantissa_lt_bpow radix2 (FLT_exp (-149) 24) _).
+    apply bpow_le. unfold cexp, FLT_exp. lia. }
+  change (2 ^ 53)%Z with 9007199254740992%Z. change (2 ^ 24)%Z with 16777216%Z in L. lia.
+Qed.
+
+Theorem converted_difference_near a b e : number a -> number b ->
+  Rabs (converted_difference a b e - (a - b) * bpow radix2 (- e)) <=
+    eps * Rabs (converted_difference a b e) + eta (-149).
+Proof.
+  intros A B. set (r := (a - b) * bpow radix2 (- e)). apply neighbour_near.
+  pose proof (bpow_gt_0 radix2 e) as Pe. pose proof (bpow_gt_0 radix2 (- e)) as Pn.
+  assert (Ee : bpow radix2 (- e) * bpow radix2 e = 1) by (rewrite <- bpow_plus, Z.add_opp_diag_l; reflexivity).
+  assert (Er : r * bpow radix2 e = a - b) by (unfold r; rewrite Rmult_assoc, Ee; ring).
+  destruct (Z_le_gt_dec (-1074) (cexp radix2 (FLT_exp (-149) 24) r + e)) as [C | C].
+  - apply (Only_DN_or_UP (generic_format radix2 (FLT_exp (-149) 24)) r).
+    + apply round_DN_pt; auto with typeclass_instances.
+    + apply round_UP_pt; auto with typeclass_instances.
+    + apply single_number.
+    + pose proof (neighbour_number Zfloor _ r e C) as Nd. pose proof (neighbour_number Zceil _ r e C) as Nu.
+      assert (Ld : down r <= r) by (apply round_DN_pt; auto with typeclass_instances).
+      assert (Lu : r <= up r) by (apply round_UP_pt; auto with typeclass_instances).
+      change (rnd 24 (-149) Zfloor r) with (down r) in Nd. change (rnd 24 (-149) Zceil r) with (up r) in Nu.
+      assert (D1 : down r * bpow radix2 e <= double (a - b) <= up r * bpow radix2 e).
+      { split; [apply rnd_above | apply rnd_below]; auto with typeclass_instances; rewrite <- Er;
+          apply Rmult_le_compat_r; lra. }
+      assert (Back : forall t, t * bpow radix2 e * bpow radix2 (- e) = t).
+      { intros t. rewrite Rmult_assoc, (Rmult_comm (bpow radix2 e)), Ee. ring. }
+      assert (D2 : down r <= double (a - b) * bpow radix2 (- e) <= up r).
+      { rewrite <- (Back (down r)), <- (Back (up r)). split; apply Rmult_le_compat_r; lra. }
+      assert (Wide : forall t, float t -> number t).
+      { intros t. apply generic_inclusion_mag. intros _. unfold FLT_exp. lia. }
+      assert (Nd' : float (down r)) by (apply (rnd_number 24 (-149) Zfloor)).
+      assert (Nu' : float (up r)) by (apply (rnd_number 24 (-149) Zceil)).
+      assert (D3 : down r <= double (double (a - b) * bpow radix2 (- e)) <= up r)
+        by (split; [apply rnd_above | apply rnd_below]; auto with typeclass_instances; lra).
+      split; [apply rnd_above | apply rnd_below]; auto with typeclass_instances; lra.
+  - (* where that grid is finer than double's, the difference is exact *)
+    unfold cexp, FLT_exp in C. assert (Small : Rabs (a - b) < smallest_normal 53 (-1074)).
+    { rewrite <- Er, Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by lra.
+      apply Rlt_le_trans with (bpow radix2 (mag radix2 r) * bpow radix2 e).
+      - apply Rmult_lt_compat_r; [lra | apply bpow_mag_gt].
+      - rewrite <- bpow_plus. apply bpow_le. lia. }
+    assert (Nab : number (a - b)).
+    { change (a - b) with (a + - b).
+      rewrite <- (sum_exact_below 53 (-1074) direction a (- b) A (number_opp _ _ _ B) Small).
+        apply double_number. }
+    unfold converted_difference. rewrite (rnd_exact _ _ direction (a - b) Nab).
+    rewrite (scale_up _ _ direction (a - b) (- e) Nab) by lia. fold r.
+    apply round_DN_or_UP. auto with typeclass_instances.
+Qed.
+
 End RoundedAxes.

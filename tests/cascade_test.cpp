@@ -277,7 +277,8 @@ TEST(batch, refuses_what_it_cannot_do) {
     ccd::decide_batch(rows, span(), std::span<ccd::outcome>());
 }
 
-// Where a scene's extent is an ulp or two of its position, the middle as rounded is one of its ends.
+// Where a scene's extent is an ulp or two of its position, the middle as rounded is one of its
+// ends.
 TEST(rounded_axes, a_scene_becomes_the_unit_box_however_small_it_is) {
     for (const int ulps : {0, 1, 2, 3, 5, 1000}) {
         const double low = 3.0, high = low + ulps * 0x1p-51;

@@ -147,6 +147,7 @@ struct coefficient_stage : exact_stage<Indices> {
   protected:
     /// The query's forms. Differences are rounded once in doubles, and to floats where asked for:
     /// off by at most ε each, as error_count::difference() says, and by η where that underflows.
+    /// Proof: proofs/RoundedAxes.v, converted_difference_near.
     constexpr forms<Real> forms_of_query(const query_of_kind<Indices, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
             return forms<double>(query);

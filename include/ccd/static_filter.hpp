@@ -18,6 +18,7 @@
 #include <errbound/control_values.hpp>
 #include <errbound/error_count.hpp>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace ccd::static_filter {
@@ -61,13 +62,14 @@ struct constants {
 
 namespace detail {
 
+using errbound::basic_error_count;
 using errbound::bernstein;
 using errbound::control_values;
 using errbound::error_count;
 
-template <int N>
-constexpr error_count worst_of(const control_values<error_count, N>& c) {
-    error_count w = c[0];
+template <class Real, int N>
+constexpr basic_error_count<Real> worst_of(const control_values<basic_error_count<Real>, N>& c) {
+    basic_error_count<Real> w = c[0];
     for (int i = 1; i <= N; ++i) w = worst(w, c[i]);
     return w;
 }
@@ -100,7 +102,7 @@ inline constexpr double negligible<float> = 0x1p-140;
 /// Underflow happens in forms of at most degree `degree`, whose factors are at most
 /// largest_difference.
 template <class Real, int N>
-constexpr constants<Real> constants_of(error_count c, int degree) {
+constexpr constants<Real> constants_of(basic_error_count<Real> c, int degree) {
     using traits = errbound::number_traits<Real>;
     double absolute = c.underflow;
     for (int i = 1; i < degree; ++i) absolute *= double(largest_difference<Real>);
@@ -111,9 +113,10 @@ constexpr constants<Real> constants_of(error_count c, int degree) {
 }
 
 /// A difference of doubles that is rounded to Real, which floats may underflow in.
+/// Proof: proofs/RoundedAxes.v, converted_difference_near.
 template <class Real>
-constexpr vector_form<error_count, 1> any_difference() {
-    error_count d = error_count::difference();
+constexpr vector_form<basic_error_count<Real>, 1> any_difference() {
+    auto d = basic_error_count<Real>::difference();
     if (sizeof(Real) < sizeof(double)) d.underflow = 1;
     return {{{d, d}}, {{d, d}}, {{d, d}}};
 }
@@ -121,14 +124,14 @@ constexpr vector_form<error_count, 1> any_difference() {
 template <class Real, template <class> class Forms>
 constexpr constants<Real> constants_of_y() {
     constexpr auto d = any_difference<Real>();
-    const Forms<error_count> forms(d, d, d);
+    const Forms<basic_error_count<Real>> forms(d, d, d);
     return constants_of<Real, 3>(worst_of(control_values_of(forms.y())), 3);
 }
 template <class Real, template <class> class Forms>
 constexpr constants<Real> constants_of_g() {
     constexpr auto d = any_difference<Real>();
-    const Forms<error_count> forms(d, d, d);
-    error_count w;
+    const Forms<basic_error_count<Real>> forms(d, d, d);
+    basic_error_count<Real> w;
     for (const auto& g : forms.inside()) w = worst(w, worst_of(control_values_of(g)));
     return constants_of<Real, 4>(w, 4);
 }
@@ -211,7 +214,7 @@ constexpr mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin,
     return (start.first & end.first) | (start.second & end.second);
 }
 
-/// See `parted`.
+/// See `parted`. Not for floats, whose differences may underflow.
 inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon();
 
 }  // namespace detail
@@ -219,6 +222,7 @@ inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon(
 /// The first three axes of `parted`.
 template <class S, class Forms>
 constexpr mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
+    static_assert(std::is_same_v<typename sizes<S>::real, double>);
     const auto along = [&](const S& size, const auto& project) {
         return detail::parted_along<S>(f, size * S(detail::margin), project);
     };
@@ -231,6 +235,7 @@ constexpr mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
 /// The other six.
 template <class S, class Forms>
 constexpr mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
+    static_assert(std::is_same_v<typename sizes<S>::real, double>);
     const auto along = [&](const S& size, const auto& u, const auto& v) {
         const S e = size * S(detail::margin);
         const mask<S> sum = detail::parted_along<S>(

@@ -15,37 +15,44 @@
 // and counts far from 1/η (count_height).
 #pragma once
 
+#include <concepts>
 #include <errbound/number_traits.hpp>
 
 namespace errbound {
 
-struct error_count {
-    double magnitude = 0;
-    double error = 0;
-    double underflow = 0;
+/// Of floating-point type T, in which the counts are computed, too.
+template <std::floating_point T>
+struct basic_error_count {
+    T magnitude = 0;
+    T error = 0;
+    T underflow = 0;
 
-    constexpr error_count() = default;
-    constexpr error_count(double m, double e, double u) : magnitude(m), error(e), underflow(u) {}
-    /// A constant, exactly known.
-    constexpr error_count(double constant) : magnitude(constant < 0 ? -constant : constant) {}
+    constexpr basic_error_count() = default;
+    constexpr basic_error_count(T m, T e, T u) : magnitude(m), error(e), underflow(u) {}
+    /// A constant, exactly known: one that T has.
+    constexpr basic_error_count(double constant)
+        : magnitude(static_cast<T>(constant < 0 ? -constant : constant)) {}
 
     /// An input that is known exactly, of size at most M.
-    static constexpr error_count exact() { return {1, 0, 0}; }
+    static constexpr basic_error_count exact() { return {1, 0, 0}; }
     /// The rounded difference of two exact numbers; M is a bound on the computed differences.
-    static constexpr error_count difference() { return {1, 1, 0}; }
+    static constexpr basic_error_count difference() { return {1, 1, 0}; }
 
-    friend constexpr error_count operator+(const error_count& a, const error_count& b) {
-        const double m = rounded(a.magnitude + b.magnitude);
+    friend constexpr basic_error_count operator+(const basic_error_count& a,
+                                                 const basic_error_count& b) {
+        const T m = rounded(a.magnitude + b.magnitude);
         return {m, rounded(a.error + b.error + m), rounded(a.underflow + b.underflow)};
     }
-    friend constexpr error_count operator-(const error_count& a, const error_count& b) {
+    friend constexpr basic_error_count operator-(const basic_error_count& a,
+                                                 const basic_error_count& b) {
         return a + b;
     }
-    constexpr error_count operator-() const { return *this; }
+    constexpr basic_error_count operator-() const { return *this; }
     /// |âb̂ − ab| <= |â|·|b̂ − b| + |â − a|·|b̂| + |â − a|·|b̂ − b|, and the product is rounded.
-    friend constexpr error_count operator*(const error_count& a, const error_count& b) {
-        constexpr double epsilon = number_traits<double>::epsilon();
-        const double m = rounded(a.magnitude * b.magnitude);
+    friend constexpr basic_error_count operator*(const basic_error_count& a,
+                                                 const basic_error_count& b) {
+        constexpr T epsilon = number_traits<T>::epsilon();
+        const T m = rounded(a.magnitude * b.magnitude);
         return {m,
                 rounded(a.magnitude * b.error + a.error * b.magnitude +
                         a.error * b.error * epsilon + m),
@@ -55,8 +62,9 @@ struct error_count {
                         (a.error * b.underflow + a.underflow * b.error) * (2 * epsilon) + 2)};
     }
     /// The larger of each, for one constant that serves several results.
-    friend constexpr error_count worst(const error_count& a, const error_count& b) {
-        const auto larger = [](double x, double y) { return x < y ? y : x; };
+    friend constexpr basic_error_count worst(const basic_error_count& a,
+                                             const basic_error_count& b) {
+        const auto larger = [](T x, T y) { return x < y ? y : x; };
         return {larger(a.magnitude, b.magnitude), larger(a.error, b.error),
                 larger(a.underflow, b.underflow)};
     }
@@ -64,9 +72,8 @@ struct error_count {
   private:
     /// Pays for the rounding of the count itself and of the counted result's size: every count
     /// stands for at most ten roundings, each a factor of at most 1 + ε.
-    static constexpr double rounded(double count) {
-        return count * (1 + 16 * number_traits<double>::epsilon());
-    }
+    static constexpr T rounded(T count) { return count * (1 + 16 * number_traits<T>::epsilon()); }
 };
+using error_count = basic_error_count<double>;
 
 }  // namespace errbound

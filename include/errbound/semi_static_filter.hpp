@@ -24,8 +24,8 @@
 // Source of the kind: Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay
 // triangulations.
 //
-// m and a are trusted below 2^p = 1/u, where they are whole and exact; else, and where a constant is
-// 0, the bound is infinite. All that is known to the compiler.
+// m and a are trusted below 2^p = 1/u, where they are whole and exact; else, and where a constant
+// is 0, the bound is infinite. All that is known to the compiler.
 //
 // Proof: proofs/SemiStatic.v, mass_covers_size. (Without contraction.)
 #pragma once
