@@ -1,9 +1,11 @@
-(** Bits of the exact stages' integers (include/errbound/fixed_integer.hpp); words as in Words.v.
+(** Bits of the exact stages' integers (include/errbound/fixed_integer.hpp, long_integer.hpp); words as in
+    Words.v.
 
     Results:
         bit_length_exact   bit_length() <= n exactly if -2^n <= x < 2^n
         from_bit_exact     from_bit: floor(x/2^shift), where it fits; else modulo the result's width
-        shifted_exact      shifted: magnitude 2^shift, likewise *)
+        shifted_exact      shifted: magnitude 2^shift, likewise
+        long_shifted_exact the long integer of a magnitude, a shift and a sign *)
 
 From Coq Require Import ZArith List Lia Bool.
 From Errbound Require Import Words.
@@ -128,16 +130,17 @@ Proof.
 Qed.
 
 (** magnitude 2^shift in n words. *)
-Definition shifted (magnitude shift : Z) (n : nat) : list Z :=
+Definition shifted_word (magnitude shift : Z) (i : nat) : Z :=
   let whole := shift / 64 in
   let bits := shift mod 64 in
   let low := magnitude * 2 ^ bits mod B in
   let high := if bits =? 0 then 0 else magnitude / 2 ^ (64 - bits) in
-  map (fun i => if Z.of_nat i =? whole then low else if Z.of_nat i =? whole + 1 then high else 0) (seq 0 n).
-Lemma shifted_words magnitude shift n : word magnitude -> 0 <= shift ->
-  shifted magnitude shift n = words_of n (magnitude * 2 ^ shift).
+  if Z.of_nat i =? whole then low else if Z.of_nat i =? whole + 1 then high else 0.
+Definition shifted (magnitude shift : Z) (n : nat) : list Z := map (shifted_word magnitude shift) (seq 0 n).
+Lemma shifted_word_right magnitude shift i : word magnitude -> 0 <= shift ->
+  shifted_word magnitude shift i = magnitude * 2 ^ shift / B ^ Z.of_nat i mod B.
 Proof.
-  intros M P. unfold shifted, words_of. cbv zeta. apply map_ext. intros i. unfold word in M.
+  intros M P. unfold shifted_word. cbv zeta. unfold word in M.
   assert (H : 0 <= shift mod 64 < 64) by (apply Z.mod_pos_bound; lia).
   assert (D := Z.div_mod shift 64 ltac:(lia)). assert (D0 : 0 <= shift / 64) by (apply Z.div_pos; lia).
   set (whole := shift / 64) in *. set (bits := shift mod 64) in *. set (k := Z.of_nat i).
@@ -165,6 +168,9 @@ Proof.
     + apply Z.mul_lt_mono_pos_r; [apply Z.pow_pos_nonneg; lia | apply M].
     + rewrite E, <- Z.pow_add_r by lia. apply Z.pow_le_mono_r; lia.
 Qed.
+Lemma shifted_words magnitude shift n : word magnitude -> 0 <= shift ->
+  shifted magnitude shift n = words_of n (magnitude * 2 ^ shift).
+Proof. intros. apply map_ext. intros. now apply shifted_word_right. Qed.
 Theorem shifted_exact magnitude shift n : word magnitude -> 0 <= shift ->
   value (shifted magnitude shift n) = magnitude * 2 ^ shift mod B ^ Z.of_nat n /\
   (n <> 0%nat -> fits n (magnitude * 2 ^ shift) -> signed (shifted magnitude shift n) = magnitude * 2 ^ shift).
@@ -242,4 +248,65 @@ Proof.
   destruct (negative x).
   - destruct (Key (-1 - (value x - B ^ size x)) ltac:(lia)) as [K1 K2]. split; auto. rewrite K2. lia.
   - rewrite Z.sub_0_r in *. destruct (Key (value x) ltac:(lia)) as [K1 K2]. split; auto. rewrite K2. lia.
+Qed.
+
+(** long_integer(magnitude, shift, negative), before words that say nothing go; whole < n. *)
+Definition long_shifted (magnitude shift : Z) (negative : bool) (n : nat) : list Z :=
+  let whole := Z.to_nat (shift / 64) in
+  let upper := map (shifted_word magnitude shift) (seq whole (n - whole)) in
+  let inverted := if negative then map (fun w => Z.lxor w (B - 1)) upper else upper in
+  zeros whole ++ fst (stepped add_with_carry inverted (zeros (length upper)) (if negative then 1 else 0)).
+Lemma seq_from a n : seq a n = map (Nat.add a) (seq 0 n).
+Proof.
+  revert a. induction n as [| n IH]; intros a; [reflexivity |]. cbn [seq map]. rewrite Nat.add_0_r. f_equal.
+  rewrite (IH (S a)), (IH 1%nat), map_map. apply map_ext. intros. lia.
+Qed.
+Lemma inverted_value x : words x ->
+  words (map (fun w => Z.lxor w (B - 1)) x) /\ value (map (fun w => Z.lxor w (B - 1)) x) = B ^ size x - 1 - value x.
+Proof.
+  induction 1 as [| w x H W [IH1 IH2]]; [split; [constructor | reflexivity] |]. cbn [map value length].
+  rewrite IH2, inverted, Nat2Z.inj_succ, Z.pow_succ_r by (auto; lia). split; [| ring].
+  constructor; [| exact IH1]. unfold word in *. lia.
+Qed.
+Theorem long_shifted_exact magnitude shift (negative : bool) n : word magnitude -> 0 <= shift -> shift / 64 < Z.of_nat n ->
+  let z := (if negative then -1 else 1) * (magnitude * 2 ^ shift) in
+  fits n z -> signed (long_shifted magnitude shift negative n) = z.
+Proof.
+  intros M P L z F. assert (D := Z.div_mod shift 64 ltac:(lia)). assert (R := Z.mod_pos_bound shift 64 ltac:(lia)).
+  assert (W0 : 0 <= shift / 64) by (apply Z.div_pos; lia). unfold long_shifted. cbv zeta.
+  set (whole := Z.to_nat (shift / 64)). set (k := (n - whole)%nat).
+  set (upper := map (shifted_word magnitude shift) (seq whole k)).
+  assert (E : upper = words_of k (magnitude * 2 ^ (shift mod 64))).
+  { unfold upper, words_of. rewrite seq_from, map_map. apply map_ext. intros i.
+    rewrite shifted_word_right by auto. f_equal. rewrite Nat2Z.inj_add, Z.pow_add_r by lia.
+    rewrite <- Z.div_div by (try apply power_positive; generalize (power_positive whole); lia). f_equal.
+    rewrite D at 1. rewrite Z.pow_add_r by lia. unfold whole, base. rewrite Z2Nat.id, <- Z.pow_mul_r by lia.
+    rewrite Z.mul_assoc, (Z.mul_comm magnitude), <- Z.mul_assoc, (Z.mul_comm (2 ^ _)).
+    apply Z.div_mul, Z.pow_nonzero; lia. }
+  destruct (words_of_words k (magnitude * 2 ^ (shift mod 64))) as [Wu Lu]. assert (Vu := words_of_value k (magnitude * 2 ^ (shift mod 64))).
+  rewrite <- E in *. clearbody upper. clear E.
+  assert (Pw : B ^ Z.of_nat whole * 2 ^ (shift mod 64) = 2 ^ shift).
+  { unfold base, whole. rewrite Z2Nat.id, <- Z.pow_mul_r, <- Z.pow_add_r by lia. f_equal. lia. }
+  assert (Pn : B ^ Z.of_nat n = B ^ Z.of_nat whole * B ^ Z.of_nat k) by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
+  set (q := magnitude * 2 ^ (shift mod 64)) in *.
+  assert (Ez : z = (if negative then -1 else 1) * (B ^ Z.of_nat whole * q)) by (unfold z, q; rewrite <- Pw; ring).
+  assert (Dq := Z.div_mod q (B ^ Z.of_nat k) ltac:(generalize (power_positive k); lia)). rewrite <- Vu in Dq.
+  assert (I : exists x c, (if negative then map (fun w => Z.lxor w (B - 1)) upper else upper) = x /\ words x /\ length x = k /\
+    (if negative then 1 else 0) = c /\ 0 <= c <= 1 /\
+    (value x + c = if negative then B ^ Z.of_nat k - value upper else value upper)).
+  { destruct (inverted_value upper Wu) as [I1 I2]. rewrite Lu in I2. destruct negative; eexists _, _;
+      (split; [reflexivity |]); repeat split; try lia; auto; now rewrite ?map_length. }
+  destruct I as (x & c & -> & Wx & Lx & -> & C & V).
+  assert (Lz : length x = length (zeros (length upper))) by (rewrite length_zeros; congruence).
+  generalize (stepped_sum x (zeros (length upper)) c Lz Wx (words_zeros _) C)
+    (stepped_length add_with_carry x (zeros (length upper)) c Lz).
+  destruct (stepped add_with_carry x (zeros (length upper)) c) as [r c']. cbn [fst]. intros (Wr & _ & Er) Lr.
+  rewrite value_zeros, Lx in Er.
+  assert (Lt : length (zeros whole ++ r) = n) by (rewrite app_length, length_zeros; lia).
+  apply signed_is with (k := (if negative then 1 + q / B ^ Z.of_nat k - c' else - (q / B ^ Z.of_nat k) - c')); auto.
+  - apply words_app; auto using words_zeros.
+  - intros Z0. rewrite Z0 in Lt. simpl in Lt. lia.
+  - now rewrite Lt.
+  - rewrite Lt, value_app, value_zeros, length_zeros, Ez, Pn. set (e := q / B ^ Z.of_nat k) in *. clearbody e q.
+    rewrite Dq. replace (value r) with (value x + c - B ^ Z.of_nat k * c') by lia. rewrite V. destruct negative; ring.
 Qed.

@@ -46,6 +46,7 @@ double nearby_double(const Integer& n, int e) {
 }
 
 /// An exact number numerator·2^exponent; the numerator is odd, or both are zero.
+/// Proof: proofs/Dyadic.v, dyadic_sum, dyadic_difference, dyadic_product, dyadic_scale.
 template <exact_number Integer>
 class dyadic {
   public:
@@ -88,6 +89,7 @@ class dyadic {
     /// x·2^e
     friend dyadic scale(const dyadic& x, int e) { return {x.numerator_, x.exponent_ + e}; }
 
+    /// Proof: proofs/Dyadic.v, dyadic_equal, dyadic_order.
     friend bool operator==(const dyadic& a, const dyadic& b) {
         return a.exponent_ == b.exponent_ && a.numerator_ == b.numerator_;
     }
@@ -99,10 +101,10 @@ class dyadic {
     }
     friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
     friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
-    /// ⌊log2 |x|⌋ for x not zero.
+    /// ⌊log2 |x|⌋ for x not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
     friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
 
-    /// x/2^unit, for unit <= exponent().
+    /// x/2^unit, for unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.
     Integer in_units(int unit) const {
         return Integer(numerator_ << static_cast<unsigned>(is_zero() ? 0 : exponent_ - unit));
     }

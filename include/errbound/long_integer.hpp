@@ -103,6 +103,7 @@ class long_integer {
   public:
     constexpr long_integer(std::int64_t value) : size_(1) { at(0) = static_cast<word>(value); }
     /// ±magnitude·2^shift.
+    /// Proof: proofs/WordBits.v, long_shifted_exact.
     constexpr long_integer(word magnitude, int shift, bool negative) {
         const int whole = shift / 64, bits = shift % 64;
         const word low = magnitude << bits, high = bits == 0 ? 0 : magnitude >> (64 - bits);
