@@ -160,11 +160,8 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
     const number middle = std::min(std::max(place.numerator, first), last);
     for (const int radius : {4, 14, 24}) {
         const auto reach = number::shifted(1, radius);
-        root_bracket<Words, T> r{std::max(middle - reach, first),
-                                 std::min(middle + reach, last),
-                                 place.bits,
-                                 {},
-                                 {}};
+        root_bracket<Words, T> r{
+            std::max(middle - reach, first), std::min(middle + reach, last), place.bits, {}, {}};
         r.y_low = value_at(y, end - r.low, r.low);
         r.y_high = value_at(y, end - r.high, r.high);
         // Just inside the part's ends, signs are known whatever Y is there.

@@ -10,6 +10,7 @@
 // x.error() of x.value().
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <errbound/number_traits.hpp>
 #include <errbound/rounded.hpp>
@@ -20,6 +21,7 @@
 #include <errbound/rules/sharp.hpp>
 #include <errbound/rules/tight.hpp>
 #include <errbound/sign.hpp>
+#include <limits>
 
 namespace errbound {
 
@@ -83,8 +85,9 @@ class tracked {
 
     /// x·2^e: exact unless it underflows, and then the bound says so.
     friend constexpr tracked scale(const tracked& x, int e) {
-        const T v = number_traits<T>::scale(x.value_, e);
-        return {v, Rule::template scale<T>(v, x.as_operand(), e)};
+        const int power = std::max(e, -std::numeric_limits<int>::max());  // rules negate it
+        const T v = number_traits<T>::scale(x.value_, power);
+        return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
     /// The certain sign; the rule's own where it has one. Strict: a value that equals its bound may

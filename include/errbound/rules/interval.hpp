@@ -145,7 +145,8 @@ struct interval {
     template <class T>
     static constexpr T step(const T& c) {
         using traits = number_traits<T>;
-        return traits::abs(c) * traits::unit_roundoff() * T(1.25) + traits::underflow_unit();
+        return rounded_product(T(traits::abs(c) * traits::unit_roundoff()), T(1.25)) +
+               traits::underflow_unit();
     }
     template <class T>
     static constexpr T below(const T& c) {

@@ -99,8 +99,9 @@ struct residual {
         const T inherited = x + y;
         const T correction = own + inherited;
         const T remainder =
-            (traits::abs(a.value) + ca) * b.bound.remainder +
-            ((traits::abs(b.value) + cb + b.bound.remainder) * a.bound.remainder + ca * cb);
+            rounded_product(T(traits::abs(a.value) + ca), b.bound.remainder) +
+            (rounded_product(T(traits::abs(b.value) + cb + b.bound.remainder), a.bound.remainder) +
+             rounded_product(ca, cb));
         return {correction,
                 inflated<T>(remainder + roundings<T>(x, y, inherited, correction) + unknown)};
     }
@@ -130,7 +131,8 @@ struct residual {
         // that of the distance among them, the outer one for four.
         const T lost = unknown + traits::underflow_unit();
         const T c = traits::abs(correction) + lost, q = traits::abs(v);
-        const T left = (c * off + (q * b.bound.remainder + a.bound.remainder)) +
+        const T left = (rounded_product(c, off) +
+                        (rounded_product(q, b.bound.remainder) + a.bound.remainder)) +
                        roundings<T>(x, T(0), inherited, numerator);
         return {correction,
                 inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) + lost)};
@@ -168,19 +170,19 @@ struct residual {
     template <class T>
     static constexpr T roundings(const T& x, const T& y, const T& first, const T& second) {
         using traits = number_traits<T>;
-        return ((traits::abs(x) + traits::abs(y)) + (traits::abs(first) + traits::abs(second))) *
-                   traits::unit_roundoff() +
-               4 * traits::underflow_unit();
+        const T sizes =
+            (traits::abs(x) + traits::abs(y)) + (traits::abs(first) + traits::abs(second));
+        return rounded_product(sizes, traits::unit_roundoff()) + 4 * traits::underflow_unit();
     }
     /// At least the error of a result rounded to v, underflow included: u|v| + η.
     template <class T>
     static constexpr T half_ulp(const T& v) {
         using traits = number_traits<T>;
-        return traits::abs(v) * traits::unit_roundoff() + traits::underflow_unit();
+        return rounded_product(traits::abs(v), traits::unit_roundoff()) + traits::underflow_unit();
     }
     template <class T>
     static constexpr T inflated(const T& bound) {
-        return bound * (1 + 8 * number_traits<T>::epsilon());
+        return rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
     }
     template <class T>
     static constexpr bool is_exact(operand<T, residual> a) {

@@ -11,6 +11,7 @@
 // There is no rule for division: (B, k) has no lower bound of |f| to divide by.
 #pragma once
 
+#include <errbound/rounded.hpp>
 #include <errbound/rules/operand.hpp>
 
 namespace errbound {
@@ -52,7 +53,8 @@ struct safe {
         if (!(x <= 1) || b.operations == too_many || !traits::is_finite(value))
             return traits::infinity();
         if (b.operations == 0) return T(0);
-        return enlarged<T>(b.magnitude * enlarged<T>(x * (1 + x)) + traits::underflow_unit());
+        return enlarged<T>(rounded_product(b.magnitude, enlarged<T>(x * (1 + x))) +
+                           traits::underflow_unit());
     }
 
     /// B = Ba + Bb, k = max(ka, kb) + 1. Proof: proofs/IeeeSafe.v, safe_add_known; in any
@@ -108,7 +110,7 @@ struct safe {
 
     template <class T>
     static constexpr T enlarged(const T& x) {
-        return x * (1 + 4 * number_traits<T>::epsilon());
+        return rounded_product(x, T(1 + 4 * number_traits<T>::epsilon()));
     }
     template <class T>
     static constexpr bool is_zero(operand<T, safe> a) {
