@@ -7,6 +7,7 @@
                                  what an axis parts as computed in float is apart throughout the step
              swept_face_separate, swept_edges_separate
                                  rounded swept boxes that do not touch: no contact
+             swept_rounded_first   rounding before the least and greatest are taken gives the same boxes
              converted_difference_near   a difference in units of a power of two, rounded to double and then to
                                  float, is off by at most eps of itself or by eta
              swept_boxes_touch   rounded boxes that touch without a common end do so before rounding *)
@@ -515,6 +516,19 @@ Theorem swept_boxes_touch k a l b m :
   rounded c s (low (coordinate_of k) a l) < rounded c s (high (coordinate_of k) b m) ->
   low (coordinate_of k) a l <= high (coordinate_of k) b m.
 Proof. intros H. apply rounded_less in H; auto. lra. Qed.
+
+(** ccd/cuda/step.hpp rounds first and takes the least or greatest after. *)
+Theorem swept_rounded_first least coordinate a l : least = Rmin \/ least = Rmax ->
+  rounded c s (sweep least coordinate a l) = sweep least (fun p => rounded c s (coordinate p)) a l.
+Proof.
+  intros L. assert (C : forall r t, rounded c s (least r t) = least (rounded c s r) (rounded c s t)).
+  { intros r t. destruct L as [-> | ->]; unfold Rmin, Rmax;
+      destruct (Rle_dec r t) as [H | H], (Rle_dec (rounded c s r) (rounded c s t)) as [K | K]; try easy;
+      pose proof (rounded_monotone c s r t s_0); pose proof (rounded_monotone c s t r s_0);
+      try (exfalso; apply K; auto; lra); apply Rle_antisym; try lra; apply H1 || apply H0; lra. }
+  unfold sweep. rewrite <- C. generalize (least (coordinate (start a)) (coordinate (finish a))).
+  induction l as [| q l IH]; intros m; cbn [fold_left]; [easy |]. now rewrite IH, !C.
+Qed.
 
 End Boxes.
 (** ** Differences that become floats *)

@@ -24,6 +24,8 @@
 namespace ccd::cuda {
 
 /// A closed box of rounded coordinates (ccd/rounded_axes.hpp).
+/// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
+/// swept_boxes_touch.
 struct rounded_box {
     float low[3], high[3];
 
