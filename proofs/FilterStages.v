@@ -458,8 +458,6 @@ Proof.
   intros I J. pose proof (quartic_fits direction mx my mz _ f inside_fits I) as F.
   apply (proj1 (Forall_forall _ _) F) in J. destruct J as (A & _). exact (value_number p emin direction W e A).
 Qed.
-Lemma quartic_length f : In f (inside q) -> length (quartic f) = 5%nat.
-Proof. reflexivity. Qed.
 Lemma own_error_nonnegative bound e : Rabs (value e - exact e) + tiny / 1000 <= bound * (1 - eps) ->
   Rabs (value e - exact e) <= own_error bound /\ 0 <= own_error bound <= bound.
 Proof.
