@@ -78,6 +78,7 @@ constexpr std::array<double, N> approximated(
 
 /// A root in [0, 1] of a cubic, given by scaled Bernstein coefficients whose ends have opposite
 /// signs (or are zero): by Newton's method, and bisection where that leaves the interval known.
+/// Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
 constexpr double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52;
     constexpr int most_steps = 60;
@@ -136,6 +137,7 @@ struct root_bracket {
 };
 
 /// The estimated place of a part's root, if its ends have opposite signs.
+/// Proof that its numerator is at most 2^bits: proofs/Places.v, estimated_place_bits.
 template <int Words>
 constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
     const int bits = std::min(part.level + 48, 62), to_bits = bits - part.level;
@@ -180,6 +182,7 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
 
 /// The root's place to as many bits more as doubles know of it: the root of the cubic that has the
 /// bracket's end values and slopes, that is of y itself.
+/// Proof of its bits: proofs/Places.v, refined_place_bits.
 template <int Words, int T>
 constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
                                             const root_bracket<Words, T>& bracket) {
