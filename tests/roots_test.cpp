@@ -400,6 +400,17 @@ TEST_P(Families, DegreesUpTo60) {
     }
 }
 
+// p < 0 on [1, 2], with the signs − − + − of its control values there: the first is 2^−1200 of the
+// others, which is 0 in doubles.
+TEST(Roots, EndWithAValueTooSmallForADouble) {
+    const integer size = integer(1) << 1200U;
+    const integer a = -30 * size, b = 87 * size, c = -67 * size;  // powers of x − 1
+    const form p{-1 - a + b - c, a - 2 * b + 3 * c, b - 3 * c, c};
+    std::vector<isolating_interval<integer>> found;
+    root_isolation<integer>(p).isolate(dyadic<integer>::from(1), dyadic<integer>::from(2), found);
+    EXPECT_TRUE(found.empty());
+}
+
 // One library's polynomial at the roots of another's.
 TEST(Roots, MixedNumberTypes) {
     using boost::multiprecision::cpp_int;

@@ -312,7 +312,7 @@ class root_isolation {
         }
         const int low_exponent = floor_log2(low), high_exponent = floor_log2(high);
         if (variations == 2 && !roots_at_ends && high_exponent - low_exponent < 40 &&
-            add_pair(p, low, high, nearby_values(b), halvings, roots))
+            add_pair(p, low, high, nearby_values(b), sign_of(b.front()), halvings, roots))
             return;
         // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
         const bool by_exponent = high_exponent - low_exponent >= 12;
@@ -350,7 +350,8 @@ class root_isolation {
             return;
         }
         if (variations == 2 && halvings > 0 &&
-            add_pair(p, low, high, row.nearby_values(), halvings, roots))
+            add_pair(p, low, high, row.nearby_values(),
+                     row.sign(0) < 0 ? sign_type::negative : sign_type::positive, halvings, roots))
             return;
         const point half = middle(low, high);
         auto parts = std::move(row).halves();
@@ -364,20 +365,21 @@ class root_isolation {
     /// two are left, the part is split at the extremum between them instead, which Newton's method
     /// finds to more and more bits: they lie on either side of it, or in neither of the circles
     /// that have its sides as diameters, so that no sign change is left. Tried after 0, 8, 16, 32,
-    /// ... halvings; false if nothing comes of it. b: control values in doubles, not 0 at the ends.
+    /// ... halvings; false if nothing comes of it. b: control values in doubles, a hint; at_ends:
+    /// their sign at both ends.
     /// Proof: proofs/SignVariations.v, two_variations_two_roots.
     static bool add_pair(const form& p, const point& low, const point& high,
-                         const std::vector<double>& b, int halvings, std::vector<interval>& roots) {
+                         const std::vector<double>& b, sign_type at_ends, int halvings,
+                         std::vector<interval>& roots) {
         if (halvings % 8 != 0 || (halvings & (halvings - 1)) != 0) return false;
         const double t = extremum(b);
         if (!(0 < t && t < 1)) return false;
-        const sign_type inside = b[0] < 0 ? sign_type::positive : sign_type::negative;
         const form slope = derivative(p), curvature = derivative(slope);
         point x = low + (high - low) * point::from(t);
         for (int bits = 64;; bits *= 2) {
             const point value = value_at(p, x);
             if (value.is_zero()) return false;
-            if (sign_of(value) == inside) {
+            if (sign_of(value) == -at_ends) {
                 roots.push_back({low, x});
                 roots.push_back({x, high});
                 return true;
