@@ -9,7 +9,7 @@
 namespace ccd {
 
 /// True if some coordinate axis parts v from the edge the same way at t = 0 and at t = 1, and
-/// therefore, the motion being linear, throughout. Proof: proofs/Decisions.v, vertex_edge_parted.
+/// therefore, the motion being linear, throughout. Proof: proofs/AxisUnits.v, parted_right.
 constexpr bool parted(const vertex_edge<double>& q) {
     bool apart = false;
     for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z}) {

@@ -2,7 +2,7 @@
 //
 // Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
 // by positive factors, and integers stay short when one axis is much smaller than the others.
-// Proof: proofs/InteriorContact.v, units_keep_contact.
+// Proof: proofs/AxisUnits.v, face_units, edges_units, vertex_edge_units.
 #pragma once
 
 #include <algorithm>

@@ -39,6 +39,7 @@ constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
         if (!parted(original_edges[i]) && contact(edges[i])) return outcome::collides;
     return interior_contact(forms, y, units)();
 }
+/// Proof: proofs/InteriorContact.v, vertex_edge_decision_right.
 template <int Words>
 constexpr outcome contact_of(const vertex_edge<errbound::fixed_integer<Words>>& query,
                              const vertex_edge<double>& original, const integer_units&) {

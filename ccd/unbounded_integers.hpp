@@ -33,8 +33,8 @@ using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
 /// The query, of finite coordinates, in integers: each axis times a power of two of its own.
 /// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
 /// by positive factors, and integers stay short when one axis is much smaller than the others.
-/// Proof: proofs/UnboundedIntegers.v, to_integers_right, face_units, edges_units,
-/// vertex_edge_units.
+/// Proof: proofs/UnboundedIntegers.v, to_integers_right; proofs/AxisUnits.v, face_units,
+/// edges_units, vertex_edge_units.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
     constexpr int none = std::numeric_limits<int>::max();

@@ -9,7 +9,7 @@
         bsc_exact_face, bsc_exact_edges   it is `collides` exactly if they do *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein Bsc Contact Decisions UnboundedIntegers.
+From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
 Import ListNotations.
 Open Scope R_scope.
 

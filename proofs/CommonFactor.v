@@ -18,7 +18,6 @@ Fixpoint sum (f g : list Z) : list Z :=
 Definition multiple (c : Z) (f : list Z) : list Z := map (Z.mul c) f.
 Fixpoint product (f g : list Z) : list Z :=
   match f with [] => [] | a :: l => sum (multiple a g) (0 :: product l g) end.
-Definition at_real (f : list Z) (r : R) : R := power_form (map IZR f) r.
 
 Lemma coefficient_sum f g i : coefficient (sum f g) i = coefficient f i + coefficient g i.
 Proof.
@@ -32,26 +31,26 @@ Proof. simpl. rewrite coefficient_sum, coefficient_multiple. now destruct i. Qed
 Lemma coefficient_nil i : coefficient [] i = 0.
 Proof. now destruct i. Qed.
 
-Lemma sum_at f g r : at_real (sum f g) r = (at_real f r + at_real g r)%R.
+Lemma sum_at f g r : poly (sum f g) r = (poly f r + poly g r)%R.
 Proof.
-  unfold at_real. revert g. induction f as [| a f IH]; intros [| b g]; simpl; try ring. rewrite IH, plus_IZR. ring.
+  unfold poly. revert g. induction f as [| a f IH]; intros [| b g]; simpl; try ring. rewrite IH, plus_IZR. ring.
 Qed.
-Lemma multiple_at c f r : at_real (multiple c f) r = (IZR c * at_real f r)%R.
-Proof. unfold at_real, multiple. induction f as [| a f IH]; simpl; [ring |]. rewrite IH, mult_IZR. ring. Qed.
-Lemma product_at f g r : at_real (product f g) r = (at_real f r * at_real g r)%R.
+Lemma multiple_at c f r : poly (multiple c f) r = (IZR c * poly f r)%R.
+Proof. unfold poly, multiple. induction f as [| a f IH]; simpl; [ring |]. rewrite IH, mult_IZR. ring. Qed.
+Lemma product_at f g r : poly (product f g) r = (poly f r * poly g r)%R.
 Proof.
-  induction f as [| a f IH]; [unfold at_real; simpl; ring |]. cbn [product]. rewrite sum_at, multiple_at.
-  change (at_real (0 :: product f g) r) with (0 + r * at_real (product f g) r)%R. rewrite IH.
-  change (at_real (a :: f) r) with (IZR a + r * at_real f r)%R. ring.
+  induction f as [| a f IH]; [unfold poly; simpl; ring |]. cbn [product]. rewrite sum_at, multiple_at.
+  change (poly (0 :: product f g) r) with (0 + r * poly (product f g) r)%R. rewrite IH.
+  change (poly (a :: f) r) with (IZR a + r * poly f r)%R. ring.
 Qed.
-Lemma zero_at f r : (forall i, coefficient f i = 0) -> at_real f r = 0%R.
+Lemma zero_at f r : (forall i, coefficient f i = 0) -> poly f r = 0%R.
 Proof.
-  intros Z. induction f as [| a f IH]; [easy |]. change (at_real (a :: f) r) with (IZR a + r * at_real f r)%R.
+  intros Z. induction f as [| a f IH]; [easy |]. change (poly (a :: f) r) with (IZR a + r * poly f r)%R.
   rewrite IH by (intros i; apply (Z (S i))). pose proof (Z 0%nat) as E. unfold coefficient in E. simpl in E. rewrite E. ring.
 Qed.
-Lemma same_at f g r : same f g -> at_real f r = at_real g r.
+Lemma same_at f g r : same f g -> poly f r = poly g r.
 Proof.
-  intros E. assert (H : at_real (sum f (multiple (-1) g)) r = 0%R).
+  intros E. assert (H : poly (sum f (multiple (-1) g)) r = 0%R).
   { apply zero_at. intros i. rewrite coefficient_sum, coefficient_multiple, E. ring. }
   rewrite sum_at, multiple_at in H. lra.
 Qed.
@@ -124,28 +123,28 @@ Proof.
 Qed.
 
 (** Equal everywhere: the same coefficients. *)
-Lemma zero_everywhere f : (forall x, at_real f x = 0%R) -> forall i, coefficient f i = 0.
+Lemma zero_everywhere f : (forall x, poly f x = 0%R) -> forall i, coefficient f i = 0.
 Proof.
   induction f as [| a f IH]; intros Z i; [apply coefficient_nil |].
   assert (A : a = 0).
-  { apply eq_IZR. specialize (Z 0%R). change (at_real (a :: f) 0) with (IZR a + 0 * at_real f 0)%R in Z. lra. }
+  { apply eq_IZR. specialize (Z 0%R). change (poly (a :: f) 0) with (IZR a + 0 * poly f 0)%R in Z. lra. }
   destruct i as [| i]; [exact A |]. apply IH. apply (zero_between (map IZR f) 0 1); [lra |]. intros x X.
-  specialize (Z x). change (at_real (a :: f) x) with (IZR a + x * power_form (map IZR f) x)%R in Z. rewrite A in Z.
+  specialize (Z x). change (poly (a :: f) x) with (IZR a + x * power_form (map IZR f) x)%R in Z. rewrite A in Z.
   apply Rmult_eq_reg_l with x; lra.
 Qed.
-Lemma equal_same f g : (forall x, at_real f x = at_real g x) -> same f g.
+Lemma equal_same f g : (forall x, poly f x = poly g x) -> same f g.
 Proof.
   intros E i. assert (H : forall i, coefficient (sum f (multiple (-1) g)) i = 0).
   { apply zero_everywhere. intros x. rewrite sum_at, multiple_at, E. ring. }
   specialize (H i). rewrite coefficient_sum, coefficient_multiple in H. lia.
 Qed.
 
-Lemma divide_out p f : (forall i, (p | coefficient f i)) -> exists g, forall x, at_real f x = (IZR p * at_real g x)%R.
+Lemma divide_out p f : (forall i, (p | coefficient f i)) -> exists g, forall x, poly f x = (IZR p * poly g x)%R.
 Proof.
-  induction f as [| a f IH]; intros D; [exists []; intros x; unfold at_real; simpl; ring |].
+  induction f as [| a f IH]; intros D; [exists []; intros x; unfold poly; simpl; ring |].
   destruct IH as (g & E); [intros i; apply (D (S i)) |]. destruct (D 0%nat) as (q & Q). unfold coefficient in Q. simpl in Q.
-  exists (q :: g). intros x. change (at_real (a :: f) x) with (IZR a + x * at_real f x)%R.
-  change (at_real (q :: g) x) with (IZR q + x * at_real g x)%R. rewrite E, Q, mult_IZR. ring.
+  exists (q :: g). intros x. change (poly (a :: f) x) with (IZR a + x * poly f x)%R.
+  change (poly (q :: g) x) with (IZR q + x * poly g x)%R. rewrite E, Q, mult_IZR. ring.
 Qed.
 Lemma least (P : nat -> Prop) : (exists n, P n) -> exists k, P k /\ forall j, (j < k)%nat -> ~ P j.
 Proof.
@@ -169,11 +168,11 @@ Hypothesis P : prime p.
 Let prime_p : zero_or_prime p := or_intror P.
 
 (** A polynomial of least degree with the root r. *)
-Definition minimal (g : list Z) (k : nat) : Prop := degree 0 g k /\ at_real g r = 0%R /\
-  forall f j, degree 0 f j -> at_real f r = 0%R -> (k <= j)%nat.
+Definition minimal (g : list Z) (k : nat) : Prop := degree 0 g k /\ poly g r = 0%R /\
+  forall f j, degree 0 f j -> poly f r = 0%R -> (k <= j)%nat.
 
-Lemma not_all_divisible g k : degree 0 g k -> at_real g r = 0%R ->
-  exists h, degree 0 h k /\ at_real h r = 0%R /\ exists e, degree p h e.
+Lemma not_all_divisible g k : degree 0 g k -> poly g r = 0%R ->
+  exists h, degree 0 h k /\ poly h r = 0%R /\ exists e, degree p h e.
 Proof.
   pose proof (prime_ge_2 p P) as Two. remember (Z.abs_nat (coefficient g k)) as n eqn:N. revert g N.
   induction n as [n IH] using lt_wf_ind. intros g N D Z.
@@ -187,9 +186,9 @@ Proof.
   - apply degree_0. split; [intros K; apply D; rewrite C, K; ring |]. intros i I. specialize (Up i I). rewrite C in Up. nia.
   - rewrite E in Z. apply Rmult_eq_reg_l with (IZR p); [rewrite Z; ring |]. apply IZR_neq. lia.
 Qed.
-Lemma minimal_exists f j : degree 0 f j -> at_real f r = 0%R -> exists g k e, minimal g k /\ degree p g e.
+Lemma minimal_exists f j : degree 0 f j -> poly f r = 0%R -> exists g k e, minimal g k /\ degree p g e.
 Proof.
-  intros D Z. destruct (least (fun k => exists g, degree 0 g k /\ at_real g r = 0%R)) as (k & (g & Dg & Zg) & Least); [now exists j, f |].
+  intros D Z. destruct (least (fun k => exists g, degree 0 g k /\ poly g r = 0%R)) as (k & (g & Dg & Zg) & Least); [now exists j, f |].
   destruct (not_all_divisible g k Dg Zg) as (h & Dh & Zh & e & E). exists h, k, e. split; auto. split; auto. split; auto.
   intros f' j' Df Zf. destruct (le_lt_dec k j'); auto. exfalso. apply (Least j'); auto. now exists f'.
 Qed.
@@ -205,11 +204,11 @@ Proof.
 Qed.
 
 (** It divides every other, but for a factor. *)
-Lemma pseudo_quotient g k : minimal g k -> forall n f, (forall i, (n <= i)%nat -> coefficient f i = 0) -> at_real f r = 0%R ->
-  exists m q, m <> 0 /\ forall x, (IZR m * at_real f x = at_real q x * at_real g x)%R.
+Lemma pseudo_quotient g k : minimal g k -> forall n f, (forall i, (n <= i)%nat -> coefficient f i = 0) -> poly f r = 0%R ->
+  exists m q, m <> 0 /\ forall x, (IZR m * poly f x = poly q x * poly g x)%R.
 Proof.
   intros (D & Z & Least). induction n as [| n IH]; intros f Up Zf.
-  - exists 1, []. split; [lia |]. intros x. rewrite (zero_at f x) by (intros i; apply Up; lia). unfold at_real. simpl. ring.
+  - exists 1, []. split; [lia |]. intros x. rewrite (zero_at f x) by (intros i; apply Up; lia). unfold poly. simpl. ring.
   - destruct (Z.eq_dec (coefficient f n) 0) as [E | N].
     + apply IH; auto. intros i I. destruct (Nat.eq_dec i n) as [-> |]; [easy | apply Up; lia].
     + assert (K : (k <= n)%nat) by (apply (Least f); auto; apply degree_0; split; [easy | intros i I; apply Up; lia]).
@@ -225,8 +224,8 @@ Proof.
         rewrite sum_at, !multiple_at in E. unfold h in E. rewrite product_at in E.
         rewrite sum_at, multiple_at, mult_IZR, Rmult_plus_distr_r, <- E. ring.
 Qed.
-Lemma without_prime g e f : degree p g e -> forall m q, m <> 0 -> (forall x, (IZR m * at_real f x = at_real q x * at_real g x)%R) ->
-  exists m q, ~ (p | m) /\ forall x, (IZR m * at_real f x = at_real q x * at_real g x)%R.
+Lemma without_prime g e f : degree p g e -> forall m q, m <> 0 -> (forall x, (IZR m * poly f x = poly q x * poly g x)%R) ->
+  exists m q, ~ (p | m) /\ forall x, (IZR m * poly f x = poly q x * poly g x)%R.
 Proof.
   intros D m. remember (Z.abs_nat m) as n eqn:N. revert m N. induction n as [n IH] using lt_wf_ind. intros m N q M E.
   pose proof (prime_ge_2 p P) as Two.
@@ -243,17 +242,17 @@ Qed.
     degree k: every common root is one of its own. *)
 Lemma common_root (a b divisor image u v w fa fb : list Z) (n k : nat) :
   degree 0 a n -> ~ (p | coefficient a n) ->
-  (forall x, at_real a x = at_real divisor x * at_real fa x)%R -> (forall x, at_real b x = at_real divisor x * at_real fb x)%R ->
-  (forall x, at_real image x = at_real u x * at_real a x + at_real v x * at_real b x + IZR p * at_real w x)%R ->
+  (forall x, poly a x = poly divisor x * poly fa x)%R -> (forall x, poly b x = poly divisor x * poly fb x)%R ->
+  (forall x, poly image x = poly u x * poly a x + poly v x * poly b x + IZR p * poly w x)%R ->
   degree p image k -> degree 0 divisor k ->
-  at_real a r = 0%R -> at_real b r = 0%R -> at_real divisor r = 0%R.
+  poly a r = 0%R -> poly b r = 0%R -> poly divisor r = 0%R.
 Proof.
-  intros Da La Ea Eb Ei Di Dd Za Zb. destruct (Req_dec (at_real divisor r) 0) as [| N]; auto. exfalso.
-  assert (Zfa : at_real fa r = 0%R) by (rewrite Ea in Za; apply Rmult_integral in Za; tauto).
-  assert (Zfb : at_real fb r = 0%R) by (rewrite Eb in Zb; apply Rmult_integral in Zb; tauto).
+  intros Da La Ea Eb Ei Di Dd Za Zb. destruct (Req_dec (poly divisor r) 0) as [| N]; auto. exfalso.
+  assert (Zfa : poly fa r = 0%R) by (rewrite Ea in Za; apply Rmult_integral in Za; tauto).
+  assert (Zfb : poly fb r = 0%R) by (rewrite Eb in Zb; apply Rmult_integral in Zb; tauto).
   assert (Sa : same a (product divisor fa)) by (apply equal_same; intros x; now rewrite product_at).
   destruct (some_degree 0 fa) as [All | (j & Dj)].
-  { apply La. rewrite Sa. assert (Z : forall x, at_real (product divisor fa) x = 0%R).
+  { apply La. rewrite Sa. assert (Z : forall x, poly (product divisor fa) x = 0%R).
     { intros x. rewrite product_at, (zero_at fa); [ring |]. intros i. apply Z.divide_0_l, All. }
     rewrite (zero_everywhere _ Z). apply Z.divide_0_r. }
   assert (Zero : zero_or_prime 0) by now left.
@@ -264,7 +263,7 @@ Proof.
   assert (Lead : coefficient a n = coefficient divisor k * coefficient fa j) by (rewrite Sa, En; now apply last_of_product).
   destruct (minimal_exists fa j Dj Zfa) as (g & l & e & Min & De). pose proof Min as (Dg & Zg & _).
   pose proof (proj1 (degree_0 _ _) Dg) as (Ng & Ug).
-  assert (Quotient : forall f, at_real f r = 0%R -> exists m q, ~ (p | m) /\ forall x, (IZR m * at_real f x = at_real q x * at_real g x)%R).
+  assert (Quotient : forall f, poly f r = 0%R -> exists m q, ~ (p | m) /\ forall x, (IZR m * poly f x = poly q x * poly g x)%R).
   { intros f Zf. destruct (pseudo_quotient g l Min (length f) f) as (m & q & M & E); auto.
     - intros i I. unfold coefficient. now apply nth_overflow.
     - now apply (without_prime g e f De m q). }
@@ -291,8 +290,8 @@ Proof.
   set (h := sum (multiple m2 (product u q1)) (multiple m1 (product v q2))).
   assert (Main : same (multiple (m1 * m2) image) (sum (product (product divisor g) h) (multiple (p * (m1 * m2)) w))).
   { apply equal_same. intros x. unfold h. rewrite sum_at, !multiple_at, !product_at, sum_at, !multiple_at, !product_at, Ei, Ea, Eb, !mult_IZR.
-    transitivity (at_real divisor x * (IZR m2 * at_real u x * (IZR m1 * at_real fa x) + IZR m1 * at_real v x * (IZR m2 * at_real fb x))
-      + IZR p * (IZR m1 * IZR m2) * at_real w x)%R; [ring |]. rewrite E1, E2. ring. }
+    transitivity (poly divisor x * (IZR m2 * poly u x * (IZR m1 * poly fa x) + IZR m1 * poly v x * (IZR m2 * poly fb x))
+      + IZR p * (IZR m1 * IZR m2) * poly w x)%R; [ring |]. rewrite E1, E2. ring. }
   assert (Dprod : degree p (product (product divisor g) h) k).
   { assert (C : forall i, (p | coefficient (product (product divisor g) h) i) <-> (p | coefficient image i)).
     { intros i. specialize (Main i). rewrite coefficient_sum, !coefficient_multiple in Main.
@@ -310,7 +309,7 @@ Proof.
   pose proof (degree_product p _ h _ y prime_p (degree_product p divisor g k l prime_p Dpd Dpg) Dh) as Dall.
   pose proof (degree_unique p _ _ _ Dprod Dall) as El. assert (l = 0%nat) as -> by lia.
   apply Ng. apply eq_IZR. rewrite <- Zg. symmetry.
-  destruct g as [| c g]; [now destruct Ng |]. change (at_real (c :: g) r) with (IZR c + r * at_real g r)%R.
+  destruct g as [| c g]; [now destruct Ng |]. change (poly (c :: g) r) with (IZR c + r * poly g r)%R.
   rewrite (zero_at g r) by (intros i; apply (Ug (S i)); lia). unfold coefficient. simpl. ring.
 Qed.
 
@@ -328,8 +327,8 @@ Inductive reached (p : Z) (a b : list Z) : list Z -> Prop :=
     congruent p h (sum (multiple s f) (product (monomial t k) g)) -> reached p a b h.
 
 Definition in_ideal (p : Z) (a b f : list Z) : Prop := exists u v w, forall x,
-  at_real f x = (at_real u x * at_real a x + at_real v x * at_real b x + IZR p * at_real w x)%R.
-Lemma congruent_values p f g : congruent p f g -> exists w, forall x, at_real f x = (at_real g x + IZR p * at_real w x)%R.
+  poly f x = (poly u x * poly a x + poly v x * poly b x + IZR p * poly w x)%R.
+Lemma congruent_values p f g : congruent p f g -> exists w, forall x, poly f x = (poly g x + IZR p * poly w x)%R.
 Proof.
   intros C. destruct (divide_out p (sum f (multiple (-1) g))) as (w & E).
   - intros i. rewrite coefficient_sum, coefficient_multiple. replace (_ + _) with (coefficient f i - coefficient g i) by ring. apply C.
@@ -337,8 +336,8 @@ Proof.
 Qed.
 Theorem images_in_ideal p a b f : reached p a b f -> in_ideal p a b f.
 Proof.
-  assert (C : forall s x, at_real [s] x = IZR s) by (intros; unfold at_real; simpl; ring).
-  assert (O : forall x, at_real [] x = 0%R) by easy.
+  assert (C : forall s x, poly [s] x = IZR s) by (intros; unfold poly; simpl; ring).
+  assert (O : forall x, poly [] x = 0%R) by easy.
   induction 1 as [s f H | s f H | f g s t k h _ (u & v & w & F) _ (u' & v' & w' & G) H].
   - destruct (congruent_values _ _ _ H) as (w & E). exists [s], [], w. intros x. rewrite E, multiple_at, C, O. ring.
   - destruct (congruent_values _ _ _ H) as (w & E). exists [], [s], w. intros x. rewrite E, multiple_at, C, O. ring.
@@ -352,15 +351,14 @@ Inductive divided (b : list Z) : list Z -> list Z -> Prop :=
 | nothing_left a : (forall i, coefficient a i = 0) -> divided b a []
 | next_factor a c k q : divided b (sum a (multiple (-1) (product (monomial c k) b))) q ->
     divided b a (sum q (monomial c k)).
-Theorem divided_right b a q : divided b a q -> forall x, at_real a x = (at_real b x * at_real q x)%R.
+Theorem divided_right b a q : divided b a q -> forall x, poly a x = (poly b x * poly q x)%R.
 Proof.
-  induction 1 as [a Z | a c k q D IH]; intros x; [rewrite (zero_at a) by easy; unfold at_real at 2; simpl; ring |].
+  induction 1 as [a Z | a c k q D IH]; intros x; [rewrite (zero_at a) by easy; unfold poly at 2; simpl; ring |].
   specialize (IH x). rewrite sum_at, multiple_at, product_at in IH. rewrite sum_at, Rmult_plus_distr_l, <- IH. ring.
 Qed.
 
-(** make_primitive, and the last coefficient that trim leaves. *)
+(** make_primitive *)
 Definition primitive (f g : list Z) : Prop := exists c, c <> 0 /\ f = multiple c g.
-Definition trimmed (f : list Z) : Prop := f <> [] -> last f 0 <> 0.
 
 (** common_factor: one of a and b where the other is empty; or a divisor of both that has the size of the
     image modulo the last prime, which does not divide a's last coefficient ([1] if the image is constant). *)
@@ -381,33 +379,33 @@ Proof.
   destruct f; [easy | simpl in *; lia].
 Qed.
 Lemma primitive_right f g : primitive f g -> (g = [] <-> f = []) /\ (trimmed f -> trimmed g) /\
-  forall x, at_real g x = 0%R <-> at_real f x = 0%R.
+  forall x, poly g x = 0%R <-> poly f x = 0%R.
 Proof.
   intros (c & C & ->). assert (E : g = [] <-> multiple c g = []) by (destruct g; simpl; split; easy).
   split; [easy |]. split.
-  - intros T N. rewrite <- last_coefficient. intros Z. apply T; [now rewrite <- E |].
-    rewrite <- last_coefficient. unfold multiple at 2. rewrite map_length, coefficient_multiple, Z. ring.
+  - intros [N | T]; [left; now apply E | right]. rewrite <- last_coefficient in *. intros Z. apply T.
+    unfold multiple at 2. rewrite map_length, coefficient_multiple, Z. ring.
   - intros x. rewrite multiple_at. split; intros H; [rewrite H; ring |]. apply Rmult_integral in H.
     destruct H as [H |]; auto. now apply eq_IZR in H.
 Qed.
 
 Theorem common_factor_right a b c : trimmed a -> trimmed b -> common_factor a b c ->
   trimmed c /\ (c = [] <-> a = [] /\ b = []) /\
-  forall x, at_real c x = 0%R <-> at_real a x = 0%R /\ at_real b x = 0%R.
+  forall x, poly c x = 0%R <-> poly a x = 0%R /\ poly b x = 0%R.
 Proof.
   intros Ta Tb [c' E Q | c' E Q | a' b' c' p image qa qb Qa Qb Na Nb P La R Di Nc Lc Da Db].
   - subst a. destruct (primitive_right _ _ Q) as (A & B & C). split; [now apply B |]. split; [tauto |].
-    intros x. rewrite C. unfold at_real at 2. simpl. tauto.
+    intros x. rewrite C. unfold poly at 2. simpl. tauto.
   - subst b. destruct (primitive_right _ _ Q) as (A & B & C). split; [now apply B |]. split; [tauto |].
-    intros x. rewrite C. unfold at_real at 3. simpl. tauto.
+    intros x. rewrite C. unfold poly at 3. simpl. tauto.
   - destruct (primitive_right _ _ Qa) as (Ea & Pa & Za). destruct (primitive_right _ _ Qb) as (_ & _ & Zb).
-    split; [easy |]. split; [tauto |]. intros x. rewrite <- Za, <- Zb.
+    split; [now right |]. split; [tauto |]. intros x. rewrite <- Za, <- Zb.
     pose proof (divided_right _ _ _ Da) as Fa. pose proof (divided_right _ _ _ Db) as Fb. split.
     + intros Z. rewrite Fa, Fb, Z. split; ring.
     + intros (A & B). destruct (images_in_ideal _ _ _ _ R) as (u & v & w & I).
       assert (Na' : a' <> []) by (rewrite Ea; easy).
       apply (common_root p x P a' b' c' image u v w qa qb (length a' - 1) (length c' - 1)); auto.
-      * apply trimmed_degree; auto. now apply Pa.
+      * apply trimmed_degree; auto. now destruct (Pa Ta).
       * now rewrite last_coefficient.
       * now apply trimmed_degree.
 Qed.

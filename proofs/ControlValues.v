@@ -67,24 +67,23 @@ Proof.
   - apply Rmult_le_compat_r; [apply bpow_ge_0 | easy].
 Qed.
 
-Definition reals_of (p : list Z) : list R := map IZR p.
 Definition sign_factor (z : Z) : R := if (z <? 0)%Z then -1 else 1.
 
 Lemma above_the_bound last : (last <> 0)%Z -> forall p x, 0 < x -> p <> [] -> List.last p 0%Z = last ->
   (forall e, root_exponent last p = Some e -> pow2 e <= x) ->
-  IZR (Z.abs last) * (x / 2) ^ (length p - 1) <= sign_factor last * power_form (reals_of p) x.
+  IZR (Z.abs last) * (x / 2) ^ (length p - 1) <= sign_factor last * poly p x.
 Proof.
   intros L p x X. assert (Pl : 0 < IZR (Z.abs last)) by (apply IZR_lt; lia).
   assert (Abs : sign_factor last * IZR last = IZR (Z.abs last)).
   { unfold sign_factor. destruct (Z.ltb_spec last 0); rewrite ?Z.abs_neq, ?Z.abs_eq, ?opp_IZR by lia; ring. }
   induction p as [| c [| c' l] IH]; intros N E B; [easy | |].
-  - cbn [List.last] in E. subst c. simpl. lra.
+  - cbn [List.last] in E. subst c. unfold poly. simpl. lra.
   - change (List.last (c :: c' :: l) 0%Z) with (List.last (c' :: l) 0%Z) in E. set (p := c' :: l) in *.
     set (d := length p). assert (D : (0 < d)%nat) by (unfold d, p; simpl; lia).
     assert (B' : forall e, root_exponent last p = Some e -> pow2 e <= x).
     { intros e F. cbn [root_exponent] in B. fold p in B. rewrite F in B. unfold p in B. destruct ((c =? 0)%Z || _); [now apply B |].
       specialize (B _ eq_refl). apply Rle_trans with (2 := B). apply bpow_le. lia. }
-    specialize (IH ltac:(easy) E B'). change (reals_of (c :: p)) with (IZR c :: reals_of p). cbn [power_form length].
+    specialize (IH ltac:(easy) E B'). change (poly (c :: p) x) with (IZR c + x * poly p x). cbn [length].
     fold d. fold d in IH. replace (S d - 1)%nat with (S (d - 1)) by lia. cbn [pow]. set (h := (x / 2) ^ (d - 1)) in *.
     assert (H : 0 < h) by (apply pow_lt; lra).
     assert (Main : - (IZR (Z.abs last) * (x / 2 * h)) <= sign_factor last * IZR c).
@@ -109,10 +108,10 @@ Proof.
         lra. }
     apply Rle_trans with (- (IZR (Z.abs last) * (x / 2 * h)) + x * (IZR (Z.abs last) * h)); [lra |].
     rewrite Rmult_plus_distr_l. apply Rplus_le_compat; auto.
-    replace (sign_factor last * (x * power_form (reals_of p) x)) with (x * (sign_factor last * power_form (reals_of p) x)) by ring.
+    replace (sign_factor last * (x * poly p x)) with (x * (sign_factor last * poly p x)) by ring.
     apply Rmult_le_compat_l; lra.
 Qed.
-Theorem root_exponent_right p x : 0 < x -> List.last p 0%Z <> 0%Z -> power_form (reals_of p) x = 0 ->
+Theorem root_exponent_right p x : 0 < x -> List.last p 0%Z <> 0%Z -> poly p x = 0 ->
   exists e, positive_root_exponent p = Some e /\ x < pow2 e.
 Proof.
   intros X L Z. unfold positive_root_exponent.
@@ -144,9 +143,9 @@ Proof.
   - rewrite (pow2_next e), (pow2_next (e - 1)), (pow2_next (e - 1 - 1)), (pow2_next (e - 1 - 1 - 1)), (pow2_next (e - 1 - 1 - 1 - 1)).
     replace (e - 1 - 1 - 1 - 1 - 1)%Z with (e - 5)%Z by ring. ring.
 Qed.
-Lemma reversed_root p x : 0 < x -> p <> [] -> power_form (reals_of p) x = 0 -> power_form (reals_of (rev p)) (/ x) = 0.
+Lemma reversed_root p x : 0 < x -> p <> [] -> poly p x = 0 -> poly (rev p) (/ x) = 0.
 Proof.
-  intros X N Z. assert (I : 0 < / x) by now apply Rinv_0_lt_compat.
+  unfold poly. intros X N Z. assert (I : 0 < / x) by now apply Rinv_0_lt_compat.
   pose proof (reversed_form (S := reals) (reals_of p) 1 (/ x)) as H. simpl exact in H. rewrite !map_id in H.
   change (form (rev (reals_of p)) 1 (/ x) = form (reals_of p) (/ x) 1) in H.
   assert (E : forall q s t, s <> 0 -> q <> [] -> exists k, form q s t = s ^ k * power_form q (t / s)).
@@ -154,10 +153,10 @@ Proof.
   destruct (E (rev (reals_of p)) 1 (/ x)) as (k & K); [lra | destruct p; [easy |]; simpl; now destruct (rev (reals_of p)) |].
   destruct (E (reals_of p) (/ x) 1) as (m & M); [lra | now destruct p |].
   rewrite K, M, pow1, Rmult_1_l in H. unfold Rdiv in H. rewrite Rinv_1, Rmult_1_r, Rinv_inv, Rmult_1_l, Z, Rmult_0_r in H.
-  unfold reals_of. now rewrite map_rev.
+  now rewrite map_rev.
 Qed.
 Theorem half_line_right p : List.last p 0%Z <> 0%Z -> hd 0%Z p <> 0%Z -> bounds_right (reals_of p) (half_line p) /\
-  forall x, 0 < x -> power_form (reals_of p) x = 0 -> exists e, positive_root_exponent p = Some e /\ x < unlikely_root e.
+  forall x, 0 < x -> poly p x = 0 -> exists e, positive_root_exponent p = Some e /\ x < unlikely_root e.
 Proof.
   intros L H. assert (N : p <> []) by (intros ->; easy). split.
   - intros x X Z. destruct (root_exponent_right p x X L Z) as (e & E & U).

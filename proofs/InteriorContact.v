@@ -9,28 +9,15 @@
         interior_contact_right  collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: nowhere,
                                 or Y = 0 throughout and some G_i <= 0 at t = 0
         interior_contact_ends, three_parts_wait   the loop ends, and at most three parts wait
-        face_decision_right, edges_decision_right   certain answers of contact_of are right
-        units_keep_contact      contact does not depend on the units of the axes *)
+        face_decision_right, edges_decision_right, vertex_edge_decision_right
+                                certain answers of contact_of are right *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
 From Flocq Require Import Core.
-From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions CubicRoots.
+From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots.
 From Errbound Require BoundedInteger.
 Import ListNotations.
 Open Scope R_scope.
-
-(** ** Scalars *)
-
-(** Integers of fixed width, as scalars of Bernstein.v. *)
-Program Definition integers : scalar := {|
-  number := Z; add := Z.add; sub := Z.sub; mul := Z.mul; opp := Z.opp; whole := fun n => n;
-  twice := Z.mul 2; normalized := fun p => p; sign_of := BoundedInteger.sign_of_integer; exact := IZR;
-  exact_add := plus_IZR; exact_sub := minus_IZR; exact_mul := mult_IZR; exact_opp := opp_IZR;
-  exact_whole := fun n => eq_refl; exact_twice := mult_IZR 2;
-  sign_right := BoundedInteger.sign_of_integer_right |}.
-Next Obligation.
-  exists 1. split; [lra |]. rewrite <- (map_id (map IZR p)) at 1. apply map_ext. intros. ring.
-Qed.
 
 (** ** Weights at a time *)
 
@@ -51,13 +38,12 @@ Proof.
 Qed.
 
 (** In other units of the axes, weights at Y = 0 are multiplied by one positive number. *)
-Definition stretched (k l m : R) (v : point) : point := Point (k * x v) (l * y v) (m * z v).
 Lemma weights_stretched edges k l m b c p : 0 < k -> 0 < l -> 0 < m -> det b c p = 0 -> exists f, 0 < f /\
-  weights edges (stretched k l m b) (stretched k l m c) (stretched k l m p) =
+  weights edges (stretched (Point k l m) b) (stretched (Point k l m) c) (stretched (Point k l m) p) =
   map (Rmult f) (weights edges b c p).
 Proof.
   intros K L M D.
-  set (b' := stretched k l m b). set (c' := stretched k l m c). set (p' := stretched k l m p).
+  set (b' := stretched (Point k l m) b). set (c' := stretched (Point k l m) c). set (p' := stretched (Point k l m) p).
   assert (H : exists f, 0 < f /\ square_normal b' c' = f * square_normal b c /\
     weight_1 b' c' p' = f * weight_1 b c p /\ weight_2 b' c' p' = f * weight_2 b c p).
   { destruct (origin_dec (cross b c)) as [E | N].
@@ -303,7 +289,7 @@ Definition positive_at (s t : R) : bool :=
   all_positive edges (vector_value b s t) (vector_value c s t) (vector_value p s t).
 
 Lemma vector_value_at v s t : degree v 1 -> s + t <> 0 ->
-  vector_value v s t = stretched (s + t) (s + t) (s + t) (vector_at v (t / (s + t))).
+  vector_value v s t = stretched (Point (s + t) (s + t) (s + t)) (vector_at v (t / (s + t))).
 Proof.
   intros (L0 & L1 & L2) N. destruct v as [v0 v1 v2]. cbn [vx vy vz] in *.
   assert (E : forall l : list Z, length l = 2%nat ->
@@ -312,7 +298,7 @@ Proof.
   unfold vector_value, vector_at, stretched, at_time. cbn [vx vy vz x Contact.y z]. now rewrite <- !E.
 Qed.
 Lemma weights_homogeneous k q r s :
-  weights edges (stretched k k k q) (stretched k k k r) (stretched k k k s) = map (Rmult (k ^ 4)) (weights
+  weights edges (stretched (Point k k k) q) (stretched (Point k k k) r) (stretched (Point k k k) s) = map (Rmult (k ^ 4)) (weights
     edges q r s).
 Proof.
   unfold weights, weight_0, weight_1, weight_2, on_a, on_b, square_normal, stretched, dot, cross.
@@ -356,7 +342,7 @@ Proof.
   assert (K : forall extent, 0 < k extent).
   { intros extent. unfold k. apply Rdiv_lt_0_compat; apply power_positive; auto. unfold cut_of. lia. }
   assert (V : forall v, degree v 1 -> vector_stands (known_at T low bits width_bits v)
-    (stretched (k extent_x) (k extent_y) (k extent_z) (vector_at v t))).
+    (stretched (Point (k extent_x) (k extent_y) (k extent_z)) (vector_at v t))).
   { intros v (L0 & L1 & L2). repeat split; cbn [known_at kx ky kz];
       apply component_stands with (width := width); auto. }
   pose proof (weights_stand edges _ _ _ _ _ _ (V b degree_b) (V c degree_c) (V p degree_p)) as F.
@@ -988,66 +974,59 @@ End Query.
 (** ** Queries *)
 
 Notation integer_motion := (@moving_point integers).
-(** contact_of of ccd/integer_decision.hpp. `parted` is asked of the coordinates as doubles: all that is
-    needed of it is vertex_edge_parted. *)
-Definition vertex_edge : Type := integer_motion * integer_motion * integer_motion.
-Definition edge_contact (q : vertex_edge) : bool :=
-  let '(v, e0, e1) := q in contact (exact_motion v) (exact_motion e0) (exact_motion e1).
-Definition touches_edge (q : vertex_edge) : Prop :=
-  let '(v, e0, e1) := q in vertex_edge_collides (exact_motion v) (exact_motion e0) (exact_motion e1).
-Definition vertex_edge_queries (edges : bool) (q0 q1 q2 q3 : integer_motion) : list vertex_edge :=
+(** contact_of of ccd/integer_decision.hpp: the points as given, m, and in integers, q. *)
+Definition vertex_edge_queries {A : Type} (edges : bool) (q0 q1 q2 q3 : A) : list (A * A * A) :=
   if edges then let a0 := q0 in let a1 := q1 in let b0 := q2 in let b1 := q3 in
     [(a0, b0, b1); (a1, b0, b1); (b0, a0, a1); (b1, a0, a1)]
   else let v := q0 in let f0 := q1 in let f1 := q2 in let f2 := q3 in
     [(v, f0, f1); (v, f1, f2); (v, f2, f0)].
-Definition contact_of (edges : bool) (parted : vertex_edge -> bool) (extent_x extent_y extent_z : Z)
+Definition edge_contact (query : moving * moving * moving * (integer_motion * integer_motion * integer_motion)) :
+    bool :=
+  let '(original_v, original_e0, original_e1, (v, e0, e1)) := query in
+  negb (parted original_v original_e0 original_e1) && contact (exact_motion v) (exact_motion e0) (exact_motion e1).
+Definition contact_of (edges : bool) (extent_x extent_y extent_z : Z)
     (estimate : part -> Z) (refine : Z -> part -> Z -> Z -> Z -> Z) (steps : nat)
-    (q0 q1 q2 q3 : integer_motion) : outcome :=
+    (m0 m1 m2 m3 : moving) (q0 q1 q2 q3 : integer_motion) : outcome :=
   let b := if edges then difference q1 q0 else difference q2 q1 in
   let c := if edges then difference q3 q2 else difference q3 q1 in
   let p := if edges then difference q2 q0 else difference q0 q1 in
   if certainly_rootless (y_form b c p) then separate
-  else if existsb (fun q => negb (parted q) && edge_contact q) (vertex_edge_queries edges q0 q1 q2 q3) then
-    collides
+  else if existsb edge_contact
+      (combine (vertex_edge_queries edges m0 m1 m2 m3) (vertex_edge_queries edges q0 q1 q2 q3)) then collides
   else interior_contact edges b c p extent_x extent_y extent_z estimate refine steps.
 
 Section Decisions.
 
-Variable parted : vertex_edge -> bool.
-Hypothesis parted_right : forall q, parted q = true -> ~ touches_edge q.
+Variable unit : point.
+Hypothesis U : units unit.
 Variables extent_x extent_y extent_z : Z.
 Variable estimate : part -> Z.
 Variable refine : Z -> part -> Z -> Z -> Z -> Z.
 Variable steps : nat.
-Let decide edges := contact_of edges parted extent_x extent_y extent_z estimate refine steps.
+Let decide edges := contact_of edges extent_x extent_y extent_z estimate refine steps.
 
-Lemma edge_contact_right q : edge_contact q = true <-> touches_edge q.
-Proof. destruct q as [[v e0] e1]. apply contact_right. Qed.
-Lemma edges_asked queries : existsb (fun q => negb (parted q) && edge_contact q) queries = true <->
-  exists q, In q queries /\ touches_edge q.
+Theorem vertex_edge_decision_right m0 m1 m2 v e0 e1 : in_integers unit m0 v -> in_integers unit m1 e0 ->
+  in_integers unit m2 e1 -> edge_contact (m0, m1, m2, (v, e0, e1)) = true <-> vertex_edge_collides m0 m1 m2.
 Proof.
-  rewrite existsb_exists. split; intros (q & I & H); exists q; split; auto.
-  - apply andb_prop in H. now apply edge_contact_right.
-  - apply andb_true_intro. split; [| now apply edge_contact_right].
-    destruct (parted q) eqn:E; auto. now apply parted_right in E.
+  unfold in_integers, edge_contact. intros -> -> ->.
+  rewrite andb_true_iff, negb_true_iff, contact_right, (vertex_edge_units unit) by easy.
+  split; [tauto |]. intros H. split; auto. destruct (parted m0 m1 m2) eqn:P; auto. now apply parted_right in P.
 Qed.
-Lemma face_edges (v f0 f1 f2 : integer_motion) : (exists q,
-  In q (vertex_edge_queries false v f0 f1 f2) /\ touches_edge q) <->
-  face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2).
+Lemma face_edges m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
+  in_integers unit m2 f1 -> in_integers unit m3 f2 ->
+  existsb edge_contact (combine (vertex_edge_queries false m0 m1 m2 m3) (vertex_edge_queries false v f0 f1 f2)) = true
+  <-> face_border_collides m0 m1 m2 m3.
 Proof.
-  unfold face_border_collides. cbn. split.
-  - intros (q & [<- | [<- | [<- | []]]] & H); auto.
-  - intros [H | [H | H]]; [exists (v, f0, f1) | exists (v, f1, f2) | exists (v, f2, f0)]; auto.
+  intros. unfold face_border_collides. cbn [vertex_edge_queries combine existsb].
+  rewrite !orb_true_iff, !vertex_edge_decision_right by easy. intuition discriminate.
 Qed.
-Lemma edges_edges (a0 a1 b0 b1 : integer_motion) : (exists q,
-  In q (vertex_edge_queries true a0 a1 b0 b1) /\ touches_edge q) <->
-  edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1).
+Lemma edges_edges m0 m1 m2 m3 a0 a1 b0 b1 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
+  in_integers unit m2 b0 -> in_integers unit m3 b1 ->
+  existsb edge_contact (combine (vertex_edge_queries true m0 m1 m2 m3) (vertex_edge_queries true a0 a1 b0 b1)) = true
+  <-> edges_border_collides m0 m1 m2 m3.
 Proof.
-  unfold edges_border_collides. cbn. split.
-  - intros (q & [<- | [<- | [<- | [<- | []]]]] & H); auto.
-  - intros [H | [H | [H | H]]]; [exists (a0, b0, b1) | exists (a1, b0, b1) | exists (b0, a0,
-      a1) | exists (b1, a0, a1)];
-      auto 6.
+  intros. unfold edges_border_collides. cbn [vertex_edge_queries combine existsb].
+  rewrite !orb_true_iff, !vertex_edge_decision_right by easy. intuition discriminate.
 Qed.
 
 Lemma face_inside_same (v f0 f1 f2 : integer_motion) t : inside false (vector_at (difference f1 f0) t)
@@ -1067,18 +1046,23 @@ Proof.
     intuition auto.
 Qed.
 
-Theorem face_decision_right (v f0 f1 f2 : integer_motion) : let collide := vertex_face_collides
-  (exact_motion v) (exact_motion f0)
-    (exact_motion f1) (exact_motion f2) in
-  (decide false v f0 f1 f2 = collides -> collide) /\ (decide false v f0 f1 f2 = separate -> ~ collide).
+Theorem face_decision_right m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
+  in_integers unit m2 f1 -> in_integers unit m3 f2 -> let found := decide false m0 m1 m2 m3 v f0 f1 f2 in
+  (found = collides -> vertex_face_collides m0 m1 m2 m3) /\ (found = separate -> ~ vertex_face_collides m0 m1 m2 m3).
 Proof.
-  cbv zeta. unfold decide, contact_of. cbv iota zeta. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp).
+  intros I0 I1 I2 I3. cbv zeta. pose proof (face_units unit m0 m1 m2 m3 U) as Same. cbv zeta in Same.
+  pose proof (face_edges m0 m1 m2 m3 v f0 f1 f2 I0 I1 I2 I3) as Border.
+  assert (Given : face_border_collides m0 m1 m2 m3 <->
+    face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
+  { unfold face_border_collides. now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
+  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in Same. rewrite <- Same. rewrite Given in Border.
+  clear Same Given. unfold decide, contact_of. cbv iota zeta. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp).
   destruct (certainly_rootless _) eqn:R.
   { split; [discriminate |]. intros _. now apply (face_rootless_separate v f0 f1 f2). }
-  destruct (existsb _ _) eqn:X.
-  { split; [intros _ | discriminate]. apply edges_asked, face_edges in X. now apply face_border_collision. }
+  destruct (existsb _ _).
+  { split; [intros _ | discriminate]. now apply face_border_collision, Border. }
   assert (N : ~ face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
-  { intros H. apply face_edges, edges_asked in H. congruence. }
+  { intros H. now apply Border in H. }
   destruct (interior_contact_right false _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
     (Yes & No).
   assert (E : contact_inside false (difference f1 f0) (difference f2 f0) (difference v f0) <->
@@ -1094,19 +1078,23 @@ Proof.
   - destruct H as [H | H]; [| easy]. now apply I, face_inside_same.
   - intros t T. specialize (Z t T). now rewrite !(@difference_at integers) in Z.
 Qed.
-Theorem edges_decision_right (a0 a1 b0 b1 : integer_motion) : let collide := edge_edge_collides
-  (exact_motion a0) (exact_motion a1)
-    (exact_motion b0) (exact_motion b1) in
-  (decide true a0 a1 b0 b1 = collides -> collide) /\ (decide true a0 a1 b0 b1 = separate -> ~ collide).
+Theorem edges_decision_right m0 m1 m2 m3 a0 a1 b0 b1 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
+  in_integers unit m2 b0 -> in_integers unit m3 b1 -> let found := decide true m0 m1 m2 m3 a0 a1 b0 b1 in
+  (found = collides -> edge_edge_collides m0 m1 m2 m3) /\ (found = separate -> ~ edge_edge_collides m0 m1 m2 m3).
 Proof.
-  cbv zeta. unfold decide, contact_of. cbv iota zeta. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp).
+  intros I0 I1 I2 I3. cbv zeta. pose proof (edges_units unit m0 m1 m2 m3 U) as Same. cbv zeta in Same.
+  pose proof (edges_edges m0 m1 m2 m3 a0 a1 b0 b1 I0 I1 I2 I3) as Border.
+  assert (Given : edges_border_collides m0 m1 m2 m3 <->
+    edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
+  { unfold edges_border_collides. now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
+  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in Same. rewrite <- Same. rewrite Given in Border.
+  clear Same Given. unfold decide, contact_of. cbv iota zeta. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp).
   destruct (certainly_rootless _) eqn:R.
   { split; [discriminate |]. intros _. now apply (edges_rootless_separate a0 a1 b0 b1). }
-  destruct (existsb _ _) eqn:X.
-  { split; [intros _ | discriminate]. apply edges_asked, edges_edges in X. now apply edges_border_collision. }
-  assert (N : ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion
-    b1)).
-  { intros H. apply edges_edges, edges_asked in H. congruence. }
+  destruct (existsb _ _).
+  { split; [intros _ | discriminate]. now apply edges_border_collision, Border. }
+  assert (N : ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
+  { intros H. now apply Border in H. }
   destruct (interior_contact_right true _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
     (Yes & No).
   assert (E : contact_inside true (difference a1 a0) (difference b1 b0) (difference b0 a0) <->
@@ -1124,45 +1112,3 @@ Proof.
 Qed.
 
 End Decisions.
-
-(** ** Units of the axes *)
-
-(** Coordinates are the integers times a power of two, one for each axis. *)
-Definition stretched_motion (k l m : R) (q : moving) : moving :=
-  Moving (stretched k l m (start q)) (stretched k l m (finish q)).
-Lemma stretched_place k l m q t : place (stretched_motion k l m q) t = stretched k l m (place q t).
-Proof. unfold place, stretched_motion, stretched. cbn [start finish]. apply same_point; cbn [x y z]; ring.
-  Qed.
-Lemma stretched_along k l m a s q r : stretched k l m (along a s (minus q r)) =
-  along (stretched k l m a) s (minus (stretched k l m q) (stretched k l m r)).
-Proof. unfold along, minus, stretched. apply same_point; cbn [x y z]; ring. Qed.
-Lemma stretched_same k l m p q : 0 < k -> 0 < l -> 0 < m -> stretched k l m p = stretched k l m q -> p = q.
-Proof.
-  intros K L M E. apply point_eq in E. unfold stretched in E. cbn [x y z] in E. destruct E as (E0 & E1 & E2).
-  apply same_point; [apply Rmult_eq_reg_l with k | apply Rmult_eq_reg_l with l | apply Rmult_eq_reg_l with
-    m]; lra.
-Qed.
-
-Theorem units_keep_contact k l m q0 q1 q2 q3 : 0 < k -> 0 < l -> 0 < m -> let unit := stretched_motion k l m
-  in
-  (vertex_face_collides (unit q0) (unit q1) (unit q2) (unit q3) <-> vertex_face_collides q0 q1 q2 q3) /\
-  (edge_edge_collides (unit q0) (unit q1) (unit q2) (unit q3) <-> edge_edge_collides q0 q1 q2 q3) /\
-  (vertex_edge_collides (unit q0) (unit q1) (unit q2) <-> vertex_edge_collides q0 q1 q2).
-Proof.
-  intros K L M unit.
-  assert (Seg : forall p a b, in_segment (stretched k l m p) (stretched k l m a) (stretched k l m b) <->
-    in_segment p a b).
-  { intros p a b. unfold in_segment. split; intros (u & U & E); exists u; (split; [easy |]).
-    - apply (stretched_same k l m); auto. now rewrite stretched_along.
-    - now rewrite E, stretched_along. }
-  unfold vertex_face_collides, edge_edge_collides, vertex_edge_collides, sometime, unit.
-  split; [| split]; split; intros (t & T & H); exists t; (split; [easy |]);
-    rewrite !stretched_place in *; try now apply Seg.
-  - destruct H as (u & v & U & V & W & E). exists u, v. repeat split; auto.
-    apply (stretched_same k l m); auto. now rewrite !stretched_along.
-  - destruct H as (u & v & U & V & W & E). exists u, v. repeat split; auto. now rewrite E, !stretched_along.
-  - destruct H as (p & (u & U & Ea) & (w & W & Eb)).
-    exists (along (place q0 t) u (minus (place q1 t) (place q0 t))). split; [now exists u |].
-    exists w. split; auto. apply (stretched_same k l m); auto. rewrite !stretched_along. congruence.
-  - destruct H as (p & A & B'). exists (stretched k l m p). split; now apply Seg.
-Qed.

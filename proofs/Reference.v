@@ -5,7 +5,7 @@
                                   `collides` exactly if the features do *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein Bsc Contact Decisions UnboundedIntegers.
+From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits UnboundedIntegers.
 From Errbound Require VertexEdge.
 Import ListNotations.
 Open Scope R_scope.

@@ -17,6 +17,12 @@ Open Scope R_scope.
 
 (** ** Polynomials *)
 
+(** With integer coefficients (include/errbound/integer_polynomial.hpp): the last one is not zero; empty
+    is identically zero. *)
+Notation reals_of := (map IZR).
+Definition poly (p : list Z) (x : R) : R := power_form (reals_of p) x.
+Definition trimmed (p : list Z) : Prop := p = [] \/ last p 0%Z <> 0%Z.
+
 Lemma without_root p c : exists q, length q = pred (length p) /\
   forall x, power_form p x = power_form p c + (x - c) * power_form q x.
 Proof.

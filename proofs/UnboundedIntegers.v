@@ -5,13 +5,12 @@
     common_factor and real_roots are given by what they promise (root_finder); all else is restated.
     Results:
         to_integers_right       the integers are the coordinates, in units of their axes
-        face_units, edges_units, vertex_edge_units   collisions do not depend on the axes' units
         without_end_roots_value   p(t) is that form at t/(1 - t), but for a positive factor
         integer_contact_right   `contact` is true exactly if vertex and edge meet in [0, 1]
         face_border_right, edges_border_right   contact_at_border is what its name says *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein Bsc Contact Decisions.
+From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits.
 From Errbound Require VertexEdge.
 Import ListNotations.
 Open Scope R_scope.
@@ -21,76 +20,8 @@ Definition tells (s : sign) (v : R) : Prop := s <> uncertain /\ sign_is_right s 
 
 (** ** Integers *)
 
-Definition sign_of_integer (n : Z) : sign :=
-  match n with Z0 => zero | Zpos _ => positive | Zneg _ => negative end.
-Program Definition integers : scalar := {|
-  number := Z; add := Z.add; sub := Z.sub; mul := Z.mul; opp := Z.opp; whole := fun n => n;
-  twice := fun n => Z.add n n; normalized := fun p => p; sign_of := sign_of_integer; exact := IZR;
-  exact_add := plus_IZR; exact_sub := minus_IZR; exact_mul := mult_IZR; exact_opp := opp_IZR |}.
-Next Obligation. rewrite plus_IZR. ring. Qed.
-Next Obligation. exists 1. split; [lra |]. rewrite map_map. apply map_ext. intros. ring. Qed.
-Next Obligation.
-  match goal with n : Z |- _ => destruct n end; simpl; [easy | now apply IZR_lt | now apply IZR_lt].
-Qed.
-
 Lemma integer_tells (n : integers) : tells (sign_of n) (exact n).
 Proof. split; [now destruct n | apply sign_right]. Qed.
-
-(** ** Units *)
-
-(** Every axis in units of its own. *)
-Definition stretched (k p : point) : point := Point (x k * x p) (y k * y p) (z k * z p).
-Definition stretched_motion (k : point) (m : moving) : moving :=
-  Moving (stretched k (start m)) (stretched k (finish m)).
-Definition units (k : point) : Prop := 0 < x k /\ 0 < y k /\ 0 < z k.
-
-Lemma place_stretched k m t : place (stretched_motion k m) t = stretched k (place m t).
-Proof. unfold place, stretched_motion, stretched. apply same_point; simpl; ring. Qed.
-Lemma stretched_same k p q : units k -> stretched k p = stretched k q <-> p = q.
-Proof.
-  intros (Kx & Ky & Kz). split; [| now intros ->]. intros E.
-  apply point_eq in E. destruct E as (X & Y & Z). simpl in *.
-  apply same_point; eapply Rmult_eq_reg_l; eauto; lra.
-Qed.
-Lemma stretched_along k p s a b :
-  stretched k (along p s (minus a b)) = along (stretched k p) s (minus (stretched k a) (stretched k b)).
-Proof. unfold stretched. coordinates. apply same_point; simpl; ring. Qed.
-Lemma segment_stretched k p a b : units k ->
-  in_segment (stretched k p) (stretched k a) (stretched k b) <-> in_segment p a b.
-Proof.
-  intros K. split; intros (u & U & E); exists u; split; auto; rewrite <- stretched_along in *;
-    first [now apply -> (stretched_same k) in E | now rewrite E].
-Qed.
-
-Theorem face_units k v f0 f1 f2 : units k -> let in_units := stretched_motion k in
-  vertex_face_collides (in_units v) (in_units f0) (in_units f1) (in_units f2) <->
-  vertex_face_collides v f0 f1 f2.
-Proof.
-  intros K in_units. unfold in_units. split; intros (t & T & (u & w & U & W & V & E)); exists t; split; auto; exists u, w;
-    rewrite ?place_stretched, <- ?stretched_along in *; repeat split; auto;
-    first [now apply -> (stretched_same k) in E | now rewrite E].
-Qed.
-Theorem edges_units k a0 a1 b0 b1 : units k -> let in_units := stretched_motion k in
-  edge_edge_collides (in_units a0) (in_units a1) (in_units b0) (in_units b1) <->
-  edge_edge_collides a0 a1 b0 b1.
-Proof.
-  intros K in_units. unfold in_units. split; intros (t & T & (p & A & B)); exists t; (split; [exact T |]);
-    rewrite ?place_stretched in *.
-  - destruct A as (u & U & ->). exists (along (place a0 t) u (minus (place a1 t) (place a0 t))).
-    split; [now exists u |].
-    rewrite <- stretched_along in B. now apply segment_stretched in B.
-  - exists (stretched k p). now split; apply segment_stretched.
-Qed.
-Theorem vertex_edge_units k v e0 e1 : units k -> let in_units := stretched_motion k in
-  vertex_edge_collides (in_units v) (in_units e0) (in_units e1) <-> vertex_edge_collides v e0 e1.
-Proof.
-  intros K in_units. unfold in_units. split; intros (t & T & H); exists t; rewrite ?place_stretched in *;
-    destruct (segment_stretched k (place v t) (place e0 t) (place e1 t) K); auto.
-Qed.
-
-(** What moves as m, in integers. *)
-Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop :=
-  exact_motion i = stretched_motion k m.
 
 (** ** to_integers *)
 
@@ -158,12 +89,8 @@ Qed.
 (** ** Integer forms in x = t/s *)
 
 (** Coefficients ascend. *)
-Definition poly (p : list Z) (x : R) : R := power_form (map IZR p) x.
 Fixpoint without_zeros (p : list Z) : list Z := match p with Z0 :: l => without_zeros l | _ => p end.
 Definition without_end_roots (p : list Z) : list Z := rev (without_zeros (rev (without_zeros p))).
-
-(** The last coefficient is not zero. *)
-Definition trimmed (p : list Z) : Prop := p = [] \/ last p 0%Z <> 0%Z.
 
 Lemma without_zeros_poly p : exists n, forall x, poly p x = x ^ n * poly (without_zeros p) x.
 Proof.
@@ -434,37 +361,6 @@ Proof.
 Qed.
 
 (** ** Contact at the border *)
-
-(** parted (ccd/features.hpp) *)
-Definition less (a b : R) : bool := if Rlt_dec a b then true else false.
-Definition parted_along (axis : point -> R) (v e0 e1 : moving) : bool :=
-  let v0 := axis (start v) in let v1 := axis (finish v) in
-  let a0 := axis (start e0) in let a1 := axis (finish e0) in
-  let b0 := axis (start e1) in let b1 := axis (finish e1) in
-  less a0 v0 && less a1 v1 && less b0 v0 && less b1 v1 ||
-  less v0 a0 && less v1 a1 && less v0 b0 && less v1 b1.
-Definition parted (v e0 e1 : moving) : bool :=
-  parted_along x v e0 e1 || parted_along y v e0 e1 || parted_along z v e0 e1.
-
-Lemma parted_right v e0 e1 : parted v e0 e1 = true -> ~ vertex_edge_collides v e0 e1.
-Proof.
-  assert (Less : forall c d, less c d = true -> c < d) by (intros c d; unfold less; now destruct
-    Rlt_dec).
-  assert (Along : forall axis n, (forall p, dot n p = axis p) -> parted_along axis v e0 e1 = true -> ~
-    vertex_edge_collides v e0 e1).
-  { intros axis n E P. unfold parted_along in P. apply orb_prop in P.
-    assert (O : forall p, dot (minus origin n) p = - axis p) by (intros p; rewrite <- E; unfold minus,
-      dot, origin; simpl; ring).
-    destruct P as [P | P]; rewrite !andb_true_iff in P; destruct P as (((A & B) & C) & D); apply Less in
-      A, B, C, D.
-    - apply (vertex_edge_parted (minus origin n)); unfold before; rewrite !O; lra.
-    - apply (vertex_edge_parted n); unfold before; rewrite !E; lra. }
-  unfold parted. intros P. apply orb_prop in P. destruct P as [P | P]; [apply orb_prop in P; destruct P
-    as [P | P] |].
-  - apply (Along x (Point 1 0 0)); auto. intros p. unfold dot. simpl. ring.
-  - apply (Along y (Point 0 1 0)); auto. intros p. unfold dot. simpl. ring.
-  - apply (Along z (Point 0 0 1)); auto. intros p. unfold dot. simpl. ring.
-Qed.
 
 (** contact_at_border: the query as given, and in integers. *)
 Definition edge_contact (query : list given) (v e0 e1 : given) : bool :=
