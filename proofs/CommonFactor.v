@@ -4,7 +4,9 @@
     Results:
         images_in_ideal       what Euclid's algorithm modulo a prime reaches is u a + v b modulo it
         divided_right         a quotient that is returned is one
-        common_factor_right   the roots of what common_factor returns are the common roots *)
+        common_factor_right   the roots of what common_factor returns are the common roots
+        chain_multiplicities  squarefree_chain: a root of multiplicity k is one of the first k polynomials
+        vanishes_right        and that is seen by their signs *)
 
 From Coq Require Import Reals ZArith Znumtheory Lia Lra List Classical Wf_nat.
 From Errbound Require Import Sign Bernstein SignVariations RootIsolation.
@@ -239,17 +241,14 @@ Proof.
 Qed.
 
 (** image = u a + v b modulo p has degree k; a's last coefficient is no multiple of p; a divisor of both of
-    degree k: every common root is one of its own. *)
-Lemma common_root (a b divisor image u v w fa fb : list Z) (n k : nat) :
+    degree k: what is left of the two has no common root. *)
+Lemma no_common_root (a b divisor image u v w fa fb : list Z) (n k : nat) :
   degree 0 a n -> ~ (p | coefficient a n) ->
   (forall x, poly a x = poly divisor x * poly fa x)%R -> (forall x, poly b x = poly divisor x * poly fb x)%R ->
   (forall x, poly image x = poly u x * poly a x + poly v x * poly b x + IZR p * poly w x)%R ->
-  degree p image k -> degree 0 divisor k ->
-  poly a r = 0%R -> poly b r = 0%R -> poly divisor r = 0%R.
+  degree p image k -> degree 0 divisor k -> ~ (poly fa r = 0%R /\ poly fb r = 0%R).
 Proof.
-  intros Da La Ea Eb Ei Di Dd Za Zb. destruct (Req_dec (poly divisor r) 0) as [| N]; auto. exfalso.
-  assert (Zfa : poly fa r = 0%R) by (rewrite Ea in Za; apply Rmult_integral in Za; tauto).
-  assert (Zfb : poly fb r = 0%R) by (rewrite Eb in Zb; apply Rmult_integral in Zb; tauto).
+  intros Da La Ea Eb Ei Di Dd (Zfa & Zfb).
   assert (Sa : same a (product divisor fa)) by (apply equal_same; intros x; now rewrite product_at).
   destruct (some_degree 0 fa) as [All | (j & Dj)].
   { apply La. rewrite Sa. assert (Z : forall x, poly (product divisor fa) x = 0%R).
@@ -389,6 +388,20 @@ Proof.
     destruct H as [H |]; auto. now apply eq_IZR in H.
 Qed.
 
+(** What the divisor leaves of both has no common root: what chain_step asks of p and p', and, with the
+    divisor [1], chain_squarefree (surely_squarefree). *)
+Theorem cofactors_rootless a' b' c p image qa qb : a' <> [] -> last a' 0 <> 0 -> prime p -> ~ (p | last a' 0) ->
+  reached p a' b' image -> degree p image (length c - 1) -> c <> [] -> last c 0 <> 0 -> divided c a' qa -> divided c b' qb ->
+  forall x, ~ (poly qa x = 0%R /\ poly qb x = 0%R).
+Proof.
+  intros Na Ta P La R Di Nc Lc Da Db x. destruct (images_in_ideal _ _ _ _ R) as (u & v & w & I).
+  pose proof (divided_right _ _ _ Da) as Fa. pose proof (divided_right _ _ _ Db) as Fb.
+  apply (no_common_root p x P a' b' c image u v w qa qb (length a' - 1) (length c - 1)); auto.
+  - now apply trimmed_degree.
+  - now rewrite last_coefficient.
+  - now apply trimmed_degree.
+Qed.
+
 Theorem common_factor_right a b c : trimmed a -> trimmed b -> common_factor a b c ->
   trimmed c /\ (c = [] <-> a = [] /\ b = []) /\
   forall x, poly c x = 0%R <-> poly a x = 0%R /\ poly b x = 0%R.
@@ -402,10 +415,159 @@ Proof.
     split; [now right |]. split; [tauto |]. intros x. rewrite <- Za, <- Zb.
     pose proof (divided_right _ _ _ Da) as Fa. pose proof (divided_right _ _ _ Db) as Fb. split.
     + intros Z. rewrite Fa, Fb, Z. split; ring.
-    + intros (A & B). destruct (images_in_ideal _ _ _ _ R) as (u & v & w & I).
-      assert (Na' : a' <> []) by (rewrite Ea; easy).
-      apply (common_root p x P a' b' c' image u v w qa qb (length a' - 1) (length c' - 1)); auto.
-      * apply trimmed_degree; auto. now destruct (Pa Ta).
-      * now rewrite last_coefficient.
-      * now apply trimmed_degree.
+    + intros (A & B). assert (Na' : a' <> []) by (rewrite Ea; easy).
+      assert (Ta' : last a' 0 <> 0) by now destruct (Pa Ta).
+      pose proof (cofactors_rootless a' b' c' p image qa qb Na' Ta' P La R Di Nc Lc Da Db x) as No.
+      rewrite Fa in A. rewrite Fb in B. apply Rmult_integral in A, B. tauto.
+Qed.
+
+(** ** Multiplicities: squarefree_chain *)
+
+Open Scope R_scope.
+Definition multiplicity (p : list R) (r : R) (k : nat) : Prop :=
+  exists u, power_form u r <> 0 /\ forall x, power_form p x = (x - r) ^ k * power_form u x.
+Definition rootless_together (f g : list R) : Prop := forall x, ~ (power_form f x = 0 /\ power_form g x = 0).
+
+(** Each polynomial of the chain is p divided by the greatest common divisor m of p and p'; then m takes p's
+    place. The last one has no multiple roots (surely_squarefree, or a constant m). *)
+Inductive chain : list R -> list (list R) -> Prop :=
+| chain_constant p : (forall x, power_form p x <> 0) -> chain p []
+| chain_squarefree p : rootless_together p (RootIsolation.derivative p) -> chain p [p]
+| chain_step p m f g l : (forall x, power_form p x = power_form m x * power_form f x) ->
+    (forall x, power_form (RootIsolation.derivative p) x = power_form m x * power_form g x) ->
+    rootless_together f g -> chain m l -> chain p (f :: l).
+
+Lemma product_multiplicity p f g r j k : (forall x, power_form p x = power_form f x * power_form g x) ->
+  multiplicity f r j -> multiplicity g r k -> exists u : R -> R, continuity u /\ u r <> 0 /\
+  forall x, power_form p x = (x - r) ^ (j + k) * u x.
+Proof.
+  intros E (u & U & F) (v & V & G). exists (fun x => power_form u x * power_form v x). split; [| split].
+  - apply (continuity_mult (power_form u) (power_form v)); apply continuous_power_form.
+  - now apply Rmult_integral_contrapositive.
+  - intros x. rewrite E, F, G, pow_add. ring.
+Qed.
+(** One multiplicity at most. *)
+Lemma power_unique r j k (u v : R -> R) : continuity u -> continuity v -> u r <> 0 -> v r <> 0 ->
+  (forall x, (x - r) ^ j * u x = (x - r) ^ k * v x) -> j = k.
+Proof.
+  assert (G : forall j k (u v : R -> R), (j < k)%nat -> continuity u -> continuity v -> u r <> 0 ->
+    (forall x, (x - r) ^ j * u x = (x - r) ^ k * v x) -> False).
+  { clear. intros j k u v L Cu Cv U E. apply U.
+    assert (C : continuity (fun x => u x - (x - r) ^ (k - j) * v x)).
+    { apply (continuity_minus u (fun x => (x - r) ^ (k - j) * v x)); auto. apply (continuity_mult (fun x => (x - r) ^ (k - j)) v); auto.
+      intros x. apply (continuity_pt_comp (fun x => x - r) (fun x => x ^ (k - j))).
+      - apply (continuity_pt_minus id (fct_cte r)); [apply derivable_continuous_pt, derivable_pt_id | now apply continuity_pt_const].
+      - apply derivable_continuous_pt. exists (INR (k - j) * (x - r) ^ Nat.pred (k - j)). apply derivable_pt_lim_pow. }
+    pose proof (zero_beside _ r C) as Z. cbv beta in Z.
+    assert (H : u r - (r - r) ^ (k - j) * v r = 0).
+    { apply Z. intros x N. apply Rmult_eq_reg_l with ((x - r) ^ j); [| apply pow_nonzero; lra].
+      rewrite Rmult_0_r, Rmult_minus_distr_l, <- Rmult_assoc, <- pow_add. replace (j + (k - j))%nat with k by lia. rewrite E. ring. }
+    rewrite (Rminus_diag_eq r r), pow_i in H by (easy || lia). lra. }
+  intros Cu Cv U V E. destruct (lt_eq_lt_dec j k) as [[L | L] | L]; auto; exfalso.
+  - now apply (G j k u v).
+  - apply (G k j v u); auto.
+Qed.
+Lemma derivative_multiplicity p r k : multiplicity p r (S k) -> exists u : R -> R, continuity u /\ u r <> 0 /\
+  forall x, power_form (RootIsolation.derivative p) x = (x - r) ^ k * u x.
+Proof.
+  intros (u & U & F). exists (fun x => INR (S k) * power_form u x + (x - r) * power_form (RootIsolation.derivative u) x).
+  split; [| split].
+  - apply (continuity_plus (fun x => INR (S k) * power_form u x) (fun x => (x - r) * power_form (RootIsolation.derivative u) x)).
+    + apply (continuity_scal (power_form u)), continuous_power_form.
+    + apply (continuity_mult (fun x => x - r) (power_form (RootIsolation.derivative u))); [| apply continuous_power_form].
+      apply (continuity_minus id (fct_cte r)); [apply derivable_continuous, derivable_id | now apply continuity_const].
+  - rewrite Rminus_diag_eq, Rmult_0_l, Rplus_0_r by easy. apply Rmult_integral_contrapositive. split; auto.
+    apply not_0_INR. lia.
+  - intros x. rewrite !derivative_slope.
+    rewrite (slope_product p (fun y => (y - r) ^ S k) u x F (INR (S k) * (x - r) ^ k)).
+    + simpl. ring.
+    + replace (INR (S k) * (x - r) ^ k) with (INR (S k) * (x - r) ^ Nat.pred (S k) * (1 - 0)) by (simpl Nat.pred; ring).
+      apply (derivable_pt_lim_comp (fun y => y - r) (fun y => y ^ S k)); [| apply derivable_pt_lim_pow].
+      apply (derivable_pt_lim_minus id (fct_cte r)); [apply derivable_pt_lim_id | apply derivable_pt_lim_const].
+Qed.
+
+Lemma multiplicity_root p r k : multiplicity p r k -> (power_form p r = 0 <-> (0 < k)%nat).
+Proof.
+  intros (u & U & E). rewrite E. destruct k as [| k]; [simpl; split; [lra | lia] |]. rewrite Rminus_diag_eq, pow_i by (easy || lia).
+  split; [lia | intros; ring].
+Qed.
+Lemma multiplicity_0 p r : power_form p r <> 0 -> multiplicity p r 0.
+Proof. intros N. exists p. split; auto. intros x. simpl. ring. Qed.
+Lemma factored_not_zero p r k (u : R -> R) : continuity u -> u r <> 0 -> (forall x, power_form p x = (x - r) ^ k * u x) -> not_zero p.
+Proof.
+  intros C U E. apply NNPP. intros N. apply U, zero_beside; auto. intros x X.
+  destruct (Req_dec (power_form p x) 0) as [Z | Z]; [| exfalso; apply N; now exists x].
+  rewrite E in Z. apply Rmult_integral in Z. destruct Z as [Z |]; auto. exfalso. revert Z. apply pow_nonzero. lra.
+Qed.
+Lemma factor_not_zero p f g : not_zero p -> (forall x, power_form p x = power_form f x * power_form g x) -> not_zero f /\ not_zero g.
+Proof. intros (x & X) E. split; exists x; intros Z; apply X; rewrite E, Z; ring. Qed.
+
+Lemma step_multiplicities p m f g r k : (forall x, power_form p x = power_form m x * power_form f x) ->
+  (forall x, power_form (RootIsolation.derivative p) x = power_form m x * power_form g x) ->
+  rootless_together f g -> multiplicity p r (S k) -> multiplicity m r k /\ multiplicity f r 1.
+Proof.
+  intros E D No M. destruct (derivative_multiplicity p r k M) as (d & Cd & Nd & Ed). destruct M as (u & U & Eu).
+  destruct (factor_not_zero p m f (factored_not_zero p r (S k) _ (continuous_power_form u) U Eu) E) as (Nm & Nf).
+  destruct (factor_not_zero _ m g (factored_not_zero _ r k d Cd Nd Ed) D) as (_ & Ng).
+  destruct (RootIsolation.multiplicity m r Nm) as (j & Mm). destruct (RootIsolation.multiplicity f r Nf) as (i & Mf).
+  destruct (RootIsolation.multiplicity g r Ng) as (i' & Mg). fold (multiplicity m r j) in Mm. fold (multiplicity f r i) in Mf. fold (multiplicity g r i') in Mg.
+  destruct (product_multiplicity p m f r j i E Mm Mf) as (v & Cv & Nv & Ev).
+  destruct (product_multiplicity _ m g r j i' D Mm Mg) as (w & Cw & Nw & Ew).
+  assert (A : (j + i = S k)%nat).
+  { apply (power_unique r _ _ v (power_form u)); auto; [apply continuous_power_form |]. intros x. now rewrite <- Ev, Eu. }
+  assert (B : (j + i' = k)%nat) by (apply (power_unique r _ _ w d); auto; intros x; now rewrite <- Ew, Ed).
+  destruct i' as [| i']; [| exfalso; apply (No r); split; [apply (multiplicity_root f r i); auto; lia | apply (multiplicity_root g r (S i')); auto; lia]].
+  replace j with k in Mm by lia. replace i with 1%nat in Mf by lia. now split.
+Qed.
+
+(** A root of multiplicity k is one of the first k polynomials of the chain, simple there, and of no other. *)
+Theorem chain_multiplicities p l r : chain p l -> forall k, multiplicity p r k -> (k <= length l)%nat /\
+  forall i, (i < length l)%nat -> (power_form (nth i l []) r = 0 <-> (i < k)%nat) /\ ((i < k)%nat -> multiplicity (nth i l []) r 1).
+Proof.
+  induction 1 as [p N | p No | p m f g l E D No C IH]; intros k M.
+  - assert (k = 0%nat) as -> by (destruct k; auto; exfalso; apply (N r), (multiplicity_root p r (S k)); auto; lia).
+    split; [auto |]. intros i I. simpl in I. lia.
+  - assert (K : (k <= 1)%nat).
+    { destruct k as [| [| k]]; auto. exfalso. apply (No r). split; [apply (multiplicity_root p r _ M); lia |].
+      destruct (derivative_multiplicity p r (S k) M) as (d & _ & _ & Ed). rewrite Ed, Rminus_diag_eq, pow_i by (easy || lia). ring. }
+    split; [easy |]. intros [| i] I; [| simpl in I; lia]. cbn [nth]. split; [now apply multiplicity_root |]. intros P.
+    now replace k with 1%nat in M by lia.
+  - destruct k as [| k].
+    + assert (N : power_form p r <> 0) by (intros Z; apply (multiplicity_root p r 0 M) in Z; lia).
+      rewrite E in N. assert (Nm : power_form m r <> 0) by (intros Z; apply N; rewrite Z; ring).
+      assert (Nf : power_form f r <> 0) by (intros Z; apply N; rewrite Z; ring).
+      destruct (IH 0%nat (multiplicity_0 m r Nm)) as (_ & H). split; [lia |].
+      intros [| i] I; cbn [nth]; [split; [split; [easy | lia] | lia] |]. simpl in I. destruct (H i ltac:(lia)) as (A & _).
+      split; [rewrite A; lia | lia].
+    + destruct (step_multiplicities p m f g r k E D No M) as (Mm & Mf). destruct (IH k Mm) as (L & H). split; [simpl; lia |].
+      intros [| i] I; cbn [nth].
+      * split; [rewrite (multiplicity_root f r 1 Mf); split; lia | easy].
+      * simpl in I. destruct (H i ltac:(lia)) as (A & B). split; [rewrite A; lia | intros; apply B; lia].
+Qed.
+
+(** `vanishes` asks for a sign change over the root's interval, of polynomials with no other root there: what
+    `multiplicity` counts are those of the chain that have the root. *)
+Theorem vanishes_right c lo hi r : lo < r < hi -> (forall x, lo <= x <= hi -> power_form c x = 0 -> x = r) ->
+  (power_form c r = 0 -> multiplicity c r 1) ->
+  (sgn (power_form c lo) <> sgn (power_form c hi) <-> power_form c r = 0).
+Proof.
+  intros L Only Simple.
+  assert (Nl : power_form c lo <> 0) by (intros Z; apply Only in Z; lra).
+  assert (Nh : power_form c hi <> 0) by (intros Z; apply Only in Z; lra).
+  assert (D : sgn (power_form c lo) <> sgn (power_form c hi) <-> power_form c lo * power_form c hi < 0).
+  { destruct (sgn_cases (power_form c lo)) as [(H & ->) | [(H & ->) | (H & ->)]],
+      (sgn_cases (power_form c hi)) as [(K & ->) | [(K & ->) | (K & ->)]]; try lra;
+      split; intros; try easy; try nra; exfalso; nra. }
+  rewrite D. split.
+  - intros O. destruct (root_between (power_form c) lo hi) as (x & X & Z); auto; [apply continuous_power_form | lra |].
+    rewrite <- (Only x); auto. lra.
+  - intros Z. destruct (Simple Z) as (u & U & E). rewrite !E in *. simpl pow in *. rewrite !Rmult_1_r in *.
+    destruct (Rlt_or_le (power_form u lo * power_form u hi) 0) as [O | O].
+    + exfalso. destruct (root_between (power_form u) lo hi) as (x & X & Zx); auto; [apply continuous_power_form | lra |].
+      apply U. rewrite <- (Only x); auto; [lra |]. rewrite E, Zx. ring.
+    + assert (P : 0 < power_form u lo * power_form u hi).
+      { destruct O as [O | O]; auto. symmetry in O. apply Rmult_integral in O. destruct O as [O | O]; rewrite O in *; lra. }
+      replace ((lo - r) * power_form u lo * ((hi - r) * power_form u hi)) with ((lo - r) * (hi - r) * (power_form u lo * power_form u hi)) by ring.
+      assert (Q : 0 < (r - lo) * (hi - r) * (power_form u lo * power_form u hi)) by (apply Rmult_lt_0_compat; [apply Rmult_lt_0_compat; lra | exact P]).
+      lra.
 Qed.

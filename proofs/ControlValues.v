@@ -5,7 +5,10 @@
         root_exponent_right        no root of p is at or above 2^(positive_root_exponent(p))
         half_line_right            all positive roots lie strictly between the points used as bounds
         control_values_on_right    control_values_on is a positive multiple of p's control values
-        halves_right               halves: of the control values on the two halves *)
+        halves_right               halves: of the control values on the two halves
+        found_in_integers_right    what real_roots finds of integers is found as RootIsolation.v asks
+        row_cut_right, row_signs_right, row_halves_right   fixed_row: errors, signs, halves
+        weights_right, weights_fit  inverse_binomials, and that 64 bits hold them *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Flocq Require Import Core.
@@ -425,4 +428,298 @@ Proof.
     replace (1 - t) with (2 * (1 - (1 + t) / 2)) at 1 by field. replace (2 * t + (1 - t)) with (2 * ((1 + t) / 2)) by field.
     rewrite Hom, <- control_form, E by easy.
     replace (lo + (1 + t) / 2 * (hi - lo)) with ((lo + hi) / 2 + t * (hi - (lo + hi) / 2)) by field. ring.
+Qed.
+
+(** ** The constructor of real_roots of integer coefficients *)
+
+Fixpoint mirrored_integers (p : list Z) : list Z :=
+  match p with a :: b :: l => a :: (- b)%Z :: mirrored_integers l | l => l end.
+Definition upper_bound (p : list Z) : R :=
+  unlikely_root (match positive_root_exponent p with Some e => e | None => 0%Z end).
+
+Lemma pairs_induction (P : list Z -> Prop) : P [] -> (forall a, P [a]) -> (forall a b l, P l -> P (a :: b :: l)) -> forall l, P l.
+Proof.
+  intros N O T l. enough (H : forall n l, (length l <= n)%nat -> P l) by now apply (H (length l)).
+  induction n as [| n IH]; intros [| a [| b m]] L; simpl in L; try lia; auto. apply T, IH. lia.
+Qed.
+Lemma mirrored_reals p : mirrored (reals_of p) = reals_of (mirrored_integers p).
+Proof. induction p as [| a | a b l IH] using pairs_induction; try easy. simpl. rewrite IH, opp_IZR. easy. Qed.
+Lemma mirrored_ends p : hd 0%Z (mirrored_integers p) = hd 0%Z p /\
+  (List.last p 0%Z <> 0%Z -> List.last (mirrored_integers p) 0%Z <> 0%Z).
+Proof.
+  split; [now destruct p as [| a [| b l]] |].
+  induction p as [| a | a b l IH] using pairs_induction; try easy. destruct l as [| c l]; [simpl; lia |].
+  intros H. specialize (IH H). destruct l as [| d l]; exact IH.
+Qed.
+
+(** f is the first of p's chain. *)
+Definition found_in_integers (p f : list Z) (found : list interval) : Prop :=
+  first_of_chain (reals_of p) (reals_of f) /\ List.last f 0%Z <> 0%Z /\
+  isolate (reals_of f) (half_line f) (half_line (mirrored_integers f)) 0 (upper_bound f) found.
+
+Theorem found_in_integers_right p f found : hd 0%Z p <> 0%Z -> found_in_integers p f found ->
+  real_roots (reals_of p) (reals_of f) found.
+Proof.
+  intros H (C & L & I).
+  assert (V : forall q, power_form (reals_of q) 0 = IZR (hd 0%Z q)) by (intros [| a q]; simpl; [easy | ring]).
+  assert (N : power_form (reals_of p) 0 <> 0) by (rewrite V; now apply not_0_IZR).
+  assert (Hf : hd 0%Z f <> 0%Z).
+  { intros Z. apply N. apply (first_of_chain_roots _ _ (ex_intro _ 0 N) C). now rewrite V, Z. }
+  destruct (half_line_right f L Hf) as (B & U). destruct (mirrored_ends f) as (Mh & Ml).
+  apply isolated_roots with (half_line f) (half_line (mirrored_integers f)) (upper_bound f); auto.
+  - rewrite mirrored_reals. apply half_line_right; [now apply Ml | now rewrite Mh].
+  - unfold upper_bound, unlikely_root. apply Rmult_lt_0_compat; [lra | apply bpow_gt_0].
+  - intros x X Z. destruct (U x X Z) as (e & E & Lt). unfold upper_bound. now rewrite E.
+Qed.
+
+(** ** Rows cut to a fixed number of bits: fixed_row *)
+
+(** Multiples of one unit, each within `error` units of a control value. *)
+Definition within (row : list Z) (error : Z) (unit : R) (b : list R) : Prop :=
+  Forall2 (fun x c => Rabs (IZR x * unit - c) <= IZR error * unit) row b.
+Definition row_sign (error x : Z) : Z :=
+  if (x <? 0)%Z then (if (error <? - x)%Z then -1 else 0)%Z else if (error <? x)%Z then 1%Z else 0%Z.
+
+Theorem row_signs_right row error unit b : 0 < unit -> (0 <= error)%Z -> within row error unit b ->
+  Forall2 sign_seen (map (row_sign error) row) (map sgn b).
+Proof.
+  intros U E W. induction W as [| x c row b C W IH]; [constructor |]. constructor; auto. split.
+  - pose proof (sgn_plain [c]) as F. now inversion_clear F.
+  - unfold row_sign. apply Rabs_le_inv in C.
+    assert (K : forall n, (error < n)%Z -> IZR error * unit < IZR n * unit) by (intros n N; apply Rmult_lt_compat_r; [easy | now apply IZR_lt]).
+    destruct (Z.ltb_spec x 0); [destruct (Z.ltb_spec error (- x)) as [H1 | H1] | destruct (Z.ltb_spec error x) as [H1 | H1]]; intros N; try easy;
+      apply K in H1; rewrite ?opp_IZR in H1; destruct (sgn_cases c) as [(L & ->) | [(L & ->) | (L & ->)]]; auto; exfalso; lra.
+Qed.
+(** An array of integers cut by whole bits: by less than one unit of 2^excess, or not at all. *)
+Definition cut (excess c : Z) : Z := (Z.sgn c * (Z.abs c / 2 ^ excess))%Z.
+Lemma cut_within excess c : (0 < excess)%Z -> Rabs (IZR (cut excess c) * IZR (2 ^ excess) - IZR c) <= 1 * IZR (2 ^ excess).
+Proof.
+  intros E. pose proof (Z.pow_pos_nonneg 2 excess ltac:(lia) ltac:(lia)) as P. set (u := (2 ^ excess)%Z) in *.
+  rewrite Rmult_1_l, <- mult_IZR, <- minus_IZR, <- abs_IZR. apply IZR_le. unfold cut. fold u.
+  pose proof (Z.div_mod (Z.abs c) u ltac:(lia)). pose proof (Z.mod_pos_bound (Z.abs c) u P).
+  set (q := (Z.abs c / u)%Z) in *. apply Z.abs_le. pose proof (Z.sgn_abs c). destruct (Z.sgn_spec c) as [(B & E') | [(B & E') | (B & E')]];
+    rewrite E' in *; nia.
+Qed.
+
+(** The constructor: cut by `excess` bits, or shifted by as many, exactly. *)
+Definition cut_row (excess : Z) (b : list Z) : list Z :=
+  map (fun c => if (0 <? excess)%Z then cut excess c else (c * 2 ^ (- excess))%Z) b.
+Definition cut_error (excess : Z) : Z := if (0 <? excess)%Z then 1%Z else 0%Z.
+Theorem row_cut_right excess b : within (cut_row excess b) (cut_error excess) (pow2 excess) (map IZR b).
+Proof.
+  unfold cut_row, cut_error. destruct (Z.ltb_spec 0 excess) as [E | E]; (induction b as [| c b IH]; [constructor | constructor; [| exact IH]]).
+  - pose proof (cut_within excess c E) as H. pose proof (IZR_Zpower radix2 excess ltac:(lia)) as Q. change (radix_val radix2) with 2%Z in Q.
+    rewrite Q in H. exact H.
+  - pose proof (IZR_Zpower radix2 (- excess) ltac:(lia)) as Q. change (radix_val radix2) with 2%Z in Q. rewrite mult_IZR, Q, Rmult_assoc, <- bpow_plus.
+    replace (- excess + excess)%Z with 0%Z by ring. simpl bpow. rewrite Rmult_1_r, Rminus_diag_eq, Rabs_R0 by easy. lra.
+Qed.
+
+(** Halving: each step takes neighbours' sums without their last bit (from_bit), half a unit off. The left
+    half has the first of each row, the right half the last. *)
+Fixpoint next_row (row : list Z) : list Z :=
+  match row with a :: (b :: _) as l => ((a + b) / 2)%Z :: next_row l | _ => [] end.
+Fixpoint first_of_cut_rows (n : nat) (row : list Z) : list Z :=
+  match n with O => [] | S n => hd 0%Z row :: first_of_cut_rows n (next_row row) end.
+
+Definition number_at (row : list Z) (i : nat) : Z := nth i row 0%Z.
+Fixpoint cut_first (g : nat -> Z) (j : nat) : Z :=
+  match j with O => g O | S j => cut_first (fun i => (g i + g (S i)) / 2)%Z j end.
+
+Lemma row_first_halved j f : row_first (fun i => f i / 2) j = row_first f j / 2.
+Proof.
+  revert f. induction j as [| j IH]; intros f; [easy |]. cbn [row_first]. rewrite <- IH.
+  apply row_first_same. intros i _. lra.
+Qed.
+Lemma cut_first_near unit j : 0 < unit -> forall g f e, (forall i, (i <= j)%nat -> Rabs (IZR (g i) * unit - f i) <= e) ->
+  Rabs (IZR (cut_first g j) * unit - row_first f j / 2 ^ j) <= e + INR j * (unit / 2).
+Proof.
+  intros U. induction j as [| j IH]; intros g f e B.
+  - simpl. specialize (B 0%nat ltac:(lia)). unfold Rdiv. rewrite Rinv_1, Rmult_1_r. lra.
+  - cbn [cut_first row_first]. rewrite S_INR.
+    replace (row_first (fun i => f i + f (S i)) j / 2 ^ S j) with (row_first (fun i => (f i + f (S i)) / 2) j / 2 ^ j).
+    + apply Rle_trans with (e + unit / 2 + INR j * (unit / 2)); [| lra]. apply IH. intros i I.
+      pose proof (B i ltac:(lia)) as A. pose proof (B (S i) ltac:(lia)) as C. apply Rabs_le_inv in A, C. apply Rabs_le.
+      pose proof (Z.div_mod (g i + g (S i)) 2 ltac:(lia)) as D. pose proof (Z.mod_pos_bound (g i + g (S i)) 2 ltac:(lia)) as M.
+      set (q := ((g i + g (S i)) / 2)%Z) in *. set (m := ((g i + g (S i)) mod 2)%Z) in *.
+      apply (f_equal IZR) in D. rewrite !plus_IZR, mult_IZR in D.
+      assert (M' : 0 <= IZR m <= 1) by (split; apply IZR_le; lia).
+      assert (0 <= IZR m * unit <= unit) by (split; [apply Rmult_le_pos; lra |]; rewrite <- (Rmult_1_l unit) at 2; apply Rmult_le_compat_r; lra).
+      assert (IZR (g i) * unit + IZR (g (S i)) * unit = 2 * (IZR q * unit) + IZR m * unit) by (rewrite <- Rmult_plus_distr_r, D; ring). lra.
+    + rewrite (row_first_halved j (fun i => f i + f (S i))). simpl. field. apply pow_nonzero. lra.
+Qed.
+
+Lemma cut_first_same f g i : (forall j, (j <= i)%nat -> f j = g j) -> cut_first f i = cut_first g i.
+Proof.
+  revert f g. induction i as [| i IH]; intros f g E; simpl; [apply E; lia |]. apply IH. intros j J. now rewrite !E by lia.
+Qed.
+Lemma next_row_length l : length (next_row l) = Nat.pred (length l).
+Proof. induction l as [| a [| b l] IH]; simpl in *; auto. Qed.
+Lemma next_row_index l i : (S i < length l)%nat -> number_at (next_row l) i = ((number_at l i + number_at l (S i)) / 2)%Z.
+Proof.
+  unfold number_at. revert i. induction l as [| a [| b l] IH]; intros i L; simpl in L; try lia.
+  destruct i as [| i]; [easy |]. change (nth (S i) (next_row (a :: b :: l)) 0%Z) with (nth i (next_row (b :: l)) 0%Z).
+  rewrite IH by (simpl; lia). easy.
+Qed.
+Lemma first_of_cut_rows_index i : forall m l, (i < m)%nat -> (i < length l)%nat ->
+  number_at (first_of_cut_rows m l) i = cut_first (number_at l) i.
+Proof.
+  induction i as [| i IH]; intros [| m] l M L; try lia; [now destruct l |].
+  change (number_at (first_of_cut_rows (S m) l) (S i)) with (number_at (first_of_cut_rows m (next_row l)) i).
+  rewrite IH by (rewrite ?next_row_length; lia). simpl. apply cut_first_same. intros j J. apply next_row_index. lia.
+Qed.
+Lemma first_of_cut_rows_length n l : length (first_of_cut_rows n l) = n.
+Proof. revert l. induction n as [| n IH]; intros l; simpl; auto. Qed.
+
+Lemma within_index row e unit b : within row e unit b <-> length row = length b /\
+  forall i, (i < length row)%nat -> Rabs (IZR (number_at row i) * unit - at_index b i) <= IZR e * unit.
+Proof.
+  split.
+  - intros W. induction W as [| x c row b C W (L & IH)]; [split; [easy | simpl; lia] |]. split; [simpl; lia |].
+    intros [| i] I; [exact C | apply IH; simpl in I; lia].
+  - revert b. induction row as [| x row IH]; intros [| c b] (L & H); try discriminate; constructor.
+    + apply (H 0%nat). simpl. lia.
+    + apply IH. split; [now injection L |]. intros i I. apply (H (S i)). simpl. lia.
+Qed.
+
+(** error_ += (n + 1)/2 *)
+Definition error_after (n : nat) (error : Z) : Z := (error + (Z.of_nat n + 1) / 2)%Z.
+Definition left_row (n : nat) (row : list Z) : list Z := first_of_cut_rows (S n) row.
+Definition right_row (n : nat) (row : list Z) : list Z := rev (first_of_cut_rows (S n) (rev row)).
+
+Lemma left_row_within n row error unit b : 0 < unit -> length b = S n -> within row error unit b ->
+  within (left_row n row) (error_after n error) unit (map (Rmult (/ 2 ^ n)) (left_half n b)).
+Proof.
+  intros U L W. apply within_index in W. destruct W as (Lr & W). apply within_index. unfold left_row, left_half.
+  rewrite map_length, times_descending_length, first_of_rows_length, first_of_cut_rows_length. split; auto. intros i I.
+  rewrite first_of_cut_rows_index by lia. unfold at_index.
+  replace (nth i (map (Rmult (/ 2 ^ n)) (times_descending 2 (first_of_rows (S n) b))) 0)
+    with (/ 2 ^ n * at_index (times_descending 2 (first_of_rows (S n) b)) i).
+  2: { unfold at_index. rewrite <- (map_nth (Rmult (/ 2 ^ n))). rewrite Rmult_0_r. easy. }
+  rewrite times_descending_index, first_of_rows_index by (rewrite ?first_of_rows_length; lia). rewrite first_of_rows_length.
+  replace (/ 2 ^ n * (row_first (at_index b) i * 2 ^ (S n - 1 - i))) with (row_first (at_index b) i / 2 ^ i).
+  - apply Rle_trans with (1 := cut_first_near unit i U (number_at row) (at_index b) (IZR error * unit) ltac:(intros j J; apply W; lia)).
+    unfold error_after. rewrite plus_IZR, Rmult_plus_distr_r. apply Rplus_le_compat_l.
+    assert (H : IZR (Z.of_nat n) <= 2 * IZR ((Z.of_nat n + 1) / 2)).
+    { rewrite <- mult_IZR. apply IZR_le. pose proof (Z.div_mod (Z.of_nat n + 1) 2 ltac:(lia)).
+      pose proof (Z.mod_pos_bound (Z.of_nat n + 1) 2 ltac:(lia)). lia. }
+    assert (K : INR i <= IZR (Z.of_nat n)) by (rewrite <- INR_IZR_INZ; apply le_INR; lia).
+    replace (INR i * (unit / 2)) with (INR i / 2 * unit) by field. apply Rmult_le_compat_r; lra.
+  - replace n with (i + (S n - 1 - i))%nat at 1 by lia. rewrite pow_add. field. split; apply pow_nonzero; lra.
+Qed.
+Lemma within_rev row e unit b : within row e unit b -> within (rev row) e unit (rev b).
+Proof.
+  intros W. induction W as [| x c row b C W IH]; [constructor |]. simpl. apply Forall2_app; auto.
+Qed.
+Lemma controls_scaled c b p lo hi : 0 < c -> controls b p lo hi -> controls (map (Rmult c) b) p lo hi.
+Proof.
+  intros C (d & D & E). exists (c * d). split; [now apply Rmult_lt_0_compat |]. intros t. rewrite Rmult_assoc, <- E.
+  unfold on_unit, scaled_coefficients. rewrite map_length.
+  assert (G : forall k b, products k (map (Rmult c) b) = map (Rmult c) (products k b)).
+  { induction k as [| x k IH]; intros [| y m]; simpl; auto. rewrite IH. f_equal. ring. }
+  rewrite G. apply form_scaled.
+Qed.
+
+(** fixed_row::halves *)
+Theorem row_halves_right p lo hi n row error unit b : 0 < unit -> length b = S n -> controls b p lo hi ->
+  within row error unit b -> exists left right,
+    controls left p lo ((lo + hi) / 2) /\ within (left_row n row) (error_after n error) unit left /\
+    controls right p ((lo + hi) / 2) hi /\ within (right_row n row) (error_after n error) unit right.
+Proof.
+  intros U L C W. destruct (halves_right p lo hi n b L C) as (Cl & Cr).
+  assert (P : 0 < / 2 ^ n) by (apply Rinv_0_lt_compat, pow_lt; lra).
+  exists (map (Rmult (/ 2 ^ n)) (left_half n b)), (map (Rmult (/ 2 ^ n)) (right_half n b)).
+  split; [now apply controls_scaled |]. split; [now apply left_row_within |]. split; [now apply controls_scaled |].
+  unfold right_row, right_half. rewrite map_rev. apply within_rev. fold (left_half n (rev b)). fold (left_row n (rev row)).
+  apply left_row_within; auto; [now rewrite rev_length | now apply within_rev].
+Qed.
+
+Local Open Scope Z_scope.
+
+(** ** The weights
+
+    inverse_binomials: C(n, i) from C(n, i - 1), the least common multiple step by step, and quotients. *)
+Fixpoint row_from (n i : Z) (c : Z) (rest : nat) : list Z :=
+  match rest with O => [c] | S rest => c :: row_from n (i + 1) (c * (n - i) / (i + 1)) rest end.
+Definition binomial_row (n : nat) : list Z := row_from (Z.of_nat n) 0 1 n.
+Fixpoint common_multiple (m : Z) (l : list Z) : Z :=
+  match l with [] => m | c :: l => common_multiple (m * (c / Z.gcd m c)) l end.
+Definition weights (n : nat) : list Z :=
+  let b := binomial_row n in map (fun c => common_multiple 1 b / c) b.
+
+Lemma common_multiple_right l : Forall (fun c => 0 < c) l -> forall m, 0 < m ->
+  (m | common_multiple m l) /\ 0 < common_multiple m l /\ Forall (fun c => (c | common_multiple m l)) l.
+Proof.
+  induction 1 as [| c l C F IH]; intros m M; [repeat split; [apply Z.divide_refl | easy | constructor] |]. cbn [common_multiple].
+  pose proof (Z.gcd_divide_l m c) as (a & A). pose proof (Z.gcd_divide_r m c) as (b & B).
+  pose proof (Z.gcd_nonneg m c) as G. set (g := Z.gcd m c) in *.
+  assert (Gp : 0 < g) by (assert (g <> 0) by (intros E; rewrite E in B; lia); lia). assert (Q : c / g = b) by (rewrite B; apply Z.div_mul; lia). rewrite Q.
+  assert (Bp : 0 < b) by nia. destruct (IH (m * b)) as (D & P & Fd); [nia |].
+  split; [apply Z.divide_trans with (2 := D); apply Z.divide_factor_l |]. split; auto. constructor; auto.
+  apply Z.divide_trans with (2 := D). exists a. clearbody g. transitivity (a * g * b); [now rewrite <- A | transitivity (a * (b * g)); [ring | now rewrite <- B]].
+Qed.
+
+Fixpoint choose (n k : nat) : Z :=
+  match n, k with _, O => 1 | O, S _ => 0 | S n, S k => choose n k + choose n (S k) end.
+Lemma choose_next n : forall k, (Z.of_nat k + 1) * choose n (S k) = (Z.of_nat n - Z.of_nat k) * choose n k.
+Proof.
+  induction n as [| n IH]; intros [| k]; try (cbn [choose]; ring).
+  - specialize (IH 0%nat). change (choose (S n) 1) with (choose n 0 + choose n 1). change (choose (S n) 0) with 1.
+    replace (choose n 0) with 1 in * by (now destruct n). lia.
+  - pose proof (IH k) as A. pose proof (IH (S k)) as B. change (choose (S n) (S (S k))) with (choose n (S k) + choose n (S (S k))).
+    change (choose (S n) (S k)) with (choose n k + choose n (S k)). lia.
+Qed.
+Lemma choose_nonnegative n : forall k, 0 <= choose n k.
+Proof. induction n as [| n IH]; intros [| k]; simpl; try lia. pose proof (IH k). pose proof (IH (S k)). lia. Qed.
+Lemma choose_positive n : forall k, (k <= n)%nat -> 0 < choose n k.
+Proof. induction n as [| n IH]; intros [| k] K; simpl; try lia. pose proof (IH k ltac:(lia)). pose proof (choose_nonnegative n (S k)). lia. Qed.
+Lemma choose_beyond n : forall k, (n < k)%nat -> choose n k = 0.
+Proof. induction n as [| n IH]; intros [| k] K; try lia; [easy |]. simpl. rewrite !IH by lia. ring. Qed.
+
+Lemma row_from_right n rest : forall i, (i + rest = n)%nat ->
+  row_from (Z.of_nat n) (Z.of_nat i) (choose n i) rest = map (choose n) (seq i (S rest)).
+Proof.
+  induction rest as [| rest IH]; intros i E; [easy |]. cbn [row_from seq map]. f_equal.
+  replace (Z.of_nat i + 1) with (Z.of_nat (S i)) by lia. rewrite Z.mul_comm, <- choose_next.
+  replace (Z.of_nat i + 1) with (Z.of_nat (S i)) by lia. rewrite Z.mul_comm, Z.div_mul by lia. apply (IH (S i)). lia.
+Qed.
+Lemma pascal_row n m : forall i c, (i + m = S n)%nat -> c = (match i with O => 0 | S j => IZR (choose n j) end)%R ->
+  map (fun xy => fst xy + snd xy)%R (combine (map (fun k => IZR (choose n k)) (seq i m) ++ [0%R])
+    (c :: map (fun k => IZR (choose n k)) (seq i m))) = map (fun k => IZR (choose (S n) k)) (seq i (S m)).
+Proof.
+  induction m as [| m IH]; intros i c E C.
+  - assert (i = S n) as -> by lia. rewrite C. cbn [seq map app combine fst snd choose]. rewrite plus_IZR, (choose_beyond n (S n)) by lia. f_equal. ring.
+  - cbn [seq map app combine fst snd]. f_equal.
+    + rewrite C. destruct i as [| j]; cbn [choose]; [destruct n; simpl; ring | rewrite plus_IZR; ring].
+    + apply (IH (S i)); [lia | easy].
+Qed.
+Lemma binomial_row_right n : map IZR (binomial_row n) = binomials n /\ Forall (fun c => 0 < c) (binomial_row n).
+Proof.
+  assert (E : binomial_row n = map (choose n) (seq 0 (S n))).
+  { unfold binomial_row. replace 1 with (choose n 0) by (now destruct n). now apply (row_from_right n n 0). }
+  rewrite E, map_map. split.
+  - clear E. induction n as [| n IH]; [easy |]. cbn [binomials]. rewrite <- IH. symmetry. now apply pascal_row.
+  - apply Forall_map, Forall_forall. intros k K. apply in_seq in K. apply choose_positive. lia.
+Qed.
+
+Theorem weights_right n : exists multiple, (0 < multiple)%R /\ inverse_binomials multiple (map IZR (weights n)) n.
+Proof.
+  destruct (binomial_row_right n) as (E & P). destruct (common_multiple_right _ P 1 ltac:(lia)) as (_ & M & D).
+  exists (IZR (common_multiple 1 (binomial_row n))). split; [now apply IZR_lt |].
+  unfold inverse_binomials, weights. rewrite <- E. cbv zeta. clear E.
+  set (m := common_multiple 1 (binomial_row n)) in *. clearbody m. induction P as [| c l C P IH]; [constructor |].
+  inversion_clear D as [| ? ? (q & Q) D']. constructor; auto. rewrite <- mult_IZR. f_equal. rewrite Q, Z.div_mul by lia. ring.
+Qed.
+
+(** What 64 bits have to hold for n <= 40: the products in both loops. *)
+Fixpoint row_products (n i c : Z) (rest : nat) : list Z :=
+  match rest with O => [] | S rest => c * (n - i) :: row_products n (i + 1) (c * (n - i) / (i + 1)) rest end.
+Fixpoint multiples (m : Z) (l : list Z) : list Z :=
+  match l with [] => [] | c :: l => let m := m * (c / Z.gcd m c) in m :: multiples m l end.
+Theorem weights_fit n : (n <= 40)%nat ->
+  Forall (fun z => z < 2 ^ 64) (row_products (Z.of_nat n) 0 1 n ++ multiples 1 (binomial_row n) ++ weights n).
+Proof.
+  intros N. assert (H : forallb (fun n => forallb (fun z => z <? 2 ^ 64)
+    (row_products (Z.of_nat n) 0 1 n ++ multiples 1 (binomial_row n) ++ weights n)) (seq 0 41) = true) by now vm_compute.
+  rewrite forallb_forall in H. specialize (H n ltac:(apply in_seq; lia)). rewrite forallb_forall in H.
+  apply Forall_forall. intros z Z. now apply Z.ltb_lt, H.
 Qed.

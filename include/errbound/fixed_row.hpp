@@ -19,7 +19,7 @@ template <int Words>
 class fixed_row {
   public:
     /// Of not all zero coefficients.
-    /// Proof: proofs/FixedRow.v, row_cut.
+    /// Proof: proofs/ControlValues.v, row_cut_right; proofs/FixedRow.v, row_fits.
     template <exact_number Integer>
     explicit fixed_row(const integer_form<Integer>& b) {
         int bits = 0;
@@ -48,7 +48,7 @@ class fixed_row {
     }
 
     /// 1 or −1 for a certain sign, otherwise 0.
-    /// Proof: proofs/FixedRow.v, row_sign.
+    /// Proof: proofs/ControlValues.v, row_signs_right.
     int sign(std::size_t i) const {
         if (b_[i].negative()) return -b_[i] > fixed_integer<Words>(error_) ? -1 : 0;
         return b_[i] > fixed_integer<Words>(error_) ? 1 : 0;
@@ -74,7 +74,7 @@ class fixed_row {
 
     /// Of the two halves, by de Casteljau. A midpoint inherits at most the error of its ends, and
     /// rounding takes half a unit in each of the degree's steps.
-    /// Proof: proofs/FixedRow.v, row_halves, row_stays.
+    /// Proof: proofs/ControlValues.v, row_halves_right; proofs/FixedRow.v, row_stays.
     std::pair<fixed_row, fixed_row> halves() && {
         const std::size_t n = b_.size() - 1;
         fixed_row left;

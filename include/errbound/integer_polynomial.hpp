@@ -205,8 +205,8 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 /// is not constant, is a root of f_1 to f_m and of no other. Each divides the one before it.
 ///
 /// `most` limits their number. Cost where p has no multiple roots: that of Euclid's algorithm
-/// modulo one prime. Proof that the first has all roots of p: proofs/RootIsolation.v,
-/// squarefree_part_roots.
+/// modulo one prime. Proof: proofs/CommonFactor.v, chain_multiplicities, cofactors_rootless; that
+/// the first has all roots of p: proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
 std::vector<integer_form<Integer>> squarefree_chain(
     integer_form<Integer> p, std::size_t most = std::numeric_limits<std::size_t>::max()) {

@@ -55,6 +55,7 @@ int positive_root_exponent(const integer_form<Integer>& p) {
 
 /// The numbers 1/C(n, i), times the least common multiple of the C(n, i). For n <= 40, 64 bits hold
 /// them (the multiple is lcm(1, ..., n + 1)/(n + 1)).
+/// Proof: proofs/ControlValues.v, weights_right, weights_fit.
 template <class Number>
 std::vector<Number> inverse_binomials(std::size_t n) {
     using std::gcd;
@@ -238,7 +239,8 @@ class root_isolation {
     static bool changes_sign(const form& f, const interval& root) {
         return sign_at(f, root.low) != sign_at(f, root.high);
     }
-    /// Whether f, a divisor of p's, vanishes at the root.
+    /// Whether f, a divisor of p's, vanishes at the root. Proof: proofs/CommonFactor.v,
+    /// vanishes_right.
     static bool vanishes(const form& f, const interval& root) {
         if (f.size() < 2) return false;
         if (root.is_point()) return sign_at(f, root.low) == sign_type::zero;
