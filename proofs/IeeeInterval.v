@@ -282,18 +282,19 @@ Theorem interval_exact_known a : interval_known a (interval_exact _ F a) (B2R a)
 Proof. apply checked_known. lra. Qed.
 (** An error below zero, infinite or NaN says nothing. *)
 Theorem interval_within_known a error x :
-  (finite error -> Rabs (B2R a - x) <= B2R error) ->
+  (finite error -> 0 <= B2R error -> Rabs (B2R a - x) <= B2R error) ->
   interval_known a (interval_within _ F a error) x.
 Proof.
   intros K. unfold interval_within. destruct zero_value' as [Z0 Z].
   destruct (equal _ F error (integer _ F 0)) eqn:C.
-  { apply equal_true in C; auto. destruct C as [FE C]. specialize (K FE). rewrite C, Z in K.
+  { apply equal_true in C; auto. destruct C as [FE C]. rewrite Z in C. specialize (K FE ltac:(lra)). rewrite C in K.
     apply Tight.within_0 in K. rewrite <- K. apply interval_exact_known. }
-  destruct (less _ F (integer _ F 0) error); cbn [negb]; [| now left].
+  destruct (less _ F (integer _ F 0) error) eqn:P; cbn [negb]; [| now left].
   apply checked_known. intros _ L U' _.
   apply below_finite in L as L'. destruct L' as [L' _]. apply minus_finite in L'. destruct L' as (_ & FE & EL).
   apply above_finite in U' as W. destruct W as [W _]. apply plus_finite in W. destruct W as (_ & _ & EU).
-  specialize (K FE). apply Rabs_le_inv in K. split.
+  assert (0 < B2R error) by (rewrite less_finite, Z in P by auto; revert P; now case Rlt_bool_spec).
+  specialize (K FE ltac:(lra)). apply Rabs_le_inv in K. split.
   - apply Rle_trans with (B2R a - B2R error); [| lra]. apply below_true; auto. lra.
   - apply Rle_trans with (B2R a + B2R error); [lra |]. apply above_true; auto. lra.
 Qed.

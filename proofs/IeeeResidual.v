@@ -90,7 +90,7 @@ Proof.
 Qed.
 (** An error below zero, infinite or NaN says nothing. *)
 Theorem residual_within_known v error x :
-  (finite error -> Rabs (B2R v - x) <= B2R error) ->
+  (finite error -> 0 <= B2R error -> Rabs (B2R v - x) <= B2R error) ->
   residual_known v (residual_within _ F v error) x.
 Proof.
   intros K. generalize (tight_within_known p emax p_3 v error x K).

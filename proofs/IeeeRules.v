@@ -130,17 +130,17 @@ Proof.
 Qed.
 (** An error below zero, infinite or NaN says nothing. *)
 Theorem tight_within_known a error x :
-  (finite error -> Rabs (B2R a - x) <= B2R error) -> known a (tight_within _ F a error) x.
+  (finite error -> 0 <= B2R error -> Rabs (B2R a - x) <= B2R error) -> known a (tight_within _ F a error) x.
 Proof.
   intros K. unfold tight_within. destruct (zero_value p emax p_3) as [Z0 Z].
   destruct (at_most _ F (integer _ F 0) error) eqn:C; [| split; [reflexivity | discriminate]].
+  assert (P : finite error -> 0 <= B2R error).
+  { intros FE. revert C. rewrite at_most_finite, Z by auto. now case Rle_bool_spec. }
   split.
   - apply nonnegative_plus; auto; [| now apply nonnegative_nothing].
-    destruct (BinarySingleNaN.is_finite error) eqn:FE.
-    + rewrite at_most_finite in C by auto. apply nonnegative_intro; auto.
-      revert C. rewrite Z. now case Rle_bool_spec.
-    + destruct error as [| s | |]; try easy. now destruct s.
-  - intros H. parts. split; auto. specialize (K ltac:(assumption)).
+    destruct (BinarySingleNaN.is_finite error) eqn:FE; [apply nonnegative_intro; auto |].
+    destruct error as [| s | |]; try easy. now destruct s.
+  - intros H. parts. split; auto. specialize (K ltac:(assumption) ltac:(auto)).
     values. replace (B2R a - B2R a) with 0 by ring. rewrite Format.rnd_0, Rplus_0_r by auto with typeclass_instances.
     rewrite (Format.rnd_exact p emin Format.nearest); auto. apply number_B2R.
 Qed.

@@ -101,12 +101,12 @@ Qed.
 
 (** An error below zero, infinite or NaN says nothing. *)
 Theorem safe_within_known a error x :
-  (finite error -> Rabs (B2R a - x) <= B2R error) -> safe_known a (safe_within _ F a error) x.
+  (finite error -> 0 <= B2R error -> Rabs (B2R a - x) <= B2R error) -> safe_known a (safe_within _ F a error) x.
 Proof.
   intros K. unfold safe_within. destruct (zero_value p emax p_3) as [Z0 Z].
   destruct (equal _ F error (integer _ F 0)) eqn:C0.
   { apply equal_true in C0; auto. destruct C0 as [FE C0]. rewrite Z in C0.
-    specialize (K FE). rewrite C0 in K. apply Tight.within_0 in K. rewrite <- K. apply safe_exact_known. }
+    specialize (K FE ltac:(lra)). rewrite C0 in K. apply Tight.within_0 in K. rewrite <- K. apply safe_exact_known. }
   destruct (less _ F (integer _ F 0) error) eqn:C1; cbn [negb].
   2: { unfold safe_known. split; [reflexivity |]. split; [unfold too_many; lia |].
     intros _ _. split; [discriminate | discriminate]. }
@@ -126,8 +126,9 @@ Proof.
   apply plus_finite in F1. destruct F1 as (F1 & FE & E1). apply (abs_finite p emax p_3) in F1.
   destruct F1 as [_ E3]. apply over_finite in F2; auto. destruct F2 as [_ E2].
   rewrite E1, E2, E3, Ve.
+  assert (0 < B2R error) by (rewrite less_finite, Z in C1 by auto; revert C1; now case Rlt_bool_spec).
   apply (Safe.safe_within_sound p emin Format.nearest enough_bits emin_p); auto using number_B2R.
-  rewrite less_finite, Z in C1 by auto. revert C1. now case Rlt_bool_spec.
+  apply K; auto. lra.
 Qed.
 
 Lemma add_known v a A x b B y s : safe_known a A x -> safe_known b B y ->
