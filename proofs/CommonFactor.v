@@ -5,6 +5,7 @@
         images_in_ideal       what Euclid's algorithm modulo a prime reaches is u a + v b modulo it
         divided_right         a quotient that is returned is one
         common_factor_right   the roots of what common_factor returns are the common roots
+        common_factor_divides   it divides both
         chain_multiplicities  squarefree_chain: a root of multiplicity k is one of the first k polynomials
         vanishes_right        and that is seen by their signs *)
 
@@ -419,6 +420,21 @@ Proof.
       assert (Ta' : last a' 0 <> 0) by now destruct (Pa Ta).
       pose proof (cofactors_rootless a' b' c' p image qa qb Na' Ta' P La R Di Nc Lc Da Db x) as No.
       rewrite Fa in A. rewrite Fb in B. apply Rmult_integral in A, B. tauto.
+Qed.
+
+Theorem common_factor_divides a b c : common_factor a b c ->
+  divides (reals_of c) (reals_of a) /\ divides (reals_of c) (reals_of b).
+Proof.
+  assert (D : forall c f f' q, primitive f f' -> (forall x, poly f' x = (poly c x * poly q x)%R) ->
+    divides (reals_of c) (reals_of f)).
+  { intros d f f' q (k & _ & ->) E. exists (reals_of (multiple k q)). intros x.
+    change (poly (multiple k f') x = poly d x * poly (multiple k q) x)%R. rewrite !multiple_at, E. ring. }
+  assert (Z : forall c, divides (reals_of c) []) by (intros d; exists []; intros x; simpl; ring).
+  assert (I : forall c x, poly c x = (poly c x * poly [1%Z] x)%R) by (intros d x; unfold poly at 3; simpl; ring).
+  intros M. destruct M as [c -> Q | c -> Q | a' b' c p image qa qb Qa Qb _ _ _ _ _ _ _ _ Da Db].
+  - split; [apply Z | exact (D _ _ _ _ Q (I c))].
+  - split; [exact (D _ _ _ _ Q (I c)) | apply Z].
+  - split; [exact (D _ _ _ _ Qa (divided_right _ _ _ Da)) | exact (D _ _ _ _ Qb (divided_right _ _ _ Db))].
 Qed.
 
 (** ** Multiplicities: squarefree_chain *)

@@ -170,7 +170,7 @@ bool surely_squarefree(const integer_form<Integer>& p) {
 /// By images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
 /// greatest common divisors, JACM 18, 1971): their degree is at least that of the divisor sought,
 /// so coprime polynomials are found out by the first prime; a divisor put together from several is
-/// checked by division. Proof: proofs/CommonFactor.v, common_factor_right.
+/// checked by division. Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
 template <exact_number Integer>
 integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b) {
     trim(a);

@@ -66,7 +66,7 @@ class real_roots {
     using number = typename staged_polynomial<Integer>::number;
 
     /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
-    /// Proof: proofs/RootIsolation.v, real_roots_right.
+    /// Proof: proofs/RootFinder.v, found_roots_right.
     explicit real_roots(const integer_form<Integer>& p) : p_(p) {
         const point zero;
         exact().isolate(zero, exact().upper_bound(), intervals_);

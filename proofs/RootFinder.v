@@ -1,0 +1,209 @@
+(** What the decisions ask of common_factor and real_roots (root_finder, UnboundedIntegers.v) is what the
+    code's algorithms return (CommonFactor.v, RootIsolation.v). So theorems of Reference.v and BscExact.v
+    are of the code, where it ends.
+
+    Results:
+        found_roots_right        of integer coefficients, real_roots finds the roots in (0, oo)
+        reference_by_isolation, bsc_exact_by_isolation
+                                 the decisions by any functions that return what the algorithms return *)
+
+From Coq Require Import Reals ZArith Lia Lra List Sorted.
+From Errbound Require Import RootIsolation ControlValues CommonFactor.
+From Errbound Require Import Sign Contact UnboundedIntegers Reference BscExact.
+From Errbound Require BoundedInteger.
+Import ListNotations.
+Open Scope R_scope.
+
+(** ** The chain's first polynomial, in integers *)
+
+Fixpoint derivative_from (i : Z) (p : list Z) : list Z :=
+  match p with [] => [] | a :: l => (a * i)%Z :: derivative_from (i + 1) l end.
+Definition derivative (p : list Z) : list Z := derivative_from 1 (tl p).
+Fixpoint mirrored (p : list Z) : list Z :=
+  match p with a :: b :: l => a :: (- b)%Z :: mirrored l | l => l end.
+
+Lemma derivative_reals p : reals_of (derivative p) = RootIsolation.derivative (reals_of p).
+Proof.
+  assert (G : forall l i, reals_of (derivative_from i l) = RootIsolation.derivative_from (IZR i) (reals_of l)).
+  { induction l as [| a l IH]; intros i; [easy |]. cbn [derivative_from map RootIsolation.derivative_from].
+    now rewrite IH, mult_IZR, plus_IZR. }
+  unfold derivative, RootIsolation.derivative. rewrite G. now destruct p.
+Qed.
+Lemma derivative_trimmed p : trimmed p -> trimmed (derivative p).
+Proof.
+  assert (G : forall l i, (0 < i)%Z -> trimmed l -> trimmed (derivative_from i l)).
+  { induction l as [| a [| b l] IH]; intros i I [N | L]; try discriminate; [now left | now left | |].
+    - right. simpl in *. lia.
+    - right. destruct (IH (i + 1)%Z ltac:(lia) (or_intror L)) as [E | E]; [discriminate | exact E]. }
+  intros T. apply G; [lia |]. destruct p as [| a [| b l]]; [now left | now left |].
+  destruct T as [T | T]; [discriminate | now right].
+Qed.
+Lemma mirrored_right p : reals_of (mirrored p) = RootIsolation.mirrored (reals_of p) /\
+  hd 0%Z (mirrored p) = hd 0%Z p /\ (last p 0%Z <> 0%Z -> last (mirrored p) 0%Z <> 0%Z).
+Proof.
+  remember (length p) as n eqn:N. revert p N. induction n as [n IH] using Wf_nat.lt_wf_ind.
+  intros [| a [| b l]] ->; [easy | easy |]. destruct (IH (length l) ltac:(simpl; lia) l eq_refl) as (E & _ & L).
+  cbn [mirrored map RootIsolation.mirrored]. rewrite E, opp_IZR. split; [easy |]. split; [easy |].
+  destruct l as [| c l]; [simpl; lia |]. intros N. specialize (L N).
+  destruct (mirrored (c :: l)) as [| d m]; [easy | exact L].
+Qed.
+
+(** squarefree_chain's first polynomial: the primitive part, or its quotient by the factor that it has in
+    common with its derivative. *)
+Inductive first_of_chain (p : list Z) : list Z -> Prop :=
+| itself f : primitive p f -> first_of_chain p f
+| divided_once q m f : primitive p q -> CommonFactor.common_factor q (derivative q) m ->
+    length f = (length q + 1 - length m)%nat -> divided m q f -> first_of_chain p f.
+
+Lemma last_of_quotient q m f : q <> [] -> trimmed q -> m <> [] -> divided m q f ->
+  length f = (length q + 1 - length m)%nat -> last f 0%Z <> 0%Z.
+Proof.
+  intros Nq [E | Lq] Nm D Lf; [easy |]. pose proof (divided_right _ _ _ D) as V.
+  assert (S : same q (product m f)) by (apply equal_same; intros x; rewrite product_at; apply V).
+  rewrite <- last_coefficient, S in Lq. rewrite <- last_coefficient. intros Z. apply Lq.
+  assert (Over : forall l i, (length l - 1 < i)%nat -> coefficient l i = 0%Z)
+    by (intros l i I; apply nth_overflow; lia).
+  destruct f as [| a l].
+  - rewrite <- S. apply zero_everywhere. intros x. rewrite V. unfold poly at 2. simpl. ring.
+  - replace (length q - 1)%nat with (length m - 1 + (length (a :: l) - 1))%nat.
+    + rewrite last_of_product by apply Over. rewrite Z. ring.
+    + destruct m; [easy |]. simpl in *. lia.
+Qed.
+Lemma first_right p f : trimmed p -> poly p 0 <> 0 -> first_of_chain p f ->
+  RootIsolation.first_of_chain (reals_of p) (reals_of f) /\ hd 0%Z f <> 0%Z /\ last f 0%Z <> 0%Z.
+Proof.
+  intros T N C. assert (Np : p <> []) by now intros ->.
+  assert (H : RootIsolation.first_of_chain (reals_of p) (reals_of f) /\ last f 0%Z <> 0%Z).
+  { destruct C as [f Q | q m f Q M L D]; destruct (primitive_right _ _ Q) as (E & Tq & _); specialize (Tq T);
+      destruct Q as (c & C & Ep).
+    - split; [| destruct Tq as [Tq |]; [now apply E in Tq | easy]].
+      apply RootIsolation.primitive with (IZR c); [now apply not_0_IZR |]. intros x. rewrite Ep. apply multiple_at.
+    - assert (Nq : q <> []) by now rewrite E.
+      destruct (CommonFactor.common_factor_right _ _ _ Tq (derivative_trimmed q Tq) M) as (_ & Em & _).
+      split; [| apply (last_of_quotient q m); tauto].
+      apply RootIsolation.quotient with (IZR c) (reals_of q) (reals_of m); [now apply not_0_IZR | | |].
+      + intros x. rewrite Ep. apply multiple_at.
+      + intros x. apply (divided_right _ _ _ D).
+      + rewrite <- derivative_reals. apply (common_factor_divides _ _ _ M). }
+  destruct H as (H & L). split; [exact H |]. split; [| exact L]. intros Z. apply N.
+  apply (first_of_chain_roots (reals_of p) (reals_of f)); [now exists 0 | exact H |].
+  change (poly f 0 = 0). now rewrite poly_at_0, Z.
+Qed.
+
+(** ** real_roots *)
+
+(** upper_bound() *)
+Definition upper_bound (f : list Z) : R :=
+  unlikely_root (match positive_root_exponent f with Some e => e | None => 0%Z end).
+Inductive found_roots (p f : list Z) (found : list interval) : Prop :=
+| isolated_in_integers : first_of_chain p f ->
+    isolate (reals_of f) (half_line f) (half_line (mirrored f)) 0 (upper_bound f) found -> found_roots p f found.
+
+Theorem found_roots_right p f found : trimmed p -> poly p 0 <> 0 -> found_roots p f found ->
+  exists roots, Forall2 (isolates (reals_of f)) found roots /\ StronglySorted Rlt roots /\
+    forall x, In x roots <-> 0 < x /\ poly p x = 0.
+Proof.
+  intros T N [C I]. destruct (first_right p f T N C) as (F & H & L).
+  destruct (mirrored_right f) as (Em & Hm & Lm). destruct (half_line_right f L H) as (Right & Top).
+  destruct (half_line_right (mirrored f)) as (Left & _); [now apply Lm | now rewrite Hm |].
+  apply (RootIsolation.real_roots_right (reals_of p) (reals_of f)); [exact N |].
+  apply isolated_roots with (half_line f) (half_line (mirrored f)) (upper_bound f); auto.
+  - now rewrite <- Em.
+  - unfold upper_bound. pose proof (unlikely_bounds (match positive_root_exponent f with Some e => e | None => 0%Z end)) as B.
+    pose proof (Raux.bpow_gt_0 Zaux.radix2 (match positive_root_exponent f with Some e => e | None => 0%Z end)). lra.
+  - intros x X Z. destruct (Top x X Z) as (e & E & U). unfold upper_bound. now rewrite E.
+Qed.
+
+(** ** Functions that return what the algorithms return *)
+
+(** A root: what it is a root of, and its interval. *)
+Record located := Located { polynomial : list Z; place : interval }.
+
+(** The root, if the interval holds one. *)
+Definition candidates (k : located) (x : R) : Prop :=
+  x = low (place k) \/ low (place k) <= x <= high (place k) /\ poly (polynomial k) x = 0.
+Lemma candidates_bound k : bound (candidates k).
+Proof.
+  exists (Rmax (low (place k)) (high (place k))). pose proof (Rmax_l (low (place k)) (high (place k))).
+  pose proof (Rmax_r (low (place k)) (high (place k))). intros x [-> | (X & _)]; lra.
+Qed.
+Definition root_of (k : located) : R :=
+  proj1_sig (completeness (candidates k) (candidates_bound k) (ex_intro _ _ (or_introl eq_refl))).
+Lemma root_of_right f i r : isolates (reals_of f) i r -> root_of (Located f i) = r.
+Proof.
+  intros (Z & I). unfold root_of. destruct completeness as (m & Upper & Least). cbn [proj1_sig].
+  assert (R : low i <= r <= high i) by (destruct I as [(-> & ->) | (I & _)]; lra).
+  apply Rle_antisym.
+  - apply Least. intros x [-> | (X & Zx)]; cbn [place polynomial] in *; [lra |].
+    destruct I as [(A & B) | (_ & Only & _)]; [lra |]. rewrite (Only x); auto. lra.
+  - apply Upper. right. split; [exact R | exact Z].
+Qed.
+
+Section Isolation.
+
+Variable common : list Z -> list Z -> list Z.
+Variable squarefree : list Z -> list Z.
+Variable intervals : list Z -> list interval.
+Variable sign_there : list Z -> list Z -> interval -> sign.
+
+Definition asked (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
+Hypothesis common_returned : forall f g, trimmed f -> trimmed g -> CommonFactor.common_factor f g (common f g).
+Hypothesis roots_returned : forall p, asked p -> found_roots p (squarefree p) (intervals p).
+(** The interval may be one that earlier calls have refined: after_refining is a case of the relation. *)
+Hypothesis sign_returned : forall p g i, asked p -> In i (intervals p) -> trimmed g -> exists s,
+  RootIsolation.sign_at_root (reals_of (squarefree p)) (reals_of g) i s /\
+  sign_there (squarefree p) g i = BoundedInteger.sign_of_integer s.
+
+Let all_roots (p : list Z) : list located := map (Located (squarefree p)) (intervals p).
+
+Lemma paired {A B} (P : A -> B -> Prop) a b : Forall2 P a b ->
+  (forall x, In x a -> exists y, In y b /\ P x y) /\ (forall y, In y b -> exists x, In x a /\ P x y).
+Proof.
+  induction 1 as [| x y a b H F (L & R)]; [easy |]. simpl. split.
+  - intros z [<- | I]; [exists y; auto |]. destruct (L z I) as (w & W & Q). exists w; auto.
+  - intros z [<- | I]; [exists x; auto |]. destruct (R z I) as (w & W & Q). exists w; auto.
+Qed.
+Lemma located_right p k : asked p -> In k (all_roots p) -> polynomial k = squarefree p /\
+  In (place k) (intervals p) /\ isolates (reals_of (squarefree p)) (place k) (root_of k).
+Proof.
+  intros A I. apply in_map_iff in I. destruct I as (i & <- & I). split; [easy |]. split; [exact I |].
+  destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) (roots_returned p A)) as (roots & F & _).
+  destruct (proj1 (paired _ _ _ F) i I) as (r & _ & H). now rewrite (root_of_right _ _ r).
+Qed.
+Lemma all_roots_right p x : asked p -> (exists k, In k (all_roots p) /\ root_of k = x) <-> 0 < x /\ poly p x = 0.
+Proof.
+  intros A. destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) (roots_returned p A)) as (roots & F & _ & R).
+  rewrite <- R. destruct (paired _ _ _ F) as (To & From). split.
+  - intros (k & I & <-). apply in_map_iff in I. destruct I as (i & <- & I). destruct (To i I) as (r & Ir & H).
+    now rewrite (root_of_right _ _ r).
+  - intros I. destruct (From x I) as (i & Ii & H). exists (Located (squarefree p) i).
+    split; [now apply in_map | now apply root_of_right].
+Qed.
+Lemma sign_there_right p g k : asked p -> In k (all_roots p) -> trimmed g ->
+  tells (sign_there (polynomial k) g (place k)) (poly g (root_of k)).
+Proof.
+  intros A I T. destruct (located_right p k A I) as (-> & Ii & H). destruct (sign_returned p g _ A Ii T) as (s & S & ->).
+  apply (RootIsolation.sign_at_root_right _ _ _ _ _ H) in S. subst s. fold (poly g (root_of k)).
+  destruct (SignVariations.sgn_cases (poly g (root_of k))) as [(L & ->) | [(L & ->) | (L & ->)]]; now split.
+Qed.
+
+Definition isolation : root_finder := {|
+  common_factor := common; root := located; real_roots := all_roots;
+  sign_at_root := fun g k => sign_there (polynomial k) g (place k); where_is := root_of;
+  common_factor_right := fun f g F G => CommonFactor.common_factor_right f g _ F G (common_returned f g F G);
+  real_roots_right := fun p x T L N => all_roots_right p x (conj T (conj L N));
+  sign_at_root_right := fun p g k T L N => sign_there_right p g k (conj T (conj L N)) |}.
+
+Theorem reference_by_isolation q0 q1 q2 q3 :
+  let m0 := given_motion q0 in let m1 := given_motion q1 in let m2 := given_motion q2 in let m3 := given_motion q3 in
+  (reference_decides_face isolation q0 q1 q2 q3 = true <-> vertex_face_collides m0 m1 m2 m3) /\
+  (reference_decides_edges isolation q0 q1 q2 q3 = true <-> edge_edge_collides m0 m1 m2 m3) /\
+  (reference_decides_vertex_edge isolation q0 q1 q2 = true <-> vertex_edge_collides m0 m1 m2).
+Proof. split; [apply reference_face |]. split; [apply reference_edges | apply reference_vertex_edge]. Qed.
+Theorem bsc_exact_by_isolation q0 q1 q2 q3 :
+  let m0 := given_motion q0 in let m1 := given_motion q1 in let m2 := given_motion q2 in let m3 := given_motion q3 in
+  (bsc_exact_decides_face isolation q0 q1 q2 q3 = true <-> vertex_face_collides m0 m1 m2 m3) /\
+  (bsc_exact_decides_edges isolation q0 q1 q2 q3 = true <-> edge_edge_collides m0 m1 m2 m3).
+Proof. split; [apply bsc_exact_face | apply bsc_exact_edges]. Qed.
+
+End Isolation.
