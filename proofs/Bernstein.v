@@ -243,23 +243,24 @@ Proof.
   destruct p as [| a l]; simpl; [now exacts |]. now rewrite H, map_length.
 Qed.
 
-(** p * q, a convolution. (The code adds up each coefficient's terms in one loop.) *)
+(** p * q, a convolution: each coefficient's terms p_i q_(k-i) are added up from the smallest i, the
+    first stored. `sums` are the coefficients so far, from p_i's first one on. *)
 Fixpoint plus (p q : list S) : list S :=
   match p, q with
   | a :: p, b :: q => add a b :: plus p q
   | [], q => q
   | p, [] => p
   end.
-Fixpoint product (p q : list S) : list S :=
+Fixpoint product_after (sums p q : list S) : list S :=
   match p with
-  | [] => []
+  | [] => sums
   | a :: l =>
-      match l, map (mul a) q with
-      | [], first => first
-      | _, [] => []
-      | _, b :: first => b :: plus first (product l q)
+      match plus sums (map (mul a) q) with
+      | [] => []
+      | b :: sums => b :: product_after sums l q
       end
   end.
+Definition product : list S -> list S -> list S := product_after [].
 
 Lemma plus_form p q s t : (length p <= length q)%nat ->
   form (exacts (plus p q)) s t = s ^ (length q - length p) * form (exacts p) s t + form (exacts q) s t
@@ -273,33 +274,39 @@ Proof.
     by (rewrite <- pow_add; repeat f_equal; lia). ring.
 Qed.
 
+Lemma times_form a q s t : form (exacts (map (mul a) q)) s t = exact a * form (exacts q) s t.
+Proof. induction q as [| c q IH]; simpl; [ring |]. rewrite IH, !map_length. exacts. ring. Qed.
+
+Lemma product_after_form sums p b q s t : length sums = length q ->
+  form (exacts (product_after sums p (b :: q))) s t =
+    s ^ length p * form (exacts sums) s t + form (exacts p) s t * form (exacts (b :: q)) s t /\
+  length (product_after sums p (b :: q)) = (length p + length q)%nat.
+Proof.
+  revert sums. induction p as [| a l IH]; intros sums L; [simpl; split; [ring | easy] |].
+  destruct (plus_form sums (map (mul a) (b :: q)) s t) as (F & K).
+  { rewrite map_length. cbn [length]. lia. }
+  rewrite times_form, !map_length in F. rewrite map_length in K. cbn [product_after].
+  destruct (plus sums (map (mul a) (b :: q))) as [| c rest]; [discriminate |]. injection K as K.
+  destruct (IH rest K) as (E & N). cbn [length]. split; [| simpl; lia].
+  replace (length (b :: q) - length sums)%nat with 1%nat in F by (cbn [length]; lia).
+  cbn [map form] in F |- *. rewrite !map_length in *. rewrite E, N, pow_add. cbn [map form]. rewrite map_length.
+  rewrite K in F. apply (f_equal (Rmult (s ^ length l))) in F. simpl in *. lra.
+Qed.
+
 Lemma product_both p b q s t :
   form (exacts (product p (b :: q))) s t = form (exacts p) s t * form (exacts (b :: q)) s t /\
   (p <> [] -> length (product p (b :: q)) = (length p + length q)%nat).
 Proof.
-  induction p as [| a l IH]; [simpl; split; [ring | easy] |].
-  assert (M : forall s t, form (exacts (map (mul a) q)) s t = exact a * form (exacts q) s t).
-  { clear. intros s t. induction q as [| c q IH]; simpl; [ring |]. rewrite IH, !map_length. exacts.
-      ring. }
-  destruct l as [| c l].
-  - cbn [product map form]. rewrite M, !map_length. exacts. simpl. rewrite map_length. split; [ring |
-      easy].
-  - destruct IH as (E & L). specialize (L ltac:(discriminate)).
-    change (product (a :: c :: l) (b :: q))
-      with (mul a b :: plus (map (mul a) q) (product (c :: l) (b :: q))).
-    destruct (plus_form (map (mul a) q) (product (c :: l) (b :: q)) s t) as (F & K).
-    { rewrite map_length, L. simpl. lia. }
-    cbn [map form]. rewrite F, M, E, !map_length, K, L, exact_mul.
-    replace (length (c :: l) + length q - length q)%nat with (length (c :: l)) by lia.
-    split; [| intros _; cbn [length]; rewrite K, L; simpl; lia]. rewrite pow_add. simpl. rewrite
-      !map_length. ring.
+  destruct p as [| a l]; [simpl; split; [ring | easy] |]. unfold product; cbn [product_after plus map].
+  destruct (product_after_form (map (mul a) q) l b q s t (map_length _ _)) as (E & L).
+  cbn [map form]. rewrite E, times_form, !map_length, L, exact_mul. cbn [map form]. rewrite map_length.
+  split; [rewrite pow_add; ring | intros _; cbn [length]; rewrite L; lia].
 Qed.
 
 Theorem product_form p q s t :
   form (exacts (product p q)) s t = form (exacts p) s t * form (exacts q) s t.
 Proof.
-  destruct q as [| b q]; [| apply product_both].
-  simpl. rewrite Rmult_0_r. destruct p as [| a [| c l]]; easy.
+  destruct q as [| b q]; [| apply product_both]. destruct p; simpl; ring.
 Qed.
 
 (** elevated(p): p_0, p_1 + p_0, ..., p_N + p_(N-1), p_N. *)
