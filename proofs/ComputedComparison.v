@@ -551,9 +551,14 @@ Proof.
   generalize (smallest_normal_positive p emin) (Rmax_r 0 smallest_normal). lra.
 Qed.
 
-Theorem underflowed_tight_exceeds : exists s B k e,
-  computed p emin 0 (rnd p emin nearest (eta * eta)) s B k /\ Safe.safe_error p emin nearest B k = Some e /\
-  e < s.
+(** eta eta, of exact numbers. *)
+Theorem underflowed_tight_exceeds :
+  let v := rnd p emin nearest (eta * eta) in
+  let exact := Tight.tight_exact p emin nearest eta in
+  let s := Tight.tight_multiply p emin nearest v eta exact eta exact in
+  let (B, k) := Safe.safe_multiply p emin nearest eta (Rabs eta) 0 eta (Rabs eta) 0 in
+  computed p emin 0 v s B k /\
+  exists e, Safe.safe_error p emin nearest B k = Some e /\ 4 * eta <= s /\ e <= 2 * eta.
 Proof.
   assert (N : number p emin eta) by now apply number_eta.
   generalize (eta_positive emin) (eps_positive p) (smallest_normal_positive p emin) (u_256 p p_8) (eps_2u p).
@@ -569,17 +574,29 @@ Proof.
   { unfold B, Safe.safe_multiply, Safe.is_zero. rewrite Req_bool_false by lra. cbn [andb orb].
     rewrite Rabs_pos_eq, Lost by lra. unfold Safe.enlarged. rewrite Rmult_0_l, (rnd_0 p emin nearest).
     now rewrite Rmax_right by lra. }
-  exists (Tight.tight_multiply p emin nearest (rnd p emin nearest (eta * eta)) eta 0 eta 0), (fst B), (snd B).
-  eexists. split; [| split].
-  { assert (Exact : computed p emin 0 eta 0 (Rabs eta) 0).
-    { generalize (exact_number p emin 0 eta N). unfold Tight.tight_exact. rewrite Rminus_eq_0.
-      now rewrite (rnd_0 p emin nearest). }
-    apply product with (Rabs eta) 0%Z (Rabs eta) 0%Z; auto. rewrite EB. cbn [fst]. lra. }
-  { rewrite EB. cbn [fst snd]. unfold Safe.safe_error. cbv zeta.
+  assert (P3 : (3 <= p)%Z) by lia. assert (Pp : (emin <= - p)%Z) by lia.
+  cbv zeta. fold B. rewrite EB. split; [| eexists; split; [| split]].
+  { pose proof (exact_number p emin 0 eta N) as Exact.
+    assert (C := product p emin 0 _ _ _ _ _ _ _ _ _ B Exact Exact eq_refl eq_refl). rewrite EB in C. apply C.
+    cbn [fst]. lra. }
+  { unfold Safe.safe_error. cbv zeta.
     rewrite Z1, Rmult_1_l, (rnd_exact p emin nearest eps) by (apply number_power; auto; lia).
     rewrite Rle_bool_true by lra. reflexivity. }
-  assert (P3 : (3 <= p)%Z) by lia. assert (Pp : (emin <= - p)%Z) by lia.
-  apply Rlt_le_trans with (4 * eta).
+  - replace (Tight.tight_exact p emin nearest eta) with 0
+      by (unfold Tight.tight_exact; rewrite Rminus_eq_0; symmetry; apply (rnd_0 p emin nearest)).
+    unfold Tight.tight_multiply, Tight.is_zero. rewrite Req_bool_false by lra. cbn [andb orb]. cbv zeta.
+    rewrite (Tight.inflated_exact p emin nearest P3 Pp).
+    assert (Np : forall x, 0 <= x -> 0 <= rnd p emin nearest x) by (intros; now apply (rnd_nonnegative p emin nearest)).
+    assert (N4 : number p emin (4 * eta)) by apply (Tight.number_4_eta p emin).
+    rewrite (rnd_exact p emin nearest (4 * eta) N4).
+    assert (L : 4 * eta <= rnd p emin nearest
+      (rnd p emin nearest (Tight.rounding p emin nearest (rnd p emin nearest (eta * eta)) +
+        rnd p emin nearest (rnd p emin nearest (Rabs eta * 0) + rnd p emin nearest (0 * rnd p emin nearest (Rabs eta + 0)))) +
+       4 * eta)).
+    { apply (rnd_above p emin nearest); auto. generalize (proj2 (rounding_facts p emin p_8 emin_2p (rnd p emin nearest (eta * eta)))).
+      intros R. assert (H : forall x, 0 <= x -> 4 * eta <= x + 4 * eta) by (intros; lra). apply H, Np.
+      apply Rplus_le_le_0_compat; auto. apply Np, Rplus_le_le_0_compat; apply Np; [rewrite Rmult_0_r | rewrite Rmult_0_l]; lra. }
+    apply Rle_trans with (1 := L). apply (scaled_up p emin nearest); [apply rnd_number; auto with typeclass_instances | lra | lra].
   - rewrite !(Safe.enlarged_exact p emin nearest P3 Pp).
     set (y := rnd p emin nearest (rnd p emin nearest (eps * rnd p emin nearest (1 + eps)) * (1 + 4 * eps))).
     assert (Y : smallest_normal * y <= eta + eta / 4).
@@ -596,23 +613,10 @@ Proof.
     { replace (eta + eta) with (2 * eta) by ring. apply (Tight.number_2_eta p emin). }
     assert (W2 : rnd p emin nearest (rnd p emin nearest (smallest_normal * y) + eta) <= eta + eta).
     { apply (rnd_below p emin nearest); auto. lra. }
-    apply Rle_lt_trans with (rnd p emin nearest ((eta + eta) + (eta + eta) * (4 * eps))).
+    apply Rle_trans with (rnd p emin nearest ((eta + eta) + (eta + eta) * (4 * eps))).
     { apply (rnd_le p emin nearest). apply Rle_trans with ((eta + eta) * (1 + 4 * eps)); [| lra].
       apply Rmult_le_compat_r; lra. }
-    apply Rle_lt_trans with (eta + eta); [| lra]. apply (up_lost p emin); auto; nra.
-  - unfold Tight.tight_multiply, Tight.is_zero. rewrite Req_bool_false by lra. cbn [andb orb]. cbv zeta.
-    rewrite (Tight.inflated_exact p emin nearest P3 Pp).
-    assert (Np : forall x, 0 <= x -> 0 <= rnd p emin nearest x) by (intros; now apply (rnd_nonnegative p emin nearest)).
-    assert (N4 : number p emin (4 * eta)) by apply (Tight.number_4_eta p emin).
-    rewrite (rnd_exact p emin nearest (4 * eta) N4).
-    assert (L : 4 * eta <= rnd p emin nearest
-      (rnd p emin nearest (Tight.rounding p emin nearest (rnd p emin nearest (eta * eta)) +
-        rnd p emin nearest (rnd p emin nearest (Rabs eta * 0) + rnd p emin nearest (0 * rnd p emin nearest (Rabs eta + 0)))) +
-       4 * eta)).
-    { apply (rnd_above p emin nearest); auto. generalize (proj2 (rounding_facts p emin p_8 emin_2p (rnd p emin nearest (eta * eta)))).
-      intros R. assert (H : forall x, 0 <= x -> 4 * eta <= x + 4 * eta) by (intros; lra). apply H, Np.
-      apply Rplus_le_le_0_compat; auto. apply Np, Rplus_le_le_0_compat; apply Np; [rewrite Rmult_0_r | rewrite Rmult_0_l]; lra. }
-    apply Rle_trans with (1 := L). apply (scaled_up p emin nearest); [apply rnd_number; auto with typeclass_instances | lra | lra].
+    apply Rle_trans with (eta + eta); [| lra]. apply (up_lost p emin); auto; nra.
 Qed.
 End Theorems.
 

@@ -252,8 +252,7 @@ Proof.
     destruct (H u U). split; [ring | split; [lra |]]. intros Z. apply H1. lra.
 Qed.
 
-(** Exactly one root, and it is simple. *)
-Theorem one_change y : length y = 4%nat -> count (inner_sign_changes y) = 1%nat ->
+Lemma one_change_crosses y : length y = 4%nat -> count (inner_sign_changes y) = 1%nat ->
   crosses_once 0 1 (at_ y) (fun _ => False).
 Proof.
   intros L C. destruct (classic (exists r, 0 < r < 1 /\ at_ y r = 0)) as [(r & U & Z) | N].
@@ -281,6 +280,36 @@ Proof.
     pose proof (positive_quadratic (- q0) (- q1) (- q2) u V Q0 Q1 Q2 ltac:(lra)) as H.
     replace (quadratic_value (- q0) (- q1) (- q2) u) with (- quadratic_value q0 q1 q2 u) in H
       by (unfold quadratic_value; ring). split; [lra |]. intros. lra.
+Qed.
+Lemma one_change_opposite y : length y = 4%nat -> count (inner_sign_changes y) = 1%nat ->
+  opposite (inner_sign_changes y) = true.
+Proof.
+  intros L. four y L. unfold inner_sign_changes. cbn [map].
+  four_signs y0 y1 y2 y3; cbn; intros C; congruence.
+Qed.
+(** Exactly one root, where Y changes its sign; at the ends it may vanish. *)
+Theorem one_change y : length y = 4%nat -> let c := inner_sign_changes y in count c = 1%nat ->
+  exists r, 0 < r < 1 /\ at_ y r = 0 /\ forall t, 0 < t < 1 ->
+    (t < r -> 0 < unit_of (first c) * at_ y t) /\ (r < t -> unit_of (first c) * at_ y t < 0).
+Proof.
+  intros L c C. destruct (one_change_crosses y L C) as (l0 & l1 & q & H).
+  destruct (odd_changes y L (one_change_opposite y L C)) as (r & U & Z). exists r. do 2 (split; auto).
+  assert (P : forall t, 0 < t < 1 -> 0 < q t).
+  { intros t T. destruct (H t T) as (_ & [Q | Q] & N); [easy |]. now destruct N. }
+  assert (E : l0 = - l1 * r).
+  { destruct (H r U) as (E & _). rewrite Z in E. specialize (P r U).
+    apply Rmult_eq_reg_r with (q r); [| lra]. lra. }
+  assert (V : forall t, 0 < t < 1 ->
+    unit_of (first c) * at_ y t = (- (unit_of (first c) * l1)) * ((r - t) * q t)).
+  { intros t T. destruct (H t T) as (-> & _). rewrite E. ring. }
+  destruct (changes_first y L (changes_moving y L ltac:(unfold c in C; lia))) as (A & _). fold c in A.
+  destruct (just_after _ _ _ r A ltac:(lra)) as (t & T & S). rewrite V in S by lra.
+  assert (K : 0 < - (unit_of (first c) * l1)).
+  { assert (0 < (r - t) * q t) by (apply Rmult_lt_0_compat; [lra | apply P; lra]).
+    apply Rnot_le_lt. intros N. nra. }
+  intros u W. rewrite V by auto. specialize (P u W). split; intros B.
+  - apply Rmult_lt_0_compat; auto. apply Rmult_lt_0_compat; lra.
+  - assert (0 < (u - r) * q u) by (apply Rmult_lt_0_compat; lra). nra.
 Qed.
 
 (** ** The Hessian *)
@@ -841,7 +870,7 @@ Lemma one_change_part y p Q : is_part y p -> count (roots p) = 1%nat ->
   crosses_once (part_start p) (part_end p) (at_ y) Q.
 Proof.
   intros H C. pose proof H as (L & R & _). rewrite R in C.
-  destruct (one_change _ L C) as (l0 & l1 & q & One). destruct (part_at y p H) as (c & Hc & E).
+  destruct (one_change_crosses _ L C) as (l0 & l1 & q & One). destruct (part_at y p H) as (c & Hc & E).
   set (w := IZR (2 ^ level p)) in *. set (i := IZR (index p)) in *.
   exists (c * (l0 - l1 * i)), (c * (l1 * w)), (fun t => q (t * w - i)). intros t T.
   apply (part_place y p t H) in T. fold w i in T. destruct (One _ T) as (V & P & N).

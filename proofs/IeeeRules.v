@@ -509,13 +509,13 @@ Proof.
 Qed.
 
 (** The rule none: (1 + eta) - 1 is positive, and called zero. *)
-Theorem none_guesses : exists a b : float, let v := a ⊕ b ⊖ a in
-  0 < B2R a + B2R b - B2R a /\ sign_of _ F v (none_error _ F v) = zero.
+Theorem none_guesses : let one := integer _ F 1 in let eta := underflow_unit _ F in
+  let v := one ⊕ eta ⊖ one in
+  B2R one = 1 /\ B2R eta = Format.eta emin /\ sign_of _ F v (none_error _ F v) = zero.
 Proof.
   destruct (integer_value p emax p_3 1 ltac:(lia)) as [F1 V1].
   destruct (eta_value p emax p_3) as [Fe Ve]. destruct (zero_value p emax p_3) as [Z0 Z].
-  exists (integer _ F 1), (underflow_unit _ F). cbv zeta. split.
-  { rewrite V1, Ve. generalize (Format.eta_positive emin). lra. }
+  cbv zeta. split; auto. split; auto.
   assert (S : finite (integer _ F 1 ⊕ underflow_unit _ F) /\ B2R (integer _ F 1 ⊕ underflow_unit _ F) = 1).
   { generalize (Bplus_correct p emax _ _ mode_NE _ _ F1 Fe). rewrite V1, Ve.
     change (round radix2 (SpecFloat.fexp p emax) (round_mode mode_NE) (1 + Format.eta emin))

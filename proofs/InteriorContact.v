@@ -847,7 +847,7 @@ Proof.
   - pose proof (at_multiple_root_right Many) as M. destruct at_multiple_root as [[multiple distinct] three].
     destruct M as (A & K). destruct multiple; auto.
   - apply Loop. split; [easy |]. split; [discriminate |]. intros _.
-    destruct (one_change y L ltac:(lia)) as (l0 & l1 & q & H). exists l0, l1, q. intros t T.
+    destruct (one_change_crosses y L ltac:(lia)) as (l0 & l1 & q & H). exists l0, l1, q. intros t T.
     destruct (H t T) as (A & B' & F). split; auto. split; auto. intros Z. destruct (F Z).
 Qed.
 

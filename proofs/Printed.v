@@ -39,27 +39,29 @@ Proof.
 Qed.
 
 (** eta eta, two exact numbers: the product is lost, and the printed bound is 0. *)
-Theorem printed_product_lost : exists a b, number a /\ number b /\
-  tight_product eps (fl (a * b)) a 0 b 0 < Rabs (fl (a * b) - a * b).
+Theorem printed_product_lost : number eta /\
+  tight_product eps (fl (eta * eta)) eta 0 eta 0 = 0 /\ 0 < Rabs (fl (eta * eta) - eta * eta).
 Proof.
-  exists eta, eta. generalize (number_eta p emin) (eta_positive emin). intros N P.
+  generalize (number_eta p emin) (eta_positive emin). intros N P.
   assert (Z : fl (eta * eta) = 0).
   { unfold Format.eta. rewrite <- bpow_plus. apply round_N_small_pos with (emin + emin + 1)%Z;
       auto with typeclass_instances.
     - split; [apply bpow_le | apply bpow_lt]; lia.
     - unfold FLT_exp. lia. }
-  repeat split; auto. rewrite Z. unfold tight_product.
+  split; auto. rewrite Z. unfold tight_product.
   replace (0 - eta * eta) with (- (eta * eta)) by ring. assert (0 < eta * eta) by nra.
   rewrite Rabs_Ropp, Rabs_R0, (Rabs_pos_eq (eta * eta)) by lra.
-  unfold Rdiv. rewrite !Rmult_0_l, !Rmult_0_r. lra.
+  split; [unfold Rdiv; ring | lra].
 Qed.
 
-(** 1 and -1, known to within 1 and eta: the bound is rounded to 1, the error may be 1 + eta. *)
-Theorem printed_sum_rounded : exists a x sa b y sb,
+(** 1 and -1, known to within 1 and eta, of 0 and -1 - eta: the bound is rounded to 1, the error is
+    1 + eta. *)
+Theorem printed_sum_rounded (a := 1) (x := 0) (sa := 1) (b := -1) (y := -1 - eta) (sb := eta) :
   number a /\ number b /\ number sa /\ number sb /\ Rabs (a - x) <= sa /\ Rabs (b - y) <= sb /\
-  fl (fl (fl (fl (Rabs (fl (a + b)) * eps) / fl (1 - eps)) + sa) + sb) < Rabs (fl (a + b) - (x + y)).
+  fl (fl (fl (fl (Rabs (fl (a + b)) * eps) / fl (1 - eps)) + sa) + sb) = 1 /\
+  Rabs (fl (a + b) - (x + y)) = 1 + eta.
 Proof.
-  exists 1, 0, 1, (-1), (-1 - eta), eta.
+  subst a x sa b y sb.
   assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; auto; lia).
   generalize (number_eta p emin) (eta_positive emin) (Format.rnd_0 p emin nearest). intros N P Z.
   split; [auto |]. split; [now apply number_opp |]. split; [auto |]. split; [auto |].
@@ -67,7 +69,7 @@ Proof.
   rewrite Rabs_R1, Rabs_pos_eq by lra. split; [lra |]. split; [lra |].
   replace (1 + -1) with 0 by ring. rewrite Z, Rabs_R0, Rmult_0_l, Z. unfold Rdiv. rewrite Rmult_0_l, Z.
   rewrite Rplus_0_l, (rnd_exact p emin nearest 1 N1).
-  rewrite eta_lost by auto.
+  rewrite eta_lost by auto. split; [easy |].
   replace (0 - (0 + (-1 - eta))) with (1 + eta) by ring. rewrite Rabs_pos_eq; lra.
 Qed.
 
