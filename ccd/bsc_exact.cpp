@@ -19,7 +19,7 @@
 //    contact would hold shortly before: a vertex/edge contact again. If it is t = 0, the same, or
 //    all G_i(0) > 0. Proof: proofs/BscExact.v, bsc_exact_root; proofs/Contact.v, face_coplanar,
 //    edges_coplanar.
-// The decision is right, then. Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
+// So contact() is right. Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
 #include <algorithm>
 #include <ccd/bsc.hpp>
 #include <ccd/bsc_exact.hpp>

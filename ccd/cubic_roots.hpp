@@ -1,7 +1,7 @@
 // Roots of a cubic in (0, 1), with coefficients of fixed width: counted, and put between brackets.
 //
 // A root's place is estimated in floating point; exact signs of the cubic at both ends of a bracket
-// around it prove it, so nothing depends on the estimate (proofs/CubicRoots.v). A bracket predicts
+// around it prove it, so nothing depends on the estimate. A bracket predicts
 // the next, with some 40 more bits.
 #pragma once
 
@@ -30,8 +30,8 @@ constexpr errbound::fixed_integer<Words> thrice(const errbound::fixed_integer<Wo
 /// What the coefficients' signs tell about the roots of a cubic in (0, 1).
 /// Proof: proofs/CubicRoots.v, no_changes, one_change, odd_changes.
 struct inner_sign_changes {
-    int count = 0;          ///< the number of roots, or an even number more (Descartes)
-    bool opposite = false;  ///< the number is odd: just inside the ends, the signs are opposite
+    int count = 0;          ///< of changes: 0 if there is no root, 1 if there is one
+    bool opposite = false;  ///< it is odd: just inside the ends, the signs are opposite
     errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
 
     constexpr inner_sign_changes() = default;

@@ -83,6 +83,8 @@ def compare_with_readme(found):
 def named_theorems(comment):
     """What a C++ comment names: proofs/File.v, theorem, theorem"""
     text = re.sub(r"\s*\n\s*//+!?<?\s*", " ", comment)
+    if unlisted := re.search(r"proofs/\w+\.v(?!, \w)|proofs/\w+\.v, (?:\w+, )*\w+ and \w*_\w*", text):
+        fail(f"'{unlisted.group()}': theorems are named as proofs/File.v, theorem, theorem")
     return [(file, name) for file, names in re.findall(r"proofs/(\w+)\.v, ((?:\w+, )*\w+)", text)
             for name in names.split(", ")]
 

@@ -165,7 +165,7 @@ struct sizes {
         usable = max(max(x, y), z) <= S(largest_difference<real>);
     }
 
-    /// Bounds |ĥ − h| of the control values of Y, and of every G_i.
+    /// Bounds |ĥ − h| of the control values of Y, and of every G_i. Proofs are of double.
     /// Proof: proofs/CcdFilter.v, error_of_y_sound.
     /// Proof: proofs/CcdFilter.v, error_of_vertex_face_sound.
     /// Proof: proofs/CcdFilter.v, error_of_edge_edge_sound.

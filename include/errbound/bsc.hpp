@@ -451,7 +451,7 @@ constexpr existence by_halving(const part<S, M>& whole) {
 ///
 /// `yes` and `no` are certain for every scalar whose signs are; all g_i are then strictly positive
 /// at a root of y, or no such t exists. For Y ≡ 0 the answer is `no` or `maybe_root`.
-/// Proof: proofs/Bsc.v, bsc_no and bsc_yes.
+/// Proof: proofs/Bsc.v, bsc_no, bsc_yes.
 /// Where no sign is uncertain, `maybe_root` means Y ≡ 0, and `maybe_inside` a root of y with every
 /// g_i >= 0, one of them zero, and none with all positive.
 /// Proof: proofs/BscExact.v, bsc_exact_root, bsc_exact_inside.

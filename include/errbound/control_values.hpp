@@ -43,7 +43,7 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
 }
 
 /// The halves on [0, 1/2] and [1/2, 1] (de Casteljau).
-/// Proof: proofs/Subdivision.v, halves_cubic and halves_quartic.
+/// Proof: proofs/Subdivision.v, halves_cubic, halves_quartic.
 template <class S, int N>
 constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(
     const control_values<S, N>& p) {
