@@ -25,7 +25,7 @@ constexpr bool parted(const vertex_edge<double>& q) {
 }
 
 /// W(t) = 0 for the linear W from w0 to w1: they are antiparallel, or one of them is zero.
-/// Proof: proofs/Contact.v, vertex_vertex_contact.
+/// Proof: proofs/Contact.v, vertex_vertex_contact; proofs/AxisUnits.v, vertices_contact_right.
 template <class S>
 constexpr bool contact(const vertex_vertex<S>& query) {
     const auto w = difference(query.v, query.w);

@@ -1,11 +1,13 @@
 (** Queries in integers, each axis in units of its own, and what is asked of the coordinates as they are.
     Results:
         face_units, edges_units, vertex_edge_units   collisions do not depend on the axes' units
+        vertices_contact_right   `contact` of two vertices (ccd/features.hpp) is true exactly if they meet
         parted_right        where `parted` (ccd/features.hpp) says so, vertex and edge do not meet *)
 
 From Coq Require Import Reals ZArith Lra List Bool.
 From Errbound Require Import Sign Bernstein Contact Decisions.
 From Errbound Require BoundedInteger.
+Import ListNotations.
 Open Scope R_scope.
 
 (** Exact integers, as scalars of Bernstein.v. *)
@@ -74,6 +76,45 @@ Qed.
 (** What moves as m, in integers. *)
 Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop :=
   exact_motion i = stretched_motion k m.
+
+(** ** Two vertices *)
+
+(** contact(vertex_vertex) of ccd/features.hpp *)
+Definition vertices_contact (v w : @moving_point integers) : bool :=
+  let d := difference v w in
+  let at_end (i : nat) :=
+    @VectorForm integers [nth i (vx d) 0%Z] [nth i (vy d) 0%Z] [nth i (vz d) 0%Z] in
+  let c := cross_form (at_end 0%nat) (at_end 1%nat) in
+  let zero_first (f : list Z) := Z.eqb (nth 0 f 0%Z) 0 in
+  zero_first (vx c) && zero_first (vy c) && zero_first (vz c) &&
+    (nth 0 (dot_form (at_end 0%nat) (at_end 1%nat)) 0%Z <=? 0)%Z.
+Theorem vertices_contact_right k m n v w : units k -> in_integers k m v -> in_integers k n w ->
+  vertices_contact v w = true <-> vertex_vertex_collides m n.
+Proof.
+  intros K V W. assert (U : vertex_vertex_collides (exact_motion v) (exact_motion w) <-> vertex_vertex_collides m n).
+  { rewrite V, W. split; intros (t & T & H); exists t; (split; [exact T |]); rewrite ?place_stretched in *;
+      now apply (stretched_same k). }
+  rewrite <- U, vertex_vertex_contact. clear.
+  unfold vertices_contact, difference. cbn [vx vy vz nth].
+  set (p0 := VectorForm _ _ _). set (p1 := VectorForm _ _ _).
+  destruct (cross_at p0 p1 0 0 0) as (C & D); [now repeat split | now repeat split |].
+  destruct (dot_at p0 p1 0 0 0) as (E & F); [now repeat split | now repeat split |].
+  assert (At : forall f : list integers, length f = 1%nat -> at_time f 0 = IZR (nth 0 f 0%Z))
+    by (intros f L; apply (@Bsc.at_start integers); now destruct f).
+  replace (minus (start (exact_motion v)) (start (exact_motion w))) with (vector_at p0 0)
+    by (unfold vector_at, p0, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
+      rewrite exact_sub; simpl; ring).
+  replace (minus (finish (exact_motion v)) (finish (exact_motion w))) with (vector_at p1 0)
+    by (unfold vector_at, p1, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
+      rewrite exact_sub; simpl; ring).
+  rewrite <- C, <- E, At by exact F. destruct D as (Dx & Dy & Dz). unfold vector_at. rewrite !At by
+    assumption.
+  rewrite !andb_true_iff, !Z.eqb_eq, Z.leb_le. split.
+  - intros (((X & Y) & Z) & P). split; [| now apply IZR_le].
+    apply same_point; cbn [x y z origin]; apply (f_equal IZR); assumption.
+  - intros (O & P). apply point_eq in O. cbn [x y z origin] in O. destruct O as (X & Y & Z).
+    repeat split; [now apply eq_IZR | now apply eq_IZR | now apply eq_IZR | now apply le_IZR].
+Qed.
 
 (** ** Parted *)
 

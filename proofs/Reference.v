@@ -269,50 +269,12 @@ Proof. unfold reference_decides_vertex_edge. rewrite edge_contact_right by (simp
 
 End Reference.
 
-(** contact(vertex_vertex) of ccd/features.hpp *)
-Definition vertices_contact (v w : @moving_point integers) : bool :=
-  let d := difference v w in
-  let at_end (i : nat) :=
-    @VectorForm integers [nth i (vx d) 0%Z] [nth i (vy d) 0%Z] [nth i (vz d) 0%Z] in
-  let c := cross_form (at_end 0%nat) (at_end 1%nat) in
-  let zero_first (f : list Z) := Z.eqb (nth 0 f 0%Z) 0 in
-  zero_first (vx c) && zero_first (vy c) && zero_first (vz c) &&
-    (nth 0 (dot_form (at_end 0%nat) (at_end 1%nat)) 0%Z <=? 0)%Z.
 Definition reference_decides_vertices (v w : given) : bool :=
   let i := to_integers [v; w] in vertices_contact (i v) (i w).
-
 Theorem reference_vertex_vertex v w : reference_decides_vertices v w = true <->
   vertex_vertex_collides (given_motion v) (given_motion w).
 Proof.
-  unfold reference_decides_vertices. set (q := [v; w]). assert (In v q /\ In w q) as (I & J) by (simpl;
-    tauto).
-  destruct (to_integers_right q v I) as (K & V). destruct (to_integers_right q w J) as (_ & W). unfold
-    in_integers in *.
-  assert (U : vertex_vertex_collides (exact_motion (to_integers q v)) (exact_motion (to_integers q w))
-    <->
-    vertex_vertex_collides (given_motion v) (given_motion w)).
-  { rewrite V, W. split; intros (t & T & H); exists t; (split; [exact T |]); rewrite ?place_stretched in
-    *;
-      now apply (stretched_same (unit_of q)). }
-  rewrite <- U, vertex_vertex_contact. generalize (to_integers q v) (to_integers q w). clear. intros v
-    w.
-  unfold vertices_contact, difference. cbn [vx vy vz nth].
-  set (p0 := VectorForm _ _ _). set (p1 := VectorForm _ _ _).
-  destruct (cross_at p0 p1 0 0 0) as (C & D); [now repeat split | now repeat split |].
-  destruct (dot_at p0 p1 0 0 0) as (E & F); [now repeat split | now repeat split |].
-  assert (At : forall f : list integers, length f = 1%nat -> at_time f 0 = IZR (nth 0 f 0%Z))
-    by (intros f L; apply (@Bsc.at_start integers); now destruct f).
-  replace (minus (start (exact_motion v)) (start (exact_motion w))) with (vector_at p0 0)
-    by (unfold vector_at, p0, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
-      rewrite exact_sub; simpl; ring).
-  replace (minus (finish (exact_motion v)) (finish (exact_motion w))) with (vector_at p1 0)
-    by (unfold vector_at, p1, at_time, minus; apply same_point; cbn [x y z vx vy vz map form length];
-      rewrite exact_sub; simpl; ring).
-  rewrite <- C, <- E, At by exact F. destruct D as (Dx & Dy & Dz). unfold vector_at. rewrite !At by
-    assumption.
-  rewrite !andb_true_iff, !Z.eqb_eq, Z.leb_le. split.
-  - intros (((X & Y) & Z) & P). split; [| now apply IZR_le].
-    apply same_point; cbn [x y z origin]; apply (f_equal IZR); assumption.
-  - intros (O & P). apply point_eq in O. cbn [x y z origin] in O. destruct O as (X & Y & Z).
-    repeat split; [now apply eq_IZR | now apply eq_IZR | now apply eq_IZR | now apply le_IZR].
+  unfold reference_decides_vertices. set (q := [v; w]). assert (In v q /\ In w q) as (I & J) by (simpl; tauto).
+  destruct (to_integers_right q v I) as (K & V). destruct (to_integers_right q w J) as (_ & W).
+  now apply (vertices_contact_right (unit_of q)).
 Qed.
