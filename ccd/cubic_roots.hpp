@@ -30,7 +30,7 @@ constexpr errbound::fixed_integer<Words> thrice(const errbound::fixed_integer<Wo
 /// What the coefficients' signs tell about the roots of a cubic in (0, 1).
 /// Proof: proofs/CubicRoots.v, no_changes, one_change, odd_changes.
 struct inner_sign_changes {
-    int count = 0;          ///< of changes: 0 if there is no root, 1 if there is one
+    int count = 0;          ///< of changes: none means no root, one means one
     bool opposite = false;  ///< it is odd: just inside the ends, the signs are opposite
     errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
 
