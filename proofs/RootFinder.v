@@ -19,8 +19,6 @@ Open Scope R_scope.
 Fixpoint derivative_from (i : Z) (p : list Z) : list Z :=
   match p with [] => [] | a :: l => (a * i)%Z :: derivative_from (i + 1) l end.
 Definition derivative (p : list Z) : list Z := derivative_from 1 (tl p).
-Fixpoint mirrored (p : list Z) : list Z :=
-  match p with a :: b :: l => a :: (- b)%Z :: mirrored l | l => l end.
 
 Lemma derivative_reals p : reals_of (derivative p) = RootIsolation.derivative (reals_of p).
 Proof.
@@ -37,15 +35,6 @@ Proof.
     - right. destruct (IH (i + 1)%Z ltac:(lia) (or_intror L)) as [E | E]; [discriminate | exact E]. }
   intros T. apply G; [lia |]. destruct p as [| a [| b l]]; [now left | now left |].
   destruct T as [T | T]; [discriminate | now right].
-Qed.
-Lemma mirrored_right p : reals_of (mirrored p) = RootIsolation.mirrored (reals_of p) /\
-  hd 0%Z (mirrored p) = hd 0%Z p /\ (last p 0%Z <> 0%Z -> last (mirrored p) 0%Z <> 0%Z).
-Proof.
-  remember (length p) as n eqn:N. revert p N. induction n as [n IH] using Wf_nat.lt_wf_ind.
-  intros [| a [| b l]] ->; [easy | easy |]. destruct (IH (length l) ltac:(simpl; lia) l eq_refl) as (E & _ & L).
-  cbn [mirrored map RootIsolation.mirrored]. rewrite E, opp_IZR. split; [easy |]. split; [easy |].
-  destruct l as [| c l]; [simpl; lia |]. intros N. specialize (L N).
-  destruct (mirrored (c :: l)) as [| d m]; [easy | exact L].
 Qed.
 
 (** squarefree_chain's first polynomial: the primitive part, or its quotient by the factor that it has in
@@ -70,48 +59,34 @@ Proof.
     + destruct m; [easy |]. simpl in *. lia.
 Qed.
 Lemma first_right p f : trimmed p -> poly p 0 <> 0 -> first_of_chain p f ->
-  RootIsolation.first_of_chain (reals_of p) (reals_of f) /\ hd 0%Z f <> 0%Z /\ last f 0%Z <> 0%Z.
+  RootIsolation.first_of_chain (reals_of p) (reals_of f) /\ last f 0%Z <> 0%Z.
 Proof.
   intros T N C. assert (Np : p <> []) by now intros ->.
-  assert (H : RootIsolation.first_of_chain (reals_of p) (reals_of f) /\ last f 0%Z <> 0%Z).
-  { destruct C as [f Q | q m f Q M L D]; destruct (primitive_right _ _ Q) as (E & Tq & _); specialize (Tq T);
-      destruct Q as (c & C & Ep).
-    - split; [| destruct Tq as [Tq |]; [now apply E in Tq | easy]].
-      apply RootIsolation.primitive with (IZR c); [now apply not_0_IZR |]. intros x. rewrite Ep. apply multiple_at.
-    - assert (Nq : q <> []) by now rewrite E.
-      destruct (CommonFactor.common_factor_right _ _ _ Tq (derivative_trimmed q Tq) M) as (_ & Em & _).
-      split; [| apply (last_of_quotient q m); tauto].
-      apply RootIsolation.quotient with (IZR c) (reals_of q) (reals_of m); [now apply not_0_IZR | | |].
-      + intros x. rewrite Ep. apply multiple_at.
-      + intros x. apply (divided_right _ _ _ D).
-      + rewrite <- derivative_reals. apply (common_factor_divides _ _ _ M). }
-  destruct H as (H & L). split; [exact H |]. split; [| exact L]. intros Z. apply N.
-  apply (first_of_chain_roots (reals_of p) (reals_of f)); [now exists 0 | exact H |].
-  change (poly f 0 = 0). now rewrite poly_at_0, Z.
+  destruct C as [f Q | q m f Q M L D]; destruct (primitive_right _ _ Q) as (E & Tq & _); specialize (Tq T);
+    destruct Q as (c & C & Ep).
+  - split; [| destruct Tq as [Tq |]; [now apply E in Tq | easy]].
+    apply RootIsolation.primitive with (IZR c); [now apply not_0_IZR |]. intros x. rewrite Ep. apply multiple_at.
+  - assert (Nq : q <> []) by now rewrite E.
+    destruct (CommonFactor.common_factor_right _ _ _ Tq (derivative_trimmed q Tq) M) as (_ & Em & _).
+    split; [| apply (last_of_quotient q m); tauto].
+    apply RootIsolation.quotient with (IZR c) (reals_of q) (reals_of m); [now apply not_0_IZR | | |].
+    + intros x. rewrite Ep. apply multiple_at.
+    + intros x. apply (divided_right _ _ _ D).
+    + rewrite <- derivative_reals. apply (common_factor_divides _ _ _ M).
 Qed.
 
 (** ** real_roots *)
 
-(** upper_bound() *)
-Definition upper_bound (f : list Z) : R :=
-  unlikely_root (match positive_root_exponent f with Some e => e | None => 0%Z end).
-Inductive found_roots (p f : list Z) (found : list interval) : Prop :=
-| isolated_in_integers : first_of_chain p f ->
-    isolate (reals_of f) (half_line f) (half_line (mirrored f)) 0 (upper_bound f) found -> found_roots p f found.
+Definition found_roots (p f : list Z) (found : list interval) : Prop := first_of_chain p f /\
+  isolate (reals_of f) (half_line f) (half_line (mirrored_integers f)) 0 (upper_bound f) found.
 
 Theorem found_roots_right p f found : trimmed p -> poly p 0 <> 0 -> found_roots p f found ->
   exists roots, Forall2 (isolates (reals_of f)) found roots /\ StronglySorted Rlt roots /\
     forall x, In x roots <-> 0 < x /\ poly p x = 0.
 Proof.
-  intros T N [C I]. destruct (first_right p f T N C) as (F & H & L).
-  destruct (mirrored_right f) as (Em & Hm & Lm). destruct (half_line_right f L H) as (Right & Top).
-  destruct (half_line_right (mirrored f)) as (Left & _); [now apply Lm | now rewrite Hm |].
+  intros T N (C & I). destruct (first_right p f T N C) as (F & L).
   apply (RootIsolation.real_roots_right (reals_of p) (reals_of f)); [exact N |].
-  apply isolated_roots with (half_line f) (half_line (mirrored f)) (upper_bound f); auto.
-  - now rewrite <- Em.
-  - unfold upper_bound. pose proof (unlikely_bounds (match positive_root_exponent f with Some e => e | None => 0%Z end)) as B.
-    pose proof (Raux.bpow_gt_0 Zaux.radix2 (match positive_root_exponent f with Some e => e | None => 0%Z end)). lra.
-  - intros x X Z. destruct (Top x X Z) as (e & E & U). unfold upper_bound. now rewrite E.
+  apply found_in_integers_right; [| easy]. rewrite poly_at_0 in N. intros Z. now rewrite Z in N.
 Qed.
 
 (** ** Functions that return what the algorithms return *)
