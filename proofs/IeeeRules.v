@@ -9,6 +9,7 @@
         tight_multiply_known, tight_divide_known, tight_scale_known
         sharp_add_known, sharp_subtract_known, sharp_multiply_known, sharp_divide_known,
         sharp_scale_known (exact and within are tight's)
+        tight_negate_known   -x by the same bound, of either
         sign_of_known   the default sign of a known number is right or uncertain
         none_guesses    not so of the rule none
     (emax > p makes u a number of the format.) *)
@@ -373,6 +374,14 @@ Proof.
   - intros s H. apply tight_inflated_finite in H. destruct H as [H E]. parts. split; auto.
     rewrite E. now values.
   - apply Tight.tight_scale_sound_nearest; auto. apply emin_p.
+Qed.
+
+(** Negation, of the rules without one of their own: the same bound (tracked.hpp). *)
+Theorem tight_negate_known a s x : known a s x -> known (opposite _ F a) s (- x).
+Proof.
+  intros [P K]. split; auto. intros H. destruct (K H) as [A B]. split.
+  - simpl. now rewrite is_finite_Bopp.
+  - rewrite opposite_value. replace (- B2R a - - x) with (- (B2R a - x)) by ring. now rewrite Rabs_Ropp.
 Qed.
 
 (** The rule sharp. *)

@@ -5,7 +5,7 @@
     k < 2^29 (where counting stops): k = 0 only if B is |a|; and if B is finite, |x| <= B and
     |a - x| <= B((1 + eps)^k - 1). Results:
         safe_exact_known, safe_within_known, safe_add_known, safe_subtract_known,
-        safe_multiply_known, safe_scale_known: what the code returns is known;
+        safe_multiply_known, safe_scale_known, safe_negate_known: what the code returns is known;
         safe_error_known: where the code's error is finite, so is a, and |a - x| is at most that
         error; from 2^29 operations on it is never finite (IeeeRules.v: `known`, and so the sign). *)
 
@@ -261,6 +261,14 @@ Proof.
     2: { destruct (smallest_normal _ F); easy. }
     destruct FM as (FE & _ & EM). apply enlarged_finite in FE. destruct FE as [FE EE].
     rewrite EM, EE, Vm. apply Real; auto. lia.
+Qed.
+
+Theorem safe_negate_known a A x : safe_known a A x -> safe_known (opposite _ F a) A (- x).
+Proof.
+  destruct A as [B k]. intros (PB & RB & KB). split; auto. split; auto. intros FA Few.
+  apply opposite_finite in FA. destruct (KB FA Few) as [K0 K]. rewrite opposite_value, Rabs_Ropp.
+  split; auto. intros FB. destruct (K FB) as (N & G & X & D). unfold Safe.known. rewrite Rabs_Ropp.
+  replace (- B2R a - - x) with (- (B2R a - x)) by ring. rewrite Rabs_Ropp. auto.
 Qed.
 
 (** Tracked numbers' error: infinite from 2^29 operations on. *)
