@@ -42,8 +42,9 @@ constexpr verdict decide_bsc_of(const Query<Scalar>& query) {
 /// Decides a vertex_face or edge_edge query. `separate` is certain whenever signs under Rule are,
 /// `collides` too: then some root of Y has all weights strictly positive, so that the normal does
 /// not vanish there. Proof: proofs/Decisions.v, bsc_face_separate, bsc_face_collides,
-/// bsc_edges_separate, bsc_edges_collide; with the rule tight: proofs/Tightccd.v,
-/// tightccd_face_separate, tightccd_edges_separate. Cost: at most a few thousand operations, no
+/// bsc_edges_separate, bsc_edges_collide; with each rule: proofs/TrackedBsc.v,
+/// tracked_face_separate, tracked_face_collides, tracked_edges_separate, tracked_edges_collide.
+/// Cost: at most a few thousand operations, no
 /// allocation, never throws.
 template <class Rule, class T, template <class> class Query>
 constexpr verdict decide_bsc(const Query<T>& query) {

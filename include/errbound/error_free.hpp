@@ -61,7 +61,8 @@ inline constexpr int least_precision_for_split = 4;
 /// Precondition: p >= least_precision_for_split, and (2^s + 1)x does not overflow (|x| < 2^996 for
 /// double, 2^115 for float); else value and error are infinite or NaN. Underflow does no harm.
 /// Cost: 4 operations. Source: Veltkamp; Dekker 1971; proof for radix 2 in Boldo 2006 (Pitfalls of
-/// a full floating-point proof). Proof: proofs/ErrorFree.v, split_exact.
+/// a full floating-point proof). Proof, of the sum and of at most s bits
+/// in the error: proofs/ErrorFree.v, split_exact.
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
