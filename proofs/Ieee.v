@@ -285,3 +285,30 @@ Proof.
   - destruct x as [| s | |]; simpl in *; try easy. now destruct s.
 Qed.
 End Ieee.
+
+(** Takes finite results apart: finite operands, and the value. *)
+Ltac finite_parts p emax p_3 := repeat match goal with
+  | H : BinarySingleNaN.is_finite (plus _ (floats p emax) _ _) = true |- _ =>
+      apply plus_finite in H; destruct H as (? & ? & ?)
+  | H : BinarySingleNaN.is_finite (minus _ (floats p emax) _ _) = true |- _ =>
+      apply minus_finite in H; destruct H as (? & ? & ?)
+  | H : BinarySingleNaN.is_finite (times _ (floats p emax) _ _) = true |- _ =>
+      apply times_finite in H; destruct H as (? & ? & ?)
+  | H : BinarySingleNaN.is_finite (abs _ _ _) = true |- _ =>
+      apply (abs_finite p emax p_3) in H; destruct H as (? & ?)
+  end.
+(** Puts in the values of constants, and those known from equations. *)
+Ltac known_values p emax p_3 := repeat match goal with
+  | |- context [B2R (integer _ _ ?n)] => rewrite (proj2 (integer_value p emax p_3 n ltac:(lia)))
+  | |- context [B2R (epsilon _ _)] => rewrite (proj2 (eps_value p emax p_3))
+  | |- context [B2R (unit_roundoff _ _)] => rewrite (proj2 (u_value p emax p_3))
+  | |- context [B2R (underflow_unit _ _)] => rewrite (proj2 (eta_value p emax p_3))
+  | E : B2R ?x = _ |- context [B2R ?x] => rewrite E
+  end.
+(** Sums and products of what is not below zero are not. *)
+Ltac positive := repeat first
+  [ apply nonnegative_plus | apply nonnegative_times
+  | apply nonnegative_abs; assumption | apply nonnegative_eps; assumption
+  | apply nonnegative_u; assumption | apply nonnegative_eta; assumption
+  | apply nonnegative_integer; [assumption | lia] | apply nonnegative_nothing; assumption
+  | assumption ].

@@ -37,30 +37,8 @@ Infix "⊖" := (minus float F) (at level 50, left associativity).
 Infix "⊗" := (times float F) (at level 40, left associativity).
 Infix "⊘" := (over float F) (at level 40, left associativity).
 
-(** Takes a finite result apart: finite operands, and its value. *)
-Ltac parts := repeat match goal with
-  | H : BinarySingleNaN.is_finite (_ ⊕ _) = true |- _ =>
-      apply plus_finite in H; destruct H as (? & ? & ?)
-  | H : BinarySingleNaN.is_finite (_ ⊖ _) = true |- _ =>
-      apply minus_finite in H; destruct H as (? & ? & ?)
-  | H : BinarySingleNaN.is_finite (_ ⊗ _) = true |- _ =>
-      apply times_finite in H; destruct H as (? & ? & ?)
-  | H : BinarySingleNaN.is_finite (abs _ _ _) = true |- _ =>
-      apply (abs_finite p emax p_3) in H; destruct H as (? & ?)
-  end.
-Ltac values := repeat match goal with
-  | |- context [B2R (integer _ F ?n)] => rewrite (proj2 (integer_value p emax p_3 n ltac:(lia)))
-  | |- context [B2R (epsilon _ F)] => rewrite (proj2 (eps_value p emax p_3))
-  | |- context [B2R (unit_roundoff _ F)] => rewrite (proj2 (u_value p emax p_3))
-  | |- context [B2R (underflow_unit _ F)] => rewrite (proj2 (eta_value p emax p_3))
-  | E : B2R ?x = _ |- context [B2R ?x] => rewrite E
-  end.
-Ltac positive := repeat first
-  [ apply nonnegative_plus | apply nonnegative_times
-  | apply nonnegative_abs; assumption | apply nonnegative_eps; assumption
-  | apply nonnegative_u; assumption | apply nonnegative_eta; assumption
-  | apply nonnegative_integer; [assumption | lia] | apply nonnegative_nothing; assumption
-  | assumption ].
+Ltac parts := finite_parts p emax p_3.
+Ltac values := known_values p emax p_3.
 
 Definition residual_known (v : float) (b : float * float) (x : R) : Prop :=
   nonnegative (snd b) /\

@@ -40,24 +40,8 @@ Infix "⊖" := (minus float F) (at level 50, left associativity).
 Infix "⊗" := (times float F) (at level 40, left associativity).
 Infix "⊘" := (over float F) (at level 40, left associativity).
 
-(** Takes a finite result apart: finite operands, and its value. *)
-Ltac parts := repeat match goal with
-  | H : BinarySingleNaN.is_finite (_ ⊕ _) = true |- _ =>
-      apply plus_finite in H; destruct H as (? & ? & ?)
-  | H : BinarySingleNaN.is_finite (_ ⊖ _) = true |- _ =>
-      apply minus_finite in H; destruct H as (? & ? & ?)
-  | H : BinarySingleNaN.is_finite (_ ⊗ _) = true |- _ =>
-      apply times_finite in H; destruct H as (? & ? & ?)
-  | H : BinarySingleNaN.is_finite (abs _ _ _) = true |- _ =>
-      apply (abs_finite p emax p_3) in H; destruct H as (? & ?)
-  end.
-Ltac values := repeat match goal with
-  | |- context [B2R (integer _ F ?n)] => rewrite (proj2 (integer_value p emax p_3 n ltac:(lia)))
-  | |- context [B2R (epsilon _ F)] => rewrite (proj2 (eps_value p emax p_3))
-  | |- context [B2R (unit_roundoff _ F)] => rewrite (proj2 (u_value p emax p_3))
-  | |- context [B2R (underflow_unit _ F)] => rewrite (proj2 (eta_value p emax p_3))
-  | E : B2R ?x = _ |- context [B2R ?x] => rewrite E
-  end.
+Ltac parts := finite_parts p emax p_3.
+Ltac values := known_values p emax p_3.
 
 Let rnd_0 := Format.rnd_0 p emin Format.nearest.
 
@@ -111,12 +95,6 @@ Proof.
   values. reflexivity.
 Qed.
 
-Ltac positive := repeat first
-  [ apply nonnegative_plus | apply nonnegative_times
-  | apply nonnegative_abs; assumption | apply nonnegative_eps; assumption
-  | apply nonnegative_u; assumption | apply nonnegative_eta; assumption
-  | apply nonnegative_integer; [assumption | lia] | apply nonnegative_nothing; assumption
-  | assumption ].
 Lemma nonnegative_tight_rounding v : nonnegative (tight_rounding _ F v).
 Proof. unfold tight_rounding. positive. Qed.
 Lemma nonnegative_tight_inflated b : nonnegative b -> nonnegative (tight_inflated _ F b).
