@@ -1,4 +1,4 @@
-# Collision detection for CUDA devices: errbound::ccd_cuda, where there is an nvcc that knows C++20.
+# Looks for nvcc, and says how device code is compiled: where it is found, errbound_cuda_options is set.
 include(CheckLanguage)
 check_language(CUDA)
 if(NOT CMAKE_CUDA_COMPILER)
@@ -28,43 +28,8 @@ endif()
 
 # What bounds and identical answers need of device code: no contraction to fused multiply-add, no
 # flushing of subnormals, divisions and square roots that are rounded correctly.
-# tests/cuda/flags_test.sh shows what becomes of the code otherwise.
+# tests/ccd/cuda/flags_test.sh shows what becomes of the code otherwise.
 set(errbound_cuda_precision -fmad=false -ftz=false -prec-div=true -prec-sqrt=true)
 # (The standard as an option: CMake 3.25 does not know nvcc 13's.)
 set(errbound_cuda_options ${errbound_cuda_targets} -std=c++20 --expt-relaxed-constexpr
                           ${errbound_cuda_precision} -Xcompiler=-ffp-contract=off,-Wall)
-
-function(errbound_cuda_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEFINITIONS" ${ARGN})
-  add_library(${name} OBJECT ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE errbound CUDA::cudart_static)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
-  target_compile_options(${name} PRIVATE ${errbound_cuda_options})
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_sources(errbound_ccd_cuda PRIVATE $<TARGET_OBJECTS:${name}>)
-endfunction()
-
-add_library(errbound_ccd_cuda STATIC)
-add_library(errbound::ccd_cuda ALIAS errbound_ccd_cuda)
-set_target_properties(errbound_ccd_cuda PROPERTIES EXPORT_NAME ccd_cuda LINKER_LANGUAGE CXX)
-target_link_libraries(errbound_ccd_cuda PUBLIC errbound_ccd PRIVATE CUDA::cudart_static)
-errbound_cuda_library(errbound_cuda_batch SOURCES ccd/cuda/batch.cu ccd/cuda/sort.cu
-  ccd/cuda/step.cu)
-foreach(kind vertex_face edge_edge)
-  errbound_cuda_library(errbound_cuda_exact_${kind} SOURCES ccd/cuda/exact.cu
-    DEFINITIONS ERRBOUND_INDICES=${kind}_indices)
-endforeach()
-function(errbound_cuda_method name type)
-  errbound_cuda_library(errbound_cuda_${name} SOURCES ccd/cuda/method.cu
-    DEFINITIONS ERRBOUND_METHOD=device_${name} "ERRBOUND_METHOD_TYPE=${type}")
-endfunction()
-errbound_cuda_method(float "bsc_method<errbound::none>")
-errbound_cuda_method(safe "bsc_method<errbound::safe>")
-errbound_cuda_method(tight "bsc_method<errbound::tight>")
-errbound_cuda_method(safeccd "safeccd_method<errbound::safe>")
-errbound_cuda_method(safeccd_tight "safeccd_method<errbound::tight>")
-
-install(TARGETS errbound_ccd_cuda EXPORT errbound_ccd_cuda_targets)
-install(EXPORT errbound_ccd_cuda_targets NAMESPACE errbound::
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/errbound)

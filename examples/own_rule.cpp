@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <errbound/tracked.hpp>
 
-// What a rule must provide is listed in errbound/rules/operand.hpp. This one keeps its bound in
+// What a rule must provide is listed in errbound/rules/rule.hpp. This one keeps its bound in
 // units of the unit roundoff u, |value − true value| <= u·units: a sum or product rounded to v adds
 // |v| units to those inherited. Proof sketch of the rest: every count of units is multiplied by 1 +
 // 8ε, which exceeds its own at most seven roundings; products add 4η/u for their underflow.

@@ -1,4 +1,4 @@
-(** Integers that stand for a real number near them (ccd/bounded_integer.hpp), over the integers: that
+(** Integers that stand for a real number near them (ccd/exact/bounded_integer.hpp), over the integers: that
     they fit their words is argued where they are used.
 
     A number stands for every real number less than 2^error_bits away from its value; for the value alone

@@ -1,4 +1,4 @@
-(** `bsc-exact` (ccd/bsc_exact.cpp): Bernstein sign classification over a scalar whose signs are never
+(** `bsc-exact` (ccd/methods/bsc_exact.cpp): Bernstein sign classification over a scalar whose signs are never
     uncertain (integers), and the contacts that settle what it leaves open. Results, for a cubic Y and
     quartics G as in Bsc.v:
         bsc_exact_root     the answer "maybe_root": Y = 0 at every t

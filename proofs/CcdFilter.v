@@ -1,4 +1,4 @@
-(** The bounds of the collision filter (include/ccd/static_filter.hpp): in double, rounded in any
+(** The bounds of the collision filter (ccd/exact/static_filter.hpp): in double, rounded in any
     direction; constants, which the compiler computes, to nearest.
 
     Y, a cubic, and the inside forms G_i, quartics, are kept by control values times 3 and 12.
@@ -41,7 +41,7 @@ Definition cross (a b : vector) : vector :=
 Definition dot (a b : vector) : form :=
   plus (plus (times (x_ a) (x_ b)) (times (y_ a) (y_ b))) (times (z_ a) (z_ b)).
 
-(** Forms of a query from its vectors b, c and p (include/ccd/forms.hpp). *)
+(** Forms of a query from its vectors b, c and p (include/ccd/methods/forms.hpp). *)
 Record query := { b_ : vector; c_ : vector; p_ : vector }.
 Definition normal (q : query) := cross (b_ q) (c_ q).
 Definition coplanarity (q : query) : form := dot (normal q) (p_ q).

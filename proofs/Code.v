@@ -3,7 +3,7 @@
 
     Nothing is proved here. Ieee.v takes IEEE floats for the numbers and proves that these functions
     then are those that the theorems are about. TieProgram.v makes a program of them, against which
-    tests/tie_test.cpp compares the C++ code. *)
+    tests/errbound/validation/tie_test.cpp compares the C++ code. *)
 
 From Coq Require Import ZArith Bool.
 

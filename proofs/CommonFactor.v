@@ -1,4 +1,4 @@
-(** Common factors by images modulo primes (include/errbound/integer_polynomial.hpp, prime_field.hpp):
+(** Common factors by images modulo primes (include/errbound/roots/integer_polynomial.hpp, prime_field.hpp):
     polynomials with integer coefficients, as lists, ascending.
 
     Results:

@@ -1,5 +1,5 @@
 (** What the exact collision decisions rest on, over the real numbers: a collision is one of the cases
-    that ccd/reference.cpp and ccd/interior_contact.hpp ask for.
+    that ccd/exact/reference.cpp and ccd/exact/interior_contact.hpp ask for.
 
     Points move from start to finish in t from 0 to 1; a query collides if the closed features share a
     point at some t in [0, 1] (include/ccd/query.hpp), degenerate triangles and edges included.
@@ -345,13 +345,13 @@ Definition vertex_edge_collides (v e0 e1 : moving) : Prop :=
   sometime (fun t => in_segment (place v t) (place e0 t) (place e1 t)).
 Definition vertex_vertex_collides (v w : moving) : Prop := sometime (fun t => place v t = place w t).
 
-(** vertex_edge_queries of include/ccd/transform.hpp *)
+(** vertex_edge_queries of include/ccd/methods/transform.hpp *)
 Definition face_border_collides (v f0 f1 f2 : moving) : Prop :=
   vertex_edge_collides v f0 f1 \/ vertex_edge_collides v f1 f2 \/ vertex_edge_collides v f2 f0.
 Definition edges_border_collides (a0 a1 b0 b1 : moving) : Prop :=
   vertex_edge_collides a0 b0 b1 \/ vertex_edge_collides a1 b0 b1 \/
   vertex_edge_collides b0 a0 a1 \/ vertex_edge_collides b1 a0 a1.
-(** regular_contact of ccd/reference.cpp, of all times *)
+(** regular_contact of ccd/exact/reference.cpp, of all times *)
 Definition face_regular_at (v f0 f1 f2 : moving) (t : R) : Prop :=
   regular_face (place v t) (place f0 t) (place f1 t) (place f2 t).
 Definition edges_regular_at (a0 a1 b0 b1 : moving) (t : R) : Prop :=

@@ -1,4 +1,4 @@
-(** Bounds of the positive roots and control values of any degree, as include/errbound/root_isolation.hpp
+(** Bounds of the positive roots and control values of any degree, as include/errbound/roots/root_isolation.hpp
     computes them in integers.
 
     Results:

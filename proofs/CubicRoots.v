@@ -1,4 +1,4 @@
-(** Roots of a cubic in (0, 1) (ccd/cubic_roots.hpp), over the real numbers: the code's integers are exact,
+(** Roots of a cubic in (0, 1) (ccd/exact/cubic_roots.hpp), over the real numbers: the code's integers are exact,
     and so are their signs. The estimates in floating point are arbitrary here: nothing depends on them.
     Results:
         no_changes, one_change, odd_changes   what the coefficients' changes of sign say (Descartes)

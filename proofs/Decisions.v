@@ -1,5 +1,5 @@
 (** Collision decisions of the floating-point methods, over every scalar (Bernstein.v): the forms of
-    include/ccd/forms.hpp, BSC on them (include/ccd/bsc.hpp), and the tests that part two features.
+    include/ccd/methods/forms.hpp, BSC on them (include/ccd/methods/bsc.hpp), and the tests that part two features.
     Results:
         forms_y, forms_weights      the forms are Y and the weights of Contact.v at every t
         bsc_face_separate, bsc_face_collides, bsc_edges_separate, bsc_edges_collides

@@ -1,4 +1,4 @@
-(** Dyadic numbers n 2^e (include/errbound/dyadic.hpp), n an exact integer.
+(** Dyadic numbers n 2^e (include/errbound/integers/dyadic.hpp), n an exact integer.
 
     Results:
         dyadic_sum, dyadic_difference, dyadic_product, dyadic_scale   are those of the numbers, in normal form

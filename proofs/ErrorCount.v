@@ -1,4 +1,4 @@
-(** The error-counting scalar (include/errbound/error_count.hpp): what it counts, in floating point,
+(** The error-counting scalar (include/errbound/filters/error_count.hpp): what it counts, in floating point,
     bounds the error of every expression, rounded in any direction.
 
     eps is the largest relative error of a rounding in any direction, eta the smallest positive

@@ -1,4 +1,4 @@
-(** Rows of Bernstein coefficients cut to W words (include/errbound/fixed_row.hpp): integers, whose errors
+(** Rows of Bernstein coefficients cut to W words (include/errbound/roots/fixed_row.hpp): integers, whose errors
     ControlValues.v has. Their words are exact integers here (Words.v).
 
     Results:

@@ -1,4 +1,4 @@
-(** Widths of the exact decisions in integers of fixed width (ccd/integer_decision.hpp, vertex_edge_contact.hpp,
+(** Widths of the exact decisions in integers of fixed width (ccd/exact/integer_decision.hpp, vertex_edge_contact.hpp,
     common_roots.hpp, interior_contact.hpp, cubic_roots.hpp).
 
     Where differences of coordinates are below D = 2^(64W - 3), W = 1 or 2, every number that these compute

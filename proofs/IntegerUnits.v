@@ -1,4 +1,4 @@
-(** Coordinates as integers of fixed width, an axis in a unit of its own (ccd/integer_coordinates.hpp).
+(** Coordinates as integers of fixed width, an axis in a unit of its own (ccd/exact/axis_units.hpp).
 
     Results:
         difference_in_units_exact   differences of converted coordinates are those of the coordinates, where

@@ -1,4 +1,4 @@
-(** The last stage of the exact decisions (ccd/interior_contact.hpp, ccd/integer_decision.hpp): its certain
+(** The last stage of the exact decisions (ccd/exact/interior_contact.hpp, ccd/exact/integer_decision.hpp): its certain
     answers are right. Forms have integers as coefficients, since numbers of the code are cut to words;
     that all numbers fit their words is argued in the headers. Estimates of a root's place and of the next
     bracket are arbitrary functions: nothing depends on them.
@@ -974,7 +974,7 @@ End Query.
 (** ** Queries *)
 
 Notation integer_motion := (@moving_point integers).
-(** contact_of of ccd/integer_decision.hpp: the points as given, m, and in integers, q. *)
+(** contact_of of ccd/exact/integer_decision.hpp: the points as given, m, and in integers, q. *)
 Definition vertex_edge_queries {A : Type} (edges : bool) (q0 q1 q2 q3 : A) : list (A * A * A) :=
   if edges then let a0 := q0 in let a1 := q1 in let b0 := q2 in let b1 := q3 in
     [(a0, b0, b1); (a1, b0, b1); (b0, a0, a1); (b1, a0, a1)]

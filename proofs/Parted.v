@@ -1,4 +1,4 @@
-(** `parted` of include/ccd/static_filter.hpp: its margin covers the rounding errors of what is compared,
+(** `parted` of ccd/exact/static_filter.hpp: its margin covers the rounding errors of what is compared,
     underflow included. In double, any direction; the constant, which the compiler computes, to nearest.
 
     Results: parted_face_separate, parted_edges_separate    where an axis parts the features as

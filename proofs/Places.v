@@ -1,4 +1,4 @@
-(** Estimated places of roots (ccd/cubic_roots.hpp): whatever the estimate, numerators have the bits that their
+(** Estimated places of roots (ccd/exact/cubic_roots.hpp): whatever the estimate, numerators have the bits that their
     words are made for. double, to nearest.
 
     Results:

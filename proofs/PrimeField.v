@@ -1,4 +1,4 @@
-(** Arithmetic modulo an odd p < 2^62 (include/errbound/prime_field.hpp), in Montgomery's form: a residue x is
+(** Arithmetic modulo an odd p < 2^62 (include/errbound/roots/prime_field.hpp), in Montgomery's form: a residue x is
     kept as a, 0 <= a < p, with a = x R modulo p, R = 2^64. Words are those of Words.v.
 
     Results:

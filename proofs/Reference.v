@@ -1,4 +1,4 @@
-(** The reference (ccd/reference.cpp): every decision is right, given doubles, common_factor and
+(** The reference (ccd/exact/reference.cpp): every decision is right, given doubles, common_factor and
   real_roots
     as in UnboundedIntegers.v. Results:
         reference_face, reference_edges, reference_vertex_edge, reference_vertex_vertex   it decides

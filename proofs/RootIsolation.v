@@ -1,4 +1,4 @@
-(** Exact real roots of polynomials of any degree (include/errbound/root_isolation.hpp): where the
+(** Exact real roots of polynomials of any degree (include/errbound/roots/root_isolation.hpp): where the
     algorithm ends, its answer is right. Polynomials are lists of coefficients, ascending, in the power
     basis. What is proved holds whatever points intervals are split at, so for every hint that the code
     takes of floating-point numbers, and over the real numbers: the code's numbers are exact.
@@ -17,7 +17,7 @@ Open Scope R_scope.
 
 (** ** Polynomials *)
 
-(** With integer coefficients (include/errbound/integer_polynomial.hpp): the last one is not zero; empty
+(** With integer coefficients (include/errbound/roots/integer_polynomial.hpp): the last one is not zero; empty
     is identically zero. *)
 Notation reals_of := (map IZR).
 Definition poly (p : list Z) (x : R) : R := power_form (reals_of p) x.
@@ -628,7 +628,7 @@ Proof.
   - apply IH. now apply refined_right with i.
 Qed.
 
-(** ** Without multiple roots: squarefree_chain of include/errbound/integer_polynomial.hpp *)
+(** ** Without multiple roots: squarefree_chain of include/errbound/roots/integer_polynomial.hpp *)
 
 Fixpoint derivative_from (i : R) (p : list R) : list R :=
   match p with [] => [] | a :: l => a * i :: derivative_from (i + 1) l end.

@@ -1,4 +1,4 @@
-(** The semi-static filter (include/errbound/semi_static_filter.hpp), rounded to nearest: its bound,
+(** The semi-static filter (include/errbound/filters/semi_static_filter.hpp), rounded to nearest: its bound,
     from the largest difference M, covers the error.
 
     Results: mass_covers_size            S <= m M^d + (a - 3/4) tau + a tau M^d

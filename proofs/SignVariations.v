@@ -1,4 +1,4 @@
-(** Descartes' rule as the code counts it (include/errbound/sign_variations.hpp), over the real numbers:
+(** Descartes' rule as the code counts it (include/errbound/roots/sign_variations.hpp), over the real numbers:
     for forms of any degree, on the open interval where s and t are positive.
 
     Results:

@@ -1,4 +1,4 @@
-(** Products by the words that are not zero (include/errbound/long_integer.hpp); words as in Words.v.
+(** Products by the words that are not zero (include/errbound/integers/long_integer.hpp); words as in Words.v.
 
     Results:
         sparse_product_exact   multiply_sparse: the product of m and n words, in m + n words

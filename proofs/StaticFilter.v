@@ -1,4 +1,4 @@
-(** Static filters (include/errbound/static_filter.hpp): for every expression of coordinates,
+(** Static filters (include/errbound/filters/static_filter.hpp): for every expression of coordinates,
     differences of coordinates, whole constants (ints, rounded where the format is shorter), sums,
     differences, products and negations, rounded to nearest.
 

@@ -1,6 +1,6 @@
 (** The definitions of Code.v over IEEE floats, and those of integers of words, as a program: tie.ml
     evaluates them on tiny formats, on float and on double, and on integers of up to four words, and
-    tests/tie_test.cpp holds the C++ code to what comes out. *)
+    tests/errbound/validation/tie_test.cpp holds the C++ code to what comes out. *)
 
 From Coq Require Import ZArith Extraction ExtrOcamlBasic.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.

@@ -1,4 +1,4 @@
-(** Queries in integers of unbounded size (ccd/unbounded_integers.hpp), which the reference, `bsc-exact`
+(** Queries in integers of unbounded size (ccd/exact/unbounded_integers.hpp), which the reference, `bsc-exact`
     and `root-parity` share: the conversion, and contact of a vertex with an edge by common factors and
     real roots of integer polynomials.
 

@@ -1,4 +1,4 @@
-(** Vertex/edge contact in closed form (ccd/vertex_edge_contact.hpp, ccd/common_roots.hpp), over the real
+(** Vertex/edge contact in closed form (ccd/exact/vertex_edge_contact.hpp, ccd/exact/common_roots.hpp), over the real
     numbers: the code's integers are exact, and so are their signs.
 
     Results:

@@ -1,5 +1,5 @@
-(** How many bits exact results take (include/errbound/sized_integer.hpp, expression_count.hpp), and
-    coordinates as integers (include/errbound/integer_coordinates.hpp).
+(** How many bits exact results take (include/errbound/integers/sized_integer.hpp, expression_count.hpp), and
+    coordinates as integers (include/errbound/integers/common_exponent.hpp).
 
     Results: sized_exact       every number of an expression is less than 2^bits units of its degree,
                                and stands for the exact value

@@ -1,4 +1,4 @@
-(** Bits of the exact stages' integers (include/errbound/fixed_integer.hpp, long_integer.hpp); words as in
+(** Bits of the exact stages' integers (include/errbound/integers/fixed_integer.hpp, long_integer.hpp); words as in
     Words.v.
 
     Results:

@@ -1,4 +1,4 @@
-(** Integers of the exact stages (include/errbound/fixed_integer.hpp, long_integer.hpp): two's
+(** Integers of the exact stages (include/errbound/integers/fixed_integer.hpp, long_integer.hpp): two's
     complement numbers of 64-bit words, the least significant first. Exact over the integers.
 
     Results: of words

@@ -6,7 +6,7 @@ usage: check.py BUILD_FOLDER
 
 Fails where a proof is missing or unfinished, rests on another axiom than those of Coq's real numbers
 and classical logic; where README.md and the files do not name the same theorems, or the C++ code names
-one that is not there; and where tie.txt, to which tests/tie_test.cpp holds the C++ code, is not what the
+one that is not there; and where tie.txt, to which tests/errbound/validation/tie_test.cpp holds the C++ code, is not what the
 proofs' definitions compute. --names only compares names, and needs no Coq.
 """
 import os

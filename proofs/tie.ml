@@ -1,6 +1,6 @@
 (* Writes what the proofs' definitions (code.ml, extracted from Code.v) make of every case of tiny
    formats, and of a selection of cases of float and double: a line for each operation of each rule, with
-   the number of cases and a hash of all results. tests/tie_test.cpp does the same with the C++ code. *)
+   the number of cases and a hash of all results. tests/errbound/validation/tie_test.cpp does the same with the C++ code. *)
 open Code
 
 (* Coq's integers. *)

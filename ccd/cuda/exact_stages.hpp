@@ -9,19 +9,19 @@
 #include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/static_filter.hpp>
+#include "ccd/exact/static_filter.hpp"
 #include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/control_values.hpp>
+#include <errbound/roots/control_values.hpp>
 #include <errbound/number_traits.hpp>
 #include <type_traits>
 
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
-#include "ccd/integer_decision.hpp"
-#include "ccd/rounded_axes.hpp"
-#include "ccd/subdivision.hpp"
+#include "ccd/exact/integer_decision.hpp"
+#include "ccd/batch/rounded_axes.hpp"
+#include "ccd/exact/subdivision.hpp"
 
 namespace ccd::cuda {
 

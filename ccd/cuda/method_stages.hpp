@@ -5,11 +5,11 @@
 // cost and of the registers of the rest.
 #pragma once
 
-#include <ccd/bsc.hpp>
+#include <ccd/methods/bsc.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/safeccd.hpp>
-#include <ccd/single_precision.hpp>
-#include <ccd/tracked_query.hpp>
+#include <ccd/methods/safeccd.hpp>
+#include <ccd/methods/single_precision.hpp>
+#include <ccd/methods/tracked_query.hpp>
 #include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/forms.hpp>
+#include <ccd/methods/forms.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>

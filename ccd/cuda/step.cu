@@ -9,7 +9,7 @@
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/step.hpp"
-#include "ccd/step_parts.hpp"
+#include "ccd/step/step_parts.hpp"
 
 namespace ccd::cuda {
 

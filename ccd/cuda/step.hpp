@@ -1,6 +1,6 @@
 // A step of a mesh on the device: candidates by a tree of boxes, decided in blocks. Internal.
 //
-// The tree is that of ccd/box_tree.hpp without its packs: boxes sorted along a Morton curve, eight
+// The tree is that of ccd/step/box_tree.hpp without its packs: boxes sorted along a Morton curve, eight
 // to a node, so that nodes need no pointers and a search no stack. Each element counts what it
 // touches; a prefix sum gives every candidate its number; then blocks of numbers are written out
 // and decided. So nothing depends on the order of threads, and no block can run over.
@@ -19,11 +19,11 @@
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/queries.hpp"
-#include "ccd/elements.hpp"
+#include "ccd/step/elements.hpp"
 
 namespace ccd::cuda {
 
-/// A closed box of rounded coordinates (ccd/rounded_axes.hpp).
+/// A closed box of rounded coordinates (ccd/batch/rounded_axes.hpp).
 /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
 /// swept_boxes_touch.
 struct rounded_box {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "ccd/io/error.hpp"
+#include "errbound/support/error.hpp"
 #include "ccd/io/face_check.hpp"
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/io/text.hpp"
 
 namespace ccd::io {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "ccd/io/error.hpp"
+#include "errbound/support/error.hpp"
 #include "ccd/io/face_check.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/text.hpp"

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "ccd/io/error.hpp"
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/io/text.hpp"
 
 namespace ccd::io {

@@ -1,7 +1,7 @@
 // How large each rule's bounds are: the six critical variables of BSC, the paper's Figure 8.
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
-#include "errbound/rule_list.hpp"
+#include "errbound/validation/rule_list.hpp"
 
 namespace ccd::report {
 namespace {
@@ -17,7 +17,7 @@ struct bound_sample {
 };
 using bound_samples = std::array<bound_sample, variable_names.size()>;
 
-/// Adds the query's bounds, as decide_bsc meets them (ccd/bsc.hpp), and relative to the largest
+/// Adds the query's bounds, as decide_bsc meets them (ccd/methods/bsc.hpp), and relative to the largest
 /// |k|, the control values of Y.
 template <class Rule, class Query>
 void add_bounds(const Query& query, bound_samples& samples) {

@@ -8,14 +8,14 @@
 #include <set>
 #include <tuple>
 
-#include "ccd/broad_phase.hpp"
-#include "ccd/io/error.hpp"
+#include "ccd/step/broad_phase.hpp"
+#include "errbound/support/error.hpp"
 #include "ccd/io/mesh_file.hpp"
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/io/query_file.hpp"
 #include "ccd/report/machine.hpp"
-#include "ccd/step_frames.hpp"
-#include "ccd/threads.hpp"
+#include "ccd/step/step_frames.hpp"
+#include "ccd/batch/threads.hpp"
 
 namespace ccd::report {
 namespace {

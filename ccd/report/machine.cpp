@@ -9,8 +9,8 @@
 #include <fstream>
 #include <thread>
 
-#include "ccd/io/error.hpp"
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
 namespace {

@@ -276,7 +276,7 @@ std::string notes(const summary& report) {
            std::to_string(sizes(report.settings.quick).repeats) +
            " timings, taken at different times, so that interrupts do not pose as slow queries. "
            "Caches are warm, and a few ns are within the clock's own noise.\n"
-           "* Bounds: those that decide_bsc meets (ccd/bsc.hpp), of queries drawn evenly where "
+           "* Bounds: those that decide_bsc meets (ccd/methods/bsc.hpp), of queries drawn evenly where "
            "there are very many; queries whose coordinates are not of moderate size are first "
            "scaled by a power of two. Quantiles are by the nearest rank.\n"
            "* The CSV files hold the figures; `python3 plot.py` draws the "

@@ -5,7 +5,7 @@
 #include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
-#include "ccd/threads.hpp"
+#include "ccd/batch/threads.hpp"
 
 namespace ccd::report {
 namespace {

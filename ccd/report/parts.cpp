@@ -5,8 +5,8 @@
 #include <system_error>
 #include <utility>
 
-#include "ccd/io/error.hpp"
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/report/machine.hpp"
 
 namespace ccd::report {

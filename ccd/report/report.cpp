@@ -6,8 +6,8 @@
 #include <ctime>
 #include <system_error>
 
-#include "ccd/io/error.hpp"
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/report/tasks.hpp"
 
 namespace ccd::report {

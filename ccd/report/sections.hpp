@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
-#include <ccd/bsc.hpp>
+#include <ccd/methods/bsc.hpp>
 #include <ccd/method.hpp>
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // What families of queries are made of: random numbers, a function per kind of difficulty, and what
 // turns points into queries and files. Shared by ccd/stress/families.cpp and
-// tests/query_families.hpp.
+// tests/support/query_families.hpp.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "ccd/threads.hpp"
+#include "ccd/batch/threads.hpp"
 
 namespace ccd::stress {
 namespace {

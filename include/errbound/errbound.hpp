@@ -7,5 +7,5 @@
 #include <errbound/polynomial.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
-#include <errbound/real_roots.hpp>
+#include <errbound/roots/real_roots.hpp>
 #include <errbound/tracked.hpp>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <errbound/number_traits.hpp>
-#include <errbound/rounded.hpp>
+#include <errbound/detail/rounded.hpp>
 #include <type_traits>
 
 namespace errbound {

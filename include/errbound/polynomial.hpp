@@ -23,8 +23,8 @@
 #include <cmath>
 #include <cstddef>
 #include <errbound/bsc.hpp>
-#include <errbound/polynomial_stages.hpp>
-#include <errbound/real_roots.hpp>
+#include <errbound/roots/polynomial_stages.hpp>
+#include <errbound/roots/real_roots.hpp>
 #include <limits>
 #include <optional>
 #include <span>

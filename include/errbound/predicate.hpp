@@ -12,9 +12,9 @@
 //
 // It is run on one scalar after the other, until one is certain (`predicate_stage`):
 //  * semi_static_filter, of expressions of many terms: in floating point, with a bound from the
-//    largest coordinate difference (errbound/semi_static_filter.hpp);
+//    largest coordinate difference (errbound/filters/semi_static_filter.hpp);
 //  * static_filter: in floating point, with a bound whose constant the types count while the
-//    expression is compiled (errbound/static_filter.hpp); no branch but the last;
+//    expression is compiled (errbound/filters/static_filter.hpp); no branch but the last;
 //  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
 //  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
 //    doubles hold all results, or words of 128 bits do; coordinates of one word, of two, or of up
@@ -34,12 +34,12 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/expression_count.hpp>
-#include <errbound/integer_coordinates.hpp>
-#include <errbound/semi_static_filter.hpp>
+#include <errbound/filters/expression_count.hpp>
+#include <errbound/integers/common_exponent.hpp>
+#include <errbound/filters/semi_static_filter.hpp>
 #include <errbound/sign.hpp>
-#include <errbound/sized_integer.hpp>
-#include <errbound/static_filter.hpp>
+#include <errbound/integers/sized_integer.hpp>
+#include <errbound/filters/static_filter.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
 #include <tuple>
@@ -96,7 +96,7 @@ struct predicate_options {
     using exact_type = void;
     /// Whether terms of different degree are never added, so that powers of two scale coordinates
     /// without changing a sign. It is found out for all expressions but those with too many
-    /// branches (errbound/expression_count.hpp); a false claim does not compile.
+    /// branches (errbound/filters/expression_count.hpp); a false claim does not compile.
     static constexpr bool homogeneous = false;
 };
 
@@ -227,7 +227,7 @@ struct sign_estimate {
 
     friend constexpr sign_type sign_of(const sign_estimate& x) {
         bool decided = number_traits<T>::abs(x.value) > x.bound;
-        if constexpr (may_contract)  // see errbound/static_filter.hpp
+        if constexpr (may_contract)  // see errbound/filters/static_filter.hpp
             decided = decided && number_traits<T>::is_finite(x.value);
         if (decided) [[likely]]
             return x.value > 0 ? sign_type::positive : sign_type::negative;
@@ -345,7 +345,7 @@ class predicate_type {
                 return detail::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// What the static filter computes: a value, with its bound (errbound/static_filter.hpp), or
+    /// What the static filter computes: a value, with its bound (errbound/filters/static_filter.hpp), or
     /// the sign_type of an expression that branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/report/machine.hpp"
-#include "gpu_peaks.hpp"
-#include "harness.hpp"
-#include "operations.hpp"
-#include "scenes.hpp"
+#include "tests/bench/gpu_peaks.hpp"
+#include "tests/bench/harness.hpp"
+#include "tests/bench/operations.hpp"
+#include "tests/bench/scenes.hpp"
 
 namespace {
 

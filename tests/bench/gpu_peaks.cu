@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "gpu_peaks.hpp"
+#include "tests/bench/gpu_peaks.hpp"
 
 namespace bench {
 

@@ -1,6 +1,6 @@
 #include <ccd/batch.hpp>
 
-#include "sections.hpp"
+#include "tests/bench/sections.hpp"
 
 namespace bench {
 namespace {

@@ -1,9 +1,9 @@
-#include "harness.hpp"
+#include "tests/bench/harness.hpp"
 
 #include <cstdio>
 #include <stdexcept>
 
-#include "ccd/table.hpp"
+#include "errbound/support/table.hpp"
 
 namespace bench {
 

@@ -1,4 +1,4 @@
-#include "heap.hpp"
+#include "tests/bench/heap.hpp"
 
 #include <malloc.h>
 

@@ -4,9 +4,9 @@
 #include <exception>
 #include <string>
 
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/output_file.hpp"
 #include "ccd/report/machine.hpp"
-#include "sections.hpp"
+#include "tests/bench/sections.hpp"
 
 namespace {
 

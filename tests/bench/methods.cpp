@@ -4,7 +4,7 @@
 #include <deque>
 #include <stdexcept>
 
-#include "sections.hpp"
+#include "tests/bench/sections.hpp"
 
 namespace bench {
 namespace {

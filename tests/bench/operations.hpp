@@ -2,12 +2,12 @@
 #pragma once
 
 #include <ccd/batch.hpp>
-#include <ccd/static_filter.hpp>
+#include "ccd/exact/static_filter.hpp"
 #include <cstdint>
-#include <errbound/control_values.hpp>
+#include <errbound/roots/control_values.hpp>
 
 #include "ccd/cuda/queries.hpp"
-#include "ccd/rounded_axes.hpp"
+#include "ccd/batch/rounded_axes.hpp"
 
 namespace bench {
 

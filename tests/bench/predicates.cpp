@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "predicate_sets.hpp"
-#include "sections.hpp"
+#include "tests/bench/predicates/predicate_sets.hpp"
+#include "tests/bench/sections.hpp"
 
 namespace bench {
 namespace {

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "ccd/report/machine.hpp"
-#include "harness.hpp"
-#include "tests/flint_polynomial.hpp"
-#include "tests/polynomial_families.hpp"
+#include "tests/bench/harness.hpp"
+#include "tests/errbound/roots/flint_polynomial.hpp"
+#include "tests/errbound/roots/polynomial_families.hpp"
 #ifdef ERRBOUND_HAS_ARB
-#include "tests/arb_roots.hpp"
+#include "tests/errbound/roots/arb_roots.hpp"
 #endif
 
 namespace {

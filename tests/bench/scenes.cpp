@@ -1,4 +1,4 @@
-#include "scenes.hpp"
+#include "tests/bench/scenes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "../query_families.hpp"
+#include "tests/support/query_families.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/query_file.hpp"
 

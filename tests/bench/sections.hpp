@@ -1,8 +1,8 @@
 // The benchmark's tables. Each function prints its own.
 #pragma once
 
-#include "harness.hpp"
-#include "scenes.hpp"
+#include "tests/bench/harness.hpp"
+#include "tests/bench/scenes.hpp"
 
 namespace bench {
 

@@ -3,7 +3,7 @@
 #include <ccd/method.hpp>
 #include <numeric>
 
-#include "sections.hpp"
+#include "tests/bench/sections.hpp"
 
 namespace bench {
 namespace {

@@ -2,8 +2,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "heap.hpp"
-#include "sections.hpp"
+#include "tests/bench/heap.hpp"
+#include "tests/bench/sections.hpp"
 
 namespace bench {
 namespace {

@@ -1,14 +1,14 @@
-#include "comparison.hpp"
+#include "tests/soak/comparison.hpp"
 
 #include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
 #include <ccd/method.hpp>
 #include <ccd/reference.hpp>
-#include <ccd/transform.hpp>
+#include <ccd/methods/transform.hpp>
 #include <utility>
 
-#include "ccd/integers.hpp"
+#include "ccd/exact/integers.hpp"
 
 namespace soak {
 namespace {

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "../query_families.hpp"
+#include "tests/support/query_families.hpp"
 
 namespace soak {
 

@@ -1,4 +1,4 @@
-#include "long_run.hpp"
+#include "tests/soak/long_run.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/io/output_file.hpp"
+#include "errbound/support/output_file.hpp"
 
 namespace soak {
 namespace {

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "comparison.hpp"
+#include "tests/soak/comparison.hpp"
 
 namespace soak {
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "ccd/io/output_file.hpp"
-#include "ccd/table.hpp"
-#include "long_run.hpp"
+#include "errbound/support/output_file.hpp"
+#include "errbound/support/table.hpp"
+#include "tests/soak/long_run.hpp"
 
 namespace {
 
@@ -114,7 +114,7 @@ void report(const soak::state& s, const fs::path& folder) {
     for (const auto& d : s.found.deciders) {
         deciders.push_back({d.name, grouped(d.compared), grouped(d.differences)});
     }
-    std::puts("\nfamilies: tests/query_families.hpp; 1 in N: a query takes tenths of a second");
+    std::puts("\nfamilies: tests/support/query_families.hpp; 1 in N: a query takes tenths of a second");
     std::printf("\n%s\n%s\n", ccd::program::text_of(families, 1).c_str(),
                 ccd::program::text_of(deciders, 1).c_str());
     std::printf("seed %ju: %s queries in %s, %s differ\n", std::uintmax_t{s.seed},

@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "predicate_jobs.hpp"
-#include "tests/audited.hpp"
+#include "tests/soak/predicate_jobs.hpp"
+#include "tests/ccd/exact/audited.hpp"
 
 namespace soak {
 namespace {

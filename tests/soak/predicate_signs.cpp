@@ -2,7 +2,7 @@
 #include <errbound/predicate_batch.hpp>
 #include <utility>
 
-#include "predicate_jobs.hpp"
+#include "tests/soak/predicate_jobs.hpp"
 
 namespace soak {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <string>
 
-#include "ccd/table.hpp"
-#include "predicates.hpp"
+#include "errbound/support/table.hpp"
+#include "tests/soak/predicates.hpp"
 
 namespace {
 

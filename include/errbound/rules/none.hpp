@@ -1,7 +1,7 @@
 // Bound rule `none`: plain arithmetic, no bound, no promise.
 #pragma once
 
-#include <errbound/rules/operand.hpp>
+#include <errbound/rules/rule.hpp>
 
 namespace errbound {
 

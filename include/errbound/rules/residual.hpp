@@ -19,7 +19,7 @@
 #pragma once
 
 #include <errbound/error_free.hpp>
-#include <errbound/rules/operand.hpp>
+#include <errbound/rules/rule.hpp>
 #include <errbound/sign.hpp>
 
 namespace errbound {

@@ -11,8 +11,8 @@
 // There is no rule for division: (B, k) has no lower bound of |f| to divide by.
 #pragma once
 
-#include <errbound/rounded.hpp>
-#include <errbound/rules/operand.hpp>
+#include <errbound/detail/rounded.hpp>
+#include <errbound/rules/rule.hpp>
 
 namespace errbound {
 

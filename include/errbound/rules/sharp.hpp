@@ -14,8 +14,8 @@
 //  * exact zero, and overflow, as for `tight`; nothing goes unnoticed in rounding to nearest.
 #pragma once
 
-#include <errbound/rounded.hpp>
-#include <errbound/rules/operand.hpp>
+#include <errbound/detail/rounded.hpp>
+#include <errbound/rules/rule.hpp>
 
 namespace errbound {
 

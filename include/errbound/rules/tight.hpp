@@ -5,7 +5,7 @@
 //  * the bound is itself rounded: every bound is multiplied by 1 + 8ε at the end, which exceeds
 //    the at most six roundings (each within a factor 1 ± ε, in any rounding direction) on the way
 //    to it: (1 + 8ε)(1 − ε)^6 > 1 from 5 bits of precision on (from 3 in rounding to nearest; with
-//    fewer, that it holds is checked case by case: errbound/tiny_check.hpp);
+//    fewer, that it holds is checked case by case: errbound/validation/tiny_check.hpp);
 //  * underflow: a product's value and the three products inside its bound are each off by less
 //    than η where they underflow, so 4η is added. Sums need none: a sum that is not exact is at
 //    least 2^p·η in size, and |v|ε is then at least its last place;
@@ -18,8 +18,8 @@
 // proofs/ComputedComparison.v, tight_at_most_safe_computed.
 #pragma once
 
-#include <errbound/rounded.hpp>
-#include <errbound/rules/operand.hpp>
+#include <errbound/detail/rounded.hpp>
+#include <errbound/rules/rule.hpp>
 
 namespace errbound {
 

@@ -1,0 +1,103 @@
+#include "ccd/batch/batch_worker.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "ccd/exact/cascade.hpp"
+
+namespace ccd {
+namespace {
+
+struct instruction_set_entry {
+    instruction_set set;
+    std::string_view name;
+    const batch_kernels* kernels;
+    bool (*runs_here)();
+};
+
+constexpr instruction_set_entry entries[] = {
+    {instruction_set::baseline, "baseline", &baseline::kernels, [] { return true; }},
+#ifdef ERRBOUND_HAVE_X86_KERNELS
+    {instruction_set::avx2, "avx2", &avx2::kernels,
+     [] { return __builtin_cpu_supports("avx2") != 0; }},
+    {instruction_set::avx512, "avx512", &avx512::kernels,
+     [] {
+         return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+                __builtin_cpu_supports("avx512vl") != 0 &&
+                __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512cd") != 0;
+     }},
+#endif
+};
+
+struct available_sets {
+    std::array<instruction_set, std::size(entries)> sets{};
+    std::size_t size = 0;
+
+    available_sets() {
+        for (const auto& entry : entries)
+            if (entry.runs_here()) sets[size++] = entry.set;
+    }
+};
+
+}  // namespace
+
+std::span<const instruction_set> instruction_sets() {
+    static const available_sets available;
+    return {available.sets.data(), available.size};
+}
+
+std::string_view name(instruction_set set) {
+    constexpr std::string_view names[] = {"baseline", "avx2", "avx512"};
+    const auto i = static_cast<std::size_t>(set);
+    return i < std::size(names) ? names[i] : "unknown";
+}
+
+std::optional<instruction_set> find_instruction_set(std::string_view wanted) {
+    for (const auto set :
+         {instruction_set::baseline, instruction_set::avx2, instruction_set::avx512})
+        if (name(set) == wanted) return set;
+    return std::nullopt;
+}
+
+const batch_kernels& kernels_for(std::optional<instruction_set> set) {
+    const auto available = instruction_sets();
+    const instruction_set wanted = set.value_or(available.back());
+    if (std::ranges::find(available, wanted) == available.end())
+        throw std::invalid_argument("ccd: this build or machine does not run the instruction set " +
+                                    std::string(name(wanted)));
+    return *std::ranges::find(entries, wanted, &instruction_set_entry::set)->kernels;
+}
+
+template <class At>
+void batch_worker::settle_uncertain(std::size_t count, outcome* answers, const At& query_at) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (answers[i] == outcome::uncertain) answers[i] = settle(query_at(i), counts()).outcome;
+}
+
+void batch_worker::decide(const batch_positions& positions,
+                          std::span<const vertex_face_indices> queries, outcome* answers) {
+    kernels_->indexed_vertex_face(positions, queries.data(), queries.size(), answers,
+                                  axes_vertex_face_, counts());
+    settle_uncertain(queries.size(), answers,
+                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
+}
+void batch_worker::decide(const batch_positions& positions,
+                          std::span<const edge_edge_indices> queries, outcome* answers) {
+    kernels_->indexed_edge_edge(positions, queries.data(), queries.size(), answers, axes_edge_edge_,
+                                counts());
+    settle_uncertain(queries.size(), answers,
+                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
+}
+void batch_worker::decide(std::span<const vertex_face<double>> queries, outcome* answers) {
+    kernels_->stored_vertex_face(queries.data(), queries.size(), answers, axes_vertex_face_,
+                                 counts());
+    settle_uncertain(queries.size(), answers, [&](std::size_t i) { return queries[i]; });
+}
+void batch_worker::decide(std::span<const edge_edge<double>> queries, outcome* answers) {
+    kernels_->stored_edge_edge(queries.data(), queries.size(), answers, axes_edge_edge_, counts());
+    settle_uncertain(queries.size(), answers, [&](std::size_t i) { return queries[i]; });
+}
+
+}  // namespace ccd

@@ -1,0 +1,44 @@
+// One thread's part of a batch or a step: blocks of queries, decided as they come. Internal.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/explain.hpp>
+#include <ccd/verdict.hpp>
+#include <span>
+
+#include "ccd/batch/batch_kernels.hpp"
+
+namespace ccd {
+
+/// The kernels for `set`, which must be one of instruction_sets(); by default the strongest.
+/// Throws std::invalid_argument otherwise.
+const batch_kernels& kernels_for(std::optional<instruction_set> set);
+
+class batch_worker {
+  public:
+    /// `counted`: fill report().
+    batch_worker(const batch_kernels& kernels, bool counted)
+        : kernels_(&kernels), counted_(counted) {}
+
+    /// Decides by `exact`. Coordinates must be finite and indices in range.
+    void decide(const batch_positions& positions, std::span<const vertex_face_indices> queries,
+                outcome* answers);
+    void decide(const batch_positions& positions, std::span<const edge_edge_indices> queries,
+                outcome* answers);
+    void decide(std::span<const vertex_face<double>> queries, outcome* answers);
+    void decide(std::span<const edge_edge<double>> queries, outcome* answers);
+
+    const stage_report& report() const { return report_; }
+
+  private:
+    template <class At>
+    void settle_uncertain(std::size_t count, outcome* answers, const At& query_at);
+    stage_report* counts() { return counted_ ? &report_ : nullptr; }
+
+    const batch_kernels* kernels_;
+    axes_state axes_vertex_face_, axes_edge_edge_;
+    stage_report report_;
+    bool counted_;
+};
+
+}  // namespace ccd

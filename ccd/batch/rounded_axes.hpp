@@ -1,0 +1,112 @@
+// The cull by axes in single precision: positions rounded once for all queries, compared in sums
+// and differences of their coordinates. Internal; host, SIMD and device code share it.
+//
+// All coordinates are mapped to about [−1, 1] by one translation per axis and one scale for all,
+// and rounded to float: X̃ = fl((x − c)·s). Each of these operations preserves order though not
+// strictly, so X̃ < Ỹ proves x < y. Sums of two coordinates have an absolute error: see `margin`.
+// Proof: proofs/RoundedAxes.v, rounded_monotone, rounded_face_separate, rounded_edges_separate.
+#pragma once
+
+#include <algorithm>
+#include <ccd/batch.hpp>
+#include "ccd/exact/static_filter.hpp"
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+namespace ccd::rounded_axes {
+
+/// Two projections x ± y that differ by more than this, as computed in float, differ in exact
+/// arithmetic and have the same order. In units of ε = 2^-23, for sizes up to 1.01: a
+/// coordinate is off by 1.01ε (and far less, from double), a sum by that of its two and 2.02ε
+/// of its own, hence 4.04ε; a difference of two sums by 8.08ε and 4.04ε of its own: less than
+/// 13ε in all.
+inline constexpr float margin = 13 * std::numeric_limits<float>::epsilon();
+
+/// The box around all positions of both frames. NaN may be overlooked.
+struct extent {
+    double low[3], high[3];
+
+    static constexpr extent nothing() {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    }
+    constexpr void widen(std::size_t axis, double x) {
+        low[axis] = std::min(low[axis], x);
+        high[axis] = std::max(high[axis], x);
+    }
+};
+
+/// Maps coordinates to floats.
+class frame {
+  public:
+    frame() = default;
+    explicit constexpr frame(const extent& e) {
+        // Halved before they are added, so that nothing overflows. Distances are taken from the
+        // middle as rounded, which lies well off the centre of a scene of a few ulps. The scale is
+        // at most 2^1000, so that it is finite: of smaller scenes little or nothing is culled here.
+        double radius = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle_[k] = e.low[k] / 2 + e.high[k] / 2;
+            radius = std::max(radius, std::max(e.high[k] - middle_[k], middle_[k] - e.low[k]));
+        }
+        scale_ = 1 / std::max(radius, 0x1p-1000);
+    }
+    constexpr float operator()(std::size_t axis, double x) const {
+        return static_cast<float>((x - middle_[axis]) * scale_);
+    }
+
+  private:
+    double middle_[3], scale_;
+};
+
+namespace detail {
+
+/// By how much an axis parts the features at one end of the step, if it does.
+template <class S>
+struct gap {
+    S above, below;
+};
+template <class Indices, class S>
+constexpr gap<S> gap_between(const S (&x)[4]) {
+    using std::max, std::min;
+    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
+        return {x[0] - max(max(x[1], x[2]), x[3]), min(min(x[1], x[2]), x[3]) - x[0]};
+    else
+        return {min(x[2], x[3]) - max(x[0], x[1]), min(x[0], x[1]) - max(x[2], x[3])};
+}
+template <class Indices, class S>
+constexpr S parted_by(const S (&start)[4], const S (&end)[4]) {
+    using std::max, std::min;
+    const gap<S> g0 = gap_between<Indices>(start), g1 = gap_between<Indices>(end);
+    return max(min(g0.above, g1.above), min(g0.below, g1.below));
+}
+
+}  // namespace detail
+
+/// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly parts the features throughout the step:
+/// static_filter::parted in single precision. x[axis][end of the step][point], the points in the
+/// order of the indices; S is float or a pack of floats.
+template <class Indices, class S>
+constexpr static_filter::mask<S> parted(const S (&x)[3][2][4]) {
+    using std::max;
+    S along(-1.0f), across(-1.0f);
+    for (std::size_t k = 0; k < 3; ++k)
+        along = max(along, detail::parted_by<Indices>(x[k][0], x[k][1]));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto &u = x[k], &v = x[(k + 1) % 3];
+        S sum[2][4], difference[2][4];
+        for (std::size_t end = 0; end < 2; ++end)
+            for (std::size_t p = 0; p < 4; ++p) {
+                sum[end][p] = u[end][p] + v[end][p];
+                difference[end][p] = u[end][p] - v[end][p];
+            }
+        across = max(across, detail::parted_by<Indices>(sum[0], sum[1]));
+        across = max(across, detail::parted_by<Indices>(difference[0], difference[1]));
+    }
+    const static_filter::mask<S> by_coordinates = along > S(0.0f),
+                                 by_diagonals = across > S(margin);
+    return by_coordinates | by_diagonals;
+}
+
+}  // namespace ccd::rounded_axes

@@ -1,0 +1,84 @@
+// Coordinates as integers of fixed width, each axis in a unit of its own.
+//
+// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
+// by positive factors, and integers stay short when one axis is much smaller than the others.
+// Proof: proofs/AxisUnits.v, face_units, edges_units, vertex_edge_units.
+#pragma once
+
+#include <algorithm>
+#include <ccd/methods/transform.hpp>
+#include <errbound/integers/binary_double.hpp>
+#include <errbound/integers/fixed_integer.hpp>
+#include <limits>
+
+namespace ccd {
+
+/// One axis of a query: its unit, and how many units its coordinates differ by.
+struct axis_extent {
+    int unit = 0;  ///< 2^unit divides every coordinate
+    int bits = 0;  ///< coordinates at one end of the step differ by less than 2^bits units
+    bool finite = true;
+
+    template <class Points>
+    constexpr axis_extent(const Points& points, double point<double>::*axis) {
+        int last = std::numeric_limits<int>::max();
+        double low0 = points[0].t0.*axis, high0 = low0, low1 = points[0].t1.*axis, high1 = low1;
+        for (const auto& p : points) {
+            const double x0 = p.t0.*axis, x1 = p.t1.*axis;
+            const errbound::binary_double d0(x0), d1(x1);
+            last = std::min({last, d0.last_bit(), d1.last_bit()});
+            finite = finite && d0.exponent != errbound::binary_double::not_finite &&
+                     d1.exponent != errbound::binary_double::not_finite;
+            low0 = std::min(low0, x0), high0 = std::max(high0, x0);
+            low1 = std::min(low1, x1), high1 = std::max(high1, x1);
+        }
+        // Rounding is monotone, so a rounded difference below a power of two was below it before;
+        // one that overflows is below 2^1025, as the infinity's end_bit() says. Proof:
+        // proofs/IntegerUnits.v, extent_bits_enough.
+        const errbound::binary_double extent(std::max(high0 - low0, high1 - low1));
+        if (last == std::numeric_limits<int>::max()) return;  // all are zero
+        unit = last;
+        bits = std::max(0, extent.end_bit() - unit);
+    }
+};
+
+/// What it takes to write a query in integers.
+struct integer_units {
+    axis_extent x, y, z;
+
+    template <class Query>
+    explicit constexpr integer_units(const Query& query) : integer_units(points_of(query), 0) {}
+
+    constexpr bool finite() const { return x.finite && y.finite && z.finite; }
+    /// Coordinates of one axis at one end of the step differ by less than 2^bits() units.
+    constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
+
+    /// The query in integers of Words words, modulo their width: differences at one end of the step
+    /// are right if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
+    template <int Words, class Query>
+    constexpr auto converted(const Query& query) const {
+        return transformed_points(query, [this](const point<double>& p) {
+            return point<errbound::fixed_integer<Words>>{in_units<Words>(p.x, x.unit),
+                                                         in_units<Words>(p.y, y.unit),
+                                                         in_units<Words>(p.z, z.unit)};
+        });
+    }
+
+  private:
+    template <class Points>
+    constexpr integer_units(const Points& points, int)
+        : x(points, &point<double>::x),
+          y(points, &point<double>::y),
+          z(points, &point<double>::z) {}
+
+    template <int Words>
+    static constexpr errbound::fixed_integer<Words> in_units(double coordinate, int unit) {
+        const errbound::binary_double d(coordinate);
+        const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
+        const auto size = errbound::fixed_integer<Words>::shifted(
+            d.magnitude >> std::clamp(-shift, 0, 63), std::max(shift, 0));
+        return d.negative ? -size : size;
+    }
+};
+
+}  // namespace ccd

@@ -1,0 +1,49 @@
+// An integer of fixed width that stands for a real number near it.
+#pragma once
+
+#include <algorithm>
+#include <errbound/integers/fixed_integer.hpp>
+
+namespace ccd {
+
+/// The real number that it stands for is less than 2^error_bits away from `value`, or equal to it
+/// if error_bits is below exact/2. Bounds are kept to powers of two, and rounded up: some ten
+/// operations cost as many bits, which is little where errors are far below the values. Widths are
+/// those of errbound::fixed_integer, and so is the caller's duty to bound the values.
+template <int Words>
+struct bounded_integer {
+    /// So low that a few operations leave it below exact/2.
+    static constexpr int exact = -(1 << 20);
+
+    errbound::fixed_integer<Words> value;
+    int error_bits = exact;
+
+    /// Proof: proofs/BoundedInteger.v, bounded_sum_known, bounded_difference_known.
+    friend constexpr bounded_integer operator+(const bounded_integer& a, const bounded_integer& b) {
+        return {a.value + b.value, std::max(a.error_bits, b.error_bits) + 1};
+    }
+    friend constexpr bounded_integer operator-(const bounded_integer& a, const bounded_integer& b) {
+        return {a.value - b.value, std::max(a.error_bits, b.error_bits) + 1};
+    }
+    /// Proof: proofs/BoundedInteger.v, bounded_sign_certain.
+    friend constexpr errbound::sign_type sign_of(const bounded_integer& x) {
+        // |value| >= 2^(bit_length − 1), or is zero.
+        const bool is_exact = x.error_bits < exact / 2;
+        if (!is_exact && x.value.bit_length() <= std::max(x.error_bits, 0))
+            return errbound::sign_type::uncertain;
+        return sign_of(x.value);
+    }
+};
+
+/// With sizes |a| <= 2^m, |b| <= 2^n and errors below 2^d, 2^e the product is known up to
+/// 2^(m + e) + 2^(n + d) + 2^(d + e).
+/// Proof: proofs/BoundedInteger.v, bounded_product_known.
+template <int A, int B>
+constexpr bounded_integer<A + B> operator*(const bounded_integer<A>& a,
+                                           const bounded_integer<B>& b) {
+    return {a.value * b.value,
+            2 + std::max({a.value.bit_length() + b.error_bits, b.value.bit_length() + a.error_bits,
+                          a.error_bits + b.error_bits})};
+}
+
+}  // namespace ccd

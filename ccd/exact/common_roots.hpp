@@ -1,0 +1,81 @@
+// The common roots of three quadratics inside (0, 1), exactly, in integers of fixed width.
+//
+// No search is needed: two quadratics that are not proportional have at most one root in common,
+// and it is rational. There (s², st, t²) is orthogonal to both coefficient vectors, hence parallel
+// to their cross product m, and a vector m is of that form exactly if m1² = m0·m2.
+//
+// Widths, for quadratics of 2W words as the products of two differences give them (|f0|, |f2| <=
+// 2D², |f1| <= 4D², D = 2^(64W − 3)): m in 4W words (16D⁴), m1² in 8W, f·m in 6W (96D⁶).
+//
+// Proof: proofs/VertexEdge.v, common_roots_right.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <errbound/bernstein.hpp>
+#include <errbound/integers/fixed_integer.hpp>
+
+namespace ccd {
+
+template <int Words>
+using linear_form = errbound::bernstein<errbound::fixed_integer<Words>, 1>;
+template <int Words>
+using quadratic_form = errbound::bernstein<errbound::fixed_integer<Words>, 2>;
+
+/// f at the point whose (s², st, t²) is m.
+template <int A, int B>
+constexpr errbound::fixed_integer<A + B> value_at_squares(const quadratic_form<A>& f,
+                                                          const quadratic_form<B>& m) {
+    return f[0] * m[0] + f[1] * m[1] + f[2] * m[2];
+}
+
+template <int Words>
+struct common_roots {
+    enum class kind_type {
+        none,
+        one,           ///< where (s², st, t²) is parallel to `squares`, all of which are positive
+        of_quadratic,  ///< at most those of *quadratic, whose coefficients have both signs
+        everywhere     ///< all three are identically zero
+    };
+    kind_type kind = kind_type::none;
+    quadratic_form<2 * Words> squares{};
+    const quadratic_form<Words>* quadratic = nullptr;
+
+    /// Keeps a pointer into f. Cost: comparisons, and if no f has one sign, some ten products.
+    explicit constexpr common_roots(const std::array<quadratic_form<Words>, 3>& f) {
+        using errbound::sign_of;
+        using errbound::sign_type;
+        std::array<const quadratic_form<Words>*, 3> moving{};  // those not identically zero
+        std::size_t count = 0;
+        for (const auto& form : f) {
+            const auto hull = sign_inside(form);
+            if (hull == sign_type::zero) continue;
+            if (certain(hull)) return;
+            moving[count++] = &form;
+        }
+        if (count == 0) {
+            kind = kind_type::everywhere;
+            return;
+        }
+        const auto& first = *moving[0];
+        for (std::size_t i = 1; i < count; ++i) {
+            const auto& other = *moving[i];
+            const quadratic_form<2 * Words> m{{first[1] * other[2] - first[2] * other[1],
+                                               first[2] * other[0] - first[0] * other[2],
+                                               first[0] * other[1] - first[1] * other[0]}};
+            const auto sign = sign_throughout(m);
+            if (sign == sign_type::zero) continue;  // proportional
+            if (!certain(sign)) return;
+            for (std::size_t k = i + 1; k < count; ++k)
+                if (!(value_at_squares(*moving[k], m) == 0)) return;
+            if (!(m[1] * m[1] == m[0] * m[2])) return;
+            kind = kind_type::one;
+            squares = sign == sign_type::negative ? -m : m;
+            return;
+        }
+        kind = kind_type::of_quadratic;
+        quadratic = &first;
+    }
+};
+
+}  // namespace ccd

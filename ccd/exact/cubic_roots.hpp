@@ -1,0 +1,207 @@
+// Roots of a cubic in (0, 1), with coefficients of fixed width: counted, and put between brackets.
+//
+// A root's place is estimated in floating point; exact signs of the cubic at both ends of a bracket
+// around it prove it, so nothing depends on the estimate. A bracket predicts
+// the next, with some 40 more bits.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/bernstein.hpp>
+#include <errbound/integers/fixed_integer.hpp>
+#include <optional>
+#include <type_traits>
+
+namespace ccd {
+
+template <int Words>
+using cubic_form = errbound::bernstein<errbound::fixed_integer<Words>, 3>;
+
+/// 3x, which must fit.
+template <int Words>
+constexpr errbound::fixed_integer<Words> thrice(const errbound::fixed_integer<Words>& x) {
+    return (x << 1) + x;
+}
+
+/// What the coefficients' signs tell about the roots of a cubic in (0, 1).
+/// Proof: proofs/CubicRoots.v, no_changes, one_change, odd_changes.
+struct inner_sign_changes {
+    int count = 0;          ///< of changes: none means no root, one means one
+    bool opposite = false;  ///< it is odd: just inside the ends, the signs are opposite
+    errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
+
+    constexpr inner_sign_changes() = default;
+    template <int Words>
+    explicit constexpr inner_sign_changes(const cubic_form<Words>& y) {
+        auto last = errbound::sign_type::zero;
+        for (const auto& h : y.h) {
+            const auto sign = sign_of(h);
+            if (sign == errbound::sign_type::zero) continue;
+            if (last == errbound::sign_type::zero)
+                first = sign;
+            else if (sign != last)
+                ++count;
+            last = sign;
+        }
+        opposite = first != last;
+    }
+};
+
+/// The Hessian of a cubic form: a quadratic form that has its double root as a double root, and is
+/// zero if the root is triple. 4·h0·h2 − h1² is 3 times the discriminant: positive if there are
+/// three distinct real roots t/s, infinity included, negative if there is one and a complex pair.
+/// Proof of what follows: proofs/CubicRoots.v, any_change, one_real_root, double_root_place,
+/// triple_root_place.
+/// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
+template <int Words>
+constexpr errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(
+    const cubic_form<Words>& y) {
+    return {{y[1] * y[1] - thrice(y[0] * y[2]), y[1] * y[2] - thrice(thrice(y[0] * y[3])),
+             y[2] * y[2] - thrice(y[1] * y[3])}};
+}
+
+/// All numbers, in floating point, times one power of two.
+template <int Words, std::size_t N>
+constexpr std::array<double, N> approximated(
+    const std::array<errbound::fixed_integer<Words>, N>& x) {
+    int bits = 0;
+    for (const auto& number : x) bits = std::max(bits, number.bit_length());
+    std::array<double, N> r;
+    for (std::size_t i = 0; i < N; ++i)
+        r[i] = static_cast<double>(x[i].template from_bit<1>(std::max(0, bits - 63)).low_word());
+    return r;
+}
+
+/// A root in [0, 1] of a cubic, given by scaled Bernstein coefficients whose ends have opposite
+/// signs (or are zero): by Newton's method, and bisection where that leaves the interval known.
+/// Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
+constexpr double estimated_root(const std::array<double, 4>& h) {
+    constexpr double precision = 0x1p-52;
+    constexpr int most_steps = 60;
+    const bool rising = h[3] > h[0];
+    // The secant's root; if an end is a root itself, the one inside is asked for.
+    double low = 0, high = 1, t = h[0] == 0 || h[3] == 0 ? 0.5 : h[0] / (h[0] - h[3]);
+    for (int k = 0; k < most_steps && high - low > precision; ++k) {
+        const double s = 1 - t;
+        const double value = ((h[0] * s + h[1] * t) * s + h[2] * t * t) * s + h[3] * t * t * t;
+        const double slope =
+            (h[1] - 3 * h[0]) * s * s + 2 * (h[2] - h[1]) * s * t + (3 * h[3] - h[2]) * t * t;
+        if (value == 0) return t;
+        (value < 0) == rising ? low = t : high = t;
+        const double newton = t - value / slope;
+        const double next = newton > low && newton < high ? newton : (low + high) / 2;
+        const double moved = std::fabs(next - t);
+        t = next;
+        if (moved <= precision) break;
+    }
+    return t;
+}
+
+/// A cubic on [index, index + 1]/2^level: its coefficients there, times a power of two, in spare
+/// words for `most_halvings`, each of which multiplies them by 8.
+template <int Words>
+struct cubic_part {
+    static constexpr int most_halvings = 40;
+
+    cubic_form<Words + 2> y;
+    inner_sign_changes roots;
+    std::int64_t index;
+    int level;
+};
+
+/// A point numerator/2^bits.
+template <int T>
+struct dyadic_point {
+    errbound::fixed_integer<T> numerator;
+    int bits;
+};
+
+/// A root of a cubic between low and high, over 2^bits, where y_low and y_high are its values times
+/// 2^(3·bits); or the root itself if low = high.
+template <int Words, int T>
+struct root_bracket {
+    errbound::fixed_integer<T> low, high;
+    int bits;
+    errbound::fixed_integer<Words + 3 * T> y_low, y_high;
+
+    constexpr bool is_root() const { return low == high; }
+    constexpr std::int64_t width() const { return (high - low).low_word(); }
+    /// high − low < 2^width_bits()
+    constexpr int width_bits() const {
+        return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(width())));
+    }
+};
+
+/// The estimated place of a part's root, if its ends have opposite signs.
+/// Proof that its numerator is at most 2^bits: proofs/Places.v, estimated_place_bits.
+template <int Words>
+constexpr dyadic_point<1> estimated_place(const cubic_part<Words>& part) {
+    const int bits = std::min(part.level + 48, 62), to_bits = bits - part.level;
+    const double place = std::ldexp(estimated_root(approximated(part.y.h)), to_bits);
+    return {(part.index << to_bits) + static_cast<std::int64_t>(place), bits};
+}
+
+/// A bracket around `place` for the part's root, where signs at the part's ends are opposite;
+/// nothing if the root is far from there. Numerators of `place` have at most 64·T − 2 bits.
+/// Proof, for any place: proofs/CubicRoots.v, bracket_near_right.
+template <int Words, int T>
+constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
+                                                             const cubic_part<Words>& part,
+                                                             const dyadic_point<T>& place) {
+    using number = errbound::fixed_integer<T>;
+    using errbound::sign_type;
+    const auto end = number::shifted(1, place.bits);
+    const auto to_bits = [&](std::int64_t index) {
+        return number::shifted(static_cast<std::uint64_t>(index), place.bits - part.level);
+    };
+    const number first = to_bits(part.index), last = to_bits(part.index + 1);
+    const number middle = std::min(std::max(place.numerator, first), last);
+    for (const int radius : {4, 14, 24}) {
+        const auto reach = number::shifted(1, radius);
+        root_bracket<Words, T> r{
+            std::max(middle - reach, first), std::min(middle + reach, last), place.bits, {}, {}};
+        r.y_low = value_at(y, end - r.low, r.low);
+        r.y_high = value_at(y, end - r.high, r.high);
+        // Just inside the part's ends, signs are known whatever Y is there.
+        const auto at_low = r.low == first ? part.roots.first : sign_of(r.y_low);
+        const auto at_high = r.high == last ? -part.roots.first : sign_of(r.y_high);
+        if (at_low == sign_type::zero)
+            r.high = r.low;
+        else if (at_high == sign_type::zero)
+            r.low = r.high;
+        else if (at_low != part.roots.first || at_high == part.roots.first)
+            continue;
+        return r;
+    }
+    return {};
+}
+
+/// The root's place to as many bits more as doubles know of it: the root of the cubic that has the
+/// bracket's end values and slopes, that is of y itself.
+/// Proof of its bits: proofs/Places.v, refined_place_bits.
+template <int Words, int T>
+constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
+                                            const root_bracket<Words, T>& bracket) {
+    using number = errbound::fixed_integer<Words + 3 * T>;
+    const auto end = errbound::fixed_integer<T>::shifted(1, bracket.bits);
+    // dy/dt, at most twice as large as y's coefficients may be.
+    const errbound::bernstein<errbound::fixed_integer<Words>, 2> slope{
+        {y[1] - thrice(y[0]), (y[2] - y[1]) << 1, thrice(y[3]) - y[2]}};
+    const errbound::fixed_integer<1> width(bracket.width());
+    const number rise_at_low = width * value_at(slope, end - bracket.low, bracket.low);
+    const number rise_at_high = width * value_at(slope, end - bracket.high, bracket.high);
+    const std::array h{bracket.y_low, thrice(bracket.y_low) + rise_at_low,
+                       thrice(bracket.y_high) - rise_at_high, bracket.y_high};
+    const int more = 46 - bracket.width_bits();
+    const double place =
+        std::ldexp(static_cast<double>(bracket.width()) * estimated_root(approximated(h)), more);
+    return {(errbound::fixed_integer<T + 1>(bracket.low) << more) +
+                errbound::fixed_integer<T + 1>(static_cast<std::int64_t>(place)),
+            bracket.bits + more};
+}
+
+}  // namespace ccd

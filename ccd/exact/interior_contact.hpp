@@ -1,0 +1,241 @@
+// Contact inside a face or inside both edges, in integers of fixed width.
+//
+// Asked of queries WITHOUT vertex/edge contact at any time of the step. Then contact holds exactly
+// if Y = 0 and all G_i > 0, strictly, at some t in [0, 1]: the G_i add up to (pairs of them to)
+// |N|² >= 0, so strict signs imply N ≠ 0 and contact; and a contact where some G_i = 0, or N = 0,
+// lies on a border, as the head of ccd/exact/reference.cpp shows, which makes it a vertex/edge contact.
+// If Y ≡ 0, t = 0 alone is to be asked: let contact hold at some t > 0, and go back in time as long
+// as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is contact,
+// since contact is closed, but with some G_i = 0: a vertex/edge contact.
+// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; and that this
+// is what is found: proofs/InteriorContact.v, interior_contact_right.
+//
+// So G_i are needed at roots of Y alone, and are never expanded into quartics:
+//  * Roots at t = 0 and 1, double and triple roots are rational: G_i are evaluated there.
+//  * Other inner roots are isolated by halving Y, whose scaled Bernstein coefficients stay whole.
+//    A root's place is then estimated in floating point, bracketed by exact signs of Y, and G_i are
+//    evaluated exactly at one end of the bracket. Their signs hold at the root if they exceed what
+//    they can change by within the bracket. If not, the bracket's end values predict the root to
+//    some 40 more bits, and so on.
+//  * Where N = 0 at a root, every G_i vanishes and no bracket tells; N's components then have a
+//    common root there, which ccd/exact/common_roots.hpp finds.
+// What stays uncertain: G_i too tiny for the last bracket, and pairs of roots too close to part
+// with a G_i that changes its sign near them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <ccd/methods/forms.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/bernstein.hpp>
+#include <errbound/integers/fixed_integer.hpp>
+#include <optional>
+
+#include "ccd/exact/bounded_integer.hpp"
+#include "ccd/exact/common_roots.hpp"
+#include "ccd/exact/cubic_roots.hpp"
+#include "ccd/exact/axis_units.hpp"
+
+namespace ccd {
+
+/// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of Words
+/// words, in which differences stay below 2^(64·Words − 3).
+template <int Words, template <class, int> class Forms>
+class interior_contact {
+  public:
+    /// y = forms.y(). Differences of coordinates are below 2^units.x.bits and so on.
+    constexpr interior_contact(const Forms<errbound::fixed_integer<Words>, 1>& forms,
+                               const cubic_form<3 * Words>& y, const integer_units& units)
+        : forms_(forms), y_(y), units_(units) {}
+
+    /// Whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1.
+    /// Proof: proofs/InteriorContact.v, interior_contact_right, interior_contact_ends.
+    constexpr outcome operator()() {
+        if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
+        if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
+        const inner_sign_changes roots(y_);
+        if (roots.count == 0) return outcome::separate;
+        if (roots.count > 1) {
+            const auto multiple = at_multiple_root();
+            if (multiple != outcome::uncertain) return multiple;
+        }
+        part whole{{}, roots, 0, 0};
+        std::copy(y_.h.begin(), y_.h.end(), whole.y.h.begin());
+        return by_halving(whole);
+    }
+
+  private:
+    template <int W>
+    using number = errbound::fixed_integer<W>;
+    using sign_type = errbound::sign_type;
+    using part = cubic_part<3 * Words>;
+
+    /// Brackets after the first have two words as their ends' numerators, then three and so on.
+    static constexpr int most_end_words = 4;
+
+    template <class Values>
+    static constexpr bool all_positive(const Values& forms_at_a_time) {
+        const auto g = forms_at_a_time.inside();
+        return std::all_of(g.begin(), g.end(), [](const auto& form) { return form[0] > 0; });
+    }
+
+    /// Asks at a multiple root of Y, if there is one inside, and finds out whether there are other
+    /// roots to ask at, in which case the answer is `uncertain`. The Hessian's discriminant has 12W
+    /// words (2^20.2·D^12), G at its root 28W (2^47·D^28).
+    /// Proof: proofs/CubicRoots.v, one_real_root, double_root_place, triple_root_place.
+    constexpr outcome at_multiple_root() {
+        const auto h = hessian(y_);
+        const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
+        distinct_ = discriminant != sign_type::zero;
+        three_real_roots_ = discriminant == sign_type::positive;
+        if (distinct_) return outcome::uncertain;
+        if (h[2] == 0) {
+            // Triple, of 3·y3·t + y2·s, and inside as there are sign changes.
+            const auto s = thrice(y_[3]);
+            const bool contact = s.negative() ? all_positive(forms_at(forms_, -s, y_[2]))
+                                              : all_positive(forms_at(forms_, s, -y_[2]));
+            return contact ? outcome::collides : outcome::separate;
+        }
+        // h is h2·(t − xs)² with h2 > 0 for the double root x, which lies inside if x > 0.
+        if (h[1] < 0 && all_positive(forms_at(forms_, h[2] << 1, -h[1]))) return outcome::collides;
+        return outcome::uncertain;
+    }
+
+    /// Whether there are roots on the part that are not a double root. An odd number of sign
+    /// changes says so, and any number if Y has three real roots: Descartes' count is then exact.
+    /// Otherwise an even number stems from a complex pair or the double root.
+    /// Proof: proofs/CubicRoots.v, odd_changes, any_change, one_real_root.
+    constexpr bool any_root(const inner_sign_changes& roots) const {
+        return roots.opposite || (three_real_roots_ && roots.count > 0);
+    }
+
+    /// Parts with roots wait, the earliest last: halves have no more sign changes together than the
+    /// whole, so there are never more of them than the cubic's three.
+    /// Proof: proofs/InteriorContact.v, by_halving_right, three_parts_wait.
+    constexpr outcome by_halving(const part& whole) const {
+        std::array<part, 3> waiting;
+        std::size_t count = 0;
+        waiting[count++] = whole;
+        auto found = outcome::separate;
+        while (count > 0) {
+            const part last = waiting[--count];
+            const auto known = without_halving(last);
+            if (known == outcome::collides) return outcome::collides;
+            if (known) {
+                if (known == outcome::uncertain) found = outcome::uncertain;
+                continue;
+            }
+            const auto wait = [&](const cubic_form<3 * Words + 2>& y, std::int64_t index) {
+                const inner_sign_changes roots(y);
+                if (any_root(roots)) waiting[count++] = {y, roots, index, last.level + 1};
+            };
+            wait(reversed(left_half(reversed(last.y))), 2 * last.index + 1);
+            wait(left_half(last.y), 2 * last.index);
+        }
+        return found;
+    }
+
+    /// The answer on a part; nothing if its halves are to be asked.
+    constexpr std::optional<outcome> without_halving(const part& whole) const {
+        if (!any_root(whole.roots)) return outcome::separate;
+        if (whole.roots.opposite && (whole.roots.count == 1 || !three_real_roots_)) {
+            const auto found = near(whole, estimated_place(whole));
+            if (found) return found;
+        }
+        // There is a root; if all over the part G_i have the signs asked for, its place matters
+        // not.
+        if (whole.level == part::most_halvings) return throughout<1>(whole.index, whole.level, 1);
+
+        const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
+        if (middle == sign_type::zero) {
+            const number<1> end = number<1>::shifted(1, whole.level + 1);
+            const number<1> t(2 * whole.index + 1);
+            if (all_positive(forms_at(forms_, end - t, t))) return outcome::collides;
+        }
+        return {};
+    }
+
+    /// Decides by a bracket near that place of the part's only root (but for a double root);
+    /// nothing if no bracket holds it. Proof: proofs/InteriorContact.v, near_right.
+    template <int T>
+    constexpr std::optional<outcome> near(const part& whole, const dyadic_point<T>& place) const {
+        const auto bracket = bracket_near(y_, whole, place);
+        if (!bracket) return {};
+        if (bracket->is_root()) {
+            const auto& t = bracket->low;
+            const auto s = number<T>::shifted(1, place.bits) - t;
+            if (all_positive(forms_at(forms_, s, t))) return outcome::collides;
+            return distinct_ ? outcome::separate : outcome::uncertain;
+        }
+        const auto found = throughout<T>(bracket->low, place.bits, bracket->width_bits());
+        if (found != outcome::uncertain) return found;
+        if constexpr (T == 2)
+            if (distinct_ && normal_vanishes(*bracket)) return outcome::separate;
+        if constexpr (T == most_end_words)
+            return outcome::uncertain;
+        else
+            return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);
+    }
+
+    /// Whether N = 0 inside the bracket: a root of Y without contact, and the only one there if Y
+    /// has no multiple roots. Proof: proofs/InteriorContact.v, normal_vanishes_right.
+    template <int T>
+    constexpr bool normal_vanishes(const root_bracket<3 * Words, T>& bracket) const {
+        const auto end = number<T>::shifted(1, bracket.bits);
+        const auto &low = bracket.low, &high = bracket.high;
+        const std::array<quadratic_form<2 * Words>, 3> n{forms_.n.x, forms_.n.y, forms_.n.z};
+        const common_roots<2 * Words> roots(n);
+        using kind = typename common_roots<2 * Words>::kind_type;
+        if (roots.kind == kind::one) {
+            const auto& s = roots.squares[0];  // s² and st, that is s and t
+            const auto& t = roots.squares[1];
+            return t * (end - low) > s * low && t * (end - high) < s * high;
+        }
+        if (roots.kind != kind::of_quadratic) return false;
+        const auto& f = *roots.quadratic;
+        return sign_of(value_at(f, end - low, low)) * sign_of(value_at(f, end - high, high)) ==
+               sign_type::negative;
+    }
+
+    /// What the signs of all G_i are between t = low/2^bits and (low + width)/2^bits, width <
+    /// 2^width_bits: `collides` if all are positive, `separate` if one is negative, else
+    /// `uncertain`. More is not known of the root, so the differences at low, times 2^bits, are cut
+    /// to T words, one unit for each axis: of G_i's signs, those at roots of Y are kept.
+    /// Proof: proofs/InteriorContact.v, throughout_right.
+    template <int T>
+    constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {
+        using known = bounded_integer<T>;
+        const auto s = number<T>::shifted(1, bits) - low;
+        const auto component = [&](const linear_form<Words>& x, const axis_extent& axis) {
+            const int cut = std::max(0, bits + axis.bits - (64 * T - 4));
+            known r{value_at(x, s, low).template from_bit<T>(cut)};
+            // Changes within the bracket, and the cut.
+            const auto slope = x[1] - x[0];
+            if (!(slope == 0)) r.error_bits = slope.bit_length() + width_bits - cut;
+            if (cut > 0) r.error_bits = std::max(r.error_bits, 0) + 1;
+            return errbound::bernstein<known, 0>{{r}};
+        };
+        const auto at_low = [&](const vector_form<number<Words>, 1>& v) {
+            return vector_form<known, 0>{component(v.x, units_.x), component(v.y, units_.y),
+                                         component(v.z, units_.z)};
+        };
+        const Forms<known, 0> known_forms(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p));
+        auto found = outcome::collides;
+        for (const auto& g : known_forms.inside()) {
+            const auto sign = sign_of(g[0]);
+            if (sign == sign_type::negative) return outcome::separate;
+            if (sign != sign_type::positive) found = outcome::uncertain;
+        }
+        return found;
+    }
+
+    const Forms<errbound::fixed_integer<Words>, 1>& forms_;
+    const cubic_form<3 * Words>& y_;
+    const integer_units& units_;
+    bool distinct_ = true;           ///< no root of Y is known to be multiple
+    bool three_real_roots_ = false;  ///< Y may have a pair of roots between equal signs
+};
+
+}  // namespace ccd

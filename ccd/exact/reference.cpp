@@ -1,0 +1,99 @@
+// The reference decisions: see include/ccd/reference.hpp for what they promise.
+//
+// A query collides exactly if one of these holds (algebra in brackets):
+//  * VF, EE: Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1]    [roots of the cubic Y]
+//  * one of three (VF) or four (EE) vertex/edge contacts
+//  * VE: W × E = 0 and W·(W − E) <= 0 at some t, with W = v − e0, E = e1 − e0. (On the line, v lies
+//    between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
+//    too, where it says W = 0.)                                   [roots of a common factor]
+// Complete: a contact with N ≠ 0 satisfies the first. If N = 0 at the contact, the triangle is then
+// a segment, which its edges cover, or the two edges are parallel, and an end of one lies on the
+// other. If Y ≡ 0 the first case is asked at t = 0 and 1 only: a contact inside a triangle (or
+// crossing edges) that did not hold at t = 0 began at an edge (or an end).
+// Proof: proofs/Contact.v, vertex_face_union, edge_edge_union, vertex_edge_contact, face_coplanar,
+// edges_coplanar; that the code asks just that: proofs/Reference.v, reference_face,
+// reference_edges, reference_vertex_edge, reference_vertex_vertex.
+#include <ccd/methods/forms.hpp>
+#include <ccd/reference.hpp>
+#include <cstddef>
+#include <errbound/roots/real_roots.hpp>
+
+#include "ccd/exact/features.hpp"
+#include "ccd/exact/finite.hpp"
+#include "ccd/exact/unbounded_integers.hpp"
+
+namespace ccd {
+namespace {
+
+using errbound::sign_type;
+using form = errbound::integer_form<integer>;
+
+/// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
+template <template <class> class Query>
+bool regular_contact(const Query<integer>& query) {
+    const auto forms = forms_of(query);
+    const auto y = forms.y();
+    if (errbound::certainly_rootless(y)) return false;
+    const auto g = forms.inside();
+    for (const auto& f : g)
+        if (errbound::sign_throughout(f) == sign_type::negative) return false;
+    const auto n2 = forms.normal_squared();
+
+    const auto contact_at = [&](const auto& sign_there) {
+        if (sign_there(n2) == sign_type::zero) return false;
+        for (const auto& f : g)
+            if (sign_there(f) == sign_type::negative) return false;
+        return true;
+    };
+    const auto at_start = [](const auto& f) { return errbound::sign_of(f.h.front()); };
+    const auto at_end = [](const auto& f) { return errbound::sign_of(f.h.back()); };
+    if (y.h.front() == 0 && contact_at(at_start)) return true;
+    if (y.h.back() == 0 && contact_at(at_end)) return true;
+
+    const form inner = errbound::without_end_roots(y);
+    if (inner.size() < 2) return false;
+    errbound::real_roots<integer> roots(inner);
+    for (std::size_t k = 0; k < roots.size(); ++k) {
+        const auto at_root = [&roots, k](const auto& f) {
+            return roots.sign_at_root(errbound::without_end_roots(f), k);
+        };
+        if (contact_at(at_root)) return true;
+    }
+    return false;
+}
+
+/// VF and EE: the union stated at the head of this file.
+template <template <class> class Query>
+bool contact(const Query<integer>& query, const Query<double>& original) {
+    return regular_contact(query) || contact_at_border(query, original);
+}
+bool contact(const vertex_edge<integer>& query, const vertex_edge<double>& original) {
+    return !parted(original) && contact(query);
+}
+bool contact(const vertex_vertex<integer>& query, const vertex_vertex<double>&) {
+    return contact(query);
+}
+
+template <template <class> class Query>
+verdict decide_finite(const Query<double>& query) {
+    if (!is_finite(query)) return {outcome::uncertain, cause::range};
+    return {contact(to_integers(query), query) ? outcome::collides : outcome::separate,
+            cause::none};
+}
+
+}  // namespace
+
+verdict decide_reference(const vertex_face<double>& q) {
+    return decide_finite(q);
+}
+verdict decide_reference(const edge_edge<double>& q) {
+    return decide_finite(q);
+}
+verdict decide_reference(const vertex_edge<double>& q) {
+    return decide_finite(q);
+}
+verdict decide_reference(const vertex_vertex<double>& q) {
+    return decide_finite(q);
+}
+
+}  // namespace ccd

@@ -1,0 +1,65 @@
+// The last floating-point stage of `exact`, one query at a time: Y and the G_i on ever smaller
+// parts of the step. Internal; host and device code share it.
+#pragma once
+
+#include <array>
+#include "ccd/exact/static_filter.hpp"
+#include <ccd/verdict.hpp>
+#include <cstddef>
+
+namespace ccd {
+namespace detail {
+
+/// Parts of the step that wait for their turn, the earliest last.
+template <std::size_t Constraints>
+struct waiting_parts {
+    struct part {
+        static_filter::part_forms<double, Constraints> forms;
+        std::size_t depth;
+    };
+    // Every halving takes one part and leaves two.
+    std::array<part, static_filter::max_depth + 2> parts;
+    std::size_t size = 0;
+};
+
+}  // namespace detail
+
+/// `separate` and `collides` are certain; `uncertain` where halving further would not help.
+/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides.
+template <template <class> class Forms>
+constexpr outcome subdivide(const static_filter::whole_step<double, Forms>& whole) {
+    using static_filter::above, static_filter::below;
+    constexpr std::size_t constraints = static_filter::whole_step<double, Forms>::constraints;
+    const auto& errors = whole.errors;
+    detail::waiting_parts<constraints> waiting;
+    waiting.parts[waiting.size++] = {whole.forms, 0};
+    while (waiting.size > 0) {
+        auto& part = waiting.parts[waiting.size - 1];
+        const auto& [y, g] = part.forms;
+        bool excluded = above(y, errors.y) || below(y, errors.y);
+        bool collides = static_filter::changes_sign(y, errors.y);
+        for (std::size_t i = 0; i < constraints && !excluded; ++i) {
+            excluded = below(g[i], errors.g);
+            collides = collides && above(g[i], errors.g);
+        }
+        if (excluded) {
+            --waiting.size;
+            continue;
+        }
+        if (collides) return outcome::collides;
+        if (part.depth == static_filter::max_depth || (part.depth >= static_filter::patient_depth &&
+                                                       static_filter::within_error(y, errors.y)))
+            return outcome::uncertain;
+        auto& next = waiting.parts[waiting.size++];
+        const auto [left, right] = errbound::halves(y);
+        part.forms.y = right, next.forms.y = left;
+        for (std::size_t i = 0; i < constraints; ++i) {
+            const auto [g_left, g_right] = errbound::halves(g[i]);
+            part.forms.g[i] = g_right, next.forms.g[i] = g_left;
+        }
+        next.depth = ++part.depth;
+    }
+    return outcome::separate;
+}
+
+}  // namespace ccd

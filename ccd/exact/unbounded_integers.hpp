@@ -1,0 +1,109 @@
+// Queries in integers of unbounded size, and the exact contact of a vertex with an edge in them.
+//
+// Shared by the decisions that serve every finite input: the reference, `bsc-exact` and
+// `root-parity`. Allocates. Internal.
+#pragma once
+
+#include <algorithm>
+#include <ccd/methods/forms.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cstddef>
+#include <errbound/integers/dyadic.hpp>
+#include <errbound/multiprecision.hpp>
+#include <errbound/roots/real_roots.hpp>
+#include <limits>
+
+#include "ccd/exact/features.hpp"
+#ifdef ERRBOUND_HAVE_GMP
+#include <boost/multiprecision/gmp.hpp>
+#else
+#include <boost/multiprecision/cpp_int.hpp>
+#endif
+
+namespace ccd {
+
+#ifdef ERRBOUND_HAVE_GMP
+using integer =
+    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+#else
+using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                              boost::multiprecision::et_off>;
+#endif
+
+/// The query, of finite coordinates, in integers: each axis times a power of two of its own.
+/// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
+/// by positive factors, and integers stay short when one axis is much smaller than the others.
+/// Proof: proofs/UnboundedIntegers.v, to_integers_right; proofs/AxisUnits.v, face_units,
+/// edges_units, vertex_edge_units.
+template <template <class> class Query>
+Query<integer> to_integers(const Query<double>& query) {
+    constexpr int none = std::numeric_limits<int>::max();
+    point<int> lowest{none, none, none};
+    const auto lower = [](int& bound, double x) {
+        if (x != 0) bound = std::min(bound, errbound::decomposed(x).exponent);
+    };
+    for (const auto& p : points_of(query))
+        for (const auto& x : {p.t0, p.t1}) {
+            lower(lowest.x, x.x);
+            lower(lowest.y, x.y);
+            lower(lowest.z, x.z);
+        }
+    const auto to_integer = [](double x, int unit) {
+        if (x == 0) return integer(0);
+        const errbound::decomposed d(x);
+        return integer(integer(d.mantissa) << (d.exponent - unit));
+    };
+    return transformed_points(query, [&](const point<double>& p) {
+        return point<integer>{to_integer(p.x, lowest.x), to_integer(p.y, lowest.y),
+                              to_integer(p.z, lowest.z)};
+    });
+}
+
+/// W × E = 0 and W·(W − E) <= 0 at some t in [0, 1], with W = v − e0, E = e1 − e0. (On the line, v
+/// lies between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
+/// too, where it says W = 0.) The times are the roots of the three quadratics' common factor.
+/// Proof: proofs/UnboundedIntegers.v, integer_contact_right.
+inline bool contact(const vertex_edge<integer>& query) {
+    const auto e = difference(query.e1, query.e0);
+    const auto w = difference(query.v, query.e0);
+    const auto off_line = cross(w, e);
+    for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
+        if (errbound::certainly_rootless(*f)) return false;
+    // W·(W − E), not positive between the ends.
+    const auto beyond = dot(w, difference(query.v, query.e1));
+    const auto on_line_at = [&](std::size_t i) {
+        return off_line.x.h[i] == 0 && off_line.y.h[i] == 0 && off_line.z.h[i] == 0;
+    };
+    if (on_line_at(0) && beyond.h[0] <= 0) return true;
+    if (on_line_at(2) && beyond.h[2] <= 0) return true;
+
+    // The common factor of the three; empty: the motion is collinear throughout.
+    errbound::integer_form<integer> on_line;
+    for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
+        on_line = errbound::common_factor(on_line, errbound::without_end_roots(*f));
+    if (on_line.empty()) {
+        // Both ends are positive by now, so a value <= 0 inside needs real roots with t/s > 0.
+        return beyond.h[1] < 0 && beyond.h[1] * beyond.h[1] >= 4 * beyond.h[0] * beyond.h[2];
+    }
+    if (on_line.size() < 2) return false;
+    errbound::real_roots<integer> roots(on_line);
+    for (std::size_t k = 0; k < roots.size(); ++k)
+        if (roots.sign_at_root(errbound::without_end_roots(beyond), k) !=
+            errbound::sign_type::positive)
+            return true;
+    return false;
+}
+
+/// Whether the vertex of a VF query meets one of the face's edges, or an end of one edge of an EE
+/// query the other edge. `original`: the same query before its conversion.
+/// Proof: proofs/UnboundedIntegers.v, face_border_right, edges_border_right.
+template <template <class> class Query>
+bool contact_at_border(const Query<integer>& query, const Query<double>& original) {
+    const auto edges = vertex_edge_queries(query);
+    const auto original_edges = vertex_edge_queries(original);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (!parted(original_edges[i]) && contact(edges[i])) return true;
+    return false;
+}
+
+}  // namespace ccd

@@ -1,0 +1,265 @@
+// `root-parity`: the parity of a ray's crossings with the image of the domain's boundary.
+//
+// THE MAP. VF: F(t, x) = v(t) − x(t), x a point of the triangle, from a prism; EE: F(t, a, b) =
+// a(t) − b(t), a and b points of the edges, from a cube. A contact is a root of F. The images of
+// the domain's corners are differences of the vertices at t = 0 or 1; between them F is linear
+// along each side. The boundary's image is made of triangles (the faces t = 0 and t = 1: F is
+// affine there; EE's parallelograms are two triangles each) and of bilinear patches (a vertex
+// against an edge, over the step).
+//
+// THE PARITY. If the origin does not lie on the boundary's image, the number of roots inside, with
+// multiplicities, is odd exactly if a ray from the origin crosses that image an odd number of times
+// (degree modulo 2). So an odd number proves a contact, and an even one nothing. If it does lie
+// there, that is a contact.
+//
+// A PATCH, with corners c0 c1 c2 c3 in turn. In the tetrahedron of its corners, with barycentric
+// coordinates w0..w3, the patch is the set w0·w2 = w1·w3 (at parameters (p, q) they are (1 − p)(1 −
+// q), p(1 − q), pq, (1 − p)q; conversely p = w1 + w2, q = w2 + w3). The triangles c0 c1 c2 and c0
+// c2 c3 have w3 = 0 or w1 = 0, so that w0·w2 − w1·w3 >= 0 on them; on the other pair, c1 c2 c3 and
+// c1 c3 c0, it is <= 0. Patch and pair together bound the part of the tetrahedron between them, so
+// that a ray from any other place crosses both equally often, modulo 2. Hence the second pair
+// stands for the patch where the origin lies in the closed tetrahedron and w0·w2 > w1·w3, the first
+// pair otherwise; the origin then lies on neither triangle of the pair.
+// If the tetrahedron is flat, every ray that is not in its plane crosses patch and pair equally
+// often, modulo 2. If that plane holds the origin, the exact vertex/edge contact tells whether the
+// patch does; if not, the ray does not cross it at all (its moved origin, see below, is beside the
+// plane, and the ray meets the plane next to the origin or nowhere).
+//
+// THE RAY goes along +x. Its origin is moved to (0, −ε, −ε²) with an infinitesimal ε > 0, which
+// changes no parity, the origin being off the boundary's image and off the triangles that stand for
+// it. No ray is degenerate then (Brochu et al. draw another one), and a side from p to q of the
+// triangle's projection along x passes the origin on the side +y exactly if one of p.z, q.z is >= 0
+// and the other < 0, and p.y·q.z − q.y·p.z has the sign of q.z − p.z or is zero: the moved
+// determinant is that plus ε(q.z − p.z), up to ε². The projection holds the origin if an odd number
+// of sides do so, of which the last one's rise, the sign of q.z − p.z, is that of the normal's x.
+// The plane meets the x axis where x times that is det(p, q, r), so the triangle is hit if besides
+// the two have the same sign. (If det were zero, the triangle would hold the origin itself.)
+//
+// All this is written once and done twice: over intervals, where an uncertain sign ends it,
+// and over integers.
+#include <algorithm>
+#include <array>
+#include <ccd/methods/forms.hpp>
+#include <ccd/methods/root_parity.hpp>
+#include <ccd/methods/tracked_query.hpp>
+#include <cstddef>
+#include <errbound/rules/interval.hpp>
+#include <span>
+
+#include "ccd/exact/unbounded_integers.hpp"
+
+namespace ccd {
+namespace {
+
+using errbound::sign_of;
+using errbound::sign_type;
+
+template <std::size_t Corners>
+using corner_indices = std::array<std::size_t, Corners>;
+
+/// F at the corners of the domain, and which of them make up its boundary. Patch i is that of
+/// vertex_edge_queries()[i].
+template <class S>
+struct boundary_image {
+    std::array<vector_form<S, 0>, 8> corners;
+    std::span<const corner_indices<3>> triangles;
+    std::span<const corner_indices<4>> patches;
+};
+
+/// Corner k: the vertex of the face it belongs to; three more at t = 1.
+template <class S>
+boundary_image<S> image_of(const vertex_face<S>& q) {
+    static constexpr corner_indices<3> triangles[] = {{0, 1, 2}, {3, 4, 5}};
+    static constexpr corner_indices<4> patches[] = {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+    boundary_image<S> image{{}, triangles, patches};
+    std::size_t k = 0;
+    for (const auto* corner : {&q.f0, &q.f1, &q.f2}) {
+        const auto motion = difference(q.v, *corner);
+        for (const int end : {0, 1})
+            image.corners[k + 3 * static_cast<std::size_t>(end)] = coefficient(motion, end);
+        ++k;
+    }
+    return image;
+}
+/// Corner i + 2j: ends i of edge a and j of edge b; four more at t = 1.
+template <class S>
+boundary_image<S> image_of(const edge_edge<S>& q) {
+    static constexpr corner_indices<3> triangles[] = {{0, 1, 3}, {0, 3, 2}, {4, 5, 7}, {4, 7, 6}};
+    static constexpr corner_indices<4> patches[] = {
+        {0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}};
+    boundary_image<S> image{{}, triangles, patches};
+    std::size_t k = 0;
+    for (const auto* b : {&q.b0, &q.b1}) {
+        for (const auto* a : {&q.a0, &q.a1}) {
+            const auto motion = difference(*a, *b);
+            for (const int end : {0, 1})
+                image.corners[k + 4 * static_cast<std::size_t>(end)] = coefficient(motion, end);
+            ++k;
+        }
+    }
+    return image;
+}
+
+/// What the ray does with a part of the boundary's image.
+enum class crossing { none, odd, at_origin, uncertain };
+
+constexpr crossing combined(crossing a, crossing b) {
+    if (a == crossing::none || b == crossing::none) return a == crossing::none ? b : a;
+    return a == crossing::uncertain || b == crossing::uncertain ? crossing::uncertain
+                                                                : crossing::none;
+}
+
+/// Whether one strict sign is common to a coordinate of all corners; it then is the sign of that
+/// coordinate in all that they span.
+template <class Corners, class Axis>
+bool all_have(sign_type sign, const Corners& corners, const Axis& axis) {
+    return std::ranges::all_of(corners,
+                               [&](const auto* c) { return sign_of(((*c).*axis)[0]) == sign; });
+}
+
+/// A part of the image: pointers to its corners.
+template <class S, std::size_t Corners>
+using part_corners = std::array<const vector_form<S, 0>*, Corners>;
+
+/// Whether the ray passes the corners' convex hull by, as its sides along the axes tell.
+template <class S, std::size_t Corners>
+bool ray_misses(const part_corners<S, Corners>& c) {
+    using vector = vector_form<S, 0>;
+    return all_have(sign_type::negative, c, &vector::x) ||
+           all_have(sign_type::negative, c, &vector::y) ||
+           all_have(sign_type::positive, c, &vector::y) ||
+           all_have(sign_type::negative, c, &vector::z) ||
+           all_have(sign_type::positive, c, &vector::z);
+}
+
+/// Whether the projection of the side from p to q passes the ray's origin on the side +y: then the
+/// sign of its rise in z, else zero.
+template <class S>
+sign_type rise_beside_origin(const vector_form<S, 0>& p, const vector_form<S, 0>& q) {
+    const sign_type at_p = sign_of(p.z[0]), at_q = sign_of(q.z[0]);
+    if (!certain(at_p) || !certain(at_q)) return sign_type::uncertain;
+    if ((at_p == sign_type::negative) == (at_q == sign_type::negative)) return sign_type::zero;
+    const sign_type rise = at_p == sign_type::negative ? sign_type::positive : sign_type::negative;
+    const sign_type turn = sign_of(p.y[0] * q.z[0] - q.y[0] * p.z[0]);
+    if (!certain(turn)) return sign_type::uncertain;
+    return turn == -rise ? sign_type::zero : rise;
+}
+
+/// Does the ray hit the triangle, whose det(p, q, r) has the sign `determinant`?
+template <class S>
+crossing at_triangle(const part_corners<S, 3>& c, sign_type determinant) {
+    if (ray_misses<S>(c)) return crossing::none;
+    bool holds_origin = false;
+    sign_type normal_x = sign_type::zero;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const sign_type rise = rise_beside_origin(*c[i], *c[(i + 1) % 3]);
+        if (!certain(rise)) return crossing::uncertain;
+        if (rise == sign_type::zero) continue;
+        holds_origin = !holds_origin;
+        normal_x = rise;
+    }
+    if (!holds_origin) return crossing::none;
+    if (!certain(determinant)) return crossing::uncertain;
+    return determinant == normal_x ? crossing::odd : crossing::none;
+}
+
+/// A triangle of the image itself. The origin lies in it if it lies in its plane and the corners'
+/// cross products do not point opposite ways. (Its sides that are sides of patches are left to
+/// those, and so is all of a triangle without area.)
+template <class S>
+crossing at_face(const part_corners<S, 3>& c) {
+    if (ray_misses<S>(c)) return crossing::none;
+    const std::array turns{cross(*c[0], *c[1]), cross(*c[1], *c[2]), cross(*c[2], *c[0])};
+    const sign_type determinant = sign_of(dot(turns[0], *c[2])[0]);
+    if (!certain(determinant)) return crossing::uncertain;
+    if (determinant != sign_type::zero) return at_triangle<S>(c, determinant);
+    bool holds_origin = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const sign_type same_way = sign_of(dot(turns[i], turns[(i + 1) % 3])[0]);
+        if (!certain(same_way)) return crossing::uncertain;
+        if (same_way == sign_type::negative) return crossing::none;
+        holds_origin = holds_origin || same_way == sign_type::positive;
+    }
+    return holds_origin ? crossing::at_origin : crossing::none;
+}
+
+/// A patch. `flat_contact()` tells, if its plane holds the origin, whether it does itself.
+template <class S, class FlatContact>
+crossing at_patch(const part_corners<S, 4>& c, const FlatContact& flat_contact) {
+    if (ray_misses<S>(c)) return crossing::none;
+    // The origin's barycentric coordinates times the tetrahedron's volume, by Cramer's rule.
+    const auto n02 = cross(*c[0], *c[2]), n13 = cross(*c[1], *c[3]);
+    const std::array w{S(-dot(n13, *c[2])[0]), S(-dot(n02, *c[3])[0]), dot(n13, *c[0])[0],
+                       dot(n02, *c[1])[0]};
+    std::array<sign_type, 4> signs;
+    std::ranges::transform(w, signs.begin(), [](const S& x) { return sign_of(x); });
+    const auto some = [&signs](sign_type s) { return std::ranges::count(signs, s) > 0; };
+
+    bool second_pair = false;
+    if (!(some(sign_type::positive) && some(sign_type::negative))) {  // in the tetrahedron
+        if (some(sign_type::uncertain)) return crossing::uncertain;
+        if (!some(sign_type::positive) && !some(sign_type::negative)) return flat_contact();
+        const sign_type beside = sign_of(w[0] * w[2] - w[1] * w[3]);
+        if (!certain(beside)) return crossing::uncertain;
+        if (beside == sign_type::zero) return crossing::at_origin;
+        second_pair = beside == sign_type::positive;
+    }
+    return second_pair ? combined(at_triangle<S>({c[1], c[2], c[3]}, signs[0]),
+                                  at_triangle<S>({c[0], c[1], c[3]}, signs[2]))
+                       : combined(at_triangle<S>({c[0], c[1], c[2]}, -signs[3]),
+                                  at_triangle<S>({c[0], c[2], c[3]}, -signs[1]));
+}
+
+/// All of the boundary's image. `flat_contact(i)` as above, of patch i.
+template <class S, class FlatContact>
+crossing at_boundary(const boundary_image<S>& image, const FlatContact& flat_contact) {
+    const auto corners_of = [&image]<std::size_t Corners>(const corner_indices<Corners>& indices) {
+        part_corners<S, Corners> corners;
+        std::ranges::transform(indices, corners.begin(),
+                               [&image](std::size_t k) { return &image.corners[k]; });
+        return corners;
+    };
+    crossing all = crossing::none;
+    for (const auto& triangle : image.triangles) {
+        const crossing one = at_face<S>(corners_of(triangle));
+        if (one == crossing::at_origin) return one;
+        all = combined(all, one);
+    }
+    for (std::size_t i = 0; i < image.patches.size(); ++i) {
+        const crossing one =
+            at_patch<S>(corners_of(image.patches[i]), [&] { return flat_contact(i); });
+        if (one == crossing::at_origin) return one;
+        all = combined(all, one);
+    }
+    return all;
+}
+
+template <template <class> class Query>
+crossing in_integers(const Query<double>& original) {
+    const Query<integer> query = to_integers(original);
+    const auto edges = vertex_edge_queries(query);
+    return at_boundary(image_of(query), [&edges](std::size_t i) {
+        return contact(edges[i]) ? crossing::at_origin : crossing::none;
+    });
+}
+
+template <template <class> class Query>
+verdict decide_any(const Query<double>& query) {
+    const auto [tracked, finite] = tracked_query<errbound::interval>(query);
+    if (!finite) return {outcome::uncertain, cause::range};
+    crossing found =
+        at_boundary(image_of(tracked), [](std::size_t) { return crossing::uncertain; });
+    if (found == crossing::uncertain) found = in_integers(query);
+    return {found == crossing::none ? outcome::separate : outcome::collides, cause::none};
+}
+
+}  // namespace
+
+verdict decide_root_parity(const vertex_face<double>& query) {
+    return decide_any(query);
+}
+verdict decide_root_parity(const edge_edge<double>& query) {
+    return decide_any(query);
+}
+
+}  // namespace ccd

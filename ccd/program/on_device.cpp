@@ -1,0 +1,67 @@
+#include "ccd/program/on_device.hpp"
+
+#include "errbound/support/command_line.hpp"
+
+namespace ccd::program {
+
+#ifdef ERRBOUND_HAVE_CUDA
+namespace {
+
+void require(const cuda::status& s) {
+    if (!s) throw device_error(s.error);
+}
+
+}  // namespace
+
+void require_device() {
+    require(cuda::device_status());
+}
+
+std::vector<method> methods_on_device() {
+    const auto all = cuda::device_methods();
+    return {all.begin(), all.end()};
+}
+
+void decide_on_device(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
+                      method m, cuda::precision precision) {
+    require(cuda::decide(queries, answers, {m, precision, nullptr}));
+}
+void decide_on_device(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
+                      method m, cuda::precision precision) {
+    require(cuda::decide(queries, answers, {m, precision, nullptr}));
+}
+step_result step_on_device(const mesh& before, const mesh& after, method m,
+                           cuda::precision precision) {
+    step_result result;
+    require(cuda::step(before, after, {.method = m}, precision, result));
+    return result;
+}
+
+#else
+
+void require_device() {
+    throw usage_error(
+        "--device: found cuda, expected cpu: this build has no CUDA (it needs nvcc 12 or later)");
+}
+
+std::vector<method> methods_on_device() {
+    return {};
+}
+
+// Never reached: require_device() comes first.
+void decide_on_device(std::span<const vertex_face<double>>, std::span<outcome>, method,
+                      cuda::precision) {
+    require_device();
+}
+void decide_on_device(std::span<const edge_edge<double>>, std::span<outcome>, method,
+                      cuda::precision) {
+    require_device();
+}
+step_result step_on_device(const mesh&, const mesh&, method, cuda::precision) {
+    require_device();
+    return {};
+}
+
+#endif
+
+}  // namespace ccd::program

@@ -1,0 +1,119 @@
+// The program `errbound`: reads the command line. Exit status 0 done, 1 bad input or violations
+// found, 2 bad usage.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/program/validate_command.hpp"
+
+namespace errbound::validation {
+namespace {
+
+enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2 };
+
+rule rule_named(const std::string& name) {
+    std::string known;
+    for (const rule& r : rules()) {
+        if (r.name == name) return r;
+        known += (known.empty() ? "" : ", ") + std::string(r.name);
+    }
+    throw ccd::program::usage_error("--rules: found '" + name + "', expected one of " + known);
+}
+
+struct command_line {
+    CLI::App app{
+        "Error bounds held against MPFR.\n"
+        "Exit status: 0 done, 1 bad input or violations found, 2 bad usage.",
+        "errbound"};
+    validate_arguments arguments;
+    std::string rule_list, kind;
+    CLI::App* validate = nullptr;
+
+    command_line() {
+        app.require_subcommand(1);
+        app.set_version_flag("--version", std::string("errbound ") + ERRBOUND_VERSION);
+
+        validate = app.add_subcommand(
+            "validate",
+            "Hold every bound rule's bounds and certain signs against MPFR, and tell how tight "
+            "they\nare. Random expressions, unless --tiny or --queries asks for those.");
+        validate
+            ->add_option("--expressions", arguments.options.expressions,
+                         "Random expressions, at least so many per rule and number type")
+            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+            ->capture_default_str();
+        validate->add_option("--seed", arguments.options.seed, "Same seed, same expressions")
+            ->capture_default_str();
+        validate
+            ->add_option("--operations", arguments.options.operations,
+                         "Operations in an expression, at most")
+            ->check(CLI::Range(1, most_operations))
+            ->capture_default_str();
+        validate
+            ->add_option("--queries", arguments.queries,
+                         "Stored queries (ccd query --help tells their form): their forms and BSC")
+            ->type_name("FILE...");
+        validate->add_option("--kind", kind, "Kind of queries; else the path tells")
+            ->check(CLI::IsMember({"vf", "ee"}));
+        validate->add_flag("--round", arguments.round,
+                           "Round rationals that no double equals, instead of refusing them");
+        validate->add_flag("--tiny", arguments.tiny, "Every case of number formats of 6 to 8 bits");
+        validate->add_option("--rules", rule_list, "Rules R[,R...], else all")
+            ->type_name("R[,R...]");
+        validate->add_option("--threads", arguments.options.threads, "Threads; 0: one per core")
+            ->check(CLI::Range(0, 4096));
+        validate->add_option("--json", arguments.json, "Write all tables as JSON")
+            ->type_name("OUT");
+        validate->add_option("--csv", arguments.csv, "Write the table of tightness as CSV")
+            ->type_name("OUT");
+    }
+
+    exit_status run() {
+        if (validate->count("--rules") == 0)
+            arguments.rules.assign(rules().begin(), rules().end());
+        else
+            arguments.rules = ccd::program::all_named(rule_list, rule_named);
+        if (!kind.empty())
+            arguments.kind =
+                kind == "vf" ? ccd::io::query_kind::vertex_face : ccd::io::query_kind::edge_edge;
+        arguments.expressions =
+            validate->count("--expressions") > 0 || (!arguments.tiny && arguments.queries.empty());
+        ccd::program::require_separate({arguments.json, arguments.csv}, arguments.queries);
+        return run_validate(arguments) ? done : violations_found;
+    }
+};
+
+int main_with_status(int argc, char** argv) {
+    command_line line;
+    exit_status status = done;
+    try {
+        line.app.parse(argc, argv);
+        status = line.run();
+    } catch (const CLI::ParseError& error) {
+        if (line.app.exit(error) != 0) return bad_usage;
+    } catch (const ccd::program::usage_error& error) {
+        std::cerr << "errbound: " << error.what() << '\n';
+        return bad_usage;
+    } catch (const ccd::io::file_error& error) {
+        std::cerr << "errbound: " << error.what() << '\n';
+        return bad_input;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "errbound: out of memory\n";
+        return bad_input;
+    }
+    if (!std::cout.flush()) {
+        std::cerr << "errbound: standard output cannot be written\n";
+        return bad_input;
+    }
+    return status;
+}
+
+}  // namespace
+}  // namespace errbound::validation
+
+int main(int argc, char** argv) {
+    return errbound::validation::main_with_status(argc, argv);
+}

@@ -1,0 +1,279 @@
+// Random expressions: their making, their reference values and their text.
+#include "errbound/validation/expression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace errbound::validation {
+namespace {
+
+/// SplitMix64 (Steele, Lea, Flood 2014): any seed is as good as any other, and costs nothing.
+class random_source {
+  public:
+    explicit random_source(std::uint64_t seed) : state_(seed) {}
+
+    std::uint64_t bits() {
+        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+        return z ^ (z >> 31);
+    }
+    /// 0 <= result < n. (n is small: the bias is far below one in 2^50.)
+    int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
+    /// first <= result <= last.
+    int between(int first, int last) { return first + below(last - first + 1); }
+    bool one_in(int n) { return below(n) == 0; }
+
+  private:
+    std::uint64_t state_;
+};
+
+/// What sizes the inputs of one expression have.
+enum class operand_scale {
+    ordinary,           ///< between 2^-5 and 2^5
+    underflowing,       ///< subnormals, and what has products among them
+    overflowing,        ///< near the largest number, and what has products there
+    mixed,              ///< the whole range
+    small_integers,     ///< sums and products cancel exactly
+    nearly_cancelling,  ///< one number and its neighbours
+};
+constexpr int operand_scales = 6;
+
+template <class T>
+class input_maker {
+    using limits = std::numeric_limits<T>;
+    // 2^least is the smallest positive number, 2^most just too large.
+    static constexpr int least = limits::min_exponent - limits::digits, most = limits::max_exponent;
+
+  public:
+    input_maker(random_source& random, operand_scale scale)
+        : random_(random), scale_(scale), middle_(of_exponent(random.between(-2, 2))) {}
+
+    double value() {
+        if (random_.one_in(32)) return 0;
+        switch (scale_) {
+            case operand_scale::ordinary:
+                return of_exponent(random_.between(-4, 5));
+            case operand_scale::underflowing:
+                switch (random_.below(4)) {
+                    case 0:
+                        return std::copysign(std::ldexp(random_.below(20), least), sign());
+                    case 1:
+                        return of_exponent(least + random_.between(1, limits::digits + 4));
+                    case 2:
+                        return of_exponent(random_.between(-4, 5));
+                    default:
+                        return of_exponent(least / 2 + random_.between(-4, limits::digits));
+                }
+            case operand_scale::overflowing:
+                switch (random_.below(3)) {
+                    case 0:
+                        return of_exponent(most - random_.below(3));
+                    case 1:
+                        return of_exponent(random_.between(-4, 5));
+                    default:
+                        return of_exponent(most / 2 + random_.between(-2, 2));
+                }
+            case operand_scale::mixed:
+                return of_exponent(random_.between(least + 1, most));
+            case operand_scale::small_integers:
+                return random_.between(-8, 8);
+            case operand_scale::nearly_cancelling: {
+                const int places = random_.one_in(4) ? random_.below(1 << 10) : random_.below(4);
+                const double near = middle_ * (1 + places * double{limits::epsilon()});
+                return std::copysign(rounded(near), sign());
+            }
+        }
+        return 0;
+    }
+    /// A bound for an input of this value: from far below its last place to its own size.
+    double error(double value) {
+        if (value == 0 || random_.one_in(8)) return std::abs(this->value());
+        const double size = std::ldexp(std::abs(value), -random_.between(-1, limits::digits + 8));
+        return std::abs(rounded(size * (1 + 0.25 * random_.below(4))));
+    }
+
+  private:
+    double sign() { return random_.one_in(2) ? -1 : 1; }
+    /// What a T holds of x, or its largest number.
+    static double rounded(double x) {
+        const double largest = double{limits::max()};
+        return double{static_cast<T>(std::clamp(x, -largest, largest))};
+    }
+    /// Between 2^(e−1) and 2^e, of few bits or of all.
+    double of_exponent(int e) {
+        const int bits = random_.one_in(3) ? random_.between(2, 6) : limits::digits;
+        const double mantissa =
+            static_cast<double>(random_.bits() >> (65 - bits)) + std::ldexp(1.0, bits - 1);
+        return std::copysign(rounded(std::ldexp(mantissa, e - bits)), sign());
+    }
+
+    random_source& random_;
+    operand_scale scale_;
+    double middle_;
+};
+
+/// Out of so many: + − × ÷, −x, ·2^e.
+using operation_mix = std::array<int, operation_kinds>;
+constexpr std::array<operation_mix, 4> mixes{{{3, 3, 6, 0, 1, 1},  // polynomials
+                                              {4, 6, 1, 0, 1, 0},  // sums
+                                              {1, 1, 6, 0, 0, 2},  // products
+                                              {2, 3, 3, 4, 1, 1}}};
+
+operation_kind kind_from(const operation_mix& mix, random_source& random) {
+    int sum = 0;
+    for (const int share : mix) sum += share;
+    int left = random.below(sum);
+    std::size_t kind = 0;
+    while ((left -= mix[kind]) >= 0) ++kind;
+    return static_cast<operation_kind>(kind);
+}
+
+template <class T>
+expression made(random_source& random, bool may_divide, int longest) {
+    using limits = std::numeric_limits<T>;
+    expression e;
+    input_maker<T> inputs(random, static_cast<operand_scale>(random.below(operand_scales)));
+    const int bounded = random.below(3);  // no input, some, or every one has a bound of its own
+    e.input_count = static_cast<std::size_t>(random.between(1, expression::most_inputs));
+    for (std::size_t i = 0; i < e.input_count; ++i) {
+        expression_input& in = e.inputs[i];
+        in.value = inputs.value();
+        if (bounded == 0 || (bounded == 1 && !random.one_in(3))) continue;
+        in.error = inputs.error(in.value);
+        in.quarters = random.one_in(2) ? (random.one_in(2) ? 4 : -4) : random.between(-4, 4);
+    }
+
+    const operation_mix& mix = mixes[may_divide ? 3 : static_cast<std::size_t>(random.below(3))];
+    // Few operands among the latest values make an expression deep, many make it wide.
+    const bool deep = random.one_in(2);
+    e.operation_count = static_cast<std::size_t>(random.between(1, longest));
+    for (std::size_t i = 0; i < e.operation_count; ++i) {
+        const int values = static_cast<int>(e.input_count + i);
+        expression_operation& o = e.operations[i];
+        o.kind = kind_from(mix, random);
+        const int recent =
+            deep && i > 0 ? values - 1 - random.below(std::min(values, 2)) : random.below(values);
+        const int other = random.below(values);
+        const bool exchanged = random.one_in(2);
+        o.left = static_cast<std::uint8_t>(exchanged ? other : recent);
+        o.right = static_cast<std::uint8_t>(exchanged ? recent : other);
+        const int reach = random.one_in(4) ? limits::max_exponent : 8;
+        if (o.kind == operation_kind::scale) o.exponent = random.between(-reach, reach);
+    }
+    return e;
+}
+
+char letter(std::size_t value) {
+    return static_cast<char>('a' + value % 26);
+}
+
+/// a, b, ..., z, a1, b1, ...
+std::string name_of_value(std::size_t value) {
+    return letter(value) + (value < 26 ? std::string() : std::to_string(value / 26));
+}
+
+}  // namespace
+
+std::string_view name_of(operation_kind kind) {
+    constexpr std::array<std::string_view, operation_kinds> names{"add",    "subtract", "multiply",
+                                                                  "divide", "negate",   "scale"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+expression random_expression(std::uint64_t seed, std::uint64_t index, number_type type,
+                             int longest) {
+    random_source mixed(seed);
+    random_source random(mixed.bits() ^ (2 * index + static_cast<std::uint64_t>(type)));
+    const bool may_divide = index % 4 == 3;
+    return type == number_type::float_type ? made<float>(random, may_divide, longest)
+                                           : made<double>(random, may_divide, longest);
+}
+
+void evaluate(const expression& e, ball* values) {
+    std::size_t n = 0;
+    for (; n < e.input_count; ++n) {
+        const expression_input& in = e.inputs[n];
+        if (in.error == 0)
+            values[n].set(in.value);
+        else
+            values[n].set(in.value, in.error, in.quarters);
+    }
+    for (std::size_t i = 0; i < e.operation_count; ++i, ++n) {
+        const expression_operation& o = e.operations[i];
+        switch (o.kind) {
+            case operation_kind::add:
+                values[n].set_sum(values[o.left], values[o.right]);
+                break;
+            case operation_kind::subtract:
+                values[n].set_difference(values[o.left], values[o.right]);
+                break;
+            case operation_kind::multiply:
+                values[n].set_product(values[o.left], values[o.right]);
+                break;
+            case operation_kind::divide:
+                values[n].set_quotient(values[o.left], values[o.right]);
+                break;
+            case operation_kind::negate:
+                values[n].set_negative(values[o.left]);
+                break;
+            case operation_kind::scale:
+                values[n].set_scaled(values[o.left], o.exponent);
+                break;
+        }
+    }
+}
+
+std::string hexadecimal(double x, number_type type) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%a", x);
+    return std::string(text) + (type == number_type::float_type ? "F" : "");
+}
+
+std::string cpp_text(const expression& e, number_type type, std::string_view rule) {
+    const std::string names(name_of(type));
+    std::string text =
+        "using number = errbound::tracked<" + names + ", errbound::" + std::string(rule) + ">;\n";
+    for (std::size_t i = 0; i < e.input_count; ++i) {
+        const expression_input& in = e.inputs[i];
+        text += "const number " + name_of_value(i) + " = ";
+        if (in.error == 0) {
+            text += hexadecimal(in.value, type) + ";\n";
+        } else {
+            text += "number::within(" + hexadecimal(in.value, type) + ", " +
+                    hexadecimal(in.error, type) + ");  // stands for value + " +
+                    std::to_string(in.quarters) + "/4 error\n";
+        }
+    }
+    for (std::size_t i = 0; i < e.operation_count; ++i) {
+        const expression_operation& o = e.operations[i];
+        const std::string left = name_of_value(o.left), right = name_of_value(o.right);
+        text += "const number " + name_of_value(e.input_count + i) + " = ";
+        switch (o.kind) {
+            case operation_kind::add:
+                text += left + " + " + right;
+                break;
+            case operation_kind::subtract:
+                text += left + " - " + right;
+                break;
+            case operation_kind::multiply:
+                text += left + " * " + right;
+                break;
+            case operation_kind::divide:
+                text += left + " / " + right;
+                break;
+            case operation_kind::negate:
+                text += "-" + left;
+                break;
+            case operation_kind::scale:
+                text += "scale(" + left + ", " + std::to_string(o.exponent) + ")";
+                break;
+        }
+        text += ";\n";
+    }
+    return text;
+}
+
+}  // namespace errbound::validation

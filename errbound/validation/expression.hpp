@@ -1,0 +1,124 @@
+// Straight-line programs: expressions whose parts may be shared, for validation.
+//
+// Values are numbered: first the inputs, then the results of the operations, each of which takes
+// earlier values. Inputs are doubles, and floats where the program is run in float.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/tracked.hpp>
+#include <string>
+#include <string_view>
+
+#include "errbound/validation/ball.hpp"
+#include "errbound/validation/rule_list.hpp"
+
+namespace errbound::validation {
+
+enum class operation_kind : std::uint8_t { add, subtract, multiply, divide, negate, scale };
+inline constexpr std::size_t operation_kinds = 6;
+std::string_view name_of(operation_kind kind);
+
+/// Stands for value + error·quarters/4, and is known to within error of value; error 0: exact.
+struct expression_input {
+    double value = 0, error = 0;
+    int quarters = 0;
+};
+
+/// left ∘ right; −left; left·2^exponent.
+struct expression_operation {
+    operation_kind kind = operation_kind::add;
+    std::uint8_t left = 0, right = 0;
+    int exponent = 0;
+
+    bool has_right() const {
+        return kind != operation_kind::negate && kind != operation_kind::scale;
+    }
+};
+
+struct expression {
+    static constexpr std::size_t most_inputs = 8;
+    static constexpr std::size_t most_values =
+        most_inputs + static_cast<std::size_t>(most_operations);
+
+    std::array<expression_input, most_inputs> inputs;
+    std::size_t input_count = 0;
+    std::array<expression_operation, most_operations> operations;
+    std::size_t operation_count = 0;
+
+    std::size_t size() const { return input_count + operation_count; }
+    bool divides() const {
+        for (std::size_t i = 0; i < operation_count; ++i)
+            if (operations[i].kind == operation_kind::divide) return true;
+        return false;
+    }
+};
+
+enum class number_type : std::uint8_t { float_type, double_type };
+inline constexpr std::array number_types{number_type::double_type, number_type::float_type};
+constexpr std::string_view name_of(number_type type) {
+    return type == number_type::float_type ? "float" : "double";
+}
+
+/// The expression of this index: the same for the same seed. Every fourth one may divide, the
+/// others do not. At most `longest` operations.
+expression random_expression(std::uint64_t seed, std::uint64_t index, number_type type,
+                             int longest);
+
+/// What a rule says of a value.
+struct claim {
+    double value, error;
+    sign_type sign;
+};
+
+/// Every value of the expression in tracked<T, Rule>. Precondition: it does not divide, or the rule
+/// has division.
+template <class Rule, class T>
+void evaluate(const expression& e, claim* claims) {
+    using number = tracked<T, Rule>;
+    std::array<number, expression::most_values> x;
+    std::size_t n = 0;
+    for (; n < e.input_count; ++n) {
+        const expression_input& in = e.inputs[n];
+        const T value = static_cast<T>(in.value);
+        x[n] = in.error == 0 ? number(value) : number::within(value, static_cast<T>(in.error));
+    }
+    for (std::size_t i = 0; i < e.operation_count; ++i, ++n) {
+        const expression_operation& o = e.operations[i];
+        switch (o.kind) {
+            case operation_kind::add:
+                x[n] = x[o.left] + x[o.right];
+                break;
+            case operation_kind::subtract:
+                x[n] = x[o.left] - x[o.right];
+                break;
+            case operation_kind::multiply:
+                x[n] = x[o.left] * x[o.right];
+                break;
+            case operation_kind::divide:
+                if constexpr (has_division<Rule>) x[n] = x[o.left] / x[o.right];
+                break;
+            case operation_kind::negate:
+                x[n] = -x[o.left];
+                break;
+            case operation_kind::scale:
+                x[n] = scale(x[o.left], o.exponent);
+                break;
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        claims[i] = {static_cast<double>(x[i].value()), static_cast<double>(x[i].error()),
+                     sign_of(x[i])};
+}
+
+/// Every value of the expression, as what it stands for: an enclosure each.
+void evaluate(const expression& e, ball* values);
+
+/// The expression in C++, a line per value, for a person to paste.
+std::string cpp_text(const expression& e, number_type type, std::string_view rule);
+
+/// "0x1.8p-3", and with the suffix of a float.
+std::string hexadecimal(double x, number_type type = number_type::double_type);
+
+}  // namespace errbound::validation

@@ -1,0 +1,210 @@
+// Random expressions under every rule against one reference.
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "errbound/validation/blocks.hpp"
+#include "errbound/validation/findings.hpp"
+#include "errbound/validation/minimise.hpp"
+#include "errbound/validation/validation.hpp"
+
+namespace errbound::validation {
+namespace {
+
+/// The first is enough for most expressions, and every sum of doubles is exact in the third.
+constexpr std::array<mpfr_prec_t, 4> precisions{192, 768, 3072, 12288};
+/// As long as errors are not told from zero, it goes on to this one; for promises, to the last.
+constexpr mpfr_prec_t precision_for_errors = 3072;
+constexpr std::uint64_t block_size = 1000;
+constexpr std::size_t kept_violations = 5;
+
+void evaluate(const rule& r, number_type type, const expression& e, claim* claims) {
+    (type == number_type::float_type ? r.evaluate_float : r.evaluate_double)(e, claims);
+}
+
+/// The values of one expression: exact ones and how far the computed ones are from them.
+class reference {
+  public:
+    reference() : values_(expression::most_values, ball(precisions[0])), off_(values_.size()) {}
+
+    /// computed: claims of any rule, for their values.
+    void compute(const expression& e, mpfr_prec_t precision, const claim* computed) {
+        for (std::size_t n = 0; n < e.size(); ++n)
+            if (mpfr_get_prec(values_[n].middle()) != precision) values_[n].restart(precision);
+        validation::evaluate(e, values_.data());
+        for (std::size_t n = 0; n < e.size(); ++n)
+            if (std::isfinite(computed[n].value) && values_[n].is_defined())
+                off_[n].compute(computed[n].value, values_[n]);
+    }
+    const ball& value(std::size_t n) const { return values_[n]; }
+    const deviation& off(std::size_t n) const { return off_[n]; }
+
+    /// Whether the exact value of an operand is undefined: then nothing is asked of the result.
+    bool operands_defined(const expression& e, std::size_t n) const {
+        if (n < e.input_count) return true;
+        const expression_operation& o = e.operations[n - e.input_count];
+        return values_[o.left].is_defined() && (!o.has_right() || values_[o.right].is_defined());
+    }
+    /// Whether every error is known in size, or known to be zero.
+    bool tells_errors(const expression& e, const claim* computed) const {
+        for (std::size_t n = e.input_count; n < e.size(); ++n)
+            if (std::isfinite(computed[n].value) && values_[n].is_defined() && !off_[n].is_zero() &&
+                off_[n].is_negligible())
+                return false;
+        return true;
+    }
+    finding finding_at(const expression& e, std::size_t n, const claim& c) const {
+        return operands_defined(e, n) ? compare(c, values_[n], off_[n]) : finding::holds;
+    }
+
+  private:
+    std::vector<ball> values_;
+    std::vector<deviation> off_;
+};
+
+/// What is counted under one rule and number type.
+struct tally {
+    std::uint64_t expressions = 0, values = 0, violations = 0, undetermined = 0;
+    std::array<distribution, operation_kinds> log10;
+    std::vector<std::uint64_t> violating;  ///< indices of the first expressions with a violation
+
+    void add_violating(std::uint64_t index) {
+        violating.insert(std::upper_bound(violating.begin(), violating.end(), index), index);
+        if (violating.size() > kept_violations) violating.pop_back();
+    }
+    void merge(const tally& other) {
+        expressions += other.expressions;
+        values += other.values;
+        violations += other.violations;
+        undetermined += other.undetermined;
+        for (std::size_t i = 0; i < operation_kinds; ++i) log10[i].merge(other.log10[i]);
+        for (const std::uint64_t index : other.violating) add_violating(index);
+    }
+};
+
+struct worker {
+    reference exact;
+    std::vector<std::array<claim, expression::most_values>> claims;  // one per rule
+    std::map<number_type, std::vector<tally>> tallies;               // one per rule
+
+    void check(std::span<const rule> rules, const expression& e, number_type type,
+               std::uint64_t index) {
+        const bool divides = e.divides();
+        const auto left_out = [&](const rule& r) { return divides && !r.has_division; };
+        claims.resize(rules.size());
+        const claim* computed = nullptr;
+        for (std::size_t k = 0; k < rules.size(); ++k) {
+            if (left_out(rules[k])) continue;
+            evaluate(rules[k], type, e, claims[k].data());
+            if (!computed) computed = claims[k].data();
+        }
+        if (!computed) return;
+        for (const mpfr_prec_t precision : precisions) {
+            exact.compute(e, precision, computed);
+            const auto undetermined = [&](std::size_t k) {
+                if (left_out(rules[k]) || !rules[k].promises) return false;
+                for (std::size_t n = 0; n < e.size(); ++n)
+                    if (exact.finding_at(e, n, claims[k][n]) == finding::undetermined) return true;
+                return false;
+            };
+            bool more = precision < precision_for_errors && !exact.tells_errors(e, computed);
+            for (std::size_t k = 0; k < rules.size() && !more; ++k) more = undetermined(k);
+            if (!more) break;
+        }
+        auto& of_type = tallies[type];
+        of_type.resize(rules.size());
+        for (std::size_t k = 0; k < rules.size(); ++k)
+            if (!left_out(rules[k])) count(rules[k], e, claims[k].data(), of_type[k], index);
+    }
+
+    void count(const rule& r, const expression& e, const claim* c, tally& to,
+               std::uint64_t index) const {
+        ++to.expressions;
+        bool violated = false;
+        for (std::size_t n = 0; n < e.size(); ++n) {
+            if (!exact.operands_defined(e, n)) continue;
+            ++to.values;
+            const finding f = r.promises ? exact.finding_at(e, n, c[n]) : finding::holds;
+            if (is_violation(f)) {
+                ++to.violations;
+                violated = true;
+            } else if (f == finding::undetermined) {
+                ++to.undetermined;
+            } else if (n >= e.input_count) {
+                const auto kind = e.operations[n - e.input_count].kind;
+                add_ratio(to.log10[static_cast<std::size_t>(kind)], r.promises, c[n],
+                          exact.value(n), exact.off(n));
+            }
+        }
+        if (violated) to.add_violating(index);
+    }
+};
+
+violation described(const rule& r, number_type type, const expression& e) {
+    reference exact;
+    std::array<claim, expression::most_values> claims;
+    const auto finding_of = [&](const expression& tried, std::size_t n) {
+        finding f = finding::undetermined;
+        for (std::size_t i = 0; i < precisions.size() && f == finding::undetermined; ++i) {
+            exact.compute(tried, precisions[i], claims.data());
+            f = exact.finding_at(tried, n, claims[n]);
+        }
+        return f;
+    };
+    const auto search = [&](const expression& tried) -> std::optional<std::size_t> {
+        evaluate(r, type, tried, claims.data());
+        for (std::size_t n = 0; n < tried.size(); ++n)
+            if (is_violation(finding_of(tried, n))) return n;
+        return std::nullopt;
+    };
+    const expression small = minimised(e, type, search);
+    const std::size_t last = search(small).value();
+    const finding f = finding_of(small, last);
+    return {.rule = std::string(r.name),
+            .number = std::string(name_of(type)),
+            .what = sentence(f, claims[last], exact.value(last), exact.off(last)),
+            .code = cpp_text(small, type, r.name)};
+}
+
+}  // namespace
+
+report validate_expressions(std::span<const rule> rules, const expression_options& options,
+                            const progress& show) {
+    // Rules without division see three of four expressions.
+    const std::uint64_t all = options.expressions + (options.expressions + 2) / 3;
+    const std::uint64_t blocks = (all + block_size - 1) / block_size;
+    const int longest = std::clamp(options.operations, 1, most_operations);
+    const auto workers =
+        in_blocks<worker>(options.threads, blocks, show, [&](worker& w, std::uint64_t block) {
+            const std::uint64_t end = std::min(all, (block + 1) * block_size);
+            for (std::uint64_t index = block * block_size; index < end; ++index)
+                for (const number_type type : number_types)
+                    w.check(rules, random_expression(options.seed, index, type, longest), type,
+                            index);
+        });
+
+    report result;
+    const widest_exponents range;
+    for (std::size_t k = 0; k < rules.size(); ++k) {
+        for (const number_type type : number_types) {
+            tally sum;
+            for (const auto& w : workers)
+                if (const auto found = w->tallies.find(type); found != w->tallies.end())
+                    sum.merge(found->second[k]);
+            const std::string name(rules[k].name), number(name_of(type));
+            result.counts.push_back(
+                {name, number, sum.expressions, sum.values, sum.violations, sum.undetermined});
+            for (std::size_t i = 0; i < operation_kinds; ++i)
+                if (sum.log10[i].count() > 0)
+                    result.distributions.push_back(
+                        {name, number, std::string(name_of(static_cast<operation_kind>(i))),
+                         rules[k].promises ? "bound/error" : "error/value", sum.log10[i]});
+            for (const std::uint64_t index : sum.violating)
+                result.violations.push_back(described(
+                    rules[k], type, random_expression(options.seed, index, type, longest)));
+        }
+    }
+    return result;
+}
+
+}  // namespace errbound::validation

@@ -1,0 +1,70 @@
+// What comparing one value with its reference finds, in words.
+#include "errbound/validation/findings.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace errbound::validation {
+namespace {
+
+/// 17 digits, whatever the exponent.
+std::string decimal(mpfr_srcptr x) {
+    char text[96];
+    mpfr_snprintf(text, sizeof text, "%.17Rg", x);
+    return text;
+}
+
+std::string_view name_of(sign_type s) {
+    switch (s) {
+        case sign_type::negative:
+            return "negative";
+        case sign_type::zero:
+            return "zero";
+        case sign_type::positive:
+            return "positive";
+        default:
+            return "uncertain";
+    }
+}
+
+}  // namespace
+
+double deviation::log10_of(mpfr_srcptr x) {
+    long exponent = 0;
+    const double mantissa = mpfr_get_d_2exp(&exponent, x, MPFR_RNDN);
+    return std::log10(std::abs(mantissa)) + static_cast<double>(exponent) * std::log10(2.0);
+}
+
+void add_ratio(distribution& to, bool promises, const claim& c, const ball& x,
+               const deviation& off) {
+    if (!std::isfinite(c.value) || !x.is_defined() || (promises && !std::isfinite(c.error))) {
+        to.add_unknown();
+    } else if (off.is_negligible()) {
+        to.add_exact();
+    } else if (promises) {
+        // A bound that holds is no less than the error: logarithms are rounded.
+        to.add(std::max(0.0, std::log10(c.error) - off.log10()));
+    } else if (mpfr_regular_p(x.middle())) {
+        to.add(off.log10() - deviation::log10_of(x.middle()));
+    } else {
+        to.add_unknown();
+    }
+}
+
+std::string sentence(finding f, const claim& c, const ball& x, const deviation& off) {
+    const std::string value = "value " + hexadecimal(c.value) + ", bound " + hexadecimal(c.error) +
+                              ", sign " + std::string(name_of(c.sign));
+    const std::string exact =
+        x.is_defined() ? "exact value near " + decimal(x.middle()) : "no exact value";
+    switch (f) {
+        case finding::bound_broken:
+            return "the bound is too small: " + value + "; " + exact + ", off by " +
+                   decimal(off.upper());
+        case finding::sign_wrong:
+            return "the sign is wrong: " + value + "; " + exact;
+        default:
+            return "certain about what has no finite value: " + value + "; " + exact;
+    }
+}
+
+}  // namespace errbound::validation

@@ -1,0 +1,55 @@
+// What comparing one value with its reference finds. Internal.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "errbound/validation/ball.hpp"
+#include "errbound/validation/distribution.hpp"
+#include "errbound/validation/expression.hpp"
+
+namespace errbound::validation {
+
+enum class finding {
+    holds,
+    bound_broken,  ///< |value − exact value| > error()
+    sign_wrong,    ///< a certain sign that is not the exact one
+    baseless,      ///< a certain sign, or a finite bound, of no finite value
+    undetermined,  ///< the enclosure is too wide to tell
+};
+
+constexpr bool is_violation(finding f) {
+    return f != finding::holds && f != finding::undetermined;
+}
+
+/// Compares; `off` must be the claim's deviation from x wherever both are finite.
+inline finding compare(const claim& c, const ball& x, const deviation& off) {
+    if (!certain(c.sign) && !std::isfinite(c.error)) return finding::holds;  // nothing is claimed
+    if (!std::isfinite(c.value) || !x.is_defined()) return finding::baseless;
+    if (x.is_unknown()) return finding::undetermined;
+    if (certain(c.sign)) {
+        const sign_type exact = x.sign();
+        if (!certain(exact)) return finding::undetermined;
+        if (exact != c.sign) return finding::sign_wrong;
+    }
+    if (!std::isfinite(c.error)) return finding::holds;
+    if (!(c.error >= 0)) return finding::bound_broken;
+    switch (off.at_most(c.error)) {
+        case judgement::holds:
+            return finding::holds;
+        case judgement::violated:
+            return finding::bound_broken;
+        default:
+            return finding::undetermined;
+    }
+}
+
+/// Adds log10 of bound/error; under a rule that promises no bound, of error/|value|. `off` is as
+/// for compare.
+void add_ratio(distribution& to, bool promises, const claim& c, const ball& x,
+               const deviation& off);
+
+/// One sentence for a person. Precondition: is_violation(f).
+std::string sentence(finding f, const claim& c, const ball& x, const deviation& off);
+
+}  // namespace errbound::validation

@@ -1,0 +1,161 @@
+// Makes an expression that shows a violation smaller: greedily, by a measure that only falls.
+#include "errbound/validation/minimise.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace errbound::validation {
+namespace {
+
+/// Only what `root` is made of.
+expression cut(const expression& e, std::size_t root) {
+    std::array<bool, expression::most_values> used{};
+    used[root] = true;
+    for (std::size_t n = root + 1; n-- > e.input_count;) {
+        if (!used[n]) continue;
+        const expression_operation& o = e.operations[n - e.input_count];
+        used[o.left] = true;
+        if (o.has_right()) used[o.right] = true;
+    }
+    expression r;
+    std::array<std::uint8_t, expression::most_values> renamed{};
+    for (std::size_t n = 0; n <= root; ++n) {
+        if (!used[n]) continue;
+        renamed[n] = static_cast<std::uint8_t>(r.size());
+        if (n < e.input_count) {
+            r.inputs[r.input_count++] = e.inputs[n];
+        } else {
+            expression_operation o = e.operations[n - e.input_count];
+            o.left = renamed[o.left];
+            o.right = o.has_right() ? renamed[o.right] : std::uint8_t{0};
+            r.operations[r.operation_count++] = o;
+        }
+    }
+    return r;
+}
+
+int bits_of(double x) {
+    if (x == 0) return 0;
+    int e = 0, bits = 0;
+    for (double m = std::frexp(x, &e); m != 0; m -= std::trunc(m), ++bits) m *= 2;
+    return bits;
+}
+
+double size_of(double x) {
+    return x == 0 ? 0 : bits_of(x) + std::abs(std::ilogb(x)) / 64.0 + (x < 0 ? 0.5 : 0);
+}
+
+/// Falls with every accepted step: operations first, then inputs, then their digits.
+double size_of(const expression& e) {
+    double size =
+        1e6 * static_cast<double>(e.operation_count) + 1e4 * static_cast<double>(e.input_count);
+    for (std::size_t i = 0; i < e.operation_count; ++i)
+        if (e.operations[i].kind == operation_kind::scale)
+            size += std::abs(e.operations[i].exponent);
+    for (std::size_t i = 0; i < e.input_count; ++i) {
+        const expression_input& in = e.inputs[i];
+        size += size_of(in.value);
+        if (in.error != 0) size += 200 + size_of(in.error) + 0.01 * std::abs(4 - in.quarters);
+    }
+    return size;
+}
+
+/// Numbers that are simpler than x and still of its format.
+std::vector<double> simpler_numbers(double x) {
+    std::vector<double> r;
+    if (x == 0) return r;
+    const int e = std::ilogb(x), bits = bits_of(x);
+    r = {0, 1, std::abs(x), std::ldexp(1.0, e)};
+    for (const int fewer : {bits / 2, bits - 1}) {
+        if (fewer < 1) continue;
+        const double unit = std::ldexp(1.0, e - fewer + 1);
+        r.push_back(std::trunc(x / unit) * unit);
+    }
+    for (const int nearer : {0, e / 2, e > 0 ? e - 1 : e + 1})
+        r.push_back(std::ldexp(x, nearer - e));
+    return r;
+}
+
+/// The operation's value as an input of its own.
+std::optional<expression> with_input(const expression& e, std::size_t n,
+                                     const expression_input& in) {
+    expression r = cut(e, e.size() - 1);
+    if (r.size() != e.size() || r.input_count == expression::most_inputs) return std::nullopt;
+    const std::size_t added = r.input_count, root = r.size() - 1;
+    const auto moved = [&](std::uint8_t v) {
+        return static_cast<std::uint8_t>(v == n ? added : v >= added ? v + 1U : v);
+    };
+    for (std::size_t i = 0; i < r.operation_count; ++i) {
+        expression_operation& o = r.operations[i];
+        o.left = moved(o.left);
+        o.right = moved(o.right);
+    }
+    r.inputs[r.input_count++] = in;
+    return cut(r, n == root ? added : root + 1);
+}
+
+/// Every use of value n is one of value m < n.
+expression with_other(const expression& e, std::size_t n, std::size_t m) {
+    if (n == e.size() - 1) return cut(e, m);
+    expression r = e;
+    for (std::size_t i = 0; i < r.operation_count; ++i)
+        for (std::uint8_t* v : {&r.operations[i].left, &r.operations[i].right})
+            if (*v == n) *v = static_cast<std::uint8_t>(m);
+    return cut(r, r.size() - 1);
+}
+
+std::vector<expression> smaller(const expression& e, number_type type) {
+    std::vector<expression> r;
+    std::array<claim, expression::most_values> plain;
+    if (type == number_type::float_type)
+        evaluate<none, float>(e, plain.data());
+    else
+        evaluate<none, double>(e, plain.data());
+    for (std::size_t n = e.input_count; n < e.size(); ++n) {
+        const expression_operation& o = e.operations[n - e.input_count];
+        r.push_back(with_other(e, n, o.left));
+        if (o.has_right()) r.push_back(with_other(e, n, o.right));
+        if (std::isfinite(plain[n].value))
+            if (auto with = with_input(e, n, {.value = plain[n].value})) r.push_back(*with);
+        if (o.kind == operation_kind::scale)
+            for (const int exponent : {0, o.exponent / 2, o.exponent + (o.exponent > 0 ? -1 : 1)}) {
+                r.push_back(e);
+                r.back().operations[n - e.input_count].exponent = exponent;
+            }
+    }
+    for (std::size_t i = 0; i < e.input_count; ++i) {
+        const auto change = [&](const expression_input& in) {
+            r.push_back(e);
+            r.back().inputs[i] = in;
+        };
+        expression_input in = e.inputs[i];
+        for (const double value : simpler_numbers(in.value))
+            change({.value = value, .error = in.error, .quarters = in.quarters});
+        for (const double error : simpler_numbers(in.error))
+            change({.value = in.value, .error = error, .quarters = in.quarters});
+        if (in.error != 0)
+            for (const int quarters : {4, -4, 0})
+                change({.value = in.value, .error = in.error, .quarters = quarters});
+    }
+    return r;
+}
+
+}  // namespace
+
+expression minimised(const expression& e, number_type type, const violation_search& search) {
+    expression best = cut(e, search(e).value());
+    for (bool found = true; found;) {
+        found = false;
+        for (const expression& candidate : smaller(best, type)) {
+            if (size_of(candidate) >= size_of(best)) continue;
+            const std::optional<std::size_t> at = search(candidate);
+            if (!at) continue;
+            best = cut(candidate, *at);
+            found = true;
+            break;
+        }
+    }
+    return best;
+}
+
+}  // namespace errbound::validation

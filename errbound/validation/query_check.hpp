@@ -1,0 +1,70 @@
+// One stored query in shadowed arithmetic: its forms, the quantities that decide it, and BSC.
+#pragma once
+
+#include <ccd/methods/bsc.hpp>
+#include <ccd/methods/forms.hpp>
+#include <string_view>
+
+#include "errbound/validation/shadowed.hpp"
+
+namespace errbound::validation {
+
+template <class Rule>
+void note(shadow_session& session, std::string_view quantity, const shadowed<Rule>& x) {
+    session.note(quantity, x.claimed(), x.exact(), promises_bound<Rule>);
+}
+
+/// The form's value at the root of l, if it has one inside: where BSC asks for it.
+template <class S, int N>
+void note_at_root(shadow_session& session, std::string_view quantity, const bernstein<S, N>& form,
+                  const bernstein<S, 1>& l) {
+    if (!bsc::linear_signs(l).opposite()) return;
+    const bsc::linear_root<S> root(l);
+    note(session, quantity, value_at(form, root.s, root.t));
+}
+
+/// What BSC reduces the quartic g to, as far as it goes: J, then M and R of its decomposition, and
+/// Y at their roots.
+template <class S>
+void note_reduction(shadow_session& session, const bernstein<S, 3>& y, const bernstein<S, 4>& g) {
+    for (int i = 0; i <= 4; ++i) note(session, "G", g[i]);
+    if (certain(sign_inside(g))) return;
+    const bernstein<S, 2> j = bsc::reduced(y, g);
+    for (int i = 0; i <= 2; ++i) note(session, "J", j[i]);
+    if (certain(sign_inside(j))) return;
+    const bsc::decomposition<S> parts(y, j);
+    for (int i = 0; i <= 1; ++i) {
+        note(session, "M", parts.m[i]);
+        note(session, "R", parts.r[i]);
+    }
+    note_at_root(session, "Y(t_M)", y, parts.m);
+    note_at_root(session, "Y(t_R)", y, parts.r);
+}
+
+/// Checks every operation, of the quantities and of BSC as decide_bsc runs it.
+template <class Rule, template <class> class Query>
+void check_query(const Query<double>& query, shadow_session& session) {
+    using scalar = shadowed<Rule>;
+    const auto [scaled, finite] = ccd::tracked_query<Rule, double, Query, scalar>(query);
+    if (!finite) return;
+    const auto forms = ccd::forms_of(scaled);
+    const bernstein<scalar, 3> y = normalized(forms.y());
+    constexpr std::string_view k[] = {"k0", "3 k1", "3 k2", "k3"};
+    for (int i = 0; i <= 3; ++i) note(session, k[i], y[i]);
+    const bernstein<scalar, 2> slope = derivative(y);
+    note(session, "Y'(0)", slope[0]);
+    note(session, "Y'(1)", slope[2]);
+    const bernstein<scalar, 1> second = derivative(slope);
+    note(session, "Y''(0)", second[0]);
+    note(session, "Y''(1)", second[1]);
+    if (certainly_rootless(y)) return;
+    auto inside = forms.inside();
+    for (auto& g : inside) {
+        g = normalized(g);
+        note_reduction(session, y, g);
+    }
+    // BSC itself; it normalises once more, which leaves normalised forms as they are.
+    (void)root_with_nonnegative(y, [&] { return inside; });
+}
+
+}  // namespace errbound::validation

@@ -1,0 +1,89 @@
+// The tables of tiny formats, by MPFR.
+#include "errbound/validation/tiny_float.hpp"
+
+#include <algorithm>
+
+namespace errbound::validation {
+namespace {
+
+int bias(int exponent_bits) {
+    return (1 << (exponent_bits - 1)) - 1;
+}
+
+}  // namespace
+
+std::vector<double> tiny_values(int precision, int exponent_bits) {
+    const int fractions = 1 << (precision - 1), exponents = 1 << exponent_bits;
+    std::vector<double> values;
+    for (const int sign : {1, -1})
+        for (int e = 0; e < exponents; ++e)
+            for (int fraction = 0; fraction < fractions; ++fraction) {
+                const int exponent = (e == 0 ? 1 : e) - bias(exponent_bits) - (precision - 1);
+                const double size = std::ldexp(e == 0 ? fraction : fractions + fraction, exponent);
+                const double special = fraction == 0 ? std::numeric_limits<double>::infinity()
+                                                     : std::numeric_limits<double>::quiet_NaN();
+                values.push_back(sign * (e == exponents - 1 ? special : size));
+            }
+    return values;
+}
+
+std::uint8_t tiny_code(double value, int precision, int exponent_bits) {
+    const int fractions = 1 << (precision - 1), exponents = 1 << exponent_bits;
+    const int infinity = (exponents - 1) * fractions;
+    if (std::isnan(value)) return static_cast<std::uint8_t>(infinity + 1);
+    const int sign = std::signbit(value) ? exponents * fractions : 0;
+    const double size = std::abs(value);
+    const int least = 1 - bias(exponent_bits);
+    int code = 0;
+    if (std::isinf(size)) {
+        code = infinity;
+    } else if (size > 0) {
+        // In units of the last place, rounded: 2·fractions of them carry into the exponent, as they
+        // should.
+        const int e = std::max(std::ilogb(size), least);
+        const double units = std::nearbyint(std::ldexp(size, precision - 1 - e));
+        code = static_cast<int>(std::min<double>((e - least) * fractions + units, infinity));
+    }
+    return static_cast<std::uint8_t>(sign + code);
+}
+
+tiny_tables::tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction)
+    : bits(precision + exponent_bits) {
+    const std::vector<double> values = tiny_values(precision, exponent_bits);
+    const mpfr_exp_t emin = mpfr_get_emin(), emax = mpfr_get_emax();
+    // MPFR's mantissas lie in [1/2, 1): the smallest number is 2^(emin − 1).
+    mpfr_set_emin(3 - bias(exponent_bits) - precision);
+    mpfr_set_emax(bias(exponent_bits) + 1);
+    mpfr_t a, b, r;
+    mpfr_inits2(precision, a, b, r, static_cast<mpfr_ptr>(nullptr));
+    const auto result = [&](int off) -> std::uint16_t {
+        off = mpfr_check_range(r, off, direction);
+        mpfr_subnormalize(r, off, direction);
+        const auto code = tiny_code(mpfr_get_d(r, MPFR_RNDN), precision, exponent_bits);
+        const bool unnoticed = mpfr_overflow_p() != 0 && mpfr_number_p(r) != 0;
+        return static_cast<std::uint16_t>(code | (unnoticed ? unnoticed_overflow : 0));
+    };
+    for (const double x : values) {
+        mpfr_set_d(a, x, MPFR_RNDN);
+        for (const double y : values) {
+            mpfr_set_d(b, y, MPFR_RNDN);
+            const auto add_to = [&](std::vector<std::uint16_t>& table, auto operation) {
+                mpfr_clear_flags();
+                table.push_back(result(operation(r, a, b, direction)));
+            };
+            add_to(sum, mpfr_add);
+            add_to(difference, mpfr_sub);
+            add_to(product, mpfr_mul);
+            add_to(quotient, mpfr_div);
+        }
+        for (int e = -most_scale; e <= most_scale; ++e) {
+            mpfr_clear_flags();
+            scaled.push_back(result(mpfr_mul_2si(r, a, e, direction)));
+        }
+    }
+    mpfr_clears(a, b, r, static_cast<mpfr_ptr>(nullptr));
+    mpfr_set_emin(emin);
+    mpfr_set_emax(emax);
+}
+
+}  // namespace errbound::validation

@@ -1,0 +1,33 @@
+// The rules that there are, and reports joined.
+#include "errbound/validation/validation.hpp"
+
+#include <iterator>
+
+namespace errbound::validation {
+
+std::span<const rule> rules() {
+    static const std::vector<rule> all = [] {
+        std::vector<rule> r;
+        for_each_rule(all_rules(), [&r]<class Rule>() { r.push_back(rule_of<Rule>()); });
+        return r;
+    }();
+    return all;
+}
+
+std::uint64_t report::violation_count() const {
+    std::uint64_t sum = 0;
+    for (const rule_counts& entry : counts) sum += entry.violations;
+    return sum;
+}
+
+void report::add(report other) {
+    const auto append = [](auto& to, auto& from) {
+        to.insert(to.end(), std::make_move_iterator(from.begin()),
+                  std::make_move_iterator(from.end()));
+    };
+    append(counts, other.counts);
+    append(violations, other.violations);
+    append(distributions, other.distributions);
+}
+
+}  // namespace errbound::validation

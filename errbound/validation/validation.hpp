@@ -1,0 +1,89 @@
+// Validation of bound rules against MPFR, and how tight their bounds are: what `errbound validate`
+// runs, as functions that return structs and print nothing.
+//
+// Three kinds of evidence: random expressions, the polynomials and the sign classification of
+// stored collision queries, and number formats so small that every case can be tried. In all of
+// them a rule is held to two promises: |value − exact value| <= error(), and every certain sign is
+// the exact one. docs/validation.md tells more.
+#pragma once
+
+#include <ccd/query.hpp>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errbound/validation/distribution.hpp"
+#include "errbound/validation/rule.hpp"
+
+namespace errbound::validation {
+
+/// Every rule of errbound/validation/rule_list.hpp.
+std::span<const rule> rules();
+
+/// A broken promise, with what it takes to see it again.
+struct violation {
+    std::string rule, number;
+    std::string what;  ///< one sentence: which promise, and by how much it is broken
+    std::string code;  ///< C++ that shows it, as small as it could be made; lines end in \n
+};
+
+/// How tight bounds are, or how large errors, of one quantity under one rule.
+struct tightness {
+    std::string rule, number, quantity;
+    /// "bound/error", or "error/value" under a rule that promises no bound.
+    std::string measure;
+    distribution log10;
+};
+
+/// What was done under one rule and number type.
+struct rule_counts {
+    std::string rule, number;
+    std::uint64_t cases = 0;   ///< expressions, queries, or operations of tiny formats
+    std::uint64_t values = 0;  ///< that were compared with the reference
+    std::uint64_t violations = 0;
+    std::uint64_t undetermined = 0;  ///< where even the largest precision did not tell
+};
+
+struct report {
+    std::vector<rule_counts> counts;
+    std::vector<violation> violations;  ///< the first few of each entry of counts
+    std::vector<tightness> distributions;
+
+    std::uint64_t violation_count() const;
+    /// Appends what another run found.
+    void add(report other);
+};
+
+/// Called now and then, from the calling thread only, with how much of all is done.
+using progress = std::function<void(std::uint64_t done, std::uint64_t all)>;
+
+struct expression_options {
+    std::uint64_t expressions = 10'000'000;  ///< at least so many per rule and number type
+    std::uint64_t seed = 1;
+    int operations = 16;  ///< at most, in one expression; 1 to 48
+    int threads = 0;      ///< 0: one per core
+};
+
+/// Random expressions in double and in float under all the rules against one reference. Rules
+/// without division are left out of expressions that divide; each gets its number all the same.
+/// The same for every number of threads. Cost: some microseconds an expression.
+report validate_expressions(std::span<const rule> rules, const expression_options& options,
+                            const progress& show = {});
+
+/// The forms of stored queries and BSC itself on them, operation by operation, in double. Cost:
+/// about a millisecond a query and rule.
+report validate_queries(std::span<const rule> rules,
+                        std::span<const ccd::vertex_face<double>> queries, int threads,
+                        const progress& show = {});
+report validate_queries(std::span<const rule> rules,
+                        std::span<const ccd::edge_edge<double>> queries, int threads,
+                        const progress& show = {});
+
+/// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
+/// that a rule promises; in 6 bits also with every pair of bounds that operands can have.
+report validate_tiny(std::span<const rule> rules, int threads, const progress& show = {});
+
+}  // namespace errbound::validation

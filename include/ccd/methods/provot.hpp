@@ -1,0 +1,102 @@
+// `provot`: roots of the coplanarity cubic in floating point, and an inside test at each of them
+// (Provot 1997), as textbooks give it.
+//
+// The cubic in powers of t, from differences to one vertex; its roots in [0, 1] by
+// errbound/roots/floating_roots.hpp, in number type T and without any error bound; at each root the
+// points' places, and there barycentric weights (VF) or edge parameters (EE) from the normal
+// equations, compared without tolerance. Where the normal vanishes the test says no, and there is
+// no test of vertices against edges. So collisions are lost and invented by rounding, and those of
+// degenerate features and of coplanar motion are lost by design. (A motion that stays coplanar has
+// no isolated root; t = 0 and t = 1 are asked, as ends at which the cubic is zero.) Coordinates are
+// not scaled, so tiny ones underflow; huge ones overflow, and what is then not finite gives
+// `uncertain` with cause `range`, never an answer.
+#pragma once
+
+#include <ccd/methods/forms.hpp>
+#include <ccd/methods/transform.hpp>
+#include <ccd/verdict.hpp>
+#include <cstddef>
+#include <errbound/roots/floating_roots.hpp>
+#include <errbound/number_traits.hpp>
+
+namespace ccd {
+namespace provot {
+
+/// x(0) and x(1) − x(0): the same motion in powers of t. (Products of forms are plain convolutions,
+/// which serve powers as well.)
+template <class T>
+constexpr vector_form<T, 1> in_powers(const vector_form<T, 1>& v) {
+    return {{{v.x[0], v.x[1] - v.x[0]}}, {{v.y[0], v.y[1] - v.y[0]}}, {{v.z[0], v.z[1] - v.z[0]}}};
+}
+template <template <class, int> class Forms, class T>
+constexpr Forms<T, 1> in_powers(const Forms<T, 1>& f) {
+    return {in_powers(f.b), in_powers(f.c), in_powers(f.p)};
+}
+
+/// The weights of b and c in the point of their plane that is nearest to p, times `whole` = |N|².
+template <class T>
+struct weights {
+    T of_b, of_c, whole;
+
+    template <int Degree>
+    requires(Degree == 0) constexpr explicit weights(const coplanarity_forms<T, Degree>& f) {
+        const T bb = dot(f.b, f.b)[0], bc = dot(f.b, f.c)[0], cc = dot(f.c, f.c)[0];
+        const T bp = dot(f.b, f.p)[0], cp = dot(f.c, f.p)[0];
+        whole = bb * cc - bc * bc;
+        of_b = cc * bp - bc * cp;
+        of_c = bb * cp - bc * bp;
+    }
+    /// Whether nothing has overflowed.
+    constexpr bool finite() const {
+        using traits = errbound::number_traits<T>;
+        return traits::is_finite(of_b) && traits::is_finite(of_c) && traits::is_finite(whole);
+    }
+};
+
+/// At a time when the four points are coplanar: is v in the triangle?
+template <class T>
+constexpr bool inside(const vertex_face_forms<T, 0>&, const weights<T>& w) {
+    return w.whole > 0 && w.of_b >= 0 && w.of_c >= 0 && w.of_b + w.of_c <= w.whole;
+}
+/// Do the edges cross? a0 + x·b = b0 + y·c is p = x·b − y·c.
+template <class T>
+constexpr bool inside(const edge_edge_forms<T, 0>&, const weights<T>& w) {
+    return w.whole > 0 && w.of_b >= 0 && w.of_b <= w.whole && w.of_c <= 0 && -w.of_c <= w.whole;
+}
+
+}  // namespace provot
+
+/// Decides a vertex_face or edge_edge query; never certain, whatever it says. No allocation, never
+/// throws.
+template <class T, template <class> class Query>
+verdict decide_provot(const Query<T>& query) {
+    using traits = errbound::number_traits<T>;
+    const auto motion = provot::in_powers(forms_of(query));
+    const errbound::bernstein<T, 3> y = motion.y();
+    // Bounds whatever is computed of the cubic. NaN and infinities do not pass.
+    const T size = traits::abs(y[0]) + traits::abs(y[1]) + traits::abs(y[2]) + traits::abs(y[3]);
+    if (!traits::is_finite(16 * size)) return {outcome::uncertain, cause::range};
+
+    bool in_range = true;
+    const auto inside_at = [&](const T& t) {
+        const auto there = forms_at(motion, T(1), t);
+        const provot::weights<T> weights(there);
+        in_range = in_range && weights.finite();
+        return weights.finite() && provot::inside(there, weights);
+    };
+    bool found = false;
+    const auto pieces = errbound::monotone_pieces(y);
+    T before = 0;
+    for (std::size_t i = 0; i < pieces.count && !found; ++i) {
+        const T at_end = value_at(y, T(1), pieces.at[i]);
+        if (i > 0 && ((before < 0 && at_end > 0) || (before > 0 && at_end < 0)))
+            found = inside_at(errbound::guarded_newton(y, pieces.at[i - 1], pieces.at[i]));
+        if (at_end == 0 && !found) found = inside_at(pieces.at[i]);
+        before = at_end;
+    }
+    if (found) return {outcome::collides, cause::none};
+    if (!in_range) return {outcome::uncertain, cause::range};
+    return {outcome::separate, cause::none};
+}
+
+}  // namespace ccd

@@ -1,0 +1,72 @@
+// Queries in double precision, decided in single precision where that is enough.
+//
+// A query's coordinates are taken relative to one of its points and rounded to float, with what
+// that loses as each number's bound: so a float method keeps its promise for double input, and what
+// is lost is small beside the query itself, however far it lies from the origin.
+#pragma once
+
+#include <algorithm>
+#include <ccd/methods/bsc.hpp>
+#include <ccd/methods/safeccd.hpp>
+#include <ccd/methods/transform.hpp>
+#include <ccd/verdict.hpp>
+#include <errbound/number_traits.hpp>
+#include <errbound/tracked.hpp>
+#include <utility>
+
+namespace ccd {
+
+/// The query over tracked floats, translated so that its first point starts at the origin, and
+/// times the power of two that brings its largest coordinate near 1, if that is far from it. False
+/// in `second` if a coordinate is not finite.
+///
+/// Bounds: d = fl(x − c) is off by at most 2^-53·|d|, and the float f nearest to it by 2^-24·|d|,
+/// or by half of η where that underflows. Together that is less than |f|(2^-24 + 2^-44) + η,
+/// rounded downwards as it may be. (Where d overflows, f and its bound are infinite.)
+template <class Rule, template <class> class Query>
+constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precision_query(
+    const Query<double>& query) {
+    using traits = errbound::number_traits<double>;
+    using scalar = errbound::tracked<float, Rule>;
+    const point<double> origin = points_of(query)[0].t0;
+    const Query<double> near = transformed_points(query, [&](const point<double>& p) {
+        return point<double>{p.x - origin.x, p.y - origin.y, p.z - origin.z};
+    });
+    bool finite = true;
+    double largest = 0;
+    for_each_coordinate(query, [&](double x) { finite = finite && traits::is_finite(x); });
+    for_each_coordinate(near, [&](double d) { largest = traits::max(largest, traits::abs(d)); });
+
+    // The room is that of tracked_query for floats. Beyond 2^±1000 differences overflow or vanish.
+    constexpr int room = errbound::number_traits<float>::max_exponent / 32, most = 1000;
+    const int e = largest > 0 && traits::is_finite(largest) ? traits::exponent(largest) : 0;
+    const int bounded = std::clamp(e, -most, most);
+    const bool moderate = bounded >= -room && bounded <= room;
+    const double factor = moderate ? 1.0 : traits::scale(1.0, -bounded);
+    const auto converted = [factor](double d) {
+        using single = errbound::number_traits<float>;
+        if (d == 0) return scalar(0.0f);
+        const float f = static_cast<float>(d * factor);
+        constexpr float relative = 0x1p-24f + 0x1p-44f;
+        return scalar::within(f, single::abs(f) * relative + 2 * single::underflow_unit());
+    };
+    return {transformed(near, converted), finite};
+}
+
+/// BSC in floats for a query in doubles: as decide_bsc, `uncertain` where floats cannot tell.
+template <class Rule, template <class> class Query>
+constexpr verdict decide_bsc_in_single_precision(const Query<double>& query) {
+    const auto [converted, finite] = single_precision_query<Rule>(query);
+    if (!finite) return {outcome::uncertain, cause::range};
+    return decide_bsc_of(converted);
+}
+
+/// SafeCCD in floats likewise.
+template <class Rule, template <class> class Query>
+constexpr verdict decide_safeccd_in_single_precision(const Query<double>& query) {
+    const auto [converted, finite] = single_precision_query<Rule>(query);
+    if (!finite) return {outcome::uncertain, cause::range};
+    return decide_safeccd_of<Rule>(converted);
+}
+
+}  // namespace ccd

@@ -1,0 +1,162 @@
+// The scalar of semi-static filters: an expression's value alone, with a bound from the largest
+// coordinate difference in it. For expressions of so many terms that their sizes
+// (errbound/filters/static_filter.hpp) would cost more than that maximum; they decide somewhat less.
+//
+// Notation as in errbound/filters/static_filter.hpp; S is the size there, k the roundings, τ the allowance.
+// For an expression whose terms are all of degree d, with M the largest of |d̂| of its coordinates'
+// differences, and of |x| of coordinates that stand for themselves,
+//     S <= m·M^d + a·τ·(1 + M^d),
+// where the mass m is the value of the expression with all terms positive and all differences 1,
+// and a counts products. By induction over the expression, with X and Y powers of M:
+//  * a coordinate, or a difference of two: m = 1, a = 0;
+//  * x ± y: m and a add up;
+//  * x·y: m = m_x·m_y, a = 2(m_x·a_y + m_y·a_x) + 2, since X(1 + Y) <= 2(1 + XY), (1 + X)(1 + Y)
+//    <= 3(1 + XY), and 3·a_x·a_y·τ is less than 1 for any expression of less than 10^14 terms.
+// The bound computed is
+//     constant(k)/2·(2m·M^d + 2a·τ),
+// with k − 1 roundings for signs, and one more that pays for what follows, as constant(k) grows
+// with k by u and the rest is of the order of u²: the roundings of m (no more than of S), M^d and
+// the bound, and a·τ·M^d. The second a·τ pays for underflow in M^d, τ being 2^49·η or more.
+//
+// Overflow: where 2m·M^d is finite no number of the expression can have overflown, fused or not.
+// NaN in a coordinate that M misses is one in the value.
+// Proof: proofs/SemiStatic.v, semi_static_overflow_uncertain.
+// Source of the kind: Devillers, Pion 2003, Efficient exact geometric predicates for Delaunay
+// triangulations.
+//
+// m and a are trusted below 2^p = 1/u, where they are whole and exact; else, and where a constant
+// is 0, the bound is infinite. All that is known to the compiler.
+//
+// Proof: proofs/SemiStatic.v, mass_covers_size. (Without contraction.)
+#pragma once
+
+#include <concepts>
+#include <errbound/number_traits.hpp>
+#include <errbound/filters/static_filter.hpp>
+
+namespace errbound {
+
+/// Kept between an expression and its parts; users write `auto`. Mass and allowances, m and a, are
+/// known to the compiler.
+template <std::floating_point T, int Roundings, int Degree>
+struct semi_static {
+    static_assert(Roundings < 1000 && Degree < 1000,
+                  "errbound: the derivation of the bound assumes fewer");
+    using value_type = T;
+    static constexpr int roundings = Roundings, degree = Degree;
+
+    T value;
+    T mass;
+    T allowances;
+
+    constexpr semi_static operator-() const { return {-value, mass, allowances}; }
+
+    /// |value| <= bound(M) leaves the sign open.
+    /// Proof: proofs/SemiStatic.v, semi_static_bound_covers, semi_static_sign_certain.
+    constexpr T bound(T largest) const {
+        constexpr T most = 1 / number_traits<T>::unit_roundoff();
+        const bool trusted = mass < most && allowances < most;
+        if (!trusted) return number_traits<T>::infinity();
+        const T size =
+            2 * mass * power<Degree>(largest) + 2 * allowances * filtered<T, 0, 0, true>::allowance;
+        return filter_constant<T>(Roundings) / 2 * size;
+    }
+
+  private:
+    template <int Exponent>
+    static constexpr T power(T x) {
+        if constexpr (Exponent == 1)
+            return x;
+        else if constexpr (Exponent % 2 == 0)
+            return power<Exponent / 2>(x * x);
+        else
+            return power<Exponent - 1>(x) * x;
+    }
+};
+
+/// A coordinate; `largest` becomes M.
+template <std::floating_point T>
+struct semi_static_coordinate {
+    using value_type = T;
+    T value;
+    T* largest;
+
+    constexpr auto operator-() const { return -as_semi_static(*this); }
+    friend constexpr semi_static<T, 0, 1> as_semi_static(const semi_static_coordinate& x) {
+        enlarge(*x.largest, x.value);
+        return {x.value, 1, 0};
+    }
+    friend constexpr semi_static<T, 1, 1> operator-(const semi_static_coordinate& x,
+                                                    const semi_static_coordinate& y) {
+        const T d = x.value - y.value;
+        enlarge(*x.largest, d);
+        return {d, 1, 0};
+    }
+
+  private:
+    static constexpr void enlarge(T& largest, T x) {
+        const T size = number_traits<T>::abs(x);
+        largest = largest < size ? size : largest;
+    }
+};
+template <std::floating_point T, int R, int D>
+constexpr const semi_static<T, R, D>& as_semi_static(const semi_static<T, R, D>& x) {
+    return x;
+}
+
+template <class>
+inline constexpr bool is_semi_static = false;
+template <class T, int R, int D>
+inline constexpr bool is_semi_static<semi_static<T, R, D>> = true;
+template <class T>
+inline constexpr bool is_semi_static<semi_static_coordinate<T>> = true;
+template <class X>
+concept semi_static_operand = is_semi_static<X>;
+
+namespace detail {
+
+template <class X, class Y>
+constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y& y) {
+    static_assert(X::degree == Y::degree, "errbound: the expression was taken for homogeneous");
+    constexpr int roundings = (X::roundings > Y::roundings ? X::roundings : Y::roundings) + 1;
+    return semi_static<typename X::value_type, roundings, X::degree>{value, x.mass + y.mass,
+                                                                     x.allowances + y.allowances};
+}
+template <class X, class Y>
+constexpr auto semi_static_product(const X& x, const Y& y) {
+    return semi_static<typename X::value_type, X::roundings + Y::roundings + 1,
+                       X::degree + Y::degree>{
+        x.value * y.value, x.mass * y.mass,
+        2 * (x.mass * y.allowances + y.mass * x.allowances) + 2};
+}
+
+}  // namespace detail
+
+template <semi_static_operand X, semi_static_operand Y>
+constexpr auto operator+(const X& x, const Y& y) {
+    return detail::semi_static_sum(x.value + y.value, as_semi_static(x), as_semi_static(y));
+}
+template <semi_static_operand X, semi_static_operand Y>
+constexpr auto operator-(const X& x, const Y& y) {
+    return detail::semi_static_sum(x.value - y.value, as_semi_static(x), as_semi_static(y));
+}
+template <semi_static_operand X, semi_static_operand Y>
+constexpr auto operator*(const X& x, const Y& y) {
+    return detail::semi_static_product(as_semi_static(x), as_semi_static(y));
+}
+/// By a whole number. (Sums with one are of mixed degree, and not for this filter.)
+template <semi_static_operand X>
+constexpr auto operator*(const X& x, std::same_as<int> auto c) {
+    using T = typename X::value_type;
+    const auto factor = filtered_constant<T>(c);
+    // Times 0 a part's mass would be lost.
+    const T mass = c == 0 ? number_traits<T>::infinity() : factor.size;
+    return as_semi_static(x) *
+           semi_static<T, decltype(factor)::roundings, 0>{factor.value, mass, 0};
+}
+template <semi_static_operand X>
+constexpr auto operator*(std::same_as<int> auto c, const X& x) {
+    return x * c;
+}
+
+}  // namespace errbound

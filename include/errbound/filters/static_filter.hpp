@@ -1,0 +1,193 @@
+// The scalar of static filters: an expression's value, a bound on its size, and, in its type, how
+// many roundings went into it. What the compiler makes of an expression over it is the expression,
+// its size, and one comparison with a constant.
+//
+// Notation: u the unit roundoff, η the smallest positive number, m the smallest normal one.
+// Rounding is to nearest. For a number x computed as x̂ from coordinates, S is its size: the value
+// of the same expression with every term made positive, where a product's size is that of its
+// factors times each other, plus `allowance`, τ = 4m/u. After k roundings (as `filtered` counts
+// them)
+//     |x̂ − x| <= ((1 + u)^k − 1)·S.
+// Proof, by induction over the expression:
+//  * a coordinate: k = 0. The difference of two: |d̂ − d| <= u|d̂|; its size is |d̂|, k = 1. (It is
+//    |d̂|, as computed, that enters all sizes.) Differences lose nothing to underflow;
+//  * x ± y: k = max(k_x, k_y) + 1, S = S_x + S_y. What is rounded is at most (1 + u)^max·S in size;
+//    rounding it adds u times that. Sums lose nothing to underflow;
+//  * x·y: k = k_x + k_y + 1, S = S_x·S_y + τ. The exact product of the computed factors is off by
+//    ((1 + u)^(k_x + k_y) − 1)·S_x·S_y, rounding adds u(1 + u)^(k_x + k_y)·S_x·S_y, and underflow
+//    η/2 at most, less than uτ/2.
+// The last rounding leaves a sign as it is: k − 1 serves for signs.
+//
+// Sizes are computed too. On a path to S there are at most 2k + 2 roundings, each by a factor of at
+// least 1 − u; where a product of sizes underflows, the half of τ that is left pays. Then
+//     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u),
+// where the sum of the slacks, at least 3u, pays for the rounding of the constant, of the bound and
+// of x̂ itself. The bound does not underflow: uτ > m.
+//
+// Overflow: rounding is monotone, so Ŝ >= |x̂| for every number of an expression; where one is
+// infinite or NaN, so are all that are made of it, and their sizes: no sign passes.
+// Proof: proofs/StaticFilter.v, overflow_uncertain.
+//
+// Fused multiply-add (contraction) leaves out roundings and keeps all of this but the last: a value
+// can overflow where its size just does not. Where it may happen, values are asked to be finite.
+// For orient2d, orient3d and incircle the counts k − 1 are those of Shewchuk's A-filters: 3, 7 and
+// 10; for insphere 15, where his is 16. Source of these: Shewchuk 1997, Adaptive Precision
+// Floating-Point Arithmetic.
+//
+// Proof: proofs/StaticFilter.v, filter_error. (Without contraction.)
+#pragma once
+
+#include <concepts>
+#include <errbound/number_traits.hpp>
+#include <errbound/detail/rounded.hpp>
+#include <errbound/sign.hpp>
+#include <type_traits>
+
+namespace errbound {
+
+/// The error of k roundings in units of the size: see above.
+template <std::floating_point T>
+constexpr T filter_constant(int k) {
+    constexpr T u = number_traits<T>::unit_roundoff();
+    return T(k) * u * (1 + T(4 * k + 8) * u);
+}
+
+/// Kept between an expression and its parts; users write `auto`.
+/// Roundings: k. Products: how often τ has still to be added to the size. Plain: size = |value|.
+template <std::floating_point T, int Roundings, int Products, bool Plain>
+struct filtered {
+    static_assert(Roundings < 1000, "errbound: the derivation of the constant assumes fewer");
+    using value_type = T;
+    static constexpr int roundings = Roundings, products = Products;
+    static constexpr bool plain = Plain;
+    /// τ; see above.
+    static constexpr T allowance =
+        4 * number_traits<T>::smallest_normal() / number_traits<T>::unit_roundoff();
+
+    T value;
+    T size;  ///< less Products times τ
+
+    constexpr T full_size() const { return Products == 0 ? size : size + T(Products) * allowance; }
+    constexpr filtered operator-() const { return {-value, size}; }
+
+    /// |value| <= bound() leaves the sign open; so does a value that is not finite.
+    /// Proof: proofs/StaticFilter.v, filter_bound.
+    constexpr T bound() const {
+        if constexpr (Roundings <= 1) return T(0);
+        return filter_constant<T>(Roundings - 1) *
+               (size + T(Products == 0 ? 1 : Products) * allowance);
+    }
+    /// Proof: proofs/StaticFilter.v, filter_sign_certain.
+    friend constexpr sign_type sign_of(const filtered& x) {
+        const T magnitude = number_traits<T>::abs(x.value);
+        bool decided = magnitude > x.bound();
+        if constexpr (may_contract || Roundings <= 1)  // then the bound is not infinite either
+            decided = decided && number_traits<T>::is_finite(x.value);
+        if (decided) [[likely]]
+            return x.value > 0 ? sign_type::positive : sign_type::negative;
+        // What was rounded once at most is zero only where it is zero.
+        return Roundings <= 1 && Products == 0 && x.value == 0 ? sign_type::zero
+                                                               : sign_type::uncertain;
+    }
+};
+
+/// A coordinate: its differences to others are known better than from the sizes of both.
+template <std::floating_point T>
+struct filtered_coordinate {
+    using value_type = T;
+    T value;
+
+    constexpr auto operator-() const { return -as_filtered(*this); }
+    friend constexpr sign_type sign_of(const filtered_coordinate& x) {
+        return sign_of(as_filtered(x));
+    }
+    friend constexpr filtered<T, 0, 0, true> as_filtered(const filtered_coordinate& x) {
+        return {x.value, number_traits<T>::abs(x.value)};
+    }
+    friend constexpr filtered<T, 1, 0, true> operator-(const filtered_coordinate& x,
+                                                       const filtered_coordinate& y) {
+        const T d = x.value - y.value;
+        return {d, number_traits<T>::abs(d)};
+    }
+};
+template <std::floating_point T, int R, int P, bool Plain>
+constexpr const filtered<T, R, P, Plain>& as_filtered(const filtered<T, R, P, Plain>& x) {
+    return x;
+}
+
+template <class>
+inline constexpr bool is_filtered = false;
+template <class T, int R, int P, bool Plain>
+inline constexpr bool is_filtered<filtered<T, R, P, Plain>> = true;
+template <class T>
+inline constexpr bool is_filtered<filtered_coordinate<T>> = true;
+template <class X>
+concept filtered_operand = is_filtered<X>;
+
+/// A whole number in an expression: an int may be rounded on its way to float.
+template <std::floating_point T>
+constexpr auto filtered_constant(int c) {
+    const T v = static_cast<T>(c);
+    return filtered<T, (number_traits<T>::digits < 31), 0, true>{v, number_traits<T>::abs(v)};
+}
+
+namespace detail {
+
+template <class X, class Y>
+constexpr auto filtered_sum(typename X::value_type value, const X& x, const Y& y) {
+    using T = typename X::value_type;
+    constexpr int roundings = (X::roundings > Y::roundings ? X::roundings : Y::roundings) + 1;
+    return filtered<T, roundings, X::products + Y::products, false>{value, x.size + y.size};
+}
+template <class X, class Y>
+constexpr auto filtered_product(const X& x, const Y& y) {
+    using T = typename X::value_type;
+    constexpr int roundings = X::roundings + Y::roundings + 1;
+    const T v = x.value * y.value;
+    constexpr bool plain = X::plain && Y::plain && X::products == 0 && Y::products == 0;
+    if constexpr (plain)  // |x|·|y| is |xy|, also when rounded
+        return filtered<T, roundings, 1, true>{v, number_traits<T>::abs(v)};
+    else
+        return filtered<T, roundings, 1, false>{v, x.full_size() * y.full_size()};
+}
+
+}  // namespace detail
+
+template <filtered_operand X, filtered_operand Y>
+constexpr auto operator+(const X& x, const Y& y) {
+    return detail::filtered_sum(x.value + y.value, as_filtered(x), as_filtered(y));
+}
+template <filtered_operand X, filtered_operand Y>
+constexpr auto operator-(const X& x, const Y& y) {
+    return detail::filtered_sum(x.value - y.value, as_filtered(x), as_filtered(y));
+}
+template <filtered_operand X, filtered_operand Y>
+constexpr auto operator*(const X& x, const Y& y) {
+    return detail::filtered_product(as_filtered(x), as_filtered(y));
+}
+template <filtered_operand X>
+constexpr auto operator+(const X& x, std::same_as<int> auto c) {
+    return as_filtered(x) + filtered_constant<typename X::value_type>(c);
+}
+template <filtered_operand X>
+constexpr auto operator+(std::same_as<int> auto c, const X& x) {
+    return x + c;
+}
+template <filtered_operand X>
+constexpr auto operator-(const X& x, std::same_as<int> auto c) {
+    return as_filtered(x) - filtered_constant<typename X::value_type>(c);
+}
+template <filtered_operand X>
+constexpr auto operator-(std::same_as<int> auto c, const X& x) {
+    return filtered_constant<typename X::value_type>(c) - as_filtered(x);
+}
+template <filtered_operand X>
+constexpr auto operator*(const X& x, std::same_as<int> auto c) {
+    return as_filtered(x) * filtered_constant<typename X::value_type>(c);
+}
+template <filtered_operand X>
+constexpr auto operator*(std::same_as<int> auto c, const X& x) {
+    return x * c;
+}
+
+}  // namespace errbound

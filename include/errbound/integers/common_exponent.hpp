@@ -1,0 +1,140 @@
+// Coordinates as integers on one common exponent: how many bits they take, and they themselves.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/integers/binary_double.hpp>
+#include <errbound/integers/sized_integer.hpp>
+#include <limits>
+
+namespace errbound {
+
+/// The size of the largest coordinate, as bits of a double; infinities and NaN exceed all others.
+template <std::size_t N>
+constexpr std::uint64_t largest_size(const std::array<double, N>& coordinates) {
+    std::uint64_t largest = 0;
+    for (const double x : coordinates)
+        largest = std::max(largest, std::bit_cast<std::uint64_t>(x) << 1 >> 1);
+    return largest;
+}
+constexpr bool is_finite_size(std::uint64_t size) {
+    return size >> 52 < 2047;
+}
+
+/// 2^e for a normal number.
+constexpr double power_of_two(int e) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+}
+
+/// Coordinates that are whole numbers of few bits: x = value·2^unit, |value| < 2^Bits, Bits <= 50.
+template <std::size_t N, int Bits>
+struct short_coordinates {
+    std::array<double, N> value;
+    int unit;
+    bool fit = false;
+
+    /// `largest` is largest_size(coordinates), finite. A sum of x and 3·2^51 units is a whole
+    /// number of units, x's nearest; only multiples of the unit come back from it. Then, and only
+    /// then, is the product with a power of two known to be exact.
+    /// Proof: proofs/Widths.v, short_coordinates_exact.
+    constexpr short_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
+        const auto field = static_cast<int>(largest >> 52);
+        unit = field - 1022 - Bits;
+        if (unit < -1022 || unit > 970) return;  // not all powers of two below are normal numbers
+        const double shift = 3 * power_of_two(unit + 51), to_unit = power_of_two(-unit);
+        std::uint64_t lost = 0;
+        for (std::size_t i = 0; i < N; ++i) {
+            const double x = coordinates[i], multiple = (x + shift) - shift;
+            lost |= std::bit_cast<std::uint64_t>(x - multiple);
+            value[i] = x * to_unit;
+        }
+        fit = lost == 0;
+    }
+};
+
+/// Coordinates that fit one word: x = value·2^unit.
+template <std::size_t N>
+struct word_coordinates {
+    /// Coordinates are less than 2^most_bits units: with 61 their differences' products, and the
+    /// sums of these that predicates need, come out at the end of a word or just before.
+    static constexpr int most_bits = 61;
+
+    std::array<std::int64_t, N> value;
+    int unit;
+    bool fit;
+
+    /// `largest` is largest_size(coordinates), finite. The largest coordinate is less than
+    /// 2^(field − 1022); a unit of 2^-61 of that is tried, by way of products that are exact where
+    /// the answer is yes: i·2^unit = x. (They can also be rounded where the result is subnormal,
+    /// but i·2^unit, a multiple of 2^-1074, is not.)
+    /// Proof: proofs/Widths.v, word_coordinates_exact.
+    constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
+        const auto field = static_cast<int>(largest >> 52);
+        unit = field - 1022 - most_bits;
+        fit = field > 61;  // both powers of two are normal numbers
+        if (!fit) return;
+        const double from_unit = power_of_two(unit), to_unit = power_of_two(-unit);
+        std::uint64_t any = 0, differing = 0;
+        for (std::size_t i = 0; i < N; ++i) {
+            value[i] = static_cast<std::int64_t>(coordinates[i] * to_unit);
+            const double back = static_cast<double>(value[i]) * from_unit;
+            differing |=
+                std::bit_cast<std::uint64_t>(back) ^ std::bit_cast<std::uint64_t>(coordinates[i]);
+            any |= static_cast<std::uint64_t>(value[i]);
+        }
+        fit = differing << 1 == 0;  // zeros may differ in sign
+        least_bits_ = any == 0 ? 0 : most_bits - std::countr_zero(any);
+    }
+
+    /// Of values in the largest common unit.
+    constexpr int least_bits() const { return least_bits_; }
+
+  private:
+    int least_bits_ = most_bits;
+};
+
+/// The common unit of any finite coordinates, and how many bits they take in it.
+struct common_unit {
+    int unit = 0;
+    int bits = 0;
+
+    template <std::size_t N>
+    constexpr explicit common_unit(const std::array<double, N>& coordinates) {
+        int last = std::numeric_limits<int>::max(), end = std::numeric_limits<int>::min();
+        for (const double x : coordinates) {
+            const binary_double d(x);
+            if (d.magnitude == 0) continue;
+            last = std::min(last, d.last_bit());
+            end = std::max(end, d.end_bit());
+        }
+        if (last > end) return;  // all are zero
+        unit = last;
+        bits = end - last;
+    }
+
+    /// A coordinate as a number of the level, which has the bits.
+    /// Proof: proofs/Widths.v, converted_exact.
+    template <class Level>
+    constexpr sized_integer<Level, Level::coordinate_bits, 1> converted(double x) const {
+        using storage = typename sized_integer<Level, Level::coordinate_bits, 1>::storage;
+        const binary_double d(x);
+        if (d.magnitude == 0) return {storage(0), unit};
+        const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
+        const auto magnitude = d.magnitude >> std::clamp(-shift, 0, 63);
+        if constexpr (Level::kind == integer_kind::any_length) {
+            return {storage(magnitude, std::max(shift, 0), d.negative), unit};
+        } else {
+            const auto size =
+                static_cast<storage>(static_cast<storage>(magnitude) << std::max(shift, 0));
+            return {d.negative ? -size : size, unit};
+        }
+    }
+};
+
+/// All finite doubles are multiples of 2^-1074 and less than 2^1024.
+inline constexpr int full_range_bits = 1024 + 1074;
+
+}  // namespace errbound

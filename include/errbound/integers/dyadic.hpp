@@ -1,0 +1,132 @@
+// Dyadic numbers n·2^e with an exact integer n: every finite double is one, and so is every point
+// that halving an interval between two of them reaches.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <errbound/sign.hpp>
+#include <utility>
+
+namespace errbound {
+
+/// x = mantissa·2^exponent with an odd mantissa, for x finite and not zero.
+struct decomposed {
+    std::int64_t mantissa;
+    int exponent;
+
+    explicit decomposed(double x) {
+        int e = 0;
+        const auto m = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &e), 53));
+        const int zeros = std::countr_zero(static_cast<std::uint64_t>(m));
+        mantissa = m >> zeros;
+        exponent = e - 53 + zeros;
+    }
+};
+
+/// ⌊log2 |x|⌋ for x not zero. Integer: what errbound/roots/integer_polynomial.hpp asks for.
+template <exact_number Integer>
+int floor_log2(const Integer& x) {
+    const Integer size = abs(x);
+    return static_cast<int>(msb(size));
+}
+
+/// The double nearest to n·2^e but for one ulp; infinite where none is near.
+template <exact_number Integer>
+double nearby_double(const Integer& n, int e) {
+    if (n == 0) return 0;
+    // What is cut off is less than an ulp; negative numbers are cut towards zero, too.
+    const int excess = floor_log2(n) - 62;
+    Integer head = abs(n);
+    if (excess > 0) head >>= static_cast<unsigned>(excess);
+    const double x = std::ldexp(static_cast<double>(static_cast<std::int64_t>(head)),
+                                excess > 0 ? e + excess : e);
+    return n < 0 ? -x : x;
+}
+
+/// An exact number numerator·2^exponent; the numerator is odd, or both are zero.
+/// Proof: proofs/Dyadic.v, dyadic_sum, dyadic_difference, dyadic_product, dyadic_scale.
+template <exact_number Integer>
+class dyadic {
+  public:
+    dyadic() : numerator_(0) {}
+    dyadic(Integer numerator, int exponent)
+        : numerator_(std::move(numerator)), exponent_(exponent) {
+        if (numerator_ == 0) {
+            exponent_ = 0;
+        } else if (const auto zeros = lsb(Integer(abs(numerator_))); zeros > 0) {
+            numerator_ >>= zeros;
+            exponent_ += static_cast<int>(zeros);
+        }
+    }
+    /// x, which is finite.
+    static dyadic from(double x) {
+        if (x == 0) return {};
+        const decomposed d(x);
+        dyadic exact;
+        exact.numerator_ = Integer(d.mantissa);
+        exact.exponent_ = d.exponent;
+        return exact;
+    }
+    static dyadic power_of_two(int exponent) { return {Integer(1), exponent}; }
+
+    const Integer& numerator() const { return numerator_; }
+    int exponent() const { return exponent_; }
+    bool is_zero() const { return numerator_ == 0; }
+    /// Within an ulp; infinite beyond double's range.
+    double to_double() const { return nearby_double(numerator_, exponent_); }
+
+    friend dyadic operator+(const dyadic& a, const dyadic& b) {
+        const int e = a.exponent_ < b.exponent_ ? a.exponent_ : b.exponent_;
+        return {Integer(a.in_units(e) + b.in_units(e)), e};
+    }
+    friend dyadic operator-(const dyadic& a, const dyadic& b) { return a + -b; }
+    friend dyadic operator*(const dyadic& a, const dyadic& b) {
+        return {Integer(a.numerator_ * b.numerator_), a.exponent_ + b.exponent_};
+    }
+    dyadic operator-() const { return {Integer(-numerator_), exponent_}; }
+    /// x·2^e
+    friend dyadic scale(const dyadic& x, int e) { return {x.numerator_, x.exponent_ + e}; }
+
+    /// Proof: proofs/Dyadic.v, dyadic_equal, dyadic_order.
+    friend bool operator==(const dyadic& a, const dyadic& b) {
+        return a.exponent_ == b.exponent_ && a.numerator_ == b.numerator_;
+    }
+    friend std::strong_ordering operator<=>(const dyadic& a, const dyadic& b) {
+        const sign_type s = sign_of(a - b);
+        return s == sign_type::zero       ? std::strong_ordering::equal
+               : s == sign_type::negative ? std::strong_ordering::less
+                                          : std::strong_ordering::greater;
+    }
+    friend sign_type sign_of(const dyadic& x) { return sign_of(x.numerator_); }
+    friend dyadic magnitude(const dyadic& x) { return x.numerator_ < 0 ? -x : x; }
+    /// ⌊log2 |x|⌋ for x not zero. Proof: proofs/Dyadic.v, dyadic_floor_log2.
+    friend int floor_log2(const dyadic& x) { return floor_log2(x.numerator_) + x.exponent_; }
+
+    /// x/2^unit, for unit <= exponent(). Proof: proofs/Dyadic.v, dyadic_in_units.
+    Integer in_units(int unit) const {
+        return Integer(numerator_ << static_cast<unsigned>(is_zero() ? 0 : exponent_ - unit));
+    }
+
+  private:
+    Integer numerator_;
+    int exponent_ = 0;
+};
+
+/// a/b to about this many bits, for a and b not zero.
+template <exact_number Integer>
+dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int bits) {
+    const int shift = bits + floor_log2(b.numerator()) - floor_log2(a.numerator());
+    const Integer n = shift > 0 ? Integer(a.numerator() << static_cast<unsigned>(shift))
+                                : Integer(a.numerator() >> static_cast<unsigned>(-shift));
+    return {Integer(n / b.numerator()), a.exponent() - b.exponent() - shift};
+}
+
+/// (a + b)/2
+template <exact_number Integer>
+dyadic<Integer> middle(const dyadic<Integer>& a, const dyadic<Integer>& b) {
+    return scale(a + b, -1);
+}
+
+}  // namespace errbound

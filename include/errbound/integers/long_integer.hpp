@@ -1,0 +1,202 @@
+// Exact integers as long as they need to be, up to a capacity that their type says: no allocation.
+//
+// Numbers made of doubles far apart in size have long runs of zero words, or, where a small one was
+// subtracted, of words all ones. Products leave these out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <errbound/integers/fixed_integer.hpp>
+#include <errbound/sign.hpp>
+#include <type_traits>
+
+namespace errbound {
+
+namespace words {
+
+/// What a two's complement number of n words is as a sum of signed words times powers of 2^64:
+/// those that are not zero, by visit(index, magnitude, negative), in ascending order.
+///
+/// A word before one that is all ones, and the last of a negative number, is taken for negative and
+/// so passes on a carry, which turns ones to zeros: w = 2^64 − (2^64 − w). The words visited up to
+/// some index add up to less than zero just if the last of them is negative.
+/// Proof that all add up to the number: proofs/Words.v, signed_words_exact.
+template <class Visit>
+constexpr void for_signed_words(const word* x, int n, const Visit& visit) {
+    word carry = 0;
+    for (int i = 0; i < n; ++i) {
+        const word w = x[i] + carry;
+        if (w == 0) continue;  // the carry, if there is one, goes on
+        carry = i + 1 < n ? x[i + 1] == ~word(0) : x[i] >> 63;
+        visit(i, carry != 0 ? 0 - w : w, carry != 0);
+    }
+}
+
+/// How many words are neither 0 nor all ones.
+constexpr int count_filled(const word* x, int n) {
+    int count = 0;
+    for (int i = 0; i < n; ++i) count += x[i] + 1 > 1;
+    return count;
+}
+
+/// r = a·b, for two's complement numbers of m and n words, b not zero, and an r of m + n. By the
+/// signed words of a.
+/// Proof: proofs/SparseProduct.v, sparse_product_exact.
+[[gnu::noinline]] constexpr void multiply_sparse(word* r, const word* a, int m, const word* b,
+                                                 int n) {
+    int low = 0;
+    while (b[low] == 0) ++low;
+    // r holds the sum so far, modulo a power of 2^64, in its words before `end`; those after would
+    // all be `beyond`.
+    int end = low;
+    word beyond = 0;
+    for (int i = 0; i < low; ++i) r[i] = 0;
+    for_signed_words(a, m, [&](int i, word factor, bool negative) {
+        for (; end <= i + n; ++end) r[end] = beyond;
+        word* const sum = r + i;
+        if (negative) {
+            word carry = 0;
+            for (int j = low; j < n; ++j) {
+                const auto product = double_word(factor) * b[j] + carry;
+                const word difference = sum[j] - static_cast<word>(product);
+                carry = static_cast<word>(product >> 64) + (difference > sum[j]);
+                sum[j] = difference;
+            }
+            sum[n] -= carry;
+        } else {
+            sum[n] += add_multiple(sum + low, factor, b + low, n - low);
+        }
+        beyond = negative ? ~word(0) : 0;
+    });
+    for (; end < m + n; ++end) r[end] = beyond;
+    // b's words were taken for those of a positive number, 2^(64n) too much if it is not.
+    if (b[n - 1] >> 63 != 0) {
+        unsigned char borrow = 0;
+        for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i], borrow);
+    }
+}
+
+/// r = a·b, for two's complement numbers of m and n words, trimmed, and an r of m + n.
+/// Proof: proofs/SparseProduct.v, any_product_exact.
+constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
+    // Choosing words costs more than it saves unless most are left out.
+    constexpr int worth = 4;
+    const auto is_sparse = [](const word* x, int size) {
+        return worth * count_filled(x, size) < size;
+    };
+    if (is_sparse(a, m) && (n > 1 || b[0] != 0))
+        multiply_sparse(r, a, m, b, n);
+    else if (is_sparse(b, n) && (m > 1 || a[0] != 0))
+        multiply_sparse(r, b, n, a, m);
+    else
+        multiply_long(r, a, m, b, n);
+}
+
+}  // namespace words
+
+/// A two's complement number of at most Words words, as long as it needs to be. Sums and products
+/// must fit.
+template <int Words>
+class long_integer {
+    using word = words::word;
+
+  public:
+    constexpr long_integer(std::int64_t value) : size_(1) { at(0) = static_cast<word>(value); }
+    /// ±magnitude·2^shift.
+    /// Proof: proofs/WordBits.v, long_shifted_exact.
+    constexpr long_integer(word magnitude, int shift, bool negative) {
+        const int whole = shift / 64, bits = shift % 64;
+        const word low = magnitude << bits, high = bits == 0 ? 0 : magnitude >> (64 - bits);
+        size_ = whole + 3 < Words ? whole + 3 : Words;
+        for (int i = 0; i < whole; ++i) at(i) = 0;
+        unsigned char carry = negative;
+        for (int i = whole; i < size_; ++i) {
+            const word w = i == whole ? low : i == whole + 1 ? high : 0;
+            at(i) = words::add_with_carry(negative ? ~w : w, 0, carry);
+        }
+        trim();
+    }
+    constexpr long_integer(const long_integer& x) : size_(x.size()) { copy(x); }
+    /// One of another capacity, which it fits.
+    template <int Other>
+    constexpr long_integer(const long_integer<Other>& x) : size_(x.size()) {
+        copy(x);
+    }
+    long_integer& operator=(const long_integer&) = delete;
+
+    constexpr int size() const { return size_; }
+    constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
+    constexpr bool negative() const { return (*this)[size_ - 1] >> 63 != 0; }
+
+    /// Proof: proofs/Words.v, long_sum_exact.
+    template <int A, int B>
+    static constexpr long_integer sum(const long_integer<A>& a, const long_integer<B>& b) {
+        return {a, b, words::add_with_carry};
+    }
+    /// Proof: proofs/Words.v, long_difference_exact.
+    template <int A, int B>
+    static constexpr long_integer difference(const long_integer<A>& a, const long_integer<B>& b) {
+        return {a, b, words::subtract_with_borrow};
+    }
+    template <int A, int B>
+    static constexpr long_integer product(const long_integer<A>& a, const long_integer<B>& b) {
+        return {a, b};
+    }
+    friend constexpr long_integer operator-(const long_integer& a, const long_integer& b) {
+        return difference(a, b);
+    }
+    friend constexpr sign_type sign_of(const long_integer& x) {
+        if (x.negative()) return sign_type::negative;
+        return x.size_ == 1 && x[0] == 0 ? sign_type::zero : sign_type::positive;
+    }
+
+  private:
+    template <int>
+    friend class long_integer;
+
+    template <int A, int B>
+    constexpr long_integer(const long_integer<A>& a, const long_integer<B>& b,
+                           word (*step)(word, word, unsigned char&)) {
+        const int shorter = a.size() < b.size() ? a.size() : b.size();
+        const int longer = a.size() < b.size() ? b.size() : a.size();
+        size_ = longer < Words ? longer + 1 : Words;
+        unsigned char carry = 0;
+        for (int i = 0; i < shorter; ++i) at(i) = step(a[i], b[i], carry);
+        for (int i = shorter; i < size_; ++i) at(i) = step(a.or_sign(i), b.or_sign(i), carry);
+        trim();
+    }
+    template <int A, int B>
+    constexpr long_integer(const long_integer<A>& a, const long_integer<B>& b) {
+        const int whole = a.size() + b.size();
+        if (whole <= Words) {
+            words::multiply_any(words_.data(), a.words_.data(), a.size(), b.words_.data(),
+                                b.size());
+            size_ = whole;
+        } else {  // before it is trimmed
+            std::array<word, A + B> r;
+            words::multiply_any(r.data(), a.words_.data(), a.size(), b.words_.data(), b.size());
+            size_ = Words;
+            for (int i = 0; i < size_; ++i) at(i) = r[static_cast<std::size_t>(i)];
+        }
+        trim();
+    }
+
+    template <int Other>
+    constexpr void copy(const long_integer<Other>& x) {
+        for (int i = 0; i < size_; ++i) at(i) = x[i];
+    }
+    constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
+    constexpr word or_sign(int i) const {
+        return i < size_ ? (*this)[i] : words::sign_word((*this)[size_ - 1]);
+    }
+    /// Leaves out words that say nothing.
+    /// Proof: proofs/Words.v, trim_exact.
+    constexpr void trim() {
+        while (size_ > 1 && (*this)[size_ - 1] == words::sign_word((*this)[size_ - 2])) --size_;
+    }
+
+    int size_;
+    std::array<word, Words> words_;  ///< beyond the size never read
+};
+
+}  // namespace errbound

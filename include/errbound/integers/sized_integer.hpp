@@ -1,0 +1,218 @@
+// Exact integers whose types know how many bits they can have, and so grow through an expression:
+// no overflow, no allocation, and no word more than it takes.
+//
+// A number stands for value·2^(unit·degree), where all coordinates are whole multiples of 2^unit
+// and degree is the number's degree in them. Numbers of different degree are brought to the higher
+// one by factors of 1 = 2^−unit units; that asks for unit <= 0, and for 1 to have no more bits than
+// coordinates may have.
+//
+// `level` says how many bits coordinates have, and thereby everything else. From `long_from` bits
+// on lengths are found at run time: types then only bound them.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/integers/fixed_integer.hpp>
+#include <errbound/integers/long_integer.hpp>
+#include <errbound/sign.hpp>
+#include <type_traits>
+
+namespace errbound {
+
+/// What numbers are made of: doubles that hold whole numbers, words, or as many words as it takes.
+enum class integer_kind : std::uint8_t { floating, words, any_length };
+
+/// Coordinates lie strictly between −2^CoordinateBits and 2^CoordinateBits. Mixed: terms of
+/// different degree may be added.
+template <integer_kind Kind, int CoordinateBits, bool Mixed>
+struct integer_level {
+    static constexpr integer_kind kind = Kind;
+    static constexpr int coordinate_bits = CoordinateBits;
+    static constexpr bool mixed = Mixed;
+};
+
+namespace detail {
+
+template <integer_kind Kind, int Bits>
+constexpr auto integer_of() {
+    constexpr int word_count = Bits / 64 + 1;
+    if constexpr (Kind == integer_kind::floating) {
+        static_assert(Bits <= 53, "errbound: the number of bits is not what was counted");
+        return double();
+    } else if constexpr (Kind == integer_kind::any_length) {
+        return long_integer<word_count>(0);
+    } else if constexpr (word_count == 1) {
+        return std::int64_t();
+    } else if constexpr (word_count == 2) {
+        return words::signed_double_word();
+    } else {
+        return fixed_integer<word_count>();
+    }
+}
+
+constexpr fixed_integer<1> as_fixed(std::int64_t x) {
+    return x;
+}
+constexpr fixed_integer<2> as_fixed(words::signed_double_word x) {
+    return fixed_integer<2>::from_words(
+        {static_cast<words::word>(x), static_cast<words::word>(x >> 64)});
+}
+template <int Words>
+constexpr const fixed_integer<Words>& as_fixed(const fixed_integer<Words>& x) {
+    return x;
+}
+/// x, which fits, in no more words than it has.
+template <int Words, int Wider>
+constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
+    std::array<words::word, Words> low;
+    for (int i = 0; i < Words; ++i) low[static_cast<std::size_t>(i)] = x[i];
+    return fixed_integer<Words>::from_words(low);
+}
+
+}  // namespace detail
+
+/// |x| < 2^Bits units of its degree.
+/// Proof: proofs/Widths.v, sized_exact.
+/// Proof: proofs/Widths.v, sized_fits.
+template <class Level, int Bits, int Degree>
+struct sized_integer {
+    static constexpr int bits = Bits, degree = Degree;
+    using level = Level;
+    using storage = decltype(detail::integer_of<Level::kind, Bits>());
+    static constexpr bool is_native =
+        Level::kind == integer_kind::floating ||
+        (Level::kind == integer_kind::words && sizeof(storage) <= sizeof(words::double_word));
+
+    storage value;
+    int unit;  ///< the coordinates': 2^unit
+
+    constexpr sized_integer operator-() const {
+        if constexpr (is_native)
+            return {-value, unit};
+        else
+            return {storage(0) - value, unit};
+    }
+    friend constexpr sign_type sign_of(const sized_integer& x) {
+        if constexpr (is_native) {
+            if (x.value == 0) return sign_type::zero;
+            return x.value < 0 ? sign_type::negative : sign_type::positive;
+        } else {
+            return sign_of(x.value);
+        }
+    }
+};
+
+template <class>
+inline constexpr bool is_sized_integer = false;
+template <class Level, int Bits, int Degree>
+inline constexpr bool is_sized_integer<sized_integer<Level, Bits, Degree>> = true;
+template <class X>
+concept sized_operand = is_sized_integer<X>;
+
+/// A whole number in an expression.
+template <class Level>
+constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
+    using storage = typename sized_integer<Level, 32, 0>::storage;
+    return {static_cast<storage>(c), unit};
+}
+
+// Operators are inlined whatever the compiler thinks of it: most are one instruction or a few, and
+// the others call what is longer themselves.
+
+template <sized_operand X, sized_operand Y>
+[[gnu::always_inline]] constexpr auto operator*(const X& x, const Y& y) {
+    using result = sized_integer<typename X::level, X::bits + Y::bits, X::degree + Y::degree>;
+    using storage = typename result::storage;
+    if constexpr (X::level::kind == integer_kind::any_length) {
+        return result{storage::product(x.value, y.value), x.unit};
+    } else if constexpr (result::is_native) {
+        return result{static_cast<storage>(x.value) * static_cast<storage>(y.value), x.unit};
+    } else {
+        return result{detail::narrowed<storage::width / 64>(detail::as_fixed(x.value) *
+                                                            detail::as_fixed(y.value)),
+                      x.unit};
+    }
+}
+
+namespace detail {
+
+/// x brought to a higher degree: times a power of 1 = 2^−unit units.
+template <int Degree, class X>
+[[gnu::always_inline]] constexpr auto raised(const X& x) {
+    using level = typename X::level;
+    if constexpr (X::degree >= Degree) {
+        return x;
+    } else {
+        static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
+        using one_type = sized_integer<level, level::coordinate_bits, 1>;
+        using storage = typename one_type::storage;
+        if constexpr (level::kind == integer_kind::any_length)
+            return raised<Degree>(x * one_type{storage(1, -x.unit, false), x.unit});
+        else
+            return raised<Degree>(
+                x *
+                one_type{static_cast<storage>(words::signed_double_word(1) << -x.unit), x.unit});
+    }
+}
+
+template <bool Subtract, class X, class Y>
+[[gnu::always_inline]] constexpr auto sum_of_raised(const X& x, const Y& y) {
+    using result =
+        sized_integer<typename X::level, (X::bits > Y::bits ? X::bits : Y::bits) + 1, X::degree>;
+    using storage = typename result::storage;
+    if constexpr (X::level::kind == integer_kind::any_length) {
+        return result{
+            Subtract ? storage::difference(x.value, y.value) : storage::sum(x.value, y.value),
+            x.unit};
+    } else if constexpr (result::is_native) {
+        const auto a = static_cast<storage>(x.value), b = static_cast<storage>(y.value);
+        return result{Subtract ? a - b : a + b, x.unit};
+    } else {
+        const storage a = as_fixed(x.value), b = as_fixed(y.value);
+        return result{Subtract ? a - b : a + b, x.unit};
+    }
+}
+template <bool Subtract, class X, class Y>
+[[gnu::always_inline]] constexpr auto sum_of(const X& x, const Y& y) {
+    return sum_of_raised<Subtract>(raised<Y::degree>(x), raised<X::degree>(y));
+}
+
+}  // namespace detail
+
+template <sized_operand X, sized_operand Y>
+[[gnu::always_inline]] constexpr auto operator+(const X& x, const Y& y) {
+    return detail::sum_of<false>(x, y);
+}
+template <sized_operand X, sized_operand Y>
+[[gnu::always_inline]] constexpr auto operator-(const X& x, const Y& y) {
+    return detail::sum_of<true>(x, y);
+}
+template <sized_operand X>
+[[gnu::always_inline]] constexpr auto operator+(const X& x, std::same_as<int> auto c) {
+    return x + sized_constant<typename X::level>(c, x.unit);
+}
+template <sized_operand X>
+[[gnu::always_inline]] constexpr auto operator+(std::same_as<int> auto c, const X& x) {
+    return x + c;
+}
+template <sized_operand X>
+[[gnu::always_inline]] constexpr auto operator-(const X& x, std::same_as<int> auto c) {
+    return x - sized_constant<typename X::level>(c, x.unit);
+}
+template <sized_operand X>
+[[gnu::always_inline]] constexpr auto operator-(std::same_as<int> auto c, const X& x) {
+    return sized_constant<typename X::level>(c, x.unit) - x;
+}
+template <sized_operand X>
+[[gnu::always_inline]] constexpr auto operator*(const X& x, std::same_as<int> auto c) {
+    return x * sized_constant<typename X::level>(c, x.unit);
+}
+template <sized_operand X>
+[[gnu::always_inline]] constexpr auto operator*(std::same_as<int> auto c, const X& x) {
+    return x * c;
+}
+
+}  // namespace errbound

@@ -1,0 +1,99 @@
+// Bernstein coefficients cut to a fixed number of words: what errbound/roots/root_isolation.hpp halves
+// instead of integers that grow by the degree with every halving.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/integers/fixed_integer.hpp>
+#include <errbound/roots/integer_polynomial.hpp>
+#include <errbound/roots/sign_variations.hpp>
+#include <utility>
+#include <vector>
+
+namespace errbound {
+
+/// Multiples of one unit, each within `error` units of the coefficient it stands for.
+template <int Words>
+class fixed_row {
+  public:
+    /// Of not all zero coefficients.
+    /// Proof: proofs/ControlValues.v, row_cut_right; proofs/FixedRow.v, row_fits.
+    template <exact_number Integer>
+    explicit fixed_row(const integer_form<Integer>& b) {
+        int bits = 0;
+        for (const Integer& c : b)
+            if (c != 0) bits = std::max(bits, floor_log2(c) + 1);
+        // Room for the sign and for a sum of two.
+        const int excess = bits - (fixed_integer<Words>::width - 3);
+        const Integer word = Integer(1) << 64U;
+        b_.reserve(b.size());
+        for (const Integer& c : b) {
+            Integer rest = abs(c);
+            if (excess > 0)
+                rest >>= static_cast<unsigned>(excess);
+            else
+                rest <<= static_cast<unsigned>(-excess);
+            std::array<words::word, Words> all{};
+            for (auto& w : all) {
+                w = static_cast<words::word>(Integer(rest % word));
+                rest >>= 64U;
+                if (rest == 0) break;
+            }
+            const auto cut = fixed_integer<Words>::from_words(all);
+            b_.push_back(c < 0 ? -cut : cut);
+        }
+        error_ = excess > 0 ? 1 : 0;
+    }
+
+    /// 1 or −1 for a certain sign, otherwise 0.
+    /// Proof: proofs/ControlValues.v, row_signs_right.
+    int sign(std::size_t i) const {
+        if (b_[i].negative()) return -b_[i] > fixed_integer<Words>(error_) ? -1 : 0;
+        return b_[i] > fixed_integer<Words>(error_) ? 1 : 0;
+    }
+    bool ends_are_certain() const { return sign(0) != 0 && sign(b_.size() - 1) != 0; }
+    /// As most_sign_variations counts.
+    int most_variations() const {
+        return most_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
+    }
+
+    /// In the row's unit.
+    std::vector<double> nearby_values() const {
+        std::vector<double> values;
+        values.reserve(b_.size());
+        for (const auto& x : b_) {
+            const auto size = x.negative() ? -x : x;
+            double sum = 0;
+            for (int i = Words; i-- > 0;) sum = sum * 0x1p64 + static_cast<double>(size[i]);
+            values.push_back(x.negative() ? -sum : sum);
+        }
+        return values;
+    }
+
+    /// Of the two halves, by de Casteljau. A midpoint inherits at most the error of its ends, and
+    /// rounding takes half a unit in each of the degree's steps.
+    /// Proof: proofs/ControlValues.v, row_halves_right; proofs/FixedRow.v, row_stays.
+    std::pair<fixed_row, fixed_row> halves() && {
+        const std::size_t n = b_.size() - 1;
+        fixed_row left;
+        left.b_.resize(n + 1);
+        for (std::size_t i = 0; i <= n; ++i) {
+            left.b_[i] = b_[0];
+            for (std::size_t j = 0; j < n - i; ++j)
+                b_[j] = (b_[j] + b_[j + 1]).template from_bit<Words>(1);
+        }
+        error_ += static_cast<std::int64_t>(n + 1) / 2;
+        left.error_ = error_;
+        return {std::move(left), std::move(*this)};
+    }
+
+  private:
+    fixed_row() = default;
+
+    std::vector<fixed_integer<Words>> b_;
+    std::int64_t error_ = 0;
+};
+
+}  // namespace errbound

@@ -1,0 +1,227 @@
+// Polynomials with integer coefficients, of run-time degree: values, division, common factors.
+//
+// Coefficients ascend in the power basis; the last one is not zero; empty is identically zero.
+// Integer is an exact type with + − × / % << >>, comparison, abs(), gcd(), msb() and lsb() found by
+// argument-dependent lookup (Boost.Multiprecision's integers).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/integers/dyadic.hpp>
+#include <errbound/roots/prime_field.hpp>
+#include <errbound/sign.hpp>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace errbound {
+
+template <exact_number Integer>
+using integer_form = std::vector<Integer>;
+
+template <class Integer>
+void trim(integer_form<Integer>& p) {
+    while (!p.empty() && p.back() == 0) p.pop_back();
+}
+
+/// p divided by the (positive) greatest common divisor of its coefficients.
+template <class Integer>
+void make_primitive(integer_form<Integer>& p) {
+    Integer content = 0;
+    for (const Integer& c : p) {
+        content = gcd(content, c);
+        if (content == 1) return;
+    }
+    if (content > 1)
+        for (Integer& c : p) c /= content;
+}
+
+template <class Integer>
+integer_form<Integer> derivative(const integer_form<Integer>& p) {
+    integer_form<Integer> d;
+    for (std::size_t i = 1; i < p.size(); ++i) d.push_back(Integer(p[i] * Integer(i)));
+    return d;
+}
+
+/// p(−x)
+template <class Integer>
+integer_form<Integer> mirrored(integer_form<Integer> p) {
+    for (std::size_t i = 1; i < p.size(); i += 2) p[i] = -p[i];
+    return p;
+}
+
+/// a = quotient·b; empty if b, which is not zero, does not divide a over the integers.
+/// Proof: proofs/CommonFactor.v, divided_right.
+template <class Integer>
+integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Integer>& b) {
+    integer_form<Integer> quotient(a.size() < b.size() ? 0 : a.size() - b.size() + 1);
+    Integer term;  // kept, so that it allocates once
+    for (std::size_t k = quotient.size(); k-- > 0;) {
+        Integer& factor = quotient[k];
+        factor = a[k + b.size() - 1];
+        if (factor == 0) continue;
+        factor /= b.back();
+        for (std::size_t i = b.size(); i-- > 0;) {
+            term = factor;
+            term *= b[i];
+            a[i + k] -= term;
+            if (i + 1 == b.size() && a[i + k] != 0) return {};
+        }
+    }
+    for (const Integer& c : a)
+        if (c != 0) return {};
+    return quotient;
+}
+
+/// The value at a point.
+template <class Integer>
+dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
+    if (p.empty()) return {};
+    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p itself where e >= 0.
+    const int e = std::min(x.exponent(), 0);
+    const Integer m = x.in_units(e);
+    Integer sum = p.back();
+    Integer term;  // kept, so that it allocates once
+    unsigned shift = 0;
+    for (std::size_t i = p.size() - 1; i-- > 0;) {
+        shift += static_cast<unsigned>(-e);
+        sum *= m;
+        term = p[i];
+        term <<= shift;
+        sum += term;
+    }
+    return {std::move(sum), -static_cast<int>(shift)};
+}
+
+template <class Integer>
+sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
+    if (x.is_zero()) return p.empty() ? sign_type::zero : sign_of(p[0]);
+    return sign_of(value_at(p, x));
+}
+
+namespace detail {
+
+/// x modulo the field's prime.
+template <class Integer>
+std::uint64_t residue(const Integer& x, const prime_field& field) {
+    const auto p = static_cast<std::int64_t>(field.modulus());
+    std::int64_t rest = 0;
+    if (x < p && -p < x)
+        rest = static_cast<std::int64_t>(x);
+    else
+        rest = static_cast<std::int64_t>(Integer(x % Integer(p)));
+    return static_cast<std::uint64_t>(rest < 0 ? rest + p : rest);
+}
+
+/// The coefficients' residues, each divided by R: those of a multiple of p, in Montgomery's form.
+template <class Integer>
+std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_field& field) {
+    std::vector<std::uint64_t> r;
+    r.reserve(p.size());
+    for (const Integer& c : p) r.push_back(residue(c, field));
+    return r;
+}
+
+/// A polynomial known modulo a product of primes (Chinese remainders), by its coefficients of
+/// least size.
+template <class Integer>
+struct remainders {
+    integer_form<Integer> p;
+    Integer modulus = 1;
+
+    /// Adds residues modulo another prime.
+    void add(const std::vector<std::uint64_t>& r, const prime_field& field) {
+        const auto inverse = field.inverse(field.to_form(residue(modulus, field)));
+        const Integer next = modulus * Integer(field.modulus()), half = next / 2;
+        p.resize(r.size());
+        for (std::size_t i = 0; i < r.size(); ++i) {
+            const auto missing =
+                field.multiply(field.subtract(r[i], residue(p[i], field)), inverse);
+            if (missing == 0) continue;
+            p[i] += modulus * Integer(missing);
+            if (p[i] > half) p[i] -= next;
+        }
+        modulus = next;
+    }
+    /// Whether the modulus is likely to be large enough: all coefficients are far below it.
+    bool settled() const {
+        const Integer bound = modulus >> 12U;
+        return std::all_of(p.begin(), p.end(),
+                           [&](const Integer& c) { return c < bound && -bound < c; });
+    }
+};
+
+/// Whether p, primitive, is found to have no multiple roots.
+template <class Integer>
+bool surely_squarefree(const integer_form<Integer>& p) {
+    const prime_field field(large_prime(0));
+    auto image = residues(p, field);
+    if (image.back() == 0) return false;
+    auto slope = derivative(field, image);
+    return slope.size() + 1 == p.size() &&
+           common_factor(field, std::move(image), std::move(slope)).size() == 1;
+}
+
+}  // namespace detail
+
+/// The greatest common divisor, primitive; empty only if both are identically zero.
+///
+/// By images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
+/// greatest common divisors, JACM 18, 1971): their degree is at least that of the divisor sought,
+/// so coprime polynomials are found out by the first prime; a divisor put together from several is
+/// checked by division. Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
+template <exact_number Integer>
+integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b) {
+    trim(a);
+    trim(b);
+    make_primitive(a);
+    make_primitive(b);
+    if (b.empty()) return a;
+    if (a.empty()) return b;
+    const Integer lead = gcd(a.back(), b.back());
+    detail::remainders<Integer> found;
+    for (std::size_t k = 0;; ++k) {
+        const prime_field field(large_prime(k));
+        auto a_image = detail::residues(a, field), b_image = detail::residues(b, field);
+        if (a_image.back() == 0 || b_image.back() == 0) continue;
+        auto image = common_factor(field, std::move(a_image), std::move(b_image));
+        if (image.size() == 1) return {Integer(1)};
+        if (!found.p.empty() && image.size() > found.p.size()) continue;
+        if (image.size() < found.p.size()) found = {};
+        // Its last coefficient becomes `lead`, a multiple of that of the divisor sought.
+        const std::uint64_t factor =
+            field.multiply(detail::residue(lead, field), field.inverse(image.back()));
+        for (auto& c : image) c = field.multiply(c, factor);
+        found.add(image, field);
+        if (!found.settled()) continue;
+        integer_form<Integer> divisor = found.p;
+        make_primitive(divisor);
+        if (!divided(a, divisor).empty() && !divided(b, divisor).empty()) return divisor;
+    }
+}
+
+/// Square-free polynomials f_1, f_2, ... of positive degree: a root of multiplicity m of p, which
+/// is not constant, is a root of f_1 to f_m and of no other. Each divides the one before it.
+///
+/// `most` limits their number. Cost where p has no multiple roots: that of Euclid's algorithm
+/// modulo one prime. Proof: proofs/CommonFactor.v, chain_multiplicities, cofactors_rootless; that
+/// the first has all roots of p: proofs/RootIsolation.v, squarefree_part_roots.
+template <exact_number Integer>
+std::vector<integer_form<Integer>> squarefree_chain(
+    integer_form<Integer> p, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    make_primitive(p);
+    std::vector<integer_form<Integer>> chain;
+    while (p.size() > 1 && chain.size() < most) {
+        if (detail::surely_squarefree(p)) {
+            chain.push_back(std::move(p));
+            break;
+        }
+        auto multiple = common_factor(p, derivative(p));
+        chain.push_back(multiple.size() > 1 ? divided(p, multiple) : std::move(p));
+        p = std::move(multiple);
+    }
+    return chain;
+}
+
+}  // namespace errbound

@@ -1,0 +1,149 @@
+// Arithmetic modulo a prime of 62 bits, and greatest common divisors of polynomials there: what
+// makes greatest common divisors over the integers cheap (errbound/roots/integer_polynomial.hpp).
+//
+// Montgomery's form: a residue a is kept as a·R modulo p, R = 2^64. (P. L. Montgomery, Modular
+// multiplication without trial division, Math. Comp. 44, 1985.)
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace errbound {
+
+class prime_field {
+  public:
+    using word = std::uint64_t;
+    __extension__ using double_word = unsigned __int128;
+
+    /// p < 2^62 odd, more than 2.
+    /// Proof: proofs/PrimeField.v, negative_inverse_right, constants_right.
+    explicit constexpr prime_field(word p) : p_(p) {
+        word inverse = p;  // right modulo 2^3; each step doubles the number of right bits
+        for (int i = 0; i < 5; ++i) inverse *= 2 - p * inverse;
+        negative_inverse_ = 0 - inverse;
+        one_ = (0 - p) % p;
+        square_ = static_cast<word>(double_word(one_) * one_ % p);
+    }
+
+    // Proof that zero is kept as zero, and nothing else is: proofs/PrimeField.v, nonzero_form; of
+    // sums, differences and what leads in and out of the form: field_add, field_subtract,
+    // field_forms.
+    constexpr word modulus() const { return p_; }
+    constexpr word one() const { return one_; }
+    constexpr word add(word a, word b) const { return a + b >= p_ ? a + b - p_ : a + b; }
+    constexpr word subtract(word a, word b) const { return a >= b ? a - b : a + p_ - b; }
+    /// a·b/R. Proof: proofs/PrimeField.v, field_multiply.
+    constexpr word multiply(word a, word b) const {
+        const double_word t = double_word(a) * b;
+        const word m = static_cast<word>(t) * negative_inverse_;
+        const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
+        return r >= p_ ? r - p_ : r;
+    }
+    /// (a·b − c·d)/R. Proof: proofs/PrimeField.v, field_multiply_and_subtract.
+    constexpr word multiply_and_subtract(word a, word b, word c, word d) const {
+        // Below 2p², so that the sum is below 2p² + pR and the quotient below 3p/2.
+        const double_word t = double_word(a) * b + double_word(c) * (p_ - d);
+        const word m = static_cast<word>(t) * negative_inverse_;
+        const word r = static_cast<word>((t + double_word(m) * p_) >> 64);
+        return r >= p_ ? r - p_ : r;
+    }
+    constexpr word to_form(word a) const { return multiply(a, square_); }
+    constexpr word from_form(word a) const { return multiply(a, 1); }
+    constexpr word power(word a, word n) const {
+        word result = one_;
+        for (; n > 0; n >>= 1) {
+            if (n & 1) result = multiply(result, a);
+            a = multiply(a, a);
+        }
+        return result;
+    }
+    /// 1/a, for a not 0.
+    constexpr word inverse(word a) const { return power(a, p_ - 2); }
+
+  private:
+    word p_, negative_inverse_ = 0, one_ = 0, square_ = 0;
+};
+
+/// Miller–Rabin for odd n < 2^62, n > 37: with these bases it is a proof (J. Sorenson, J. Webster,
+/// Strong pseudoprimes to twelve prime bases, Math. Comp. 86, 2017).
+constexpr bool is_prime(std::uint64_t n) {
+    const prime_field field(n);
+    const std::uint64_t minus_one = field.subtract(0, field.one());
+    std::uint64_t odd = n - 1;
+    int twos = 0;
+    for (; odd % 2 == 0; odd /= 2) ++twos;
+    for (const unsigned base : {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37}) {
+        std::uint64_t x = field.power(field.to_form(base), odd);
+        bool passed = x == field.one() || x == minus_one;
+        for (int i = 1; i < twos && !passed; ++i) {
+            x = field.multiply(x, x);
+            passed = x == minus_one;
+        }
+        if (!passed) return false;
+    }
+    return true;
+}
+
+/// The largest primes below 2^62.
+inline constexpr std::array large_primes = [] {
+    std::array<std::uint64_t, 4> primes{57, 87, 117, 143};
+    for (auto& p : primes) p = (std::uint64_t(1) << 62) - p;
+    return primes;
+}();
+static_assert(std::all_of(large_primes.begin(), large_primes.end(), is_prime));
+
+constexpr std::uint64_t prime_before(std::uint64_t p) {
+    do p -= 2;
+    while (!is_prime(p));
+    return p;
+}
+/// The k-th of all that count down from there.
+constexpr std::uint64_t large_prime(std::size_t k) {
+    if (k < large_primes.size()) return large_primes[k];
+    std::uint64_t p = large_primes.back();
+    for (std::size_t i = large_primes.size(); i <= k; ++i) p = prime_before(p);
+    return p;
+}
+
+/// The derivative modulo p, in Montgomery's form as the polynomial is.
+inline std::vector<std::uint64_t> derivative(const prime_field& field,
+                                             const std::vector<std::uint64_t>& p) {
+    std::vector<std::uint64_t> d;
+    if (p.size() > 1) d.reserve(p.size() - 1);
+    std::uint64_t power = 0;
+    for (std::size_t i = 1; i < p.size(); ++i) {
+        power = field.add(power, field.one());
+        d.push_back(field.multiply(p[i], power));
+    }
+    while (!d.empty() && d.back() == 0) d.pop_back();
+    return d;
+}
+
+/// A multiple, not zero, of the greatest common divisor modulo p, of polynomials in the power basis
+/// whose last coefficients are not 0. In and out: residues in Montgomery's form.
+/// Proof: proofs/CommonFactor.v, images_in_ideal.
+inline std::vector<std::uint64_t> common_factor(const prime_field& field,
+                                                std::vector<std::uint64_t> a,
+                                                std::vector<std::uint64_t> b) {
+    if (a.size() < b.size()) std::swap(a, b);
+    while (!b.empty()) {
+        if (b.size() == 1) return b;
+        while (a.size() >= b.size()) {
+            const std::uint64_t lead = b.back(), factor = a.back();
+            const std::size_t shift = a.size() - b.size();
+            a.pop_back();
+            for (std::size_t i = 0; i < shift; ++i) a[i] = field.multiply(a[i], lead);
+            for (std::size_t i = 0; i + 1 < b.size(); ++i)
+                a[i + shift] = field.multiply_and_subtract(a[i + shift], lead, factor, b[i]);
+            while (!a.empty() && a.back() == 0) a.pop_back();
+        }
+        std::swap(a, b);
+    }
+    return a;
+}
+
+}  // namespace errbound

@@ -1,0 +1,330 @@
+// Real roots of one polynomial, always exactly: floating point first (errbound/roots/root_filter.hpp),
+// integers for what it leaves open (errbound/roots/root_isolation.hpp).
+//
+// errbound/polynomial.hpp has the calls that most users want.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <errbound/bernstein.hpp>
+#include <errbound/roots/integer_polynomial.hpp>
+#include <errbound/roots/polynomial_stages.hpp>
+#include <errbound/roots/root_filter.hpp>
+#include <errbound/roots/root_isolation.hpp>
+#include <errbound/rules/tight.hpp>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace errbound {
+
+/// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1 (leading and trailing zero
+/// coefficients); empty if p is identically zero. Its coefficients are those of the power basis in
+/// x = t/s, in which (0, 1) is (0, ∞). Proof: proofs/UnboundedIntegers.v,
+/// without_end_roots_value.
+template <exact_number Integer, int N>
+integer_form<Integer> without_end_roots(const bernstein<Integer, N>& p) {
+    std::size_t first = 0, last = N + 1;
+    while (first < last && p.h[first] == 0) ++first;
+    while (last > first && p.h[last - 1] == 0) --last;
+    return {p.h.begin() + static_cast<std::ptrdiff_t>(first),
+            p.h.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+/// Whether [a, b] is one: with numbers in it.
+inline bool is_interval(double a, double b) {
+    return a <= b && a < number_traits<double>::infinity() &&
+           b > -number_traits<double>::infinity();
+}
+
+/// The number of roots of the polynomial that is identically zero.
+inline constexpr std::size_t infinitely_many = std::numeric_limits<std::size_t>::max();
+
+/// Which signs a polynomial takes.
+struct occurring_signs {
+    bool negative = false, zero = false, positive = false;
+
+    constexpr void add(sign_type s) {
+        if (s == sign_type::negative) negative = true;
+        if (s == sign_type::zero) zero = true;
+        if (s == sign_type::positive) positive = true;
+    }
+    friend constexpr bool operator==(const occurring_signs&, const occurring_signs&) = default;
+};
+
+/// The distinct roots of a polynomial on a part of the line, in ascending order. What is found out
+/// of a root narrows its interval for what is asked next: not for use by two threads at once.
+template <exact_number Integer>
+class real_roots {
+  public:
+    using interval = isolating_interval<Integer>;
+    using point = dyadic<Integer>;
+    using number = typename staged_polynomial<Integer>::number;
+
+    /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
+    /// Proof: proofs/RootFinder.v, found_roots_right.
+    explicit real_roots(const integer_form<Integer>& p) : p_(p) {
+        const point zero;
+        exact().isolate(zero, exact().upper_bound(), intervals_);
+    }
+
+    /// The roots in [a, b], a <= b, which may be infinite.
+    real_roots(staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
+        assert(is_interval(a, b));
+        if (p_.is_zero()) {
+            everywhere_ = true;
+            return;
+        }
+        zeros_ = p_.divide_by_x();
+        if (a == b) {
+            if (a != 0 && possibly_zero(floating_sign_at(number(a))))
+                exact().isolate(point::from(a), point::from(a), intervals_);
+        } else {
+            add(root_filter<tight>(p_.floating(), a, b).parts());
+        }
+        if (a <= 0 && 0 <= b) add_zero();
+    }
+    /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
+    /// other than 0 and left some of these parts open.
+    static std::size_t count(staged_polynomial<Integer> p, double a, double b,
+                             const std::vector<filtered_part>& parts) {
+        real_roots roots;
+        roots.p_ = std::move(p);
+        const int zeros = roots.p_.divide_by_x();
+        roots.exact_.emplace(roots.p_.exact(), 1);
+        roots.add(parts);
+        return roots.size() + (zeros > 0 && a <= 0 && 0 <= b);
+    }
+
+    /// Whether the polynomial is identically zero: all points are roots, and none is listed.
+    bool everywhere() const { return everywhere_; }
+    std::size_t size() const { return intervals_.size(); }
+    const interval& operator[](std::size_t k) const {
+        assert(k < size());
+        return intervals_[k];
+    }
+    /// Whether no integers were needed to isolate the roots.
+    bool decided_by_filter() const { return decided_by_filter_; }
+
+    /// Narrows root k's interval to at most this width > 0.
+    void refine(std::size_t k, const point& width) {
+        assert(k < size() && sign_of(width) == sign_type::positive);
+        if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
+        if (width < intervals_[k].high - intervals_[k].low) exact().refine(intervals_[k], width);
+    }
+    void refine(std::size_t k, double width) {
+        assert(0 < width && std::isfinite(width));
+        refine(k, point::from(width));
+    }
+
+    /// The sign of g at root k, exactly.
+    sign_type sign_at(staged_polynomial<Integer>& g, std::size_t k) {
+        assert(k < size());
+        interval& root = intervals_[k];
+        const auto by_values = [&] { return sign_of(value_at(g.floating(), enclosure(root))); };
+        sign_type s = by_values();
+        if (!certain(s) && narrow(root)) s = by_values();
+        return certain(s) ? s : exact().sign_at_root(g.exact(), root);
+    }
+    template <class C>
+    sign_type sign_at(const polynomial<C>& g, std::size_t k) {
+        auto p = errbound::staged<Integer>(g);
+        return sign_at(p, k);
+    }
+
+    /// The same by integers alone.
+    sign_type sign_at_root(const integer_form<Integer>& g, std::size_t k) {
+        return exact().sign_at_root(g, intervals_[k]);
+    }
+
+    /// The signs of the polynomial on [a, b], for which these roots were asked.
+    occurring_signs signs_on(double a, double b) {
+        occurring_signs signs;
+        if (everywhere_ || size() > 0) signs.zero = true;
+        if (everywhere_ || (a == b && signs.zero)) return signs;
+        // At a root of odd multiplicity inside, the sign changes; otherwise there is but one.
+        for (const interval& root : intervals_) {
+            const bool at_end = root.is_point() && (is_at(root, a) || is_at(root, b));
+            if (root.multiplicity % 2 == 1 && !at_end) signs.negative = signs.positive = true;
+        }
+        if (!signs.negative) signs.add(sign_beside_roots(a, b));
+        return signs;
+    }
+
+  private:
+    real_roots() = default;
+
+    const root_isolation<Integer>& exact() {
+        if (!exact_) exact_.emplace(p_.exact());
+        return *exact_;
+    }
+
+    void add(const std::vector<filtered_part>& parts) {
+        intervals_.reserve(parts.size() + 1);
+        for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
+        decided_by_filter_ = !exact_;
+    }
+    /// The filter's part i, together with its neighbours if it is not known.
+    void add(const std::vector<filtered_part>& parts, std::size_t& i) {
+        const filtered_part& part = parts[i];
+        if (part.has_one_root) {
+            const auto [low, high] = ends(part);
+            intervals_.push_back({low, high});
+            return;
+        }
+        auto [low, high] = ends(part);
+        for (; i + 1 < parts.size() && !parts[i + 1].has_one_root; ++i) {
+            const auto next = ends(parts[i + 1]);
+            if (high < next.first) break;
+            high = next.second;
+        }
+        exact().isolate(low, high, intervals_);
+    }
+    /// Both in ascending order; root bounds for infinite ends, as far as they leave anything.
+    std::pair<point, point> ends(const filtered_part& part) {
+        const auto end = [this](double x, double other) {
+            if (std::isfinite(x)) return point::from(x);
+            const point bound = x > 0 ? exact().upper_bound() : exact().lower_bound();
+            const bool beyond = std::isfinite(other) && (bound < point::from(other)) == (x > 0);
+            return beyond ? point::from(other) : bound;
+        };
+        const auto quick_from = exact_place(part, part.from), quick_to = exact_place(part, part.to);
+        if (quick_from && quick_to && std::isfinite(*quick_from) && std::isfinite(*quick_to)) {
+            const auto [low, high] = std::minmax(*quick_from, *quick_to);
+            return {point::from(low), point::from(high)};
+        }
+        const point at0 = end(part.at0, part.at1), at1 = end(part.at1, part.at0);
+        const point from = at0 + (at1 - at0) * point::from(part.from),
+                    to = at0 + (at1 - at0) * point::from(part.to);
+        return from < to ? std::pair{from, to} : std::pair{to, from};
+    }
+
+    /// Puts the root at 0 in its place, if there is one; no other interval may hold it.
+    void add_zero() {
+        if (zeros_ == 0) return;
+        const point zero;
+        const point radius = point::from(rootless_radius());
+        for (interval& root : intervals_) {
+            if (root.low.is_zero()) root.low = radius.is_zero() ? exact().least_positive() : radius;
+            if (root.high.is_zero())
+                root.high = radius.is_zero() ? exact().greatest_negative() : -radius;
+        }
+        const auto next = std::find_if(intervals_.begin(), intervals_.end(),
+                                       [&](const interval& root) { return zero < root.low; });
+        intervals_.insert(next, interval{zero, zero, zeros_});
+    }
+
+    /// Some t >= 0 without root of p_ in [−t, t], if t > 0: with |c_i| t^i < |c_0|/2^i for i >= 1,
+    /// the sum of all these is less than |c_0|.
+    double rootless_radius() const {
+        const std::vector<number>& c = p_.floating();
+        const double first = std::abs(c[0].value()) - c[0].error();
+        if (!(first > 0)) return 0;
+        int exponent = std::numeric_limits<double>::max_exponent - 1;
+        for (std::size_t i = 1; i < c.size(); ++i) {
+            const double size = std::abs(c[i].value()) + c[i].error();
+            if (size == 0) continue;
+            // Below 2^(ilogb + 2), whatever the rounding of these two.
+            const int quotient = std::ilogb(first) - 1 - (std::ilogb(size) + 2);
+            const int degree = static_cast<int>(i);
+            const int root =
+                quotient >= 0 ? quotient / degree : -((degree - 1 - quotient) / degree);
+            exponent = std::min(exponent, root - 1);
+        }
+        return std::ldexp(1.0, exponent);
+    }
+    /// The root, which lies within that of a double, and no more where it is a double itself.
+    static number enclosure(const interval& root) {
+        using traits = number_traits<double>;
+        const double low = root.low.to_double(), high = root.high.to_double();
+        const double size = std::max(std::abs(low), std::abs(high));
+        return number::within(
+            low + (high - low) / 2,
+            (high - low) / 2 + 4 * traits::epsilon() * size + 4 * traits::underflow_unit());
+    }
+    sign_type floating_sign_at(const number& x) const {
+        return sign_of(value_at(p_.floating(), x));
+    }
+
+    /// Narrows a root's interval to about double's precision, without integers. False on failure.
+    bool narrow(interval& root) {
+        if (root.is_point() || root.multiplicity % 2 == 0) return false;
+        const sign_type before = floating_sign_at(enclosure({root.low, root.low}));
+        const double low = root.low.to_double(), high = root.high.to_double();
+        if (!certain(before) || !std::isfinite(low) || !std::isfinite(high)) return false;
+        const double x = approximate_root(low, high, before == sign_type::negative);
+        bool narrowed = false;
+        for (const bool left : {true, false}) {
+            double distance = std::max(number_traits<double>::epsilon() * std::abs(x),
+                                       number_traits<double>::underflow_unit());
+            for (;; distance *= 16) {
+                const double t = left ? x - distance : x + distance;
+                if (!(low < t && t < high)) break;
+                if (floating_sign_at(number(t)) != (left ? before : -before)) continue;
+                const point end = point::from(t);
+                if (!(root.low < end && end < root.high)) break;
+                (left ? root.low : root.high) = end;
+                narrowed = true;
+                break;
+            }
+        }
+        return narrowed;
+    }
+    /// By Newton's method in plain doubles, or halving where its steps do not halve.
+    double approximate_root(double low, double high, bool rising) const {
+        double x = low + (high - low) / 2, last_step = high - low;
+        for (int i = 0; i < 4 * number_traits<double>::digits; ++i) {
+            double y = 0, slope = 0;
+            for (auto c = p_.floating().rbegin(); c != p_.floating().rend(); ++c) {
+                slope = slope * x + y;
+                y = y * x + c->value();
+            }
+            if (y == 0) break;
+            ((y < 0) == rising ? low : high) = x;
+            double next = x - y / slope;
+            if (!(low < next && next < high && 2 * std::abs(next - x) <= last_step))
+                next = low + (high - low) / 2;
+            if (next == x) break;
+            last_step = std::abs(next - x);
+            x = next;
+        }
+        return x;
+    }
+
+    static bool is_at(const interval& root, double x) {
+        return std::isfinite(x) && root.low == point::from(x);
+    }
+    /// The polynomial's sign somewhere in [a, b], a < b, where it is not zero; or at a = b.
+    sign_type sign_beside_roots(double a, double b) {
+        const point x = beside_roots(a, b);
+        const number place = enclosure({x, x});
+        const sign_type power = zeros_ % 2 == 1 ? sign_of(x) : sign_type::positive;
+        const sign_type s = floating_sign_at(place);
+        return power * (certain(s) ? s : errbound::sign_at(p_.exact(), x));
+    }
+    /// A point of [a, b] that is not a root.
+    point beside_roots(double a, double b) const {
+        if (intervals_.empty()) return point::from(std::isfinite(a) ? a : std::isfinite(b) ? b : 0);
+        const interval& first = intervals_[0];
+        if (!first.is_point()) return first.low;
+        const point one = point::power_of_two(0);
+        if (!std::isfinite(a)) return first.low - one;
+        if (point::from(a) < first.low) return middle(point::from(a), first.low);
+        if (size() == 1)
+            return std::isfinite(b) ? middle(first.low, point::from(b)) : first.low + one;
+        return intervals_[1].is_point() ? middle(first.low, intervals_[1].low) : intervals_[1].low;
+    }
+
+    staged_polynomial<Integer> p_;  ///< divided by x^zeros_
+    int zeros_ = 0;
+    std::optional<root_isolation<Integer>> exact_;
+    std::vector<interval> intervals_;
+    bool everywhere_ = false;
+    bool decided_by_filter_ = false;
+};
+
+}  // namespace errbound

@@ -1,0 +1,362 @@
+// Real roots of polynomials in floating point: what tracked Bernstein coefficients tell for
+// certain, and which parts of the line they leave open. The first stage of errbound/roots/real_roots.hpp.
+//
+// Descartes' rule in Bernstein form, as in errbound/roots/root_isolation.hpp: control values (Bernstein
+// coefficients) without sign change exclude a root inside the part, one change proves exactly one.
+// Every control value has an error bound of its own, by a rule that bounds absolute errors; values
+// and bounds lie in arrays of their own, so that halving a part, which is additions alone, runs in
+// vector registers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <errbound/error_free.hpp>
+#include <errbound/number_traits.hpp>
+#include <errbound/roots/sign_variations.hpp>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace errbound {
+
+/// A rule that stores the absolute error and nothing else.
+template <class Rule>
+concept absolute_rule = requires(typename Rule::template bound<double> b) {
+    requires sizeof(b) == sizeof(double);
+    b.error;
+};
+
+/// A part of the line: x = at0 + (at1 − at0)·u for from <= u <= to, all exactly these doubles.
+struct filtered_part {
+    double at0, at1;
+    double from, to;
+    /// It holds exactly one root, a simple one, strictly inside, and none at its ends. Otherwise
+    /// nothing is known of it. (Neighbours that are not known either touch it.)
+    bool has_one_root;
+};
+
+/// The x of the part's u if that is a double, and found to be one.
+inline std::optional<double> exact_place(const filtered_part& part, double u) {
+    if (u == 0) return part.at0;
+    if (u == 1) return part.at1;
+    const auto width = two_sum(part.at1, -part.at0);
+    const auto offset = two_product(width.value, u);
+    const auto x = two_sum(part.at0, offset.value);
+    const bool exact = width.error == 0 && offset.error == 0 && x.error == 0 &&
+                       product_error_is_exact(width.value, u, offset);
+    return exact ? std::optional(x.value) : std::nullopt;
+}
+
+namespace detail {
+
+/// Control values with their errors, in arrays that the caller keeps.
+template <absolute_rule Rule>
+struct tracked_row {
+    double* value;
+    double* error;
+
+    /// this[j] += this[j + 1] for j < count.
+    void add_next(std::size_t count) const {
+        double* const __restrict v = value;
+        double* const __restrict e = error;
+        for (std::size_t j = 0; j < count; ++j) {
+            const double sum = v[j] + v[j + 1];
+            e[j] = sum_error(sum, v[j], e[j], v[j + 1], e[j + 1]);
+            v[j] = sum;
+        }
+    }
+    /// this[j] += this[j − 1] for first <= j <= last, from the last on.
+    void add_previous(std::size_t first, std::size_t last) const {
+        double* const __restrict v = value;
+        double* const __restrict e = error;
+        for (std::size_t j = last; j >= first; --j) {
+            const double sum = v[j] + v[j - 1];
+            e[j] = sum_error(sum, v[j], e[j], v[j - 1], e[j - 1]);
+            v[j] = sum;
+        }
+    }
+    /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Where that underflows,
+    /// value and error are each off by less than the smallest number; the last factor pays for the
+    /// two roundings after that.
+    void shrink(const double* factor, std::size_t first, std::size_t last) const {
+        constexpr double lost = 2 * number_traits<double>::underflow_unit();
+        for (std::size_t j = first; j <= last; ++j) {
+            value[j] *= factor[j];
+            error[j] = (error[j] * factor[j] + lost) * (1 + 4 * number_traits<double>::epsilon());
+        }
+    }
+    /// 1 or −1 for a certain sign, otherwise 0.
+    int sign(std::size_t j) const {
+        return (value[j] > error[j] ? 1 : 0) - (value[j] < -error[j] ? 1 : 0);
+    }
+    int variations(std::size_t count) const {
+        return most_sign_variations(count, [this](std::size_t j) { return sign(j); });
+    }
+
+  private:
+    static double sum_error(double sum, double a, double a_error, double b, double b_error) {
+        using bound = typename Rule::template bound<double>;
+        return Rule::template add<double>(sum, {a, bound{a_error}}, {b, bound{b_error}}).error;
+    }
+};
+
+}  // namespace detail
+
+/// Cost: at most most_halvings halvings of degree² additions each; few for separated roots.
+template <absolute_rule Rule>
+class root_filter {
+  public:
+    using number = tracked<double, Rule>;
+
+    /// Up to this degree n, binomials are exact in double, and so are their products with n.
+    static constexpr std::size_t most_degree = 50;
+    static constexpr int most_halvings = 200;
+    /// Ends of parts of at least half this share of their distance from at0 are exact in double.
+    static constexpr double narrowest = 0x1p-46;
+    /// Of parts on the way.
+    static constexpr std::size_t most_rows = 64;
+
+    /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
+    /// may be infinite. Coefficients ascend in the power basis; empty means zero.
+    root_filter(std::span<const number> coefficients, double a, double b) {
+        const std::size_t size = coefficients.size();
+        if (size == 0 || size - 1 > most_degree || !is_strict(sign_of(coefficients.back()))) {
+            parts_.push_back({a, b, 0, 1, false});
+            return;
+        }
+        if (size == 1) return;
+        double largest = 0;
+        for (const number& c : coefficients) largest = std::max(largest, std::abs(c.value()));
+        // Leave room for powers, binomials and sums, and above the smallest numbers.
+        int e = number_traits<double>::exponent(largest);
+        if (std::abs(e) < number_traits<double>::max_exponent / 2) e = 0;
+        c_ = {first_.data(), size};
+        for (std::size_t i = 0; i < size; ++i)
+            c_[i] = e == 0 ? coefficients[i] : scale(coefficients[i], -e);
+        if (a < 0) {
+            for (std::size_t i = 1; i < size; i += 2) c_[i] = -c_[i];
+            on_half_line(b < 0 ? -b : 0, -a);
+            std::reverse(parts_.begin(), parts_.end());
+            for (filtered_part& p : parts_) p.at0 = -p.at0, p.at1 = -p.at1;
+            for (std::size_t i = 1; i < size; i += 2) c_[i] = -c_[i];
+        }
+        if (b > 0) on_half_line(a > 0 ? a : 0, b);
+    }
+
+    const std::vector<filtered_part>& parts() const { return parts_; }
+    /// Whether all of them hold exactly one root.
+    bool decides() const {
+        return std::all_of(parts_.begin(), parts_.end(),
+                           [](const filtered_part& p) { return p.has_one_root; });
+    }
+
+  private:
+    static bool is_strict(sign_type s) {
+        return s == sign_type::positive || s == sign_type::negative;
+    }
+
+    /// The parts of [low, high], 0 <= low < high, for c_.
+    void on_half_line(double low, double high) {
+        sign_type last = sign_of(c_[0]);
+        bool all_strict = is_strict(last);
+        int changes = 0;
+        for (std::size_t i = 1; i < c_.size(); ++i) {
+            const sign_type s = sign_of(c_[i]);
+            if (!certain(s)) all_strict = false;
+            if (s == sign_type::zero || s == last) continue;
+            ++changes;
+            last = s;
+        }
+        if (all_strict && changes == 0) return;
+        const double bound = root_bound();
+        if (bound <= low) return;
+        if (all_strict && changes == 1 && low == 0 && bound <= high) {
+            parts_.push_back({0, bound, 0, 1, true});
+            return;
+        }
+        at0_ = low, at1_ = std::min(high, bound);
+        if (!std::isfinite(at1_)) {
+            parts_.push_back({low, high, 0, 1, false});
+            return;
+        }
+        subdivide();
+    }
+
+    /// A bound of Kioustelidis (see positive_root_exponent), not a power of two so that the ends of
+    /// parts are rarely numbers that people choose as roots. 0 if there is no positive root,
+    /// infinite if there is no bound in range.
+    double root_bound() const {
+        const std::size_t n = c_.size() - 1;
+        const auto largest = [](const number& c) {
+            return (std::abs(c.value()) + c.error()) * (1 + 4 * number_traits<double>::epsilon());
+        };
+        const number& top = c_[n];
+        const double least =
+            (std::abs(top.value()) - top.error()) * (1 - 4 * number_traits<double>::epsilon());
+        if (!(least >= number_traits<double>::smallest_normal()))
+            return number_traits<double>::infinity();
+        const int last = std::ilogb(least);
+        int exponent = std::numeric_limits<int>::min();
+        for (std::size_t i = 0; i < n; ++i) {
+            const sign_type s = sign_of(c_[i]);
+            if (s == sign_type::zero || s == sign_of(top)) continue;
+            if (!std::isfinite(largest(c_[i]))) return number_traits<double>::infinity();
+            const int quotient = std::ilogb(largest(c_[i])) + 1 - last;
+            const int degree = static_cast<int>(n - i);
+            exponent = std::max(exponent, 1 + (quotient > 0 ? (quotient + degree - 1) / degree
+                                                            : quotient / degree));
+        }
+        if (exponent == std::numeric_limits<int>::min()) return 0;
+        return std::max(std::ldexp(45.0 / 32, exponent), number_traits<double>::smallest_normal());
+    }
+
+    /// The control values on [at0, at1] as a new row.
+    void set_control_values() {
+        const std::size_t n = c_.size() - 1;
+        const number high(at1_);
+        std::array<number, most_degree + 1> b;
+        number power = high;
+        double binomial = 1;
+        b[0] = c_[0];
+        for (std::size_t i = 1; i <= n; ++i) {
+            binomial = binomial * static_cast<double>(n - i + 1) / static_cast<double>(i);
+            b[i] = c_[i] * power;
+            if (i == n) break;
+            b[i] /= number(binomial);
+            power *= high;
+        }
+        rows_.resize(16 * (n + 1));
+        const auto first = row(0);
+        for (std::size_t i = 0; i <= n; ++i) {
+            first.value[i] = b[i].value();
+            first.error[i] = b[i].error();
+        }
+        for (std::size_t i = 1; i <= n; ++i) first.add_previous(i, n);
+        if (at0_ == 0) return;
+        // These are on [0, at1]; the right part is de Casteljau's.
+        for (std::size_t i = 0; i <= n; ++i) b[i] = number::within(first.value[i], first.error[i]);
+        const number right = number(at0_) / high, left = (high - number(at0_)) / high;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n - i; ++j) b[j] = b[j] * left + b[j + 1] * right;
+        for (std::size_t i = 0; i <= n; ++i) {
+            first.value[i] = b[i].value();
+            first.error[i] = b[i].error();
+        }
+    }
+
+    detail::tracked_row<Rule> row(std::size_t k) {
+        const std::size_t size = c_.size();
+        return {&rows_[2 * k * size], &rows_[(2 * k + 1) * size]};
+    }
+
+    void subdivide() {
+        struct span_of_u {
+            double from, to;
+        };
+        const std::size_t size = c_.size(), n = size - 1;
+        set_control_values();
+        std::array<double, most_degree + 1> right_factor, left_factor;
+        double factor = 1;
+        for (std::size_t i = 0; i <= n; ++i, factor /= 2)
+            left_factor[i] = right_factor[n - i] = factor;
+
+        // Row k of rows_ belongs to spans[k]; the last is the leftmost.
+        std::array<span_of_u, most_rows> spans;
+        spans[0] = {0, 1};
+        int halvings = 0;
+        for (std::size_t count = 1; count > 0;) {
+            const std::size_t k = count - 1;
+            const auto whole = row(k);
+            const auto [from, to] = spans[k];
+            const int changes = whole.variations(size);
+            if (changes < 2) {
+                if (changes == 1) parts_.push_back({at0_, at1_, from, to, true});
+                --count;
+                continue;
+            }
+            if (changes == 2 && add_pair(from, to, whole.sign(0))) {
+                --count;
+                continue;
+            }
+            // Ends of an uncertain sign stay so however often the part is halved.
+            if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == most_halvings ||
+                count == most_rows || to - from < narrowest * to) {
+                parts_.push_back({at0_, at1_, from, to, false});
+                --count;
+                continue;
+            }
+            ++halvings;
+            if (rows_.size() < 2 * (k + 2) * size) rows_.resize(2 * rows_.size());
+            const auto right = row(k), left = row(k + 1);
+            for (std::size_t i = 0; i <= n; ++i) {
+                left.value[i] = right.value[0];
+                left.error[i] = right.error[0];
+                right.add_next(n - i);
+            }
+            left.shrink(left_factor.data(), 1, n);
+            right.shrink(right_factor.data(), 0, n - 1);
+            const double half = from + (to - from) / 2;
+            spans[k] = {half, to};
+            spans[count++] = {from, half};
+        }
+    }
+
+    /// Two close roots would take many halvings to part. Where at most two are left, a point
+    /// between them is tried: the extremum, as far as plain doubles find it. If the sign there is
+    /// not `outside`, that of both ends, there is one on either side; if it is uncertain, no
+    /// halving will tell more. Tried after 4, 8, 16, ... halvings; false if nothing comes of it.
+    bool add_pair(double from, double to, int outside) {
+        const int halvings = -std::ilogb(to - from);
+        if (halvings < 4 || !std::has_single_bit(static_cast<unsigned>(halvings))) return false;
+        const double u = extremum(from, to);
+        if (!(from < u && u < to)) return false;
+        const number low(at0_), x = low + (number(at1_) - low) * number(u);
+        number value = c_.back();
+        for (std::size_t i = c_.size() - 1; i-- > 0;) value = value * x + c_[i];
+        const sign_type s = sign_of(value);
+        if (s == (outside < 0 ? sign_type::negative : sign_type::positive)) return false;
+        if (is_strict(s)) {
+            parts_.push_back({at0_, at1_, from, u, true});
+            parts_.push_back({at0_, at1_, u, to, true});
+        } else {
+            parts_.push_back({at0_, at1_, from, to, false});
+        }
+        return true;
+    }
+    /// A zero of the derivative, by Newton's method from the middle; NaN if it fails. Of 46 bits,
+    /// so that it mostly belongs to a point that is a double.
+    double extremum(double from, double to) const {
+        const double width = at1_ - at0_;
+        double u = from + (to - from) / 2;
+        for (int i = 0; i < 8; ++i) {
+            const double x = at0_ + width * u;
+            double value = 0, slope = 0, half_curvature = 0;
+            for (std::size_t k = c_.size(); k-- > 0;) {
+                half_curvature = half_curvature * x + slope;
+                slope = slope * x + value;
+                value = value * x + c_[k].value();
+            }
+            const double step = slope / (2 * half_curvature * width);
+            u -= step;
+            if (std::abs(step) <= 0x1p-30 * u) {
+                const double much = u * 129;  // as by errbound/error_free.hpp's split
+                return much - (much - u);
+            }
+        }
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+
+    std::array<number, most_degree + 1> first_;
+    std::span<number> c_;  ///< of first_
+    double at0_ = 0, at1_ = 0;
+    std::vector<double> rows_;
+    std::vector<filtered_part> parts_;
+};
+
+}  // namespace errbound

@@ -1,0 +1,399 @@
+// ns per call and wrong signs of predicates, beside others that decide them: what is installed of
+// CGAL and MPFI, GMP, Boost. Truth: the tests' oracle in GMP integers.
+#include "tests/bench/predicates/predicate_peers.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/strategies/cartesian/side_by_triangle.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdio>
+#include <errbound/integers/binary_double.hpp>
+#include <errbound/predicates.hpp>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "tests/bench/harness.hpp"
+#include "tests/errbound/predicates/predicate_list.hpp"
+
+namespace bench {
+namespace {
+
+using errbound::predicate_stage;
+using errbound::sign_type;
+
+struct run_options {
+    bool quick = false;
+    std::string predicate = {};  ///< only those whose name holds this
+
+    std::size_t inputs() const { return quick ? 1000 : 100'000; }
+    int repeats() const { return quick ? 1 : 5; }
+    bool wants(std::string_view name) const {
+        return name.find(predicate) != std::string_view::npos;
+    }
+};
+
+template <class Form>
+void decide_plainly(const set_of<Form>& set, std::size_t count, signs& out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = plain_sign(set.with(i, Form()));
+}
+template <class Form>
+void decide_by_errbound(const set_of<Form>& set, std::size_t count, signs& out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = set.with(i, Form::predicate);
+}
+
+using cpp_int = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                              boost::multiprecision::et_off>;
+using cpp_rational = boost::multiprecision::number<
+    boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
+    boost::multiprecision::et_off>;
+
+sign_type sign_of_number(const big_integer& x) {
+    return static_cast<sign_type>(1 + sign(x));
+}
+template <class Number>
+sign_type sign_of_number(const Number& x) {
+    return static_cast<sign_type>(1 + x.sign());
+}
+
+/// The expression over whole numbers in the unit of the last bit of any coordinate.
+template <class Form, class Integer>
+void decide_by_integers(const set_of<Form>& set, std::size_t count, signs& out) {
+    for (std::size_t i = 0; i < count; ++i) {
+        int unit = std::numeric_limits<int>::max();
+        for (const auto& points : set.points)
+            for (const double x : points[i])
+                unit = std::min(unit, errbound::binary_double(x).last_bit());
+        const auto converted = [unit](const auto& point) {
+            std::array<Integer, Form::dimension> q;
+            for (std::size_t k = 0; k < Form::dimension; ++k) {
+                const errbound::binary_double x(point[k]);
+                if (x.magnitude == 0) continue;
+                const auto size =
+                    static_cast<std::int64_t>(x.magnitude >> std::max(unit - x.exponent, 0));
+                q[k] = x.negative ? -size : size;
+                q[k] <<= std::max(x.exponent - unit, 0);
+            }
+            return q;
+        };
+        out[i] =
+            sign_of_number(set.with(i, [&](const auto&... p) { return Form()(converted(p)...); }));
+    }
+}
+template <class Form>
+void decide_by_rationals(const set_of<Form>& set, std::size_t count, signs& out) {
+    decide_over<Form>(
+        set, count, out, [](double x) { return cpp_rational(x); },
+        [](const cpp_rational& x) { return sign_of_number(x); });
+}
+
+/// Not exact: a floating-point determinant, zero where it is small.
+void decide_by_boost_geometry(const set_of<orient2d_form>& set, std::size_t count, signs& out) {
+    using point = boost::geometry::model::d2::point_xy<double>;
+    using side = boost::geometry::strategy::side::side_by_triangle<>;
+    const auto converted = [](const auto& p) { return point(p[0], p[1]); };
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = set.with(i, [&](const auto&... p) {
+            return static_cast<sign_type>(1 + side::apply(converted(p)...));
+        });
+}
+
+template <class Form>
+struct peer {
+    std::string_view key, heading;
+    decider<Form> decide;      ///< null: not for this predicate, or not installed
+    std::size_t thinning = 1;  ///< the slow ones are timed on one of so many inputs
+};
+#ifdef ERRBOUND_HAVE_CGAL
+constexpr bool have_cgal = true;
+#else
+constexpr bool have_cgal = false;
+#endif
+#ifdef ERRBOUND_HAVE_MPFI
+constexpr bool have_mpfi = true;
+#else
+constexpr bool have_mpfi = false;
+#endif
+
+template <class Form>
+std::vector<peer<Form>> peers() {
+    decider<Form> cgal = nullptr, mpfi = nullptr, geometry = nullptr;
+    if constexpr (have_cgal) cgal = decide_by_cgal<Form>;
+    if constexpr (have_mpfi) mpfi = decide_by_mpfi<Form>;
+    if constexpr (std::is_same_v<Form, orient2d_form>) geometry = decide_by_boost_geometry;
+    return {{"plain", "plain double", decide_plainly<Form>},
+            {"errbound", "errbound", decide_by_errbound<Form>},
+            {"cgal", "CGAL", cgal},
+            {"gmp", "GMP integers", decide_by_integers<Form, big_integer>, 10},
+            {"cpp_int", "Boost cpp_int", decide_by_integers<Form, cpp_int>, 20},
+            {"cpp_rational", "cpp_rational", decide_by_rationals<Form>, 100},
+            {"boost_interval", "Boost.Interval", decide_by_boost_interval<Form>, 20},
+            {"mpfi", "MPFI", mpfi, 20},
+            {"boost_geometry", "Boost.Geometry", geometry}};
+}
+
+struct rows {
+    std::vector<std::vector<cell>> ns, ratios, wrong, undecided;
+};
+
+template <class Form>
+void add_rows(const run_options& o, rows& out) {
+    constexpr std::size_t D = Form::dimension, N = Form::count;
+    if (!o.wants(Form::name)) return;
+    const auto& entry = std::get < N == 3 ? 0
+                        : D == 3          ? (N == 4 ? 1 : 3)
+                                          : 2 > (predicate_list::all);
+    for (const auto& kind : input_kinds) {
+        const auto set = make_set<Form>(kind, o.inputs());
+        signs right(set.size());
+        for (std::size_t i = 0; i < set.size(); ++i)
+            right[i] = set.with(i, [&](const auto&... p) {
+                return predicate_list::right_sign(entry, std::array{p...});
+            });
+        std::vector<std::function<void()>> passes;
+        const auto all = peers<Form>();
+        signs found(set.size());
+        const auto inputs_of = [&](const auto& p) { return set.size() / p.thinning; };
+        for (const auto& p : all)
+            if (p.decide != nullptr)
+                passes.push_back([&] {
+                    p.decide(set, inputs_of(p), found);
+                    keep(found);
+                });
+        const auto timings = race(passes, o.repeats());
+
+        std::vector<cell> names{word(Form::name), word(kind.name)};
+        for (auto* table : {&out.ns, &out.ratios, &out.wrong, &out.undecided})
+            table->push_back(names);
+        auto timing = timings.begin();
+        double plain = 0;
+        for (const auto& p : all) {
+            if (p.decide == nullptr) {
+                for (auto* table : {&out.ns, &out.ratios, &out.wrong, &out.undecided})
+                    table->back().push_back(none());
+                continue;
+            }
+            const std::size_t inputs = inputs_of(p);
+            const double ns = 1e9 * timing++->minimum / static_cast<double>(inputs);
+            if (plain == 0) plain = ns;
+            p.decide(set, inputs, found);
+            std::size_t wrong = 0, undecided = 0;
+            for (std::size_t i = 0; i < inputs; ++i)
+                certain(found[i]) ? wrong += found[i] != right[i] : ++undecided;
+            const auto share = [&](std::size_t n) {
+                return n == 0 ? cell{"", 0}
+                              : percent(static_cast<double>(n) / static_cast<double>(inputs));
+            };
+            out.ns.back().push_back(number(ns, ns < 100 ? 1 : 0));
+            out.ratios.back().push_back(number(ns / plain, ns < 100 * plain ? 2 : 0));
+            out.wrong.back().push_back(share(wrong));
+            out.undecided.back().push_back(share(undecided));
+        }
+    }
+}
+
+void beside_peers(const run_options& o, report& out) {
+    rows all;
+    std::apply([&]<class... Form>(const Form&...) { (add_rows<Form>(o, all), ...); }, all_forms);
+    if (all.ns.empty()) return;
+    std::vector<column> columns{{"predicate", "predicate", true}, {"inputs", "inputs", true}};
+    for (const auto& p : peers<orient2d_form>())
+        columns.push_back({std::string(p.key), std::string(p.heading)});
+    out.table("predicates", {{"what", "ns"}}, "one by one, ns per call", columns, all.ns);
+    out.table("predicates", {{"what", "ratio"}}, "the same, over the plain double expression",
+              columns, all.ratios);
+    out.table("predicates", {{"what", "wrong"}}, "wrong signs", columns, all.wrong);
+    out.table("predicates", {{"what", "undecided"}}, "left undecided (intervals are filters alone)",
+              columns, all.undecided);
+}
+
+/// Coordinates of so many bits, the exponents of their last ones spread evenly over so many.
+template <class Form>
+set_of<Form> make_spread_set(int bits, int spread, std::size_t inputs) {
+    const auto make = [=](predicate_inputs::generator& random, surface) {
+        predicate_inputs::points<double, Form::dimension, Form::count> p;
+        for (auto& point : p)
+            for (double& x : point) {
+                const double fraction =
+                    std::trunc(std::ldexp(predicate_inputs::uniform<double>(random), bits));
+                x = std::ldexp(fraction,
+                               spread / 2 - predicate_inputs::between(random, 0, spread) - bits);
+            }
+        return p;
+    };
+    return {make, Form::degenerate, inputs, 0};
+}
+
+constexpr const char* stage_names[] = {"semi-static filter", "static filter",  "tracked",
+                                       "exact doubles",      "short integers", "word integers",
+                                       "two-word integers",  "long integers"};
+static_assert(std::size(stage_names) == errbound::predicate_stage_count);
+
+template <class Form, predicate_stage Stage>
+void decide_by_stage(const set_of<Form>& set, std::size_t count, signs& out) {
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = set.with(i, [](const auto&... p) { return Form::predicate.by(Stage, p...); });
+}
+template <class Form>
+struct exact_stage {
+    predicate_stage stage;
+    decider<Form> decide;
+};
+/// In their order.
+template <class Form>
+constexpr auto exact_stages() {
+    using enum predicate_stage;
+    return std::array<exact_stage<Form>, 5>{
+        {{exact_doubles, decide_by_stage<Form, exact_doubles>},
+         {short_integers, decide_by_stage<Form, short_integers>},
+         {word_integers, decide_by_stage<Form, word_integers>},
+         {two_word_integers, decide_by_stage<Form, two_word_integers>},
+         {long_integers, decide_by_stage<Form, long_integers>}}};
+}
+
+template <class Form>
+void add_exact_rows(const run_options& o, std::vector<std::vector<cell>>& rows) {
+    if (!o.wants(Form::name)) return;
+    struct coordinates {
+        int bits, spread;
+    };
+    const std::size_t inputs = o.quick ? 200 : 5000;
+    for (const auto [bits, spread] :
+         {coordinates{8, 0}, coordinates{20, 0}, coordinates{53, 0}, coordinates{53, 50},
+          coordinates{53, 100}, coordinates{53, 200}, coordinates{53, 500}, coordinates{53, 1000},
+          coordinates{53, 2000}}) {
+        const auto set = make_spread_set<Form>(bits, spread, inputs);
+        // The first stage that is certain of all.
+        signs found(inputs);
+        const auto stages = exact_stages<Form>();
+        const auto stage = std::ranges::find_if(stages, [&](const auto& s) {
+            s.decide(set, inputs, found);
+            return std::ranges::all_of(found, errbound::certain);
+        });
+        const auto timings =
+            race({[&] { stage->decide(set, inputs, found), keep(found); },
+                  [&] { decide_by_integers<Form, big_integer>(set, inputs, found), keep(found); },
+                  [&] { decide_by_integers<Form, cpp_int>(set, inputs, found), keep(found); }},
+                 o.repeats());
+        rows.push_back({word(Form::name), word(stage_names[static_cast<std::size_t>(stage->stage)]),
+                        count(static_cast<std::uint64_t>(bits)),
+                        count(static_cast<std::uint64_t>(spread))});
+        for (const auto& t : timings)
+            rows.back().push_back(number(1e9 * t.minimum / static_cast<double>(inputs), 0));
+        rows.back().push_back(number(timings[0].minimum / timings[1].minimum, 2));
+    }
+}
+
+void exact_stages_alone(const run_options& o, report& out) {
+    std::vector<std::vector<cell>> rows;
+    std::apply([&]<class... Form>(const Form&...) { (add_exact_rows<Form>(o, rows), ...); },
+               all_forms);
+    if (rows.empty()) return;
+    out.table("predicates", {{"what", "exact stages"}}, "exact stages alone, ns per call",
+              {{"predicate", "predicate", true},
+               {"stage", "stage", true},
+               {"bits", "bits"},
+               {"spread", "exponents over"},
+               {"errbound", "errbound"},
+               {"gmp", "GMP integers"},
+               {"cpp_int", "Boost cpp_int"},
+               {"ratio", "errbound/GMP"}},
+              rows);
+}
+
+/// A double for expressions that ask for signs.
+class plain_double {
+  public:
+    explicit plain_double(double value) : value_(value) {}
+    friend plain_double operator+(plain_double a, plain_double b) {
+        return plain_double(a.value_ + b.value_);
+    }
+    friend plain_double operator-(plain_double a, plain_double b) {
+        return plain_double(a.value_ - b.value_);
+    }
+    friend plain_double operator*(plain_double a, plain_double b) {
+        return plain_double(a.value_ * b.value_);
+    }
+    friend sign_type sign_of(plain_double a) { return plain_sign(a.value_); }
+
+  private:
+    double value_;
+};
+
+template <class Entry>
+void add_other_row(const Entry& entry, const run_options& o, std::vector<std::vector<cell>>& rows) {
+    if (!o.wants(entry.name)) return;
+    rows.push_back({word(entry.name)});
+    for (std::size_t family = 0; family < 4; ++family) {
+        const input_set<Entry::dimension, Entry::count> set(
+            predicate_inputs::families<double, Entry::dimension, Entry::count>[family].make,
+            entry.surfaces[1], o.inputs(), 0);
+        signs plain(set.size()), found(set.size());
+        const auto timings =
+            race({[&] {
+                      for (std::size_t i = 0; i < set.size(); ++i)
+                          plain[i] = set.with(i, [&](const auto&... p) {
+                              return errbound::detail::conclude(
+                                  entry.predicate.template value<plain_double>(p...));
+                          });
+                      keep(plain);
+                  },
+                  [&] {
+                      for (std::size_t i = 0; i < set.size(); ++i)
+                          found[i] = set.with(i, entry.predicate);
+                      keep(found);
+                  }},
+                 o.repeats());
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < set.size(); ++i) wrong += plain[i] != found[i];
+        const auto all = static_cast<double>(set.size());
+        rows.back().push_back(number(1e9 * timings[0].minimum / all, 1));
+        rows.back().push_back(number(1e9 * timings[1].minimum / all, 1));
+        rows.back().push_back(number(timings[1].minimum / timings[0].minimum, 2));
+        rows.back().push_back(percent(static_cast<double>(wrong) / all));
+    }
+}
+
+void without_peers(const run_options& o, report& out) {
+    std::vector<std::vector<cell>> rows;
+    const auto other = [&](const auto& entry) {
+        if (entry.constant_of_shewchuk == 0) add_other_row(entry, o, rows);
+    };
+    std::apply([&](const auto&... entry) { (other(entry), ...); }, predicate_list::all);
+    if (rows.empty()) return;
+    std::vector<column> columns{{"predicate", "predicate", true}};
+    for (std::size_t family = 0; family < 4; ++family) {
+        const std::string name(input_kinds[family].name);
+        columns.push_back({name + "_ns_plain", name + ": plain"});
+        columns.push_back({name + "_ns_errbound", "errbound"});
+        columns.push_back({name + "_ratio", "ratio"});
+        columns.push_back({name + "_wrong", "plain wrong"});
+    }
+    out.table("predicates", {{"what", "others"}}, "the other predicates, ns per call", columns,
+              rows);
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) {
+    CLI::App app{"Predicates beside others that decide them: ns per call, wrong signs."};
+    app.name("./run bench --predicates");
+    bench::run_options o;
+    app.add_flag("--quick", o.quick, "Fewer inputs and repeats: shows that all works");
+    app.add_option("--predicate", o.predicate, "Only those whose name holds this");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!bench::have_cgal) bench::report::say("built without CGAL (libcgal-dev)");
+    if (!bench::have_mpfi) bench::report::say("built without MPFI (libmpfi-dev)");
+    bench::report out;
+    bench::beside_peers(o, out);
+    bench::exact_stages_alone(o, out);
+    bench::without_peers(o, out);
+    return 0;
+}

@@ -1,0 +1,41 @@
+// Others than errbound that decide predicates, each in the same form. Those of a source file of
+// its own are compiled with flags of their own, where what they need is installed.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "tests/bench/predicates/predicate_sets.hpp"
+
+namespace bench {
+
+/// Decides the first so many inputs of a set.
+template <class Form>
+using decider = void (*)(const set_of<Form>&, std::size_t count, signs&);
+
+/// call(points of input i), their coordinates made into another number type, for each input.
+template <class Form, class Make, class Sign>
+void decide_over(const set_of<Form>& set, std::size_t count, signs& out, const Make& make,
+                 const Sign& sign) {
+    using number = decltype(make(0.0));
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = sign(set.with(i, [&](const auto&... p) {
+            const auto converted = [&](const auto& point) {
+                std::array<number, Form::dimension> q;
+                for (std::size_t k = 0; k < Form::dimension; ++k) q[k] = make(point[k]);
+                return q;
+            };
+            return Form()(converted(p)...);
+        }));
+}
+
+/// CGAL's Exact_predicates_inexact_constructions_kernel.
+template <class Form>
+void decide_by_cgal(const set_of<Form>& set, std::size_t count, signs& out);
+/// The expression over intervals, as a filter.
+template <class Form>
+void decide_by_boost_interval(const set_of<Form>& set, std::size_t count, signs& out);
+template <class Form>
+void decide_by_mpfi(const set_of<Form>& set, std::size_t count, signs& out);
+
+}  // namespace bench

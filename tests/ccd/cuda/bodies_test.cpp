@@ -1,0 +1,480 @@
+// Device code on the host: kernel bodies, queues and indices, run by loops (ccd/cuda/launch.hpp).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <ccd/methods/bsc.hpp>
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
+#include <ccd/methods/single_precision.hpp>
+#include <ccd/step.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+#include "ccd/cuda/exact_stages.hpp"
+#include "ccd/cuda/pairs.hpp"
+#include "ccd/cuda/step.hpp"
+#include "ccd/io/mesh_file.hpp"
+#include "ccd/step/step_parts.hpp"
+#include "tests/ccd/cuda/on_host.hpp"
+#include "tests/ccd/cuda/sets.hpp"
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace {
+
+namespace fs = std::filesystem;
+using ccd::outcome;
+using ccd::cuda::candidates;
+using ccd::cuda::coordinates;
+using ccd::cuda::host_launcher;
+using ccd::cuda::positions;
+using ccd::cuda::precision;
+using cuda_on_host::decide_by;
+using cuda_on_host::laid_out;
+using cuda_sets::batch;
+using cuda_sets::data_folder;
+using cuda_sets::positions_of;
+
+/// `exact` to the end, host's part included.
+template <class Indices>
+std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>& all,
+                                  precision p = precision::float64,
+                                  ccd::cuda::exact_counters* counters = nullptr) {
+    host_launcher launcher;
+    // Nothing may rely on what was there.
+    std::vector<outcome> answers(all.count, outcome::collides);
+    const laid_out<ccd::cuda::exact_memory> memory(at.vertices, all.count);
+    run_rounding(launcher, at, memory->scene, memory->rows);
+    run_exact_stages(launcher, at, all, answers.data(), *memory, p);
+    // What is left to the host must not look separate to those who do not ask it.
+    for (std::uint32_t k = 0; k < memory->counters->left; ++k)
+        EXPECT_EQ(answers[memory->left[k]], outcome::uncertain);
+    const auto counted = finish_exact(launcher, at, all, answers.data(), *memory);
+    if (counters != nullptr) *counters = counted;
+    return answers;
+}
+
+std::uint64_t queries_per_family() {
+    return cuda_sets::queries_per_family(200);
+}
+
+template <class Indices>
+const batch<Indices>& difficult() {
+    static const auto set = cuda_sets::of_families<Indices>(queries_per_family(), 11);
+    return set;
+}
+
+template <class Indices>
+class device_bodies : public testing::Test {};
+using kinds = testing::Types<ccd::vertex_face_indices, ccd::edge_edge_indices>;
+TYPED_TEST_SUITE(device_bodies, kinds);
+
+/// How many queries entered each stage of `exact`, the first one to the host.
+using entered = std::array<std::size_t, 7>;
+
+template <class Indices>
+entered expect_exact(const batch<Indices>& set, const std::vector<outcome>& truth, precision p) {
+    ccd::cuda::exact_counters c{};
+    const auto answers = decide_exact(set.positions(), set.candidates(), p, &c);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) wrong += answers[i] != truth[i];
+    EXPECT_EQ(wrong, 0u);
+    return {set.size(), c.coplanarity, c.inside, c.subdivision, c.one_word, c.two_words, c.left};
+}
+template <class Indices>
+std::vector<outcome> truth_of(const batch<Indices>& set) {
+    std::vector<outcome> truth;
+    for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
+    return truth;
+}
+/// Else a stage could be left out unnoticed: the next ones would decide its queries as well.
+void expect_every_stage_to_settle_some(const entered& stages) {
+    const char* const names[] = {"axes",        "coplanarity",      "inside",
+                                 "subdivision", "integers, 1 word", "integers, 2 words"};
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
+        std::cout << names[i] << ' ' << stages[i] << ", ";
+        EXPECT_LT(stages[i + 1], stages[i]) << names[i];
+    }
+    std::cout << "host " << stages.back() << '\n';
+}
+
+TYPED_TEST(device_bodies, exact_is_exact) {
+    const auto& set = difficult<TypeParam>();
+    const auto truth = truth_of(set);
+    expect_every_stage_to_settle_some(expect_exact(set, truth, precision::float64));
+    // All families are one scene here, in whose units floats tell next to nothing.
+    expect_exact(set, truth, precision::float32);
+}
+
+// Each family is a scene of its own, of one scale or another, where floats tell something.
+TYPED_TEST(device_bodies, exact_is_exact_in_scenes_of_one_scale) {
+    for (const precision p : {precision::float64, precision::float32}) {
+        entered all{};
+        for (const auto& family : query_families::families) {
+            SCOPED_TRACE(family.name);
+            const auto set = cuda_sets::of_family<TypeParam>(family, queries_per_family(), 12);
+            const auto stages = expect_exact(set, truth_of(set), p);
+            std::ranges::transform(all, stages, all.begin(), std::plus<>());
+        }
+        expect_every_stage_to_settle_some(all);
+    }
+}
+
+TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
+    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
+    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    const auto truth = truth_of(set);
+    for (const precision p : {precision::float64, precision::float32})
+        expect_every_stage_to_settle_some(expect_exact(set, truth, p));
+}
+
+/// A method's answer from floats alone.
+template <class Rule, class Query>
+ccd::verdict in_single_precision(ccd::cuda::bsc_method<Rule>, const Query& query) {
+    return ccd::decide_bsc_in_single_precision<Rule>(query);
+}
+template <class Rule, class Query>
+ccd::verdict in_single_precision(ccd::cuda::safeccd_method<Rule>, const Query& query) {
+    return ccd::decide_safeccd_in_single_precision<Rule>(query);
+}
+
+/// In doubles the answers are those of decide(). In floats they are those of floats alone where
+/// these are certain, and then right; else those of doubles.
+template <class Method, class Indices>
+void expect_as_on_host(const batch<Indices>& set, ccd::method m) {
+    constexpr bool promises = !std::is_same_v<typename Method::rule, errbound::none>;
+    const auto at = set.positions();
+    const auto all = set.candidates();
+    std::size_t asked_in_doubles = 0, uncertain = 0;
+    const auto in_doubles = decide_by<Method, double>(at, all);
+    const auto in_floats = decide_by<Method, float>(at, all, &asked_in_doubles);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        SCOPED_TRACE(i);
+        ASSERT_EQ(in_doubles[i], ccd::decide(m, set.queries[i]).outcome);
+        const outcome floats_say = in_single_precision(Method(), set.queries[i]).outcome;
+        if (!promises) {
+            ASSERT_EQ(in_floats[i], floats_say);
+        } else if (floats_say == outcome::uncertain) {
+            ++uncertain;
+            ASSERT_EQ(in_floats[i], in_doubles[i]);
+        } else {
+            ASSERT_EQ(in_floats[i], floats_say);
+            ASSERT_EQ(floats_say, ccd::decide_exact(set.queries[i]).outcome);
+        }
+    }
+    EXPECT_EQ(asked_in_doubles, uncertain);
+    EXPECT_LT(uncertain, set.size());
+}
+
+template <class Indices>
+void expect_methods_as_on_host(const batch<Indices>& set) {
+    cuda_on_host::for_each_float_method([&]<class Method>(ccd::method m) {
+        SCOPED_TRACE(info(m).name);
+        expect_as_on_host<Method>(set, m);
+    });
+}
+
+TYPED_TEST(device_bodies, methods_decide_as_on_the_host) {
+    expect_methods_as_on_host(difficult<TypeParam>());
+}
+
+TYPED_TEST(device_bodies, methods_decide_stored_queries_as_on_the_host) {
+    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
+    expect_methods_as_on_host(cuda_sets::stored<TypeParam>(data_folder()));
+}
+
+TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
+    auto set = cuda_sets::of_families<TypeParam>(20, 5);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double poisons[] = {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()};
+    // In every seventh query, one coordinate after the other.
+    const auto poisoned = [](std::size_t i) { return i % 7 == 0; };
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (!poisoned(i)) continue;
+        const std::size_t number = i / 7 % 24;
+        auto& p = (number < 12 ? set.before : set.after)[4 * i + number % 4];
+        (number % 3 == 0 ? p.x : number % 3 == 1 ? p.y : p.z) = poisons[i % 3];
+    }
+    const auto answers = decide_exact(set.positions(), set.candidates());
+    EXPECT_EQ(answers, decide_exact(set.positions(), set.candidates(), precision::float32));
+    const auto tight =
+        decide_by<ccd::cuda::bsc_method<errbound::tight>, float>(set.positions(), set.candidates());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (poisoned(i)) {
+            EXPECT_EQ(answers[i], outcome::uncertain) << i;
+            EXPECT_EQ(tight[i], outcome::uncertain) << i;
+        } else {
+            EXPECT_EQ(answers[i], ccd::decide_exact(set.queries[i]).outcome) << i;
+        }
+    }
+}
+
+// What the coordinates are of, how vertices are named and where they lie makes no difference.
+TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
+    // Coordinates that floats hold.
+    std::mt19937 random(3);
+    const auto coordinate = [&] { return static_cast<float>(static_cast<int>(random() % 17) - 8); };
+    const std::size_t vertices = 50;
+    std::vector<double> rows[2];
+    std::vector<float> float_rows[2], columns[2][3];
+    for (std::size_t frame = 0; frame < 2; ++frame)
+        for (std::size_t v = 0; v < vertices; ++v)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float x = coordinate();
+                rows[frame].push_back(x);
+                float_rows[frame].push_back(x);
+                columns[frame][k].push_back(x);
+            }
+    const auto in_doubles = positions_of({rows[0].data(), rows[1].data(), vertices});
+    const positions in_floats(coordinates<float>::rows(float_rows[0].data()),
+                              coordinates<float>::rows(float_rows[1].data()), vertices);
+    const auto columns_of = [&](std::size_t frame) {
+        return coordinates<float>{columns[frame][0].data(), columns[frame][1].data(),
+                                  columns[frame][2].data(), 1};
+    };
+    const positions in_columns(columns_of(0), columns_of(1), vertices);
+
+    using element = typename candidates<TypeParam>::element;
+    const auto vertex = [&] { return static_cast<ccd::index>(random() % vertices); };
+    std::vector<element> elements(40);
+    for (element& e : elements)
+        for (ccd::index& v : e) v = vertex();
+    constexpr bool of_faces = batch<TypeParam>::of_faces;
+    std::vector<ccd::index> first, second, column[4];
+    std::vector<TypeParam> named;
+    for (std::size_t i = 0; i < 2000; ++i) {
+        first.push_back(of_faces ? vertex() : static_cast<ccd::index>(random() % 40));
+        second.push_back(static_cast<ccd::index>(random() % 40));
+        const element& b = elements[second[i]];
+        if constexpr (of_faces)
+            named.push_back({first[i], b[0], b[1], b[2]});
+        else
+            named.push_back({elements[first[i]][0], elements[first[i]][1], b[0], b[1]});
+        for (std::size_t k = 0; k < 4; ++k) column[k].push_back(vertices_of(named[i])[k]);
+    }
+    using all = candidates<TypeParam>;
+    const auto by_rows = all::rows(named.data(), named.size());
+    const auto by_columns = all::of_columns(column[0].data(), column[1].data(), column[2].data(),
+                                            column[3].data(), named.size());
+    const auto by_pairs = all::pairs(first.data(), second.data(), elements.data(), named.size());
+
+    const auto expected = decide_exact(in_doubles, by_rows);
+    for (std::size_t i = 0; i < named.size(); ++i)
+        ASSERT_EQ(expected[i],
+                  ccd::decide_exact(ccd::cuda::query_at<double>(in_doubles, named[i])).outcome);
+    EXPECT_GT(std::ranges::count(expected, outcome::collides), 100);
+    EXPECT_EQ(decide_exact(in_doubles, by_columns), expected);
+    EXPECT_EQ(decide_exact(in_doubles, by_pairs), expected);
+    EXPECT_EQ(decide_exact(in_floats, by_rows), expected);
+    EXPECT_EQ(decide_exact(in_columns, by_pairs), expected);
+    EXPECT_EQ(decide_exact(in_columns, by_columns, precision::float32), expected);
+}
+
+// Their differences are floats' own, which leave other queries open than rounded differences do.
+TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
+    using tight = ccd::cuda::bsc_method<errbound::tight>;
+    const auto to_float = [](double x) { return static_cast<float>(std::clamp(x, -3e38, 3e38)); };
+    batch<TypeParam> set;
+    for (const auto& q : difficult<TypeParam>().queries)
+        set.add(transformed(q, [&](double x) { return double{to_float(x)}; }));
+    const auto narrowed = [&](const std::vector<ccd::point<double>>& points) {
+        std::vector<float> numbers;
+        for (const auto& p : points)
+            for (const double x : {p.x, p.y, p.z}) numbers.push_back(to_float(x));
+        return numbers;
+    };
+    const std::vector<float> before = narrowed(set.before), after = narrowed(set.after);
+    const positions at(coordinates<float>::rows(before.data()),
+                       coordinates<float>::rows(after.data()), set.before.size());
+    std::size_t asked_in_doubles = 0, uncertain = 0;
+    const auto found = decide_by<tight, float>(at, set.candidates(), &asked_in_doubles);
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const auto& query = set.queries[i];
+        const outcome floats_say =
+            ccd::decide_bsc<errbound::tight>(transformed(query, to_float)).outcome;
+        const bool open = floats_say == outcome::uncertain;
+        uncertain += open;
+        ASSERT_EQ(found[i], open ? ccd::decide(ccd::method::tight, query).outcome : floats_say);
+    }
+    EXPECT_EQ(asked_in_doubles, uncertain);
+}
+
+#if defined(__SSE2__)
+// Why device code is compiled with -ftz=false: flushed, both a product and its bound vanish.
+TEST(device_flags, flushing_subnormals_would_make_a_certain_sign_wrong) {
+    const auto sign_of_square = [] {
+        const volatile float tiny = 1e-30f;  // not to be computed by the compiler
+        const errbound::tracked<float> x(float{tiny});
+        return sign_of(x * x);
+    };
+    EXPECT_EQ(sign_of_square(), errbound::sign_type::uncertain);
+    constexpr unsigned flush_results_and_operands = 0x8040;
+    const unsigned mode = _mm_getcsr();
+    _mm_setcsr(mode | flush_results_and_operands);
+    const auto flushed = sign_of_square();
+    _mm_setcsr(mode);
+    EXPECT_EQ(flushed, errbound::sign_type::zero);
+}
+#endif
+
+TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
+    const std::size_t n = 1000;
+    std::vector<outcome> answers(n, outcome::separate);
+    for (std::size_t i = 0; i < n; i += 3)
+        answers[i] = i % 2 == 0 ? outcome::collides : outcome::uncertain;
+    const std::size_t expected = (n + 2) / 3;
+    host_launcher launcher;
+    for (const std::size_t room : {n, expected, expected - 1, std::size_t(1), std::size_t(0)}) {
+        std::vector<ccd::index> found(room + 1, 12345);
+        std::vector<std::uint32_t> place(n + 1);
+        ccd::index count = 0;
+        ccd::cuda::run_select(launcher, answers.data(), n, found.data(), room, &count,
+                              place.data());
+        EXPECT_EQ(count, expected) << "the number needed, whatever the room";
+        for (std::size_t k = 0; k < std::min(room, expected); ++k) EXPECT_EQ(found[k], 3 * k);
+        EXPECT_EQ(found[room], 12345u) << "nothing is written beyond the room";
+    }
+    ccd::index count = 7;
+    std::uint32_t place = 0;
+    ccd::cuda::run_select(launcher, answers.data(), 0, nullptr, 0, &count, &place);
+    EXPECT_EQ(count, 0u);
+}
+
+TEST(device_tree, finds_every_leaf_that_touches_once) {
+    std::mt19937 random(9);
+    const auto unit = [&] { return static_cast<float>(random() % 1000) / 500 - 1; };
+    for (const std::size_t leaves : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 64U, 65U, 512U, 513U, 1000U}) {
+        ccd::cuda::box_levels tree(leaves);
+        std::vector<ccd::cuda::rounded_box> boxes(tree.size() + 1);
+        for (std::size_t i = 0; i < leaves; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float x = unit();
+                boxes[i].low[k] = x;
+                boxes[i].high[k] = x + 0.3f;
+            }
+        tree.boxes = boxes.data();
+        for (std::size_t level = 1; level < tree.levels; ++level)
+            for (std::size_t i = 0; i < tree.count[level]; ++i)
+                ccd::cuda::make_node{&boxes[tree.start[level - 1]], tree.count[level - 1],
+                                     &boxes[tree.start[level]]}(static_cast<std::uint32_t>(i));
+        for (std::size_t first = 0; first <= leaves; first += 1 + leaves / 5) {
+            const ccd::cuda::rounded_box b{{-0.1f, -0.2f, 0.1f}, {0.2f, 0.3f, 0.4f}};
+            std::vector<std::uint32_t> found, expected;
+            tree.find(b, first, [&](std::uint32_t i) { found.push_back(i); });
+            for (std::size_t i = first; i < leaves; ++i)
+                if (boxes[i].touches(b)) expected.push_back(static_cast<std::uint32_t>(i));
+            EXPECT_EQ(found, expected) << leaves << " leaves from " << first;
+        }
+    }
+}
+
+/// A step through the device's code: all of it but the launches.
+ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
+    host_launcher launcher;
+    ccd::cuda::step_memory<host_launcher> memory(block);
+    const positions at = positions_of({before, after});
+    const auto edges = ccd::unique_edges(before.faces);
+    memory.set_mesh(launcher, before.vertices.size(), before.faces, edges);
+    ccd::step_result result;
+    // Twice: the second step finds memory that the first has used.
+    for (int i = 0; i < 2; ++i) {
+        result = {};
+        const auto found =
+            memory.run(launcher, at,
+                       [&](const auto& part, outcome* answers, ccd::cuda::scene_extent* scene,
+                           ccd::cuda::rounded_position* rows) -> std::size_t {
+                           const laid_out<ccd::cuda::exact_memory> all(scene, rows, part.count);
+                           run_exact_stages(launcher, at, part, answers, *all, precision::float32);
+                           return finish_exact(launcher, at, part, answers, *all).left;
+                       });
+        result.vertex_face_candidates = found.vertex_face_candidates;
+        result.edge_edge_candidates = found.edge_edge_candidates;
+        for (std::size_t k = 0; k < found.vertex_face; ++k)
+            result.vertex_face.push_back(ccd::pair_of(memory.vertex_face().data()[k]));
+        for (std::size_t k = 0; k < found.edge_edge; ++k)
+            result.edge_edge.push_back(ccd::pair_of(memory.edge_edge().data()[k]));
+    }
+    std::ranges::sort(result.vertex_face);
+    std::ranges::sort(result.edge_edge);
+    return result;
+}
+
+void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
+    const auto expected = ccd::step(before, after);
+    const auto found = device_step(before, after, block);
+    EXPECT_EQ(found.vertex_face_candidates, expected.vertex_face_candidates);
+    EXPECT_EQ(found.edge_edge_candidates, expected.edge_edge_candidates);
+    EXPECT_EQ(found.vertex_face, expected.vertex_face);
+    EXPECT_EQ(found.edge_edge, expected.edge_edge);
+}
+
+TEST(device_step, finds_the_pairs_of_a_scene) {
+    const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
+    const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
+    const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
+    EXPECT_FALSE(ccd::step(before, after).vertex_face.empty());
+    expect_step_as_on_host(before, after, std::size_t(1) << 22);
+    expect_step_as_on_host(before, after, 1000);  // blocks that end within an element's candidates
+}
+
+TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        std::mt19937_64 random(seed);
+        const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
+        ccd::mesh before;
+        for (unsigned i = 0; i < 100; ++i)
+            before.vertices.push_back({coordinate(), coordinate(), coordinate()});
+        for (unsigned i = 0; i < 80; ++i) {
+            const auto v = static_cast<ccd::index>(random() % 98);
+            before.faces.push_back({v + 2, v, v + 1});
+        }
+        ccd::mesh after = before;
+        for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
+        expect_step_as_on_host(before, after, 7);
+        // Two parts so far apart that floats do not tell the ends of their boxes apart.
+        for (ccd::mesh* m : {&before, &after})
+            for (std::size_t i = 0; i < 50; ++i) m->vertices[i].x += 1e12;
+        expect_step_as_on_host(before, after, 1 << 20);
+    }
+}
+
+TEST(device_step, refuses_coordinates_that_are_not_finite) {
+    const ccd::mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}, {5, 5, 5}},
+                         {{0, 1, 2}, {1, 2, 3}}};
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        ccd::mesh broken = mesh;
+        broken.vertices[4].y = bad;  // a vertex of no face
+        host_launcher launcher;
+        ccd::cuda::step_memory<host_launcher> memory;
+        memory.set_mesh(launcher, 5, mesh.faces, ccd::unique_edges(mesh.faces));
+        const positions at = positions_of({mesh, broken});
+        const auto never = [](const auto&, outcome*, ccd::cuda::scene_extent*,
+                              ccd::cuda::rounded_position*) -> std::size_t {
+            ADD_FAILURE() << "nothing is to be decided";
+            return 0;
+        };
+        EXPECT_FALSE(memory.run(launcher, at, never).finite);
+    }
+}
+
+TEST(device_step, takes_meshes_of_nothing) {
+    expect_step_as_on_host({}, {}, 10);
+    const ccd::mesh points{{{0, 0, 0}, {1, 0, 0}}, {}};
+    expect_step_as_on_host(points, points, 10);
+    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}}, {{0, 1, 2}}};
+    expect_step_as_on_host(one, one, 10);
+}
+
+}  // namespace

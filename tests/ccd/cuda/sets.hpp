@@ -1,0 +1,110 @@
+// Queries for tests of device code, as batches: families of difficult ones, and stored ones.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/cuda.hpp>
+#include <ccd/io/query_file.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "ccd/cuda/queries.hpp"
+#include "tests/support/query_families.hpp"
+
+namespace cuda_sets {
+
+/// Positions in the memory where the rows are.
+inline ccd::cuda::positions positions_of(const ccd::vertex_rows& rows) {
+    using coordinates = ccd::cuda::coordinates<double>;
+    return {coordinates::rows(rows.before), coordinates::rows(rows.after), rows.vertices};
+}
+
+/// Queries of one kind, each with four vertices of its own.
+template <class Indices>
+struct batch {
+    static constexpr bool of_faces = std::is_same_v<Indices, ccd::vertex_face_indices>;
+    using query = ccd::cuda::query_of_kind<Indices, double>;
+
+    std::vector<query> queries;
+    std::vector<ccd::point<double>> before, after;
+    std::vector<Indices> rows;
+
+    void add(const query& q) {
+        const auto v = static_cast<ccd::index>(before.size());
+        rows.push_back({v, v + 1, v + 2, v + 3});
+        queries.push_back(q);
+        for (const auto& p : points_of(q)) {
+            before.push_back(p.t0);
+            after.push_back(p.t1);
+        }
+    }
+    std::size_t size() const { return queries.size(); }
+    /// As device code takes them, in this batch's memory.
+    ccd::cuda::positions positions() const { return positions_of({before, after}); }
+    ccd::cuda::candidates<Indices> candidates() const {
+        return ccd::cuda::candidates<Indices>::rows(rows.data(), size());
+    }
+};
+
+template <class Indices>
+typename batch<Indices>::query query_of(const query_families::points& p) {
+    if constexpr (batch<Indices>::of_faces)
+        return query_families::as_vertex_face(p);
+    else
+        return query_families::as_edge_edge(p);
+}
+
+/// `count` queries of a family, fewer of one whose truth is slow.
+template <class Indices>
+batch<Indices> of_family(const query_families::family& family, std::uint64_t count,
+                         std::uint64_t seed, batch<Indices> all = {}) {
+    using query_families::kind;
+    for (std::uint64_t i = 0; i * family.thinning < count; ++i)
+        all.add(query_of<Indices>(query_families::make(
+            family, batch<Indices>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
+    return all;
+}
+
+/// The same of every family.
+template <class Indices>
+batch<Indices> of_families(std::uint64_t count, std::uint64_t seed) {
+    batch<Indices> all;
+    for (const auto& family : query_families::families)
+        all = of_family<Indices>(family, count, seed, std::move(all));
+    return all;
+}
+
+/// All stored queries under a folder.
+template <class Indices>
+batch<Indices> stored(const std::filesystem::path& folder) {
+    batch<Indices> all;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (entry.path().extension() != ".csv") continue;
+        const auto file = ccd::io::read_queries(entry.path(), std::nullopt, false);
+        if constexpr (batch<Indices>::of_faces)
+            for (const auto& q : file.vertex_face_queries) all.add(q);
+        else
+            for (const auto& q : file.edge_edge_queries) all.add(q);
+    }
+    return all;
+}
+
+/// How many queries of a family: the environment's ERRBOUND_DEVICE_QUERIES, else `usual`.
+inline std::uint64_t queries_per_family(std::uint64_t usual) {
+    const char* text = std::getenv("ERRBOUND_DEVICE_QUERIES");
+    return text == nullptr ? usual : std::strtoull(text, nullptr, 10);
+}
+
+inline std::filesystem::path data_folder() {
+    if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
+    return ERRBOUND_SHARED_DATA;
+}
+
+}  // namespace cuda_sets

@@ -1,0 +1,304 @@
+// The stages of `exact`, each alone and all together, on every instruction set: never a wrong
+// certain answer, and the same answers everywhere.
+#include "ccd/exact/cascade.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <ccd/batch.hpp>
+#include <ccd/exact.hpp>
+#include <ccd/reference.hpp>
+#include "ccd/exact/static_filter.hpp"
+#include <ccd/methods/transform.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ccd/exact/integers.hpp"
+#include "ccd/batch/rounded_axes.hpp"
+#include "tests/support/query_families.hpp"
+
+namespace {
+
+using query_families::families;
+using query_families::kind;
+
+std::uint64_t queries_per_family() {
+    const char* text = std::getenv("ERRBOUND_CASCADE_QUERIES");
+    return text == nullptr ? 200 : std::strtoull(text, nullptr, 10);
+}
+
+template <class Query>
+struct test_set {
+    std::vector<Query> queries;
+    std::vector<ccd::outcome> truth;
+    std::vector<std::string> names;
+};
+
+template <class Query, class As>
+test_set<Query> make_set(kind which, const As& as) {
+    test_set<Query> set;
+    for (const auto& family : families)
+        // Squared: each of these queries is decided many times.
+        for (std::uint64_t i = 0; i * family.thinning * family.thinning < queries_per_family();
+             ++i) {
+            const Query query = as(query_families::make(family, which, 7, i));
+            set.queries.push_back(query);
+            set.truth.push_back(ccd::decide_reference(query).outcome);
+            set.names.push_back(std::string(family.name) + ", index " + std::to_string(i));
+        }
+    return set;
+}
+
+const test_set<ccd::vertex_face<double>>& vertex_face_set() {
+    static const auto set =
+        make_set<ccd::vertex_face<double>>(kind::vertex_face, query_families::as_vertex_face);
+    return set;
+}
+const test_set<ccd::edge_edge<double>>& edge_edge_set() {
+    static const auto set =
+        make_set<ccd::edge_edge<double>>(kind::edge_edge, query_families::as_edge_edge);
+    return set;
+}
+
+/// Calls test(set) for both kinds.
+template <class Test>
+void for_both_kinds(const Test& test) {
+    test(vertex_face_set());
+    test(edge_edge_set());
+}
+
+/// Expects `decide` to be right wherever it is certain; returns how often it is.
+template <class Query, class Decide>
+std::size_t expect_never_wrong(const test_set<Query>& set, const Decide& decide) {
+    std::size_t certain = 0, wrong = 0;
+    for (std::size_t i = 0; i < set.queries.size(); ++i) {
+        const ccd::outcome answer = decide(set.queries[i]);
+        certain += answer != ccd::outcome::uncertain;
+        if (answer == ccd::outcome::uncertain || answer == set.truth[i]) continue;
+        if (++wrong <= 5) ADD_FAILURE() << set.names[i];
+    }
+    EXPECT_EQ(wrong, 0u);
+    return certain;
+}
+
+template <template <class> class Forms>
+struct float_stages {
+    template <class Query>
+    static ccd::outcome axes(const Query& query) {
+        const Forms<double> forms(query);
+        const ccd::static_filter::sizes<double> sizes(forms);
+        return sizes.usable && ccd::static_filter::parted<double>(forms, sizes)
+                   ? ccd::outcome::separate
+                   : ccd::outcome::uncertain;
+    }
+    template <class Query>
+    static ccd::outcome coplanarity(const Query& query) {
+        const Forms<double> forms(query);
+        const ccd::static_filter::sizes<double> sizes(forms);
+        const auto y = errbound::control_values_of(forms.y());
+        const double error = sizes.template error_of_y<Forms>();
+        return sizes.usable &&
+                       (ccd::static_filter::above(y, error) || ccd::static_filter::below(y, error))
+                   ? ccd::outcome::separate
+                   : ccd::outcome::uncertain;
+    }
+    template <class Query>
+    static ccd::outcome inside(const Query& query) {
+        const Forms<double> forms(query);
+        const ccd::static_filter::sizes<double> sizes(forms);
+        const ccd::static_filter::whole_step<double, Forms> whole(forms, sizes);
+        return sizes.usable && whole.outside() ? ccd::outcome::separate : ccd::outcome::uncertain;
+    }
+};
+
+template <template <class> class Forms, class Query>
+void expect_float_stages_never_wrong(const test_set<Query>& set) {
+    using stages = float_stages<Forms>;
+    EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::axes(q); }), 0u);
+    EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::coplanarity(q); }), 0u);
+    EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::inside(q); }), 0u);
+    EXPECT_GT(
+        expect_never_wrong(set, [](const Query& q) { return ccd::filter(q, nullptr).outcome; }),
+        0u);
+}
+
+TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
+    expect_float_stages_never_wrong<ccd::linear_vertex_face_forms>(vertex_face_set());
+    expect_float_stages_never_wrong<ccd::linear_edge_edge_forms>(edge_edge_set());
+}
+
+TEST(stages, integers_are_never_wrong_where_they_are_certain) {
+    for_both_kinds([](const auto& set) {
+        const auto certain =
+            expect_never_wrong(set, [](const auto& q) { return ccd::decide_integers(q).outcome; });
+        EXPECT_GT(certain, set.queries.size() / 4);
+    });
+}
+
+TEST(cascade, agrees_with_the_reference) {
+    for_both_kinds([](const auto& set) {
+        EXPECT_EQ(expect_never_wrong(set, [](const auto& q) { return decide_exact(q).outcome; }),
+                  set.queries.size());
+    });
+}
+
+TEST(cascade, report_accounts_for_every_query) {
+    for_both_kinds([](const auto& set) {
+        ccd::stage_report report;
+        std::size_t collisions = 0;
+        for (const auto& q : set.queries)
+            collisions += decide_exact(q, &report).outcome == ccd::outcome::collides;
+        std::size_t settled = 0, collides = 0;
+        for (const auto& entry : report.stages) {
+            settled += entry.separate + entry.collides;
+            collides += entry.collides;
+            EXPECT_TRUE(entry.seconds > 0 || entry.entered == 0);
+        }
+        EXPECT_EQ(settled, set.queries.size());
+        EXPECT_EQ(collides, collisions);
+    });
+}
+
+TEST(batch, agrees_with_the_reference_on_every_instruction_set_and_thread_count) {
+    for_both_kinds([](const auto& set) {
+        for (const ccd::instruction_set isa : ccd::instruction_sets())
+            for (const int threads : {1, 3}) {
+                std::vector<ccd::outcome> answers(set.queries.size());
+                ccd::stage_report report;
+                ccd::decide_batch(std::span(set.queries), std::span(answers),
+                                  {.threads = threads, .set = isa, .report = &report});
+                std::size_t i = 0;
+                expect_never_wrong(set, [&](const auto&) { return answers[i++]; });
+                std::size_t settled = 0;
+                for (const auto& entry : report.stages) settled += entry.separate + entry.collides;
+                EXPECT_EQ(settled, set.queries.size()) << ccd::name(isa);
+            }
+    });
+}
+
+/// Queries one after the other as rows of a vertex array.
+template <class Query>
+struct rows_of_queries {
+    std::vector<double> before, after;
+
+    explicit rows_of_queries(const std::vector<Query>& queries) {
+        for (const Query& q : queries)
+            for (const auto& p : ccd::points_of(q)) {
+                for (const double x : {p.t0.x, p.t0.y, p.t0.z}) before.push_back(x);
+                for (const double x : {p.t1.x, p.t1.y, p.t1.z}) after.push_back(x);
+            }
+    }
+    ccd::vertex_rows rows() const { return {before.data(), after.data(), before.size() / 3}; }
+};
+
+TEST(batch, indices_give_the_same_answers_as_stored_queries) {
+    for_both_kinds([](const auto& set) {
+        using query_type = typename std::decay_t<decltype(set.queries)>::value_type;
+        using indices_type =
+            std::conditional_t<std::is_same_v<query_type, ccd::vertex_face<double>>,
+                               ccd::vertex_face_indices, ccd::edge_edge_indices>;
+        const rows_of_queries<query_type> positions(set.queries);
+        // Few queries a vertex, and so many that positions are rounded for the cull in float.
+        for (const std::size_t times : {std::size_t(1), std::size_t(5)}) {
+            std::vector<indices_type> indices;
+            std::vector<ccd::outcome> truth;
+            for (std::size_t k = 0; k < times; ++k) {
+                for (ccd::index i = 0; i < 4 * set.queries.size(); i += 4)
+                    indices.push_back({i, i + 1, i + 2, i + 3});
+                truth.insert(truth.end(), set.truth.begin(), set.truth.end());
+            }
+            for (const ccd::instruction_set isa : ccd::instruction_sets()) {
+                std::vector<ccd::outcome> answers(indices.size());
+                ccd::decide_batch(positions.rows(), std::span<const indices_type>(indices),
+                                  std::span(answers), {.set = isa});
+                EXPECT_EQ(answers, truth) << ccd::name(isa);
+            }
+        }
+    });
+}
+
+TEST(batch, every_length_up_to_several_packs) {
+    const auto& set = edge_edge_set();
+    for (const ccd::instruction_set isa : ccd::instruction_sets())
+        for (std::size_t size = 0; size < 150; ++size) {
+            const std::size_t first = 37 * size % (set.queries.size() - 150);
+            std::vector<ccd::outcome> answers(size);
+            ccd::decide_batch(std::span(set.queries).subspan(first, size), std::span(answers),
+                              {.set = isa});
+            for (std::size_t i = 0; i < size; ++i)
+                ASSERT_EQ(answers[i], set.truth[first + i]) << set.names[first + i];
+        }
+}
+
+TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_query) {
+    auto queries = vertex_face_set().queries;
+    queries.resize(500);
+    auto truth = vertex_face_set().truth;
+    truth.resize(500);
+    const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
+                          std::numeric_limits<double>::infinity(),
+                          -std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < queries.size(); i += 7) {
+        auto* numbers = reinterpret_cast<double*>(&queries[i]);
+        numbers[i % 24] = bad[i % 3];
+        truth[i] = ccd::outcome::uncertain;
+        EXPECT_EQ(decide_exact(queries[i]).cause, ccd::cause::range);
+    }
+    std::vector<ccd::vertex_face_indices> indices;
+    for (ccd::index i = 0; i < 4 * queries.size(); i += 4)
+        indices.push_back({i, i + 1, i + 2, i + 3});
+    const rows_of_queries<ccd::vertex_face<double>> positions(queries);
+    for (const ccd::instruction_set isa : ccd::instruction_sets()) {
+        std::vector<ccd::outcome> answers(queries.size());
+        ccd::decide_batch(std::span<const ccd::vertex_face<double>>(queries), std::span(answers),
+                          {.set = isa});
+        EXPECT_EQ(answers, truth);
+        ccd::decide_batch(positions.rows(), std::span<const ccd::vertex_face_indices>(indices),
+                          std::span(answers), {.set = isa});
+        EXPECT_EQ(answers, truth);
+    }
+}
+
+TEST(batch, refuses_what_it_cannot_do) {
+    const std::vector<double> numbers(12);
+    const ccd::vertex_rows rows(numbers.data(), numbers.data(), 4);
+    std::vector<ccd::outcome> answers(1);
+    const std::vector<ccd::vertex_face_indices> good{{0, 1, 2, 3}}, bad{{0, 1, 2, 4}};
+    using span = std::span<const ccd::vertex_face_indices>;
+    EXPECT_NO_THROW(ccd::decide_batch(rows, span(good), answers));
+    EXPECT_THROW(ccd::decide_batch(rows, span(bad), answers), std::invalid_argument);
+    answers.resize(2);
+    EXPECT_THROW(ccd::decide_batch(rows, span(good), answers), std::invalid_argument);
+    ccd::decide_batch(rows, span(), std::span<ccd::outcome>());
+}
+
+// Where a scene's extent is an ulp or two of its position, the middle as rounded is one of its
+// ends.
+TEST(rounded_axes, a_scene_becomes_the_unit_box_however_small_it_is) {
+    for (const int ulps : {0, 1, 2, 3, 5, 1000}) {
+        const double low = 3.0, high = low + ulps * 0x1p-51;
+        const ccd::rounded_axes::frame frame({{low, low, low}, {high, low, high}});
+        for (const double x : {low, high})
+            EXPECT_LE(std::abs(frame(0, x)), 1.001f) << ulps << " ulps";
+        EXPECT_EQ(frame(1, low), 0.0f);
+    }
+}
+
+TEST(static_filter, constants_are_those_of_the_forms) {
+    // Found by hand for Y: each of its terms is a product of three differences, and so on. A change
+    // of the forms that makes the errors larger must not go unseen.
+    using namespace ccd::static_filter;
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    EXPECT_LT(y_constants<ccd::linear_vertex_face_forms>.relative, 400 * epsilon);
+    EXPECT_LT(g_constants<ccd::linear_vertex_face_forms>.relative, 10000 * epsilon);
+    EXPECT_GT(y_constants<ccd::linear_vertex_face_forms>.relative, 3 * 36 * epsilon);
+    EXPECT_LT(y_constants<ccd::linear_vertex_face_forms>.absolute, 1e-190);
+    EXPECT_LT(g_constants<ccd::linear_edge_edge_forms>.absolute, 1e-130);
+}
+
+}  // namespace

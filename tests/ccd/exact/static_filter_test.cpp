@@ -1,0 +1,134 @@
+// The bounds of the static filters against rationals: no computed control value, of the whole step
+// or of any part, is further from the exact one than the filter allows for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/gmp.hpp>
+#include "ccd/exact/static_filter.hpp"
+#include <ccd/methods/transform.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/multiprecision.hpp>
+#include <random>
+#include <string>
+
+#include "tests/support/query_families.hpp"
+
+namespace {
+
+using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
+                                               boost::multiprecision::et_off>;
+namespace filter = ccd::static_filter;
+using query_families::families;
+using query_families::kind;
+
+template <int N>
+double largest_error(const errbound::control_values<double, N>& computed,
+                     const errbound::control_values<rational, N>& exact) {
+    rational largest = 0;
+    for (int i = 0; i <= N; ++i) {
+        const rational error = abs(rational(rational(computed[i]) - exact[i]));
+        largest = std::max(largest, error);
+    }
+    // Rounded up.
+    const double rounded = largest.convert_to<double>();
+    return rational(rounded) < largest ? std::nextafter(rounded, HUGE_VAL) : rounded;
+}
+
+/// How much of its bound the worst error used up, over all queries.
+struct usage {
+    double y = 0, g = 0, y_parts = 0, g_parts = 0;
+};
+
+template <template <class> class Forms, template <class> class Query>
+void compare(const Query<double>& query, std::mt19937_64& random, const std::string& name,
+             usage& worst) {
+    const Forms<double> computed(query);
+    const Forms<rational> exact(transformed(query, [](double x) { return rational(x); }));
+    const filter::sizes<double> sizes(computed);
+    if (!sizes.usable) return;
+    filter::whole_step<double, Forms> whole(computed, sizes);
+    const auto use = [&](double error, double bound, double& so_far, const char* what) {
+        ASSERT_LE(error, bound) << what << ", " << name;
+        if (bound > 0x1p-400) so_far = std::max(so_far, error / bound);
+    };
+    auto y = errbound::control_values_of(exact.y());
+    use(largest_error(whole.forms.y, y), sizes.template error_of_y<Forms>(), worst.y, "Y");
+    const auto exact_inside = exact.inside();
+    std::array<errbound::control_values<rational, 4>, std::tuple_size_v<decltype(exact.inside())>>
+        g;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+        g[i] = errbound::control_values_of(exact_inside[i]);
+        use(largest_error(whole.forms.g[i], g[i]), sizes.template error_of_g<Forms>(), worst.g,
+            "G");
+    }
+    for (std::size_t depth = 0; depth < filter::max_depth; ++depth) {
+        const bool left = random() % 2 == 0;
+        const auto half = [left](auto& form) {
+            auto both = errbound::halves(form);
+            form = left ? both.first : both.second;
+        };
+        half(whole.forms.y), half(y);
+        use(largest_error(whole.forms.y, y), whole.errors.y, worst.y_parts, "Y of a part");
+        for (std::size_t i = 0; i < g.size(); ++i) {
+            half(whole.forms.g[i]), half(g[i]);
+            use(largest_error(whole.forms.g[i], g[i]), whole.errors.g, worst.g_parts,
+                "G of a part");
+        }
+    }
+}
+
+template <template <class> class Forms, class As>
+void compare_all(kind which, const As& as) {
+    std::mt19937_64 random(5);
+    usage worst;
+    for (const auto& family : families)
+        for (std::uint64_t i = 0; i < 60; ++i)
+            compare<Forms>(as(query_families::make(family, which, 11, i)), random,
+                           std::string(family.name) + ", index " + std::to_string(i), worst);
+    // Neither unsound nor so wide that nothing could be decided.
+    for (const double used : {worst.y, worst.g, worst.y_parts, worst.g_parts}) {
+        EXPECT_GT(used, 0.002);
+        EXPECT_LE(used, 1);
+    }
+    std::printf("used up at most: Y %.3f, G %.3f; of parts: Y %.3f, G %.3f\n", worst.y, worst.g,
+                worst.y_parts, worst.g_parts);
+}
+
+TEST(bounds, hold_for_vertex_face) {
+    compare_all<ccd::linear_vertex_face_forms>(kind::vertex_face, query_families::as_vertex_face);
+}
+
+TEST(bounds, hold_for_edge_edge) {
+    compare_all<ccd::linear_edge_edge_forms>(kind::edge_edge, query_families::as_edge_edge);
+}
+
+/// Any sequence of halves, on values that are all as large as they may be and of random sign.
+TEST(bounds, hold_for_halvings) {
+    std::mt19937_64 random(3);
+    double worst = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        errbound::control_values<double, 4> c;
+        errbound::control_values<rational, 4> exact;
+        std::uniform_real_distribution<double> size(0.5, 1);
+        for (int i = 0; i <= 4; ++i) {
+            c[i] = random() % 4 == 0 ? -size(random) : size(random);
+            exact[i] = c[i];
+        }
+        const double bound =
+            filter::g_constants<ccd::linear_vertex_face_forms>.halvings * filter::size_of(c);
+        for (std::size_t depth = 0; depth < filter::max_depth; ++depth) {
+            const bool left = random() % 2 == 0;
+            const auto halves = errbound::halves(c);
+            const auto exact_halves = errbound::halves(exact);
+            c = left ? halves.first : halves.second;
+            exact = left ? exact_halves.first : exact_halves.second;
+            const double error = largest_error(c, exact);
+            ASSERT_LE(error, bound);
+            worst = std::max(worst, error / bound);
+        }
+    }
+    EXPECT_GT(worst, 0.005);
+}
+
+}  // namespace

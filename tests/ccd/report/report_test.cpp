@@ -1,0 +1,214 @@
+// What `ccd report` is made of: statistics, kept parts, data sets and their truth, counts of
+// errors.
+#include "ccd/report/report.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
+#include "ccd/report/sections.hpp"
+#include "ccd/report/statistics.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace report = ccd::report;
+using report::row;
+using report::rows;
+
+class Report : public testing::Test {
+  protected:
+    Report() { fs::create_directories(folder_); }
+    ~Report() override { fs::remove_all(folder_); }
+
+    fs::path write(const fs::path& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        ccd::io::write_whole(folder_ / name, text);
+        return folder_ / name;
+    }
+
+    const fs::path folder_ =
+        fs::temp_directory_path() / ("report_test." + std::to_string(getpid()));
+};
+
+TEST_F(Report, QuantilesAreOfTheNumbers) {
+    const std::vector<double> four{1, 2, 3, 4};
+    EXPECT_EQ(report::quantile(four, 0), 1);
+    EXPECT_EQ(report::quantile(four, 0.25), 1);
+    EXPECT_EQ(report::quantile(four, 0.26), 2);
+    EXPECT_EQ(report::quantile(four, 0.5), 2);
+    EXPECT_EQ(report::quantile(four, 0.99), 4);
+    EXPECT_EQ(report::quantile(four, 1), 4);
+    EXPECT_EQ(report::quantile(std::vector<double>{7}, 0.5), 7);
+    EXPECT_TRUE(std::isnan(report::quantile({}, 0.5)));
+    EXPECT_EQ(report::per_million(1, 4), 250000);
+    EXPECT_EQ(report::per_million(0, 0), 0);
+}
+
+TEST_F(Report, CsvQuotesWhatNeedsIt) {
+    EXPECT_EQ(report::csv_of({"a", "b", "c"},
+                             {{{"c", 0.1}, {"a", "x, \"y\""}}, {{"a", 3}, {"b", nullptr}}}),
+              "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
+}
+
+TEST_F(Report, PartsAreFoundOnlyUndamagedAndUnderTheirKey) {
+    const report::part_store store(folder_ / "parts");
+    const report::part_key key{"cloth, vf: errors", {{"program", "p"}, {"data", "d"}}};
+    const rows kept{{{"method", "exact"}, {"ns", 0.1}, {"bound", nullptr}}};
+    rows found;
+    EXPECT_FALSE(store.find(key, found));
+    store.keep(key, kept);
+    ASSERT_TRUE(store.find(key, found));
+    EXPECT_EQ(found, kept);
+
+    EXPECT_FALSE(store.find({"cloth; vf: errors", key.depends_on}, found));
+    EXPECT_FALSE(store.find({key.name, {{"program", "p"}, {"data", "e"}}}, found));
+
+    const fs::path path = store.path_of(key);
+    const std::string text = ccd::io::read_whole(path);
+    std::string changed = text;
+    changed.replace(text.find("0.1"), 3, "0.2");
+    for (const std::string& damaged :
+         {changed, text.substr(0, text.size() / 2), std::string(), std::string("[]"),
+          std::string("{\"rows\":[]}"), std::string("{\"rows\":[],\"depends_on\":1}")}) {
+        ccd::io::write_whole(path, damaged);
+        EXPECT_FALSE(store.find(key, found)) << damaged;
+    }
+    ccd::io::write_whole(path, text);
+    EXPECT_TRUE(store.find(key, found));
+}
+
+TEST_F(Report, PartsNeedAFolder) {
+    EXPECT_THROW(report::part_store(write("file", "") / "parts"), ccd::io::file_error);
+}
+
+// A vertex that falls through a triangle, and one that stays above it.
+constexpr const char* hit = "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,-1\n0,0,0\n1,0,0\n0,1,0\n";
+constexpr const char* miss =
+    "0.25,0.25,1\n0,0,0\n1,0,0\n0,1,0\n0.25,0.25,0.5\n0,0,0\n1,0,0\n0,1,0\n";
+
+// A triangle, and one that falls from `z`, through it if that is negative.
+std::string frame(double z) {
+    std::string text;
+    for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
+    for (const char* corner : {"0.2 0.2 ", "0.4 0.2 ", "0.2 0.4 "})
+        text += std::string("v ") + corner + std::to_string(z) + '\n';
+    return text + "f 1 2 3\nf 4 5 6\n";
+}
+
+TEST_F(Report, FindsQueriesByFolderAndScenesOfTwoFrames) {
+    write("a/vertex-face/1.csv", hit);
+    write("a/edge-edge/1.csv", hit);
+    write("a/edge-edge/2.csv", hit);
+    write("b/queries/1vf.csv", hit);
+    write("other/table.csv", "x,y\n");
+    write("b/frames/10.obj", frame(-1));
+    write("b/frames/9.obj", frame(1));
+    write("c/one.obj", frame(1));
+    const auto found = report::find_data({folder_, folder_ / "a"});
+    ASSERT_EQ(found.sources.size(), 3U);
+    EXPECT_EQ(found.sources[0].name, "b");
+    ASSERT_EQ(found.sources[0].frames.size(), 2U);
+    EXPECT_EQ(found.sources[0].frames[0].filename(), "9.obj");
+    EXPECT_EQ(found.sources[1].name, "a");
+    EXPECT_EQ(found.sources[1].queries.size(), 3U);
+    EXPECT_EQ(found.sources[2].name, "b queries");
+    ASSERT_EQ(found.left_out.size(), 2U);
+    EXPECT_EQ(found.left_out[0].path.filename(), "table.csv");
+    EXPECT_EQ(found.left_out[1].path.filename(), "c");
+    EXPECT_THROW(report::find_data({folder_ / "none"}), ccd::io::file_error);
+}
+
+TEST_F(Report, TruthIsTheFilesElseExact) {
+    const std::string lines = std::string(hit) + miss;
+    std::string with_truth;
+    for (std::size_t at = 0; at < lines.size(); at = lines.find('\n', at) + 1)
+        with_truth += lines.substr(at, lines.find('\n', at) - at) + ",1\n";  // wrong of the second
+    write("a/vf/1.csv", lines);
+    write("a/vf/2.csv", with_truth);
+    const auto data = report::load(report::find_data({folder_}).sources.at(0), 1);
+    const auto& judged = data->vertex_face_queries;
+    EXPECT_EQ(judged.collides, (std::vector<unsigned char>{1, 0, 1, 1}));
+    EXPECT_EQ(judged.colliding, 3U);
+    EXPECT_EQ(judged.stored_truths, 2U);
+
+    for (const char* method : {"exact", "exact, batch"}) {
+        const rows counted = report::count_errors(judged, method, 1, [](double) {});
+        ASSERT_EQ(counted.size(), 1U);
+        EXPECT_EQ(counted[0]["queries"], 4);
+        EXPECT_EQ(counted[0]["collisions"], 2);
+        EXPECT_EQ(counted[0]["false_negatives"], 1) << "against the file's wrong truth";
+        EXPECT_EQ(counted[0]["false_positives"], 0);
+    }
+}
+
+TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
+    write("s/frames/0.obj", frame(1));
+    write("s/frames/1.obj", frame(-1));
+    const auto load = [this] {
+        return report::load(report::find_data({folder_}).sources.at(0), 1);
+    };
+    // Vertices 3, 4 and 5 fall through face 0, whose number follows 6 vertices and 6 edges.
+    write("s/boxes/0vf.json", "[[3,12],[4,12],[5,12],[0,13]]");
+    write("s/mma_bool/0vf_mma_bool.json", "[true,true,true,false]");
+    auto data = load();
+    EXPECT_EQ(data->origin, report::origin::scene);
+    EXPECT_EQ(data->vertex_face_queries.colliding, 3U);
+    EXPECT_EQ(data->vertex_face_queries.stored_truths, 4U);
+    EXPECT_EQ(data->vertex_face_queries.contradictions, 0U);
+    const std::string before = data->fingerprint;
+
+    write("s/boxes/0vf.json", "[[3,12],[0,13]]");  // one is wrong, two are not listed
+    write("s/mma_bool/0vf_mma_bool.json", "[false,true]");
+    data = load();
+    EXPECT_EQ(data->vertex_face_queries.contradictions, 4U);
+    EXPECT_NE(data->fingerprint, before);
+
+    write("s/boxes/0vf.json", "[[3,14],[0,13]]");
+    EXPECT_THROW(load(), ccd::io::file_error);
+    write("s/boxes/0vf.json", "[[3,12]]");
+    EXPECT_THROW(load(), ccd::io::file_error);
+}
+
+TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
+    write("vf/1.csv", std::string(hit) + miss);
+    const auto data = report::load(report::find_data({folder_}).sources.at(0), 1);
+    const rows bounds = report::take_bounds(data->vertex_face_queries, report::sizes(true));
+    ASSERT_FALSE(bounds.empty());
+    EXPECT_EQ(bounds.size() % 6, 0U);
+    for (const row& r : bounds) {
+        EXPECT_EQ(r["count"], 2);
+        EXPECT_EQ(r["unknown"], 0);
+        EXPECT_LE(r["q0"], r["q100"]);
+        EXPECT_GE(r["q0"], 0);
+        EXPECT_LT(r["relative_q100"], 1e-10) << r;
+    }
+}
+
+TEST_F(Report, MadeQueriesCollideAndDoNot) {
+    for (const auto& data : report::made_data(1)) {
+        EXPECT_EQ(data->vertex_face_queries.queries.size(), data->edge_edge_queries.queries.size());
+        EXPECT_GT(data->vertex_face_queries.colliding, 100U);
+        EXPECT_GT(data->edge_edge_queries.colliding, 100U);
+        EXPECT_LT(data->edge_edge_queries.colliding + 100, data->edge_edge_queries.queries.size());
+    }
+}
+
+TEST_F(Report, StressRowsAreOfEveryKnobKindAndMethod) {
+    const ccd::stress::family& family = ccd::stress::families().front();
+    report::sample_sizes few = report::sizes(true);
+    few.stress_queries = 2;
+    few.stress_seconds = 0;
+    const std::vector<std::string> methods{"float", "exact", "exact, batch"};
+    const rows all = report::stress_methods(family, methods, few, 1, [](double) {});
+    EXPECT_EQ(all.size(), family.knobs.size() * 2 * methods.size());
+    for (const row& r : all) EXPECT_FALSE(r.contains("broken")) << r;
+}
+
+}  // namespace

@@ -1,0 +1,229 @@
+// What the predicates of errbound/predicates.hpp are, in whole numbers and by other formulas than
+// theirs: determinants of homogeneous coordinates, meeting points by their parameters.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <climits>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/sign.hpp>
+#include <span>
+
+#include "tests/support/big_integer.hpp"
+
+namespace predicate_oracle {
+
+template <std::size_t D>
+using point = std::array<big_integer, D>;
+using point2 = point<2>;
+using point3 = point<3>;
+
+/// The exponent of the last bit of any coordinate; 0 if all are zero.
+inline int common_unit(std::span<const double> coordinates) {
+    int unit = INT_MAX;
+    for (const double x : coordinates) {
+        if (x == 0) continue;
+        int exponent;
+        const double fraction = std::frexp(x, &exponent);
+        const auto digits = static_cast<std::uint64_t>(std::ldexp(std::abs(fraction), 53));
+        unit = std::min(unit, exponent - 53 + std::countr_zero(digits));
+    }
+    return unit == INT_MAX ? 0 : unit;
+}
+
+/// Points in units of 2^unit.
+template <class T, std::size_t D, std::size_t N>
+std::array<point<D>, N> scaled_points(const std::array<std::array<T, D>, N>& p, int unit) {
+    std::array<point<D>, N> scaled;
+    for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t k = 0; k < D; ++k) scaled[i][k] = big_integer(p[i][k], unit);
+    return scaled;
+}
+template <class T, std::size_t D, std::size_t N>
+int common_unit(const std::array<std::array<T, D>, N>& p) {
+    std::array<double, D * N> all;
+    for (std::size_t i = 0; i < D * N; ++i) all[i] = p[i / D][i % D];
+    return common_unit(std::span<const double>(all));
+}
+
+inline big_integer dot(const point3& a, const point3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline point3 cross(const point3& a, const point3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline point3 difference(const point3& a, const point3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline point3 homogeneous(const point2& a) {
+    return {a[0], a[1], 1};
+}
+
+/// The determinant of rows (x, y, z, w), by the minors of two columns.
+inline big_integer determinant(const point<4>& a, const point<4>& b, const point<4>& c,
+                               const point<4>& d) {
+    const auto left = [](const auto& p, const auto& q) { return p[0] * q[1] - p[1] * q[0]; };
+    const auto right = [](const auto& p, const auto& q) { return p[2] * q[3] - p[3] * q[2]; };
+    return left(a, b) * right(c, d) - left(a, c) * right(b, d) + left(a, d) * right(b, c) +
+           left(b, c) * right(a, d) - left(b, d) * right(a, c) + left(c, d) * right(a, b);
+}
+
+inline big_integer orient2d(const std::array<point2, 3>& p) {
+    return dot(homogeneous(p[0]), cross(homogeneous(p[1]), homogeneous(p[2])));
+}
+inline big_integer orient3d(const std::array<point3, 4>& p) {
+    const auto row = [&](std::size_t i) { return point<4>{p[i][0], p[i][1], p[i][2], 1}; };
+    return determinant(row(0), row(1), row(2), row(3));
+}
+
+/// Points in the plane at these heights.
+inline big_integer lifted_area(const std::array<point2, 4>& p,
+                               const std::array<big_integer, 4>& height) {
+    const auto row = [&](std::size_t i) { return point<4>{p[i][0], p[i][1], height[i], 1}; };
+    return determinant(row(0), row(1), row(2), row(3));
+}
+/// Points in space: by the column of heights, the fourth of five.
+inline big_integer lifted_volume(const std::array<point3, 5>& p,
+                                 const std::array<big_integer, 5>& height) {
+    big_integer sum;
+    for (std::size_t i = 0; i < 5; ++i) {
+        std::array<point3, 4> others;
+        for (std::size_t k = 0; k < 4; ++k) others[k] = p[k < i ? k : k + 1];
+        const big_integer term = height[i] * orient3d(others);
+        sum = i % 2 == 0 ? sum - term : sum + term;
+    }
+    return sum;
+}
+
+inline big_integer incircle(const std::array<point2, 4>& p) {
+    std::array<big_integer, 4> height;
+    for (std::size_t i = 0; i < 4; ++i) height[i] = p[i][0] * p[i][0] + p[i][1] * p[i][1];
+    return lifted_area(p, height);
+}
+inline big_integer insphere(const std::array<point3, 5>& p) {
+    std::array<big_integer, 5> height;
+    for (std::size_t i = 0; i < 5; ++i) height[i] = dot(p[i], p[i]);
+    return lifted_volume(p, height);
+}
+/// `one` is 1 in the points' units: weights are of the second degree.
+inline big_integer power_incircle(const std::array<point3, 4>& p, const big_integer& one) {
+    std::array<point2, 4> flat;
+    std::array<big_integer, 4> height;
+    for (std::size_t i = 0; i < 4; ++i) {
+        flat[i] = {p[i][0], p[i][1]};
+        height[i] = p[i][0] * p[i][0] + p[i][1] * p[i][1] - p[i][2] * one;
+    }
+    return lifted_area(flat, height);
+}
+inline big_integer power_insphere(const std::array<point<4>, 5>& p, const big_integer& one) {
+    std::array<point3, 5> solid;
+    std::array<big_integer, 5> height;
+    for (std::size_t i = 0; i < 5; ++i) {
+        solid[i] = {p[i][0], p[i][1], p[i][2]};
+        height[i] = dot(solid[i], solid[i]) - p[i][3] * one;
+    }
+    return lifted_volume(solid, height);
+}
+
+/// |a|² − |b|² − 2p·(a − b).
+template <std::size_t D>
+big_integer compare_distances(const std::array<point<D>, 3>& x) {
+    const auto& [p, a, b] = x;
+    big_integer sum;
+    for (std::size_t k = 0; k < D; ++k) sum = sum + (a[k] - b[k]) * (a[k] + b[k] - (p[k] + p[k]));
+    return sum;
+}
+
+inline bool is_zero(const point3& a) {
+    return sign(a[0]) == 0 && sign(a[1]) == 0 && sign(a[2]) == 0;
+}
+
+/// a + s(b − a) and c + t(d − c), for s and t in [0, 1].
+inline int segments_intersect3d(const std::array<point3, 4>& p) {
+    const point3 u = difference(p[1], p[0]), v = difference(p[3], p[2]), w = difference(p[2], p[0]);
+    const point3 n = cross(u, v);
+    if (!is_zero(n)) {
+        if (sign(dot(w, n)) != 0) return -1;
+        // s and t times |n|².
+        const big_integer most = dot(n, n), s = dot(cross(w, v), n), t = dot(cross(w, u), n);
+        return std::min({sign(s), sign(t), sign(most - s), sign(most - t)});
+    }
+    const point3 along = is_zero(u) ? v : u;
+    if (!is_zero(cross(w, along))) return -1;
+    if (is_zero(along)) return is_zero(w) ? 0 : -1;
+    // Where they are on the common line.
+    const big_integer b = dot(u, along), c = dot(w, along), d = c + dot(v, along);
+    const big_integer low = b < 0 ? b : 0, high = b < 0 ? 0 : b;
+    const bool below = c < low && d < low, above = high < c && high < d;
+    return below || above ? -1 : 0;
+}
+
+/// p + t(q − p), for t in [0, 1], in the triangle's barycentric coordinates.
+inline int segment_intersects_triangle(const std::array<point3, 5>& x) {
+    const point3 &p = x[0], &q = x[1], &a = x[2], &b = x[3], &c = x[4];
+    const point3 ab = difference(b, a), ac = difference(c, a), n = cross(ab, ac);
+    if (is_zero(n)) {
+        // The longest of its edges is what the triangle is.
+        const point3 bc = difference(c, b);
+        const big_integer l_ab = dot(ab, ab), l_ac = dot(ac, ac), l_bc = dot(bc, bc);
+        const bool is_ab = !(l_ab < l_ac) && !(l_ab < l_bc), is_ac = !(l_ac < l_bc);
+        return std::min(0, segments_intersect3d(is_ab   ? std::array<point3, 4>{p, q, a, b}
+                                                : is_ac ? std::array<point3, 4>{p, q, a, c}
+                                                        : std::array<point3, 4>{p, q, b, c}));
+    }
+    // Three functions of a point, not negative in the triangle, which sum up to |n|² in its plane.
+    const auto inside = [&](const point3& at) {
+        const point3 r = difference(at, a);
+        const big_integer of_b = dot(cross(r, ac), n), of_c = dot(cross(ab, r), n);
+        return point3{dot(n, n) - of_b - of_c, of_b, of_c};
+    };
+    const point3 at_p = inside(p), at_q = inside(q);
+    const big_integer above_p = dot(difference(p, a), n), above_q = dot(difference(q, a), n);
+    const big_integer fall = above_p - above_q;  // t = above_p/fall
+    if (sign(fall) != 0) {
+        int least = std::min(sign(fall) * sign(above_p), -sign(fall) * sign(above_q));
+        for (std::size_t k = 0; k < 3; ++k)
+            least = std::min(least, sign(fall) * sign(at_q[k] * above_p - at_p[k] * above_q));
+        return least;
+    }
+    if (sign(above_p) != 0) return -1;
+    // In the plane: what each edge leaves of t, from `low` to `high`, both fractions.
+    std::array<big_integer, 2> low{0, 1}, high{1, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (sign(at_p[k]) < 0 && sign(at_q[k]) < 0) return -1;
+        const std::array<big_integer, 2> t{abs(at_p[k]), abs(at_p[k] - at_q[k])};
+        if (sign(at_p[k]) < 0 && low[0] * t[1] < t[0] * low[1]) low = t;
+        if (sign(at_q[k]) < 0 && t[0] * high[1] < high[0] * t[1]) high = t;
+    }
+    return high[0] * low[1] < low[0] * high[1] ? -1 : 0;
+}
+
+/// Homogeneous; the last coordinate is zero where lines are parallel.
+inline point3 meeting_point(const point2& a, const point2& b, const point2& c, const point2& d) {
+    return cross(cross(homogeneous(a), homogeneous(b)), cross(homogeneous(c), homogeneous(d)));
+}
+inline int orient2d_line_line(const std::array<point2, 6>& p) {
+    const point3 m = meeting_point(p[0], p[1], p[2], p[3]);
+    return sign(dot(m, cross(homogeneous(p[4]), homogeneous(p[5])))) * sign(m[2]);
+}
+inline int compare_x_line_line(const std::array<point2, 8>& p) {
+    const point3 m = meeting_point(p[0], p[1], p[2], p[3]),
+                 n = meeting_point(p[4], p[5], p[6], p[7]);
+    return sign(m[0] * n[2] - n[0] * m[2]) * sign(m[2]) * sign(n[2]);
+}
+/// Points a, b of the line, three of its plane, three more: the plane's function f of a point gives
+/// f(a)·b − f(b)·a, over f(a) − f(b).
+inline int orient3d_line_plane(const std::array<point3, 8>& x) {
+    const point3 &a = x[0], &b = x[1];
+    const big_integer at_a = orient3d({x[2], x[3], x[4], a});
+    const big_integer at_b = orient3d({x[2], x[3], x[4], b});
+    const big_integer w = at_a - at_b;
+    const auto m = [&](std::size_t k) { return at_a * b[k] - at_b * a[k]; };
+    const auto row = [](const point3& y) { return point<4>{y[0], y[1], y[2], 1}; };
+    return sign(determinant({m(0), m(1), m(2), w}, row(x[5]), row(x[6]), row(x[7]))) * sign(w);
+}
+
+}  // namespace predicate_oracle

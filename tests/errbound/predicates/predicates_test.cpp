@@ -1,0 +1,117 @@
+// The predicates of errbound/predicates.hpp: against their oracles, on inputs of all kinds and
+// sizes, and against what is known of simple figures.
+#include <errbound/predicates.hpp>
+#include <tuple>
+
+#include "tests/errbound/predicates/predicate_check.hpp"
+
+namespace {
+
+using namespace predicate_check;
+
+template <class T>
+class Predicates : public testing::Test {};
+using number_types = testing::Types<float, double>;
+TYPED_TEST_SUITE(Predicates, number_types);
+
+TYPED_TEST(Predicates, AreWhatTheirOraclesSay) {
+    const auto run = [](const auto& entry) {
+        if (entry.constant_of_shewchuk != 0) return;  // those of predicate_test
+        const auto [first, second] = entry.surfaces;
+        compare_entry<TypeParam>(entry, first);
+        if (second != first) compare_entry<TypeParam>(entry, second);
+    };
+    std::apply([&](const auto&... entry) { (run(entry), ...); }, predicate_list::all);
+}
+
+TEST(Signs, AreThoseOfThePicture) {
+    using enum sign_type;
+    EXPECT_EQ(errbound::orient2d(point2{0, 0}, point2{1, 0}, point2{0.5, 1}), positive);
+    const point3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, above{0, 0, 1}, below{0, 0, -1};
+    EXPECT_EQ(errbound::orient3d(a, b, c, below), positive);
+    EXPECT_EQ(errbound::orient3d(a, b, c, above), negative);
+    EXPECT_EQ(errbound::incircle(point2{0, 0}, point2{1, 0}, point2{0, 1}, point2{0.9, 0.9}),
+              positive);
+    EXPECT_EQ(errbound::incircle(point2{0, 0}, point2{1, 0}, point2{0, 1}, point2{1, 1}), zero);
+    EXPECT_EQ(errbound::insphere(a, b, c, below, point3{0.25, 0.25, -0.25}), positive);
+    EXPECT_EQ(errbound::insphere(a, b, c, below, point3{1, 1, 1}), negative);
+    // Unit circles at three corners of a square of side 2, and points with weights at the fourth:
+    // the orthogonal circle has its center in the middle and 1 for its squared radius.
+    const auto power = [](double weight) {
+        return errbound::power_incircle(point3{0, 0, 1}, point3{2, 0, 1}, point3{0, 2, 1},
+                                        point3{2, 2, weight});
+    };
+    EXPECT_EQ(power(1), zero);
+    EXPECT_EQ(power(1.5), positive);
+    EXPECT_EQ(power(0.5), negative);
+    EXPECT_EQ(errbound::compare_distances2d(point2{0, 0}, point2{1, 0}, point2{0, 2}), negative);
+    EXPECT_EQ(errbound::compare_distances3d(a, above, b), zero);
+}
+
+TEST(Signs, OfSegments) {
+    using enum sign_type;
+    const auto at = [](const point3& a, const point3& b, const point3& c, const point3& d) {
+        const sign_type s = errbound::segments_intersect3d(a, b, c, d);
+        EXPECT_EQ(errbound::segments_intersect3d(d, c, a, b), s);
+        EXPECT_EQ(errbound::segments_intersect3d(b, a, c, d), s);
+        return s;
+    };
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, -1, 1}, {0, 1, 1}), positive);
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, -1, 2}, {0, 1, 2}), negative);
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {0, 0, 1}, {0, 1, 1}), zero);  // a T
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {2, -1, 1}, {2, 1, 1}), negative);
+    EXPECT_EQ(at({-1, 0, 1}, {1, 0, 1}, {2, 0, 1}, {2, 1, 1}), negative);  // end on the line
+    EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {3, 3, 3}), zero);       // overlap
+    EXPECT_EQ(at({0, 0, 0}, {2, 2, 2}, {2, 2, 2}, {3, 3, 3}), zero);
+    EXPECT_EQ(at({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}), negative);
+    EXPECT_EQ(at({1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}), zero);  // points
+    EXPECT_EQ(at({1, 1, 1}, {1, 1, 1}, {0, 0, 0}, {2, 2, 2}), zero);
+    EXPECT_EQ(at({1, 1, 2}, {1, 1, 2}, {0, 0, 0}, {2, 2, 2}), negative);
+}
+
+TEST(Signs, OfSegmentAndTriangle) {
+    using enum sign_type;
+    const auto at = [](const point3& p, const point3& q, const point3& c = {0, 4, 0}) {
+        const point3 a{0, 0, 0}, b{4, 0, 0};
+        const sign_type s = errbound::segment_intersects_triangle(p, q, a, b, c);
+        EXPECT_EQ(errbound::segment_intersects_triangle(q, p, c, b, a), s);
+        EXPECT_EQ(errbound::segment_intersects_triangle(p, q, b, c, a), s);
+        return s;
+    };
+    EXPECT_EQ(at({1, 1, -1}, {1, 1, 1}), positive);
+    EXPECT_EQ(at({3, 3, -1}, {3, 3, 1}), negative);
+    EXPECT_EQ(at({1, 1, 1}, {1, 1, 2}), negative);
+    EXPECT_EQ(at({1, 1, 0}, {1, 1, 2}), zero);    // an end inside
+    EXPECT_EQ(at({2, 2, -1}, {2, 2, 1}), zero);   // an edge
+    EXPECT_EQ(at({4, 0, -1}, {4, 0, 1}), zero);   // a corner
+    EXPECT_EQ(at({1, 1, 0}, {1.5, 1, 0}), zero);  // in the plane, inside
+    EXPECT_EQ(at({-1, 1, 0}, {9, 1, 0}), zero);
+    EXPECT_EQ(at({5, 5, 0}, {9, 1, 0}), negative);
+    EXPECT_EQ(at({1, -1, 0}, {1, 1, 0}, {8, 0, 0}), zero);  // the triangle is a segment
+    EXPECT_EQ(at({1, -1, 1}, {1, 1, 1}, {8, 0, 0}), negative);
+    EXPECT_EQ(at({1, 1, 0}, {1, 1, 0}), zero);  // the segment is a point
+    EXPECT_EQ(at({1, 1, 1}, {1, 1, 1}), negative);
+}
+
+TEST(Signs, OfImplicitPoints) {
+    using enum sign_type;
+    const point2 a{0, 0}, b{3, 3}, c{0, 2}, d{2, 0};  // they meet at (1, 1)
+    const auto side = [&](const point2& q, const point2& r) {
+        const sign_type s = errbound::orient2d_line_line(a, b, c, d, q, r);
+        EXPECT_EQ(errbound::orient2d_line_line(a, b, d, c, q, r), s);
+        EXPECT_EQ(errbound::orient2d(point2{1, 1}, q, r), s);
+        return s;
+    };
+    EXPECT_EQ(side({5, 1}, {5, 2}), positive);
+    EXPECT_EQ(side({5, 1}, {9, 1}), zero);
+    EXPECT_EQ(side({5, 1}, {5, 0}), negative);
+    EXPECT_EQ(errbound::orient2d_line_line(a, b, point2{1, 0}, point2{2, 1}, c, d), zero);
+    EXPECT_EQ(errbound::compare_x_line_line(a, b, c, d, a, b, c, point2{4, 0}), negative);
+    EXPECT_EQ(errbound::compare_x_line_line(a, b, c, d, point2{1, 5}, point2{1, 7}, c, b), zero);
+    const point3 p{1, 1, -3}, q{1, 1, 9}, r{0, 0, 2}, s{1, 0, 2}, t{0, 1, 2};  // at (1, 1, 2)
+    for (const point3& u : {point3{0, 0, 0}, point3{0, 0, 3}, point3{0, 0, 2}})
+        EXPECT_EQ(errbound::orient3d_line_plane(p, q, r, s, t, point3{1, 0, 2}, point3{0, 1, 2}, u),
+                  errbound::orient3d(point3{1, 1, 2}, point3{1, 0, 2}, point3{0, 1, 2}, u));
+}
+
+}  // namespace

@@ -1,0 +1,319 @@
+// The tracked scalar against rationals: every rule, number type and rounding direction; bounds from
+// both sides; exact zero, underflow, overflow, NaN.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cmath>
+#include <cstdint>
+#include <errbound/errbound.hpp>
+#include <errbound/multiprecision.hpp>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/support/special_values.hpp"
+
+namespace {
+
+using errbound::sign_type;
+using errbound::tracked;
+/// A value or one of its own kind of operand that arrives with a bound, and the exact number that
+/// it stands for.
+template <class Number>
+struct sample {
+    Number number;
+    rational exact;
+};
+
+template <class T, class Rule>
+void check(const sample<tracked<T, Rule>>& s, const std::string& what) {
+    const T value = s.number.value(), error = s.number.error();
+    const sign_type sign = sign_of(s.number);
+    if (!std::isfinite(value) || !std::isfinite(error)) {
+        ASSERT_EQ(sign, sign_type::uncertain) << what;
+        return;
+    }
+    ASSERT_GE(error, T(0)) << what;
+    const rational off = exactly(value) - s.exact;
+    ASSERT_LE(boost::multiprecision::abs(off), exactly(error))
+        << what << " value " << value << " error " << error;
+    ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact)) << what;
+}
+
+/// Random programs: each step combines two earlier numbers; exact numbers and numbers with bounds
+/// come in at random. Division only where the rule has it.
+template <class T, class Rule, bool WithDivision>
+void run_programs(int programs, std::uint64_t seed) {
+    using number = tracked<T, Rule>;
+    std::mt19937_64 random(seed);
+    // In directed rounding overflow may end at the largest finite number, unnoticed (see
+    // rules/tight.hpp): there, inputs are smaller and programs that grow far end early.
+    const bool directed = std::fegetround() != FE_TONEAREST;
+    const T huge = std::sqrt(std::numeric_limits<T>::max());
+    const auto draw = [&] {
+        T x = special_value<T>(random);
+        while (directed && std::abs(x) > huge) x = special_value<T>(random);
+        return x;
+    };
+    for (int k = 0; k < programs; ++k) {
+        std::vector<sample<number>> pool;
+        for (int i = 0; i < 4; ++i) {
+            const T value = draw();
+            if (random() % 4 == 0) {
+                const T error = std::abs(draw()) * (random() % 2 ? T(1) : T(0));
+                const rational offset =
+                    exactly(error) * rational(static_cast<int>(random() % 9) - 4) / 4;
+                pool.push_back({number::within(value, error), exactly(value) + offset});
+            } else {
+                pool.push_back({number(value), exactly(value)});
+            }
+        }
+        for (int step = 0; step < 7; ++step) {
+            const auto& a = pool[random() % pool.size()];
+            const auto& b = pool[random() % pool.size()];
+            sample<number> c = a;
+            std::string what = std::string(Rule::name) + " seed " + std::to_string(seed) +
+                               " program " + std::to_string(k) + " step " + std::to_string(step);
+            switch (random() % (WithDivision ? 6 : 5)) {
+                case 0:
+                    c = {a.number + b.number, a.exact + b.exact};
+                    break;
+                case 1:
+                    c = {a.number - b.number, a.exact - b.exact};
+                    break;
+                case 2:
+                    c = {a.number * b.number, a.exact * b.exact};
+                    break;
+                case 3:
+                    c = {-a.number, -a.exact};
+                    break;
+                case 4: {
+                    const int e = static_cast<int>(random() % 200) - 100;
+                    const rational factor = exactly(std::ldexp(T(1), e));
+                    c = {scale(a.number, e), a.exact * factor};
+                    break;
+                }
+                default:
+                    if constexpr (WithDivision) {
+                        if (b.exact == 0) continue;
+                        c = {a.number / b.number, a.exact / b.exact};
+                    }
+            }
+            if (directed && !(std::abs(c.number.value()) < huge && c.number.error() < huge)) break;
+            check(c, what);
+            if (testing::Test::HasFatalFailure()) return;
+            pool.push_back(c);
+        }
+    }
+}
+
+constexpr int programs = 20000;
+
+template <class Rule>
+class TrackedBy : public testing::Test {};
+using rules = testing::Types<errbound::tight, errbound::safe, errbound::sharp, errbound::interval,
+                             errbound::residual>;
+TYPED_TEST_SUITE(TrackedBy, rules);
+
+TYPED_TEST(TrackedBy, BoundsHoldInRandomPrograms) {
+    constexpr bool with_division = !std::same_as<TypeParam, errbound::safe>;
+    run_programs<double, TypeParam, with_division>(programs, 1);
+    run_programs<float, TypeParam, with_division>(programs, 3);
+    run_programs<long double, TypeParam, with_division>(programs / 10, 5);
+}
+
+TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
+    for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        ASSERT_EQ(std::fesetround(direction), 0);
+        run_programs<double, errbound::tight, true>(programs / 4, 7);
+        run_programs<double, errbound::safe, false>(programs / 4, 8);
+        std::fesetround(FE_TONEAREST);
+    }
+}
+
+/// x·y − z and x·y·z + x in straight lines, which a compiler that contracts would fuse; z is the
+/// rounded x·y or near it.
+template <class T, class Rule>
+void check_straight_lines(std::uint64_t seed) {
+    using number = tracked<T, Rule>;
+    constexpr std::size_t count = 2000;
+    std::mt19937_64 random(seed);
+    std::vector<T> x(count), y(count), z(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto draw = [&] { return std::ldexp(T(random() >> 11), -50) - T(4); };
+        x[i] = draw();
+        y[i] = draw();
+        volatile T product = x[i] * y[i];
+        z[i] = product;
+        if (random() % 2) z[i] = std::nextafter(z[i], T(random() % 9) - 4);
+    }
+    std::vector<number> difference(count), from_product(count), sum(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        difference[i] = number(x[i]) * number(y[i]) - number(z[i]);
+        from_product[i] = number(x[i] * y[i]) - number(z[i]);
+        sum[i] = number(x[i]) * number(y[i]) * number(z[i]) + number(x[i]);
+    }
+    // Values alone: where no bound uses the product too, a compiler is most free.
+    std::vector<T> value(count), value_from_product(count);
+    for (std::size_t i = 0; i < count; ++i)
+        value[i] = (number(x[i]) * number(y[i]) - number(z[i])).value();
+    for (std::size_t i = 0; i < count; ++i)
+        value_from_product[i] = (number(x[i] * y[i]) - number(z[i])).value();
+    for (std::size_t i = 0; i < count; ++i) {
+        const rational a = exactly(x[i]), b = exactly(y[i]), c = exactly(z[i]);
+        volatile T product = x[i] * y[i];
+        const std::string what = std::string(Rule::name) + " line " + std::to_string(i);
+        check<T, Rule>({difference[i], a * b - c}, what);
+        check<T, Rule>({from_product[i], exactly(T(product)) - c}, what);
+        check<T, Rule>({sum[i], a * b * c + a}, what);
+        for (const T v :
+             {difference[i].value(), from_product[i].value(), value[i], value_from_product[i]})
+            ASSERT_EQ(v, product - z[i]) << what;
+        if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TYPED_TEST(TrackedBy, ProductsAreRoundedByThemselves) {
+    check_straight_lines<double, TypeParam>(11);
+    check_straight_lines<float, TypeParam>(12);
+}
+
+// From the other side: a bound of one operation on exact, normal numbers is at most 1.01·ε|v|.
+TEST(Tracked, BoundsOfOneOperationAreTight) {
+    std::mt19937_64 random(9);
+    for (int k = 0; k < 10000; ++k) {
+        const double x = std::ldexp(static_cast<double>(random() >> 11), -53) + 1;
+        const double y = std::ldexp(static_cast<double>(random() >> 11), -50) + 1;
+        const tracked<double> a = x, b = y;
+        for (const auto& c : {a + b, a - b, a * b, a / b})
+            ASSERT_LE(c.error(), 1.01 * 0x1p-52 * std::abs(c.value()));
+    }
+}
+
+TEST(Tracked, ExactZeroIsNeitherPositiveNorUncertain) {
+    const tracked<double> x = 0.1, zero = x * tracked<double>(0);
+    EXPECT_EQ(sign_of(tracked<double>()), sign_type::zero);
+    EXPECT_EQ(sign_of(zero), sign_type::zero);
+    EXPECT_EQ(sign_of(tracked<double>(3) - tracked<double>(3)), sign_type::zero);
+    EXPECT_EQ(sign_of(tracked<double, errbound::safe>(0) * tracked<double, errbound::safe>(0.1)),
+              sign_type::zero);
+    // Zero by value only: uncertain.
+    EXPECT_EQ(sign_of((x + x) + x - tracked<double>(0.1 + 0.1 + 0.1)), sign_type::uncertain);
+    // A value that equals its bound may belong to zero.
+    EXPECT_EQ(sign_of(tracked<double>::within(1.0, 1.0)), sign_type::uncertain);
+}
+
+template <class Rule>
+void check_range() {
+    using number = tracked<double, Rule>;
+    const double huge = std::numeric_limits<double>::max();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const number nan(std::numeric_limits<double>::quiet_NaN());
+    for (const number& x : {number(huge) * number(huge), number(huge) + number(huge),
+                            number(-huge) - number(huge), number(infinity), number(-infinity), nan,
+                            number(0) * number(infinity), scale(number(huge), 1)})
+        EXPECT_EQ(sign_of(x), sign_type::uncertain) << Rule::name << " " << x.value();
+    // Underflow to zero and to the smallest number is not a sign where a bound is promised.
+    if constexpr (!std::same_as<Rule, errbound::none>) {
+        EXPECT_EQ(sign_of(number(1e-200) * number(1e-200)), sign_type::uncertain);
+        EXPECT_EQ(sign_of(number(1e-162) * number(3e-162)), sign_type::uncertain);
+        EXPECT_EQ(sign_of(scale(number(1.5), -1075)), sign_type::uncertain);
+    }
+}
+
+TEST(Tracked, OverflowAndUnderflowEndUncertain) {
+    check_range<errbound::tight>();
+    check_range<errbound::safe>();
+    check_range<errbound::sharp>();
+    check_range<errbound::interval>();
+    check_range<errbound::residual>();
+    check_range<errbound::none>();
+}
+
+TEST(Tracked, SafeKnowsNothingBeyondTheOperationsThatItCounts) {
+    tracked<double, errbound::safe> x = 1.0;
+    for (int i = 0; i < 29; ++i) x *= x;
+    EXPECT_TRUE(std::isfinite(x.error()));
+    for (int i = 0; i < 40; ++i) x *= x;  // 2^69 operations
+    EXPECT_TRUE(std::isinf(x.error()));
+    const tracked<double, errbound::safe> c = 0.1;
+    EXPECT_EQ(sign_of(x * (c - c)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(x), sign_type::uncertain);
+}
+
+TEST(Tracked, ARuleMayKnowMoreThanItsError) {
+    using errbound::interval;
+    using errbound::residual;
+    // Less than the error, but the correction is known to second order.
+    const tracked<double, residual> a = 0.1, b = 0.3;
+    const auto x = (a + a) + a - b;
+    EXPECT_LE(std::abs(x.value()), 2 * x.error());
+    EXPECT_EQ(sign_of(x), sign_type::positive);
+    EXPECT_EQ(sign_of((a + b) - a - b), sign_type::zero);
+    EXPECT_EQ(sign_of(-x), sign_type::negative);
+    // A certain sign of an interval that reaches far beyond twice its value.
+    const auto wide =
+        tracked<double, interval>::within(1, 0.9) * tracked<double, interval>::within(1, 0.9);
+    EXPECT_GT(wide.error(), wide.value());
+    EXPECT_EQ(sign_of(wide), sign_type::positive);
+    EXPECT_EQ(sign_of(-wide), sign_type::negative);
+    const tracked<double, interval> three = 3, eighth = 0.125;
+    EXPECT_EQ((three * eighth - three / tracked<double, interval>(4)).error(), 0);
+    EXPECT_EQ(sign_of(three * eighth * tracked<double, interval>(8) - three), sign_type::zero);
+}
+
+// Near underflow the remainder of a division is not known: then the quotient's own rounding error
+// is inherited with the divisor's, which matters where that is as large as the divisor.
+TEST(Tracked, ResidualCountsAnUnknownRemainderWithTheDivisorsError) {
+    using number = tracked<double, errbound::residual>;
+    // The value of large + y − large is y rounded to 2^-1000, half of which the correction may be.
+    const auto sum = [](double y, double z) {
+        const double large = 0x1p-948;
+        return sample<number>{(number(large) + number(y)) - number(large) + number(z),
+                              exactly(y) + exactly(z)};
+    };
+    const auto a = sum(0x1.8p-1001, -0x1.71a1f58d0fac6p-1001);
+    const auto b = sum(0x1.051eb851eb852p-1001, -0x1.d1eb851eb851fp-1002);
+    const sample<number> quotient{a.number / b.number, a.exact / b.exact};
+    check(quotient, "quotient");
+    for (int i = -40; i <= 40; ++i) {
+        const double near = quotient.number.value() + i * 0x1p-54;
+        check<double, errbound::residual>(
+            {quotient.number - number(near), quotient.exact - exactly(near)}, std::to_string(i));
+    }
+}
+
+TEST(Tracked, DivisionByWhatMayBeZeroIsUnknown) {
+    const auto b = tracked<double>::within(1e-3, 1e-3);
+    EXPECT_EQ(sign_of(tracked<double>(1) / b), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double>(1) / tracked<double>(0)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double>(0) / tracked<double>(3)), sign_type::zero);
+}
+
+TEST(Tracked, RulesAndTypesLiveSideBySideAndInConstantExpressions) {
+    constexpr tracked<double> a = 3, b = 0.25;
+    static_assert(sign_of(a * b - a) == sign_type::negative);
+    static_assert(compare(a, b) == sign_type::positive);
+    constexpr tracked<float, errbound::safe> c = 2.0F;
+    static_assert(sign_of(c * c) == sign_type::positive);
+    static_assert(sizeof(tracked<double, errbound::none>) == sizeof(double));
+}
+
+TEST(Tracked, WhatCannotBeExactIsNotTakenForIt) {
+    // 2^24 + 1 is no float: the difference is not certainly zero.
+    EXPECT_EQ(sign_of(tracked<float>(16777217) - tracked<float>(16777216)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double>(16777217) - tracked<double>(16777216)), sign_type::positive);
+    EXPECT_EQ(sign_of(tracked<double>::within(1.0, -1.0)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(tracked<double, errbound::safe>::within(1.0, -1.0)), sign_type::uncertain);
+    static_assert(errbound::is_exact_number<rational>);
+    static_assert(!errbound::is_exact_number<boost::multiprecision::int128_t>);
+}
+
+TEST(Environment, TheTestsRunInASoundOne) {
+    const auto report = errbound::floating_point_environment();
+    EXPECT_TRUE(report.sound());
+    EXPECT_TRUE(report.nearest_even);
+}
+
+}  // namespace

@@ -1,0 +1,114 @@
+// Validation by MPFR of random expressions and queries: every rule passes, and rules that are
+// broken on purpose are caught.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "errbound/validation/validation.hpp"
+#include "tests/support/query_families.hpp"
+#include "tests/errbound/validation/validation_rules.hpp"
+
+namespace {
+
+namespace validation = errbound::validation;
+using validation::rule;
+using validation_test::all_violations;
+using validation_test::as_printed;
+using validation_test::expect_all_kept;
+using validation_test::too_small;
+
+/// As many as a test's time allows; sanitizers make everything slower.
+std::uint64_t expression_count() {
+    const char* wanted = std::getenv("ERRBOUND_VALIDATE_EXPRESSIONS");
+    return wanted ? std::strtoull(wanted, nullptr, 10) : 20000;
+}
+
+TEST(Validate, EveryRuleKeepsItsPromisesInRandomExpressions) {
+    const validation::expression_options options{.expressions = expression_count(), .seed = 7};
+    const validation::report r = validation::validate_expressions(validation::rules(), options);
+    expect_all_kept(r);
+    EXPECT_EQ(r.counts.size(), 2 * validation::rules().size());
+    for (const auto& c : r.counts) EXPECT_GE(c.cases, options.expressions) << c.rule;
+    // Long ones, for the reference's precision.
+    expect_all_kept(validation::validate_expressions(
+        validation::rules(),
+        {.expressions = expression_count() / 10, .seed = 8, .operations = 48}));
+}
+
+TEST(Validate, SameResultForEveryNumberOfThreads) {
+    validation::expression_options options{.expressions = 5000, .seed = 3, .threads = 1};
+    const rule rules[] = {validation::rule_of<errbound::tight>(),
+                          validation::rule_of<as_printed>()};
+    const validation::report one = validation::validate_expressions(rules, options);
+    options.threads = 3;
+    const validation::report three = validation::validate_expressions(rules, options);
+    ASSERT_EQ(one.counts.size(), three.counts.size());
+    for (std::size_t i = 0; i < one.counts.size(); ++i) {
+        EXPECT_EQ(one.counts[i].values, three.counts[i].values);
+        EXPECT_EQ(one.counts[i].violations, three.counts[i].violations);
+    }
+    EXPECT_EQ(all_violations(one), all_violations(three));
+    ASSERT_EQ(one.distributions.size(), three.distributions.size());
+    for (std::size_t i = 0; i < one.distributions.size(); ++i)
+        for (const double share : {0.0, 0.01, 0.5, 0.99, 1.0})
+            EXPECT_EQ(one.distributions[i].log10.quantile(share),
+                      three.distributions[i].log10.quantile(share));
+}
+
+TEST(Validate, EveryRuleKeepsItsPromisesOnQueries) {
+    std::vector<ccd::vertex_face<double>> vertex_face;
+    std::vector<ccd::edge_edge<double>> edge_edge;
+    using query_families::kind;
+    for (const auto& family : query_families::families)
+        for (std::uint64_t i = 0; i < 4; ++i) {
+            vertex_face.push_back(query_families::as_vertex_face(
+                query_families::make(family, kind::vertex_face, 1, i)));
+            edge_edge.push_back(
+                query_families::as_edge_edge(query_families::make(family, kind::edge_edge, 1, i)));
+        }
+    const validation::report vf = validation::validate_queries(validation::rules(), vertex_face, 0);
+    const validation::report ee = validation::validate_queries(validation::rules(), edge_edge, 0);
+    expect_all_kept(vf);
+    expect_all_kept(ee);
+    for (const char* quantity : {"k0", "3 k1", "3 k2", "k3", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)",
+                                 "G", "J", "M", "R", "Y(t_M)", "Y(t_R)"})
+        EXPECT_TRUE(std::ranges::any_of(vf.distributions, [quantity](const auto& t) {
+            return t.rule == "tight" && t.quantity == quantity && t.log10.ratios() > 0;
+        })) << quantity;
+    const rule broken[] = {validation::rule_of<too_small>()};
+    const validation::report caught = validation::validate_queries(broken, vertex_face, 0);
+    EXPECT_GT(caught.violation_count(), 0U);
+    ASSERT_FALSE(caught.violations.empty());
+    EXPECT_EQ(std::ranges::count(caught.violations.front().code, '\n'), 8);
+}
+
+/// The rule's violations in random expressions, of which there must be some, each made small.
+std::vector<validation::violation> caught_in_expressions(const rule& broken) {
+    const validation::report r =
+        validation::validate_expressions(std::span(&broken, 1), {.expressions = 2000, .seed = 1});
+    EXPECT_GT(r.violation_count(), 0U) << broken.name;
+    EXPECT_FALSE(r.violations.empty());
+    return r.violations;
+}
+
+TEST(Validate, ThePrintedRuleWithoutAnUnderflowTermIsCaught) {
+    constexpr rule broken = validation::rule_of<as_printed>();
+    bool by_underflow = false;
+    for (const validation::violation& v : caught_in_expressions(broken)) {
+        const auto lines = std::count(v.code.begin(), v.code.end(), '\n');
+        EXPECT_LE(lines, 4) << v.what << "\n" << v.code;  // the type, two operands, an operation
+        by_underflow = by_underflow || v.code.find(" * ") != std::string::npos;
+    }
+    EXPECT_TRUE(by_underflow);
+}
+
+TEST(Validate, ARuleWithTooSmallAFactorIsCaught) {
+    constexpr rule broken = validation::rule_of<too_small>();
+    for (const validation::violation& v : caught_in_expressions(broken))
+        EXPECT_LE(std::count(v.code.begin(), v.code.end(), '\n'), 4) << v.what << "\n" << v.code;
+}
+
+}  // namespace
