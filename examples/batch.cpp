@@ -15,7 +15,7 @@ int main() {
                                     0.25, 0.25, -1, 0.5, 0, 0, 0.25, 0.25, 0x1p-40};
     const ccd::vertex_rows positions(before.data(), after.data(), before.size() / 3);
 
-    const std::vector<ccd::vertex_face_indices> candidates{
+    const std::vector<ccd::vertex_face_pair> candidates{
         {.v = 3, .f0 = 0, .f1 = 1, .f2 = 2},
         {.v = 4, .f0 = 0, .f1 = 1, .f2 = 2},
         {.v = 5, .f0 = 0, .f1 = 1, .f2 = 2},

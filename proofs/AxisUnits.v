@@ -2,7 +2,7 @@
     Results:
         face_units, edges_units, vertex_edge_units   collisions do not depend on the axes' units
         vertices_contact_right   `contact` of two vertices (ccd/exact/features.hpp) is true exactly if they meet
-        parted_right        where `parted` (ccd/exact/features.hpp) says so, vertex and edge do not meet *)
+        separated_right        where `separated` (ccd/exact/features.hpp) says so, vertex and edge do not meet *)
 
 From Coq Require Import Reals ZArith Lra List Bool.
 From Errbound Require Import Sign Bernstein Contact Decisions.
@@ -116,33 +116,33 @@ Proof.
     repeat split; [now apply eq_IZR | now apply eq_IZR | now apply eq_IZR | now apply le_IZR].
 Qed.
 
-(** ** Parted *)
+(** ** SeparatingAxis *)
 
-(** parted (ccd/exact/features.hpp), of the coordinates as given *)
+(** separated (ccd/exact/features.hpp), of the coordinates as given *)
 Definition less (a b : R) : bool := if Rlt_dec a b then true else false.
-Definition parted_along (axis : point -> R) (v e0 e1 : moving) : bool :=
+Definition separated_along (axis : point -> R) (v e0 e1 : moving) : bool :=
   let v0 := axis (start v) in let v1 := axis (finish v) in
   let a0 := axis (start e0) in let a1 := axis (finish e0) in
   let b0 := axis (start e1) in let b1 := axis (finish e1) in
   less a0 v0 && less a1 v1 && less b0 v0 && less b1 v1 ||
   less v0 a0 && less v1 a1 && less v0 b0 && less v1 b1.
-Definition parted (v e0 e1 : moving) : bool :=
-  parted_along x v e0 e1 || parted_along y v e0 e1 || parted_along z v e0 e1.
+Definition separated (v e0 e1 : moving) : bool :=
+  separated_along x v e0 e1 || separated_along y v e0 e1 || separated_along z v e0 e1.
 
-Theorem parted_right v e0 e1 : parted v e0 e1 = true -> ~ vertex_edge_collides v e0 e1.
+Theorem separated_right v e0 e1 : separated v e0 e1 = true -> ~ vertex_edge_collides v e0 e1.
 Proof.
   assert (Less : forall c d, less c d = true -> c < d) by (intros c d; unfold less; now destruct
     Rlt_dec).
-  assert (Along : forall axis n, (forall p, dot n p = axis p) -> parted_along axis v e0 e1 = true -> ~
+  assert (Along : forall axis n, (forall p, dot n p = axis p) -> separated_along axis v e0 e1 = true -> ~
     vertex_edge_collides v e0 e1).
-  { intros axis n E P. unfold parted_along in P. apply orb_prop in P.
+  { intros axis n E P. unfold separated_along in P. apply orb_prop in P.
     assert (O : forall p, dot (minus origin n) p = - axis p) by (intros p; rewrite <- E; unfold minus,
       dot, origin; simpl; ring).
     destruct P as [P | P]; rewrite !andb_true_iff in P; destruct P as (((A & B) & C) & D); apply Less in
       A, B, C, D.
-    - apply (vertex_edge_parted (minus origin n)); unfold before; rewrite !O; lra.
-    - apply (vertex_edge_parted n); unfold before; rewrite !E; lra. }
-  unfold parted. intros P. apply orb_prop in P. destruct P as [P | P]; [apply orb_prop in P; destruct P
+    - apply (vertex_edge_separated (minus origin n)); unfold before; rewrite !O; lra.
+    - apply (vertex_edge_separated n); unfold before; rewrite !E; lra. }
+  unfold separated. intros P. apply orb_prop in P. destruct P as [P | P]; [apply orb_prop in P; destruct P
     as [P | P] |].
   - apply (Along x (Point 1 0 0)); auto. intros p. unfold dot. simpl. ring.
   - apply (Along y (Point 0 1 0)); auto. intros p. unfold dot. simpl. ring.

@@ -456,7 +456,7 @@ Proof.
   exists s. split; [lra |]. split; auto. apply Closed; auto. intros t T. apply P; [lra | auto].
 Qed.
 
-(** A point off a segment is parted from it by a plane. *)
+(** A point off a segment is separated from it by a plane. *)
 Lemma off_segment p a b : in_segment p a b \/ exists n, 0 < dot n (minus a p) /\ 0 < dot n (minus b p).
 Proof.
   set (e := minus b a). set (w := minus a p).
@@ -619,7 +619,7 @@ Ltac continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_
     cont_minus).
 
 (** A plane that parts two moving points at one time does so for a while. *)
-Lemma stays_parted n p q s : 0 < dot n (minus (place q s) (place p s)) ->
+Lemma stays_separated n p q s : 0 < dot n (minus (place q s) (place p s)) ->
   exists e, s < e /\ forall t, s <= t < e -> 0 < dot n (minus (place q t) (place p t)).
 Proof.
   set (f0 := dot n (minus (start q) (start p))). set (f1 := dot n (minus (finish q) (finish p))).
@@ -643,7 +643,7 @@ Lemma face_closed v f0 f1 f2 s b : s < b ->
   in_triangle (place v s) (place f0 s) (place f1 s) (place f2 s).
 Proof.
   intros B D H. destruct (off_degenerate (place v s) _ _ _ D) as [| (n & P0 & P1 & P2)]; auto. exfalso.
-  apply stays_parted in P0, P1, P2. destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2
+  apply stays_separated in P0, P1, P2. destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2
     & P2).
   set (e := Rmin (Rmin e0 e1) (Rmin e2 b)).
   assert (E : s < e /\ e <= e0 /\ e <= e1 /\ e <= e2 /\ e <= b).
@@ -672,7 +672,7 @@ Lemma edges_closed a0 a1 b0 b1 s b : s < b ->
   segments_meet (place a0 s) (place a1 s) (place b0 s) (place b1 s).
 Proof.
   intros B D H. destruct (off_parallel _ _ _ _ D) as [| (n & P0 & P1 & P2 & P3)]; auto. exfalso.
-  apply stays_parted in P0, P1, P2, P3.
+  apply stays_separated in P0, P1, P2, P3.
   destruct P0 as (e0 & E0 & P0), P1 as (e1 & E1 & P1), P2 as (e2 & E2 & P2), P3 as (e3 & E3 & P3).
   set (e := Rmin (Rmin e0 e1) (Rmin (Rmin e2 e3) b)).
   assert (E : s < e /\ e <= e0 /\ e <= e1 /\ e <= e2 /\ e <= e3 /\ e <= b).

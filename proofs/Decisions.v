@@ -5,7 +5,7 @@
         bsc_face_separate, bsc_face_collides, bsc_edges_separate, bsc_edges_collides
                                     what decide_bsc answers is so
         rootless_separate, outside_separate   one strict sign of Y, or no G >= 0: no collision
-        face_parted, edges_parted, vertex_edge_parted   a fixed axis that parts the features the same
+        face_separated, edges_separated, vertex_edge_separated   a fixed axis that parts the features the same
                                     way at both ends of the step parts them throughout *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.
@@ -324,7 +324,7 @@ End Edges.
 
 End Forms.
 
-(** ** Axes that part the features at both ends of the step: `parted` and swept boxes *)
+(** ** Axes that part the features at both ends of the step: `separated` and swept boxes *)
 
 (** Where m is along the axis n, at the start and at the end. *)
 Definition before (n : point) (p q : moving) : Prop :=
@@ -342,7 +342,7 @@ Proof.
   assert (0 < t * (dot n (finish q) - dot n (finish p))) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 
-Theorem face_parted n v f0 f1 f2 : before n v f0 -> before n v f1 -> before n v f2 ->
+Theorem face_separated n v f0 f1 f2 : before n v f0 -> before n v f1 -> before n v f2 ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
   intros P0 P1 P2 (t & T & (u & w & U & W & UW & E)).
@@ -359,13 +359,13 @@ Proof.
   apply Rmult_integral in H2, H3. destruct H2, H3; try lra. subst u w. lra.
 Qed.
 
-Theorem vertex_edge_parted n v e0 e1 : before n v e0 -> before n v e1 -> ~ vertex_edge_collides v e0 e1.
+Theorem vertex_edge_separated n v e0 e1 : before n v e0 -> before n v e1 -> ~ vertex_edge_collides v e0 e1.
 Proof.
-  intros P0 P1 (t & T & H). apply (face_parted n v e0 e1 e1 P0 P1 P1). exists t. split; auto.
+  intros P0 P1 (t & T & H). apply (face_separated n v e0 e1 e1 P0 P1 P1). exists t. split; auto.
   apply face_at_a_time. right. now left.
 Qed.
 
-Theorem edges_parted n a0 a1 b0 b1 : before n a0 b0 -> before n a0 b1 -> before n a1 b0 -> before n a1
+Theorem edges_separated n a0 a1 b0 b1 : before n a0 b0 -> before n a0 b1 -> before n a1 b0 -> before n a1
   b1 ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.

@@ -10,7 +10,7 @@
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
 From Flocq Require Import Core Mult_error.
 From Errbound Require Import Format ErrorCount CcdFilter.
-From Errbound Require Sign Bernstein Contact Decisions Subdivision Parted.
+From Errbound Require Sign Bernstein Contact Decisions Subdivision SeparatingAxis.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -336,15 +336,15 @@ Notation value := (value p emin direction).
 Notation W := largest_difference.
 Notation midpoint := (midpoint direction).
 Notation subdivide := (Subdivision.subdivide 0 midpoint).
-Notation sides_of := (Parted.differences -> Parted.axis -> bool -> bool * bool).
-Notation differences_of := (Parted.differences_of direction).
+Notation sides_of := (SeparatingAxis.differences -> SeparatingAxis.axis -> bool -> bool * bool).
+Notation differences_of := (SeparatingAxis.differences_of direction).
 
 (** sizes *)
-Definition largest (coordinate : Contact.point -> R) (d : Parted.differences) : R :=
+Definition largest (coordinate : Contact.point -> R) (d : SeparatingAxis.differences) : R :=
   fold_left (fun m v => Rmax m (Rabs (coordinate v)))
-    [Parted.b d true; Parted.c d false; Parted.c d true; Parted.p_ d false; Parted.p_ d true]
-    (Rabs (coordinate (Parted.b d false))).
-Definition sizes (d : Parted.differences) : Contact.point :=
+    [SeparatingAxis.b d true; SeparatingAxis.c d false; SeparatingAxis.c d true; SeparatingAxis.p_ d false; SeparatingAxis.p_ d true]
+    (Rabs (coordinate (SeparatingAxis.b d false))).
+Definition sizes (d : SeparatingAxis.differences) : Contact.point :=
   Contact.Point (largest Contact.x d) (largest Contact.y d) (largest Contact.z d).
 Definition usable (m : Contact.point) : bool :=
   Rle_bool (Rmax (Rmax (Contact.x m) (Contact.y m)) (Contact.z m)) W.
@@ -361,7 +361,7 @@ Definition within_error (error : R) (l : list R) : bool := Rle_bool (size_of l) 
 Definition hopeless (error : R) (more : nat) (y : list R) : bool :=
   (3 <=? max_depth - S more)%nat && within_error error y.
 
-(** run_stages: `sides` is parted's, b to p the ends and starts of the differences. *)
+(** run_stages: `sides` is separated's, b to p the ends and starts of the differences. *)
 Definition filter (sides : sides_of) (inside : query -> list form)
     (b_end b_start c_end c_start p_end p_start : Contact.moving) : Subdivision.outcome :=
   let d := differences_of b_end b_start c_end c_start p_end p_start in
@@ -376,17 +376,17 @@ Definition filter (sides : sides_of) (inside : query -> list form)
   let y_errors := error_of_parts direction y_error (size_of y) 3 in
   let g_errors := error_of_parts direction (error_of_g direction inside mx my mz) largest_g 4 in
   if negb (usable m) then Subdivision.undecided
-  else if Parted.parted (sides d) (Parted.coordinate_axes mx my mz) then Subdivision.separate
+  else if SeparatingAxis.separated (sides d) (SeparatingAxis.coordinate_axes mx my mz) then Subdivision.separate
   else if Subdivision.above (certain y_error) y || Subdivision.below (certain y_error) y then
     Subdivision.separate
-  else if Parted.parted (sides d) (Parted.diagonal_axes direction mx my mz) then Subdivision.separate
+  else if SeparatingAxis.separated (sides d) (SeparatingAxis.diagonal_axes direction mx my mz) then Subdivision.separate
   else if existsb (Subdivision.below (certain g_errors)) gs then Subdivision.separate
   else subdivide (certain y_errors) (certain g_errors) (hopeless y_errors) max_depth y gs.
 
 Definition filter_face (v f0 f1 f2 : Contact.moving) : Subdivision.outcome :=
-  filter (Parted.face_sides direction) vertex_face_inside f1 f0 f2 f0 v f0.
+  filter (SeparatingAxis.face_sides direction) vertex_face_inside f1 f0 f2 f0 v f0.
 Definition filter_edges (a0 a1 b0 b1 : Contact.moving) : Subdivision.outcome :=
-  filter (Parted.edge_sides direction) edge_edge_inside a1 a0 b1 b0 b0 a0.
+  filter (SeparatingAxis.edge_sides direction) edge_edge_inside a1 a0 b1 b0 b0 a0.
 
 (** ** Control values and what they stand for *)
 
@@ -562,13 +562,13 @@ End Query.
 (** ** From floats to contact *)
 
 Lemma largest_covers coordinate d : let m := largest coordinate d in
-  (forall e, Rabs (coordinate (Parted.b d e)) <= m) /\ (forall e, Rabs (coordinate (Parted.c d e)) <= m) /\
-  (forall e, Rabs (coordinate (Parted.p_ d e)) <= m).
+  (forall e, Rabs (coordinate (SeparatingAxis.b d e)) <= m) /\ (forall e, Rabs (coordinate (SeparatingAxis.c d e)) <= m) /\
+  (forall e, Rabs (coordinate (SeparatingAxis.p_ d e)) <= m).
 Proof.
   cbv zeta. unfold largest. cbn [fold_left].
-  set (b0 := Rabs (coordinate (Parted.b d false))). set (b1 := Rabs (coordinate (Parted.b d true))).
-  set (c0 := Rabs (coordinate (Parted.c d false))). set (c1 := Rabs (coordinate (Parted.c d true))).
-  set (p0 := Rabs (coordinate (Parted.p_ d false))). set (p1 := Rabs (coordinate (Parted.p_ d true))).
+  set (b0 := Rabs (coordinate (SeparatingAxis.b d false))). set (b1 := Rabs (coordinate (SeparatingAxis.b d true))).
+  set (c0 := Rabs (coordinate (SeparatingAxis.c d false))). set (c1 := Rabs (coordinate (SeparatingAxis.c d true))).
+  set (p0 := Rabs (coordinate (SeparatingAxis.p_ d false))). set (p1 := Rabs (coordinate (SeparatingAxis.p_ d true))).
   pose proof (Rmax_l b0 b1). pose proof (Rmax_r b0 b1). set (m1 := Rmax b0 b1) in *.
   pose proof (Rmax_l m1 c0). pose proof (Rmax_r m1 c0). set (m2 := Rmax m1 c0) in *.
   pose proof (Rmax_l m2 c1). pose proof (Rmax_r m2 c1). set (m3 := Rmax m2 c1) in *.
@@ -576,8 +576,8 @@ Proof.
   pose proof (Rmax_l m4 p1). pose proof (Rmax_r m4 p1).
   repeat split; intros []; fold b0 b1 c0 c1 p0 p1; lra.
 Qed.
-Lemma largest_number coordinate d : (forall e, number (coordinate (Parted.b d e))) ->
-  (forall e, number (coordinate (Parted.c d e))) -> (forall e, number (coordinate (Parted.p_ d e))) ->
+Lemma largest_number coordinate d : (forall e, number (coordinate (SeparatingAxis.b d e))) ->
+  (forall e, number (coordinate (SeparatingAxis.c d e))) -> (forall e, number (coordinate (SeparatingAxis.p_ d e))) ->
   number (largest coordinate d).
 Proof.
   intros B C P. unfold largest. cbn [fold_left].
@@ -589,7 +589,7 @@ Qed.
 Section Sized.
 
 Variables b1 b0 c1 c0 p1 p0 : Contact.moving.
-Notation numbers := Parted.numbers.
+Notation numbers := SeparatingAxis.numbers.
 Hypothesis b1_numbers : numbers b1.
 Hypothesis b0_numbers : numbers b0.
 Hypothesis c1_numbers : numbers c1.
@@ -601,9 +601,9 @@ Notation m := (sizes d).
 Notation q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c0;
   p_ := moving_difference m p1 p0 |}.
 
-Lemma sizes_cover : Parted.sized m d.
+Lemma sizes_cover : SeparatingAxis.sized m d.
 Proof.
-  unfold Parted.sized, Parted.within, sizes. cbn [Contact.x Contact.y Contact.z].
+  unfold SeparatingAxis.sized, SeparatingAxis.within, sizes. cbn [Contact.x Contact.y Contact.z].
   pose proof (largest_covers Contact.x d) as (X1 & X2 & X3). pose proof (largest_covers Contact.y d) as (Y1
     & Y2 & Y3).
   pose proof (largest_covers Contact.z d) as (Z1 & Z2 & Z3). auto 10.
@@ -626,7 +626,7 @@ Proof.
   pose proof (Rmax_r (Rmax (Contact.x m) (Contact.y m)) (Contact.z m)).
   pose proof (Rmax_l (Contact.x m) (Contact.y m)). pose proof (Rmax_r (Contact.x m) (Contact.y m)).
   assert (G : forall q r, numbers q -> numbers r ->
-    Parted.within m (fun e => Parted.difference_of direction (Parted.at_end q e) (Parted.at_end r e)) ->
+    SeparatingAxis.within m (fun e => SeparatingAxis.difference_of direction (SeparatingAxis.at_end q e) (SeparatingAxis.at_end r e)) ->
     moving direction (Contact.x m) (Contact.y m) (Contact.z m) (moving_difference m q r)).
   { intros q r Q R' V. destruct (Q false) as (? & ? & ?), (Q true) as (? & ? & ?), (R' false) as (? & ? & ?),
       (R' true) as (? & ? & ?), (V false) as (? & ? & ?), (V true) as (? & ? & ?).
@@ -684,10 +684,10 @@ Variable sides : sides_of.
 Variable K : Prop.
 Notation Y := (map exact (cubic (coplanarity q))).
 Notation Gs := (map (fun f => map exact (quartic f)) (inside q)).
-Notation parts axes := (Parted.parted (sides d) axes).
+Notation parts axes := (SeparatingAxis.separated (sides d) axes).
 Hypothesis parts_right :
-  parts (Parted.coordinate_axes (Contact.x m) (Contact.y m) (Contact.z m)) = true \/
-  parts (Parted.diagonal_axes direction (Contact.x m) (Contact.y m) (Contact.z m)) = true -> ~ K.
+  parts (SeparatingAxis.coordinate_axes (Contact.x m) (Contact.y m) (Contact.z m)) = true \/
+  parts (SeparatingAxis.diagonal_axes direction (Contact.x m) (Contact.y m) (Contact.z m)) = true -> ~ K.
 Hypothesis inside_right :
   let moving := moving direction (Contact.x m) (Contact.y m) (Contact.z m) in
   moving (b_ q) -> moving (c_ q) -> moving (p_ q) ->
@@ -708,10 +708,10 @@ Lemma filter_right : match filter sides inside b1 b0 c1 c0 p1 p0 with
 Proof.
   unfold filter. cbv zeta. destruct (usable m) eqn:U; [| easy]. cbn [negb].
   destruct (usable_moving U) as (Mb & Mc & Mp). destruct (inside_right Mb Mc Mp) as (Fit & Sound).
-  destruct (parts (Parted.coordinate_axes _ _ _)); [now apply parts_right; left |].
+  destruct (parts (SeparatingAxis.coordinate_axes _ _ _)); [now apply parts_right; left |].
   match goal with |- context [if ?c then _ else _] => destruct c eqn:H end.
   { intros k. destruct (necessary k) as (t & T & Z & _). now apply (rootless_right q _ _ _ Mb Mc Mp t). }
-  destruct (parts (Parted.diagonal_axes _ _ _ _)); [now apply parts_right; right |].
+  destruct (parts (SeparatingAxis.diagonal_axes _ _ _ _)); [now apply parts_right; right |].
   match goal with |- context [if ?c then _ else _] => destruct c eqn:O end.
   { intros k. destruct (necessary k) as (t & T & _ & G).
     destruct (outside_right q _ _ _ inside Fit Sound inside_some t O T) as (g & I & N).
@@ -736,18 +736,18 @@ Proof.
   - intros H G I. apply in_map_iff in I. destruct I as (f & <- & I). now apply H.
 Qed.
 
-Lemma filter_face_right v f0 f1 f2 : Parted.numbers v -> Parted.numbers f0 -> Parted.numbers f1 ->
-  Parted.numbers f2 -> match filter_face v f0 f1 f2 with
+Lemma filter_face_right v f0 f1 f2 : SeparatingAxis.numbers v -> SeparatingAxis.numbers f0 -> SeparatingAxis.numbers f1 ->
+  SeparatingAxis.numbers f2 -> match filter_face v f0 f1 f2 with
   | Subdivision.separate => ~ Contact.vertex_face_collides v f0 f1 f2
   | Subdivision.collides => Contact.vertex_face_collides v f0 f1 f2
   | Subdivision.undecided => True
   end.
 Proof.
   intros V F0 F1 F2.
-  refine (filter_right f1 f0 f2 f0 v f0 F1 F0 F2 F0 V F0 vertex_face_inside (Parted.face_sides direction)
+  refine (filter_right f1 f0 f2 f0 v f0 F1 F0 F2 F0 V F0 vertex_face_inside (SeparatingAxis.face_sides direction)
     (Contact.vertex_face_collides v f0 f1 f2) _ _ _ _ _).
   - destruct (sizes_number f1 f0 f2 f0 v f0) as (N & P).
-    exact (Parted.parted_face_separate direction _ N P v f0 f1 f2 V F0 F1 F2 (sizes_cover f1 f0 f2 f0 v f0)).
+    exact (SeparatingAxis.separated_face_separate direction _ N P v f0 f1 f2 V F0 F1 F2 (sizes_cover f1 f0 f2 f0 v f0)).
   - intros moving B C P. split; [now apply vertex_face_inside_fit | now apply error_of_vertex_face_sound].
   - discriminate.
   - intros (t & T & H). exists t. apply Decisions.face_conditions in H. cbv zeta in H.
@@ -760,18 +760,18 @@ Proof.
     rewrite cubic_at in Z. apply Contact.inside_face_regular; [lra |]. unfold Contact.inside_face.
     split; [| split]; lra.
 Qed.
-Lemma filter_edges_right a0 a1 b0 b1 : Parted.numbers a0 -> Parted.numbers a1 -> Parted.numbers b0 ->
-  Parted.numbers b1 -> match filter_edges a0 a1 b0 b1 with
+Lemma filter_edges_right a0 a1 b0 b1 : SeparatingAxis.numbers a0 -> SeparatingAxis.numbers a1 -> SeparatingAxis.numbers b0 ->
+  SeparatingAxis.numbers b1 -> match filter_edges a0 a1 b0 b1 with
   | Subdivision.separate => ~ Contact.edge_edge_collides a0 a1 b0 b1
   | Subdivision.collides => Contact.edge_edge_collides a0 a1 b0 b1
   | Subdivision.undecided => True
   end.
 Proof.
   intros A0 A1 B0 B1.
-  refine (filter_right a1 a0 b1 b0 b0 a0 A1 A0 B1 B0 B0 A0 edge_edge_inside (Parted.edge_sides direction)
+  refine (filter_right a1 a0 b1 b0 b0 a0 A1 A0 B1 B0 B0 A0 edge_edge_inside (SeparatingAxis.edge_sides direction)
     (Contact.edge_edge_collides a0 a1 b0 b1) _ _ _ _ _).
   - destruct (sizes_number a1 a0 b1 b0 b0 a0) as (N & P).
-    exact (Parted.parted_edges_separate direction _ N P a0 a1 b0 b1 A0 A1 B0 B1 (sizes_cover a1 a0 b1 b0 b0
+    exact (SeparatingAxis.separated_edges_separate direction _ N P a0 a1 b0 b1 A0 A1 B0 B1 (sizes_cover a1 a0 b1 b0 b0
       a0)).
   - intros moving B C P. split; [now apply edge_edge_inside_fit | now apply error_of_edge_edge_sound].
   - discriminate.
@@ -827,8 +827,8 @@ Proof.
 Qed.
 
 (** Where the filter is usable, none of what is computed of Y and the G_i exceeds 2^900. *)
-Theorem filter_bounded inside b1 b0 c1 c0 p1 p0 f : Parted.numbers b1 -> Parted.numbers b0 ->
-  Parted.numbers c1 -> Parted.numbers c0 -> Parted.numbers p1 -> Parted.numbers p0 ->
+Theorem filter_bounded inside b1 b0 c1 c0 p1 p0 f : SeparatingAxis.numbers b1 -> SeparatingAxis.numbers b0 ->
+  SeparatingAxis.numbers c1 -> SeparatingAxis.numbers c0 -> SeparatingAxis.numbers p1 -> SeparatingAxis.numbers p0 ->
   inside = vertex_face_inside \/ inside = edge_edge_inside ->
   let m := sizes (differences_of b1 b0 c1 c0 p1 p0) in
   let q := {| b_ := moving_difference m b1 b0; c_ := moving_difference m c1 c0;
@@ -852,20 +852,20 @@ Proof.
 Qed.
 
 (** Of floating-point coordinates. *)
-Theorem filter_face_separate v f0 f1 f2 : Parted.numbers v -> Parted.numbers f0 -> Parted.numbers f1 ->
-  Parted.numbers f2 -> filter_face v f0 f1 f2 = Subdivision.separate ->
+Theorem filter_face_separate v f0 f1 f2 : SeparatingAxis.numbers v -> SeparatingAxis.numbers f0 -> SeparatingAxis.numbers f1 ->
+  SeparatingAxis.numbers f2 -> filter_face v f0 f1 f2 = Subdivision.separate ->
   ~ Contact.vertex_face_collides v f0 f1 f2.
 Proof. intros V F0 F1 F2 E. generalize (filter_face_right v f0 f1 f2 V F0 F1 F2). now rewrite E. Qed.
-Theorem filter_face_collides v f0 f1 f2 : Parted.numbers v -> Parted.numbers f0 -> Parted.numbers f1 ->
-  Parted.numbers f2 -> filter_face v f0 f1 f2 = Subdivision.collides ->
+Theorem filter_face_collides v f0 f1 f2 : SeparatingAxis.numbers v -> SeparatingAxis.numbers f0 -> SeparatingAxis.numbers f1 ->
+  SeparatingAxis.numbers f2 -> filter_face v f0 f1 f2 = Subdivision.collides ->
   Contact.vertex_face_collides v f0 f1 f2.
 Proof. intros V F0 F1 F2 E. generalize (filter_face_right v f0 f1 f2 V F0 F1 F2). now rewrite E. Qed.
-Theorem filter_edges_separate a0 a1 b0 b1 : Parted.numbers a0 -> Parted.numbers a1 -> Parted.numbers b0 ->
-  Parted.numbers b1 -> filter_edges a0 a1 b0 b1 = Subdivision.separate ->
+Theorem filter_edges_separate a0 a1 b0 b1 : SeparatingAxis.numbers a0 -> SeparatingAxis.numbers a1 -> SeparatingAxis.numbers b0 ->
+  SeparatingAxis.numbers b1 -> filter_edges a0 a1 b0 b1 = Subdivision.separate ->
   ~ Contact.edge_edge_collides a0 a1 b0 b1.
 Proof. intros A0 A1 B0 B1 E. generalize (filter_edges_right a0 a1 b0 b1 A0 A1 B0 B1). now rewrite E. Qed.
-Theorem filter_edges_collide a0 a1 b0 b1 : Parted.numbers a0 -> Parted.numbers a1 -> Parted.numbers b0 ->
-  Parted.numbers b1 -> filter_edges a0 a1 b0 b1 = Subdivision.collides ->
+Theorem filter_edges_collide a0 a1 b0 b1 : SeparatingAxis.numbers a0 -> SeparatingAxis.numbers a1 -> SeparatingAxis.numbers b0 ->
+  SeparatingAxis.numbers b1 -> filter_edges a0 a1 b0 b1 = Subdivision.collides ->
   Contact.edge_edge_collides a0 a1 b0 b1.
 Proof. intros A0 A1 B0 B1 E. generalize (filter_edges_right a0 a1 b0 b1 A0 A1 B0 B1). now rewrite E. Qed.
 

@@ -361,13 +361,13 @@ Qed.
 (** The least and the greatest of four. *)
 Lemma least_either m n : least _ F m n = m \/ least _ F m n = n.
 Proof. unfold least. destruct (less _ F n m); auto. Qed.
-Lemma most_either m n : most _ F m n = m \/ most _ F m n = n.
+Lemma max_either m n : most _ F m n = m \/ most _ F m n = n.
 Proof. unfold most. destruct (less _ F m n); auto. Qed.
 Notation no_nan x := (BinarySingleNaN.is_nan x = false).
 Lemma least_no_nan m n : no_nan m -> no_nan n -> no_nan (least _ F m n).
 Proof. destruct (least_either m n) as [-> | ->]; auto. Qed.
-Lemma most_no_nan m n : no_nan m -> no_nan n -> no_nan (most _ F m n).
-Proof. destruct (most_either m n) as [-> | ->]; auto. Qed.
+Lemma max_no_nan m n : no_nan m -> no_nan n -> no_nan (most _ F m n).
+Proof. destruct (max_either m n) as [-> | ->]; auto. Qed.
 Lemma least_minus m n : no_nan m -> no_nan n -> least _ F m n <> minus_infinity ->
   m <> minus_infinity /\ n <> minus_infinity.
 Proof.
@@ -375,7 +375,7 @@ Proof.
   - destruct n as [| [|] | |]; easy.
   - destruct m as [| [|] | |]; easy.
 Qed.
-Lemma most_plus m n : no_nan m -> no_nan n -> most _ F m n <> plus_infinity ->
+Lemma max_plus m n : no_nan m -> no_nan n -> most _ F m n <> plus_infinity ->
   m <> plus_infinity /\ n <> plus_infinity.
 Proof.
   intros Nm Nn H. split; intros ->; apply H; unfold most.
@@ -386,14 +386,14 @@ Lemma least_le m n : finite m -> finite n -> B2R (least _ F m n) <= B2R m /\ B2R
 Proof.
   intros FM FN. unfold least. rewrite less_finite by auto. case Rlt_bool_spec; lra.
 Qed.
-Lemma most_ge m n : finite m -> finite n -> B2R m <= B2R (most _ F m n) /\ B2R n <= B2R (most _ F m n).
+Lemma max_ge m n : finite m -> finite n -> B2R m <= B2R (most _ F m n) /\ B2R n <= B2R (most _ F m n).
 Proof.
   intros FM FN. unfold most. rewrite less_finite by auto. case Rlt_bool_spec; lra.
 Qed.
 Lemma finite_least m n : finite m -> finite n -> finite (least _ F m n).
 Proof. destruct (least_either m n) as [-> | ->]; auto. Qed.
 Lemma finite_most m n : finite m -> finite n -> finite (most _ F m n).
-Proof. destruct (most_either m n) as [-> | ->]; auto. Qed.
+Proof. destruct (max_either m n) as [-> | ->]; auto. Qed.
 Lemma finite_intro m : no_nan m -> m <> minus_infinity -> m <> plus_infinity -> finite m.
 Proof. destruct m as [| [|] | |]; easy. Qed.
 
@@ -418,15 +418,15 @@ Proof.
   apply least_minus in L4; auto using least_no_nan. destruct L4 as [L1 L2].
   apply least_minus in L1, L2; auto.
   assert (M4 : most _ F (most _ F w x) (most _ F y z) <> plus_infinity) by (intros E; now rewrite E in FW).
-  apply most_plus in M4; auto using most_no_nan. destruct M4 as [M1 M2].
-  apply most_plus in M1, M2; auto.
+  apply max_plus in M4; auto using max_no_nan. destruct M4 as [M1 M2].
+  apply max_plus in M1, M2; auto.
   assert (Fw : finite w) by (apply finite_intro; tauto). assert (Fx : finite x) by (apply finite_intro; tauto).
   assert (Fy : finite y) by (apply finite_intro; tauto). assert (Fz : finite z) by (apply finite_intro; tauto).
   destruct (K Fw Fx Fy Fz) as ((Ew & Ex & Ey & Ez) & HL & HU).
   destruct (least_le w x Fw Fx) as [A1 A2], (least_le y z Fy Fz) as [A3 A4].
   destruct (least_le _ _ (finite_least _ _ Fw Fx) (finite_least _ _ Fy Fz)) as [A5 A6].
-  destruct (most_ge w x Fw Fx) as [B1 B2], (most_ge y z Fy Fz) as [B3 B4].
-  destruct (most_ge _ _ (finite_most _ _ Fw Fx) (finite_most _ _ Fy Fz)) as [B5 B6].
+  destruct (max_ge w x Fw Fx) as [B1 B2], (max_ge y z Fy Fz) as [B3 B4].
+  destruct (max_ge _ _ (finite_most _ _ Fw Fx) (finite_most _ _ Fy Fz)) as [B5 B6].
   split.
   - destruct HL as [H | [H | [H | H]]]; (eapply Rle_trans; [| exact H]); apply below_true; auto; lra.
   - destruct HU as [H | [H | [H | H]]]; (eapply Rle_trans; [exact H |]); apply above_true; auto; lra.

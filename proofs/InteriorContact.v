@@ -524,7 +524,7 @@ Qed.
 (** Whether there are roots that are not a double root. *)
 Definition any_root (three : bool) (changes : sign_changes) : bool :=
   opposite changes || (three && Nat.ltb 0 (count changes)).
-Definition most_halvings : Z := 40.
+Definition max_halvings : Z := 40.
 Definition without_halving (distinct three : bool) (q : part) : option outcome :=
   if negb (any_root three (roots q)) then Some separate
   else
@@ -534,7 +534,7 @@ Definition without_halving (distinct three : bool) (q : part) : option outcome :
     match found with
     | Some found => Some found
     | None =>
-        if (level q =? most_halvings)%Z then Some (throughout 1 (index q) (level q) 1)
+        if (level q =? max_halvings)%Z then Some (throughout 1 (index q) (level q) 1)
         else
           let h := part_y q in
           let middle := sign_of_real (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0) in
@@ -565,7 +565,7 @@ Definition known_roots (distinct three : bool) : Prop :=
   ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\
   (three = false -> crosses_once 0 1 (at_ y) (fun t => ~ Inside t /\ distinct = false)).
 Definition good (three : bool) (q : part) : Prop :=
-  is_part y q /\ (level q <= most_halvings)%Z /\ (three = true -> 0 < discriminant (part_y q)).
+  is_part y q /\ (level q <= max_halvings)%Z /\ (three = true -> 0 < discriminant (part_y q)).
 
 (** A part without roots to ask at. *)
 Lemma dropped distinct three q : known_roots distinct three -> good three q ->
@@ -630,7 +630,7 @@ Qed.
 Lemma without_halving_right distinct three q : known_roots distinct three -> good three q ->
   match without_halving distinct three q with
   | Some o => answers (part_start q) (part_end q) o
-  | None => (level q < most_halvings)%Z /\
+  | None => (level q < max_halvings)%Z /\
       let t := over (2 * index q + 1) (level q + 1) in at_ y t = 0 -> ~ Inside t
   end.
 Proof.
@@ -642,10 +642,10 @@ Proof.
     eqn:E.
   { destruct (opposite (roots q) && (Nat.eqb (count (roots q)) 1 || negb three)) eqn:Nr; [| discriminate].
     apply andb_prop in Nr. destruct Nr as (O & Nr).
-    apply near_right with (5 := E); auto; [unfold most_halvings in Lv; lia |].
+    apply near_right with (5 := E); auto; [unfold max_halvings in Lv; lia |].
     destruct three; [| apply (restricted 0 1); [now apply One | lra | lra]].
     apply one_change_part; auto. rewrite orb_false_r in Nr. now apply Nat.eqb_eq. }
-  destruct (Z.eqb_spec (level q) most_halvings) as [Eq | Ne]; [now apply all_over_right; auto |].
+  destruct (Z.eqb_spec (level q) max_halvings) as [Eq | Ne]; [now apply all_over_right; auto |].
   cbv zeta. pose proof (middle_sign q H) as M. cbv zeta in M.
   assert (Hl : (0 <= level q + 1)%Z) by (destruct H as (_ & _ & (? & _) & _); lia).
   pose proof (positive_over (2 * index q + 1) (level q + 1) Hl) as Pos.
@@ -657,7 +657,7 @@ Proof.
   - split; [lia |]. intros Z I. apply M in Z. apply Pos in I. rewrite Z, I in S. discriminate.
 Qed.
 
-Lemma halves_good three q : good three q -> (level q < most_halvings)%Z ->
+Lemma halves_good three q : good three q -> (level q < max_halvings)%Z ->
   good three (left_of q) /\ good three (right_of q).
 Proof.
   intros (H & _ & D) L. destruct (halves_are_parts y q H) as (H0 & H1 & _).
@@ -929,7 +929,7 @@ Lemma work_positive waiting : (0 <= work waiting)%Z.
 Proof. induction waiting as [| q rest IH]; simpl; [lia |]. pose proof (Z.pow_nonneg 3 (41 - level q)). lia.
   Qed.
 Lemma enough_steps distinct three steps : forall waiting found more,
-  Forall (fun q => level q <= most_halvings)%Z waiting -> (work waiting < Z.of_nat steps)%Z -> (steps <=
+  Forall (fun q => level q <= max_halvings)%Z waiting -> (work waiting < Z.of_nat steps)%Z -> (steps <=
     more)%nat ->
   by_halving distinct three more waiting found = by_halving distinct three steps waiting found.
 Proof.
@@ -937,14 +937,14 @@ Proof.
   { pose proof (work_positive waiting). lia. }
   destruct more as [| more]; [lia |]. destruct waiting as [| q rest]; [easy |]. cbn [by_halving].
   inversion_clear F as [| ? ? Fq Fr]. unfold work in W. cbn [fold_right] in W. fold (work rest) in W.
-    unfold most_halvings in Fq.
+    unfold max_halvings in Fq.
   assert (P3 : (0 < 3 ^ (40 - level q))%Z) by (apply Z.pow_pos_nonneg; lia).
   replace (41 - level q)%Z with (1 + (40 - level q))%Z in W by ring. rewrite Z.pow_add_r in W by lia.
   destruct (without_halving distinct three q) as [[ | | ] |] eqn:E; try (apply IH; auto; lia); [easy |].
-  assert (N : level q <> most_halvings).
+  assert (N : level q <> max_halvings).
   { intros N. unfold without_halving in E. rewrite N, Z.eqb_refl in E.
     destruct (negb _); [discriminate |]. destruct (if _ && _ then _ else _); discriminate. }
-  unfold most_halvings in *. apply IH; [| | lia].
+  unfold max_halvings in *. apply IH; [| | lia].
   - unfold waiting_next. apply Forall_app. split; auto. apply Forall_forall. intros h I. apply filter_In in I.
     destruct I as ([<- | [<- | []]] & _); cbn [level left_of right_of]; lia.
   - unfold waiting_next. cbn [filter].
@@ -983,7 +983,7 @@ Definition vertex_edge_queries {A : Type} (edges : bool) (q0 q1 q2 q3 : A) : lis
 Definition edge_contact (query : moving * moving * moving * (integer_motion * integer_motion * integer_motion)) :
     bool :=
   let '(original_v, original_e0, original_e1, (v, e0, e1)) := query in
-  negb (parted original_v original_e0 original_e1) && contact (exact_motion v) (exact_motion e0) (exact_motion e1).
+  negb (separated original_v original_e0 original_e1) && contact (exact_motion v) (exact_motion e0) (exact_motion e1).
 Definition contact_of (edges : bool) (extent_x extent_y extent_z : Z)
     (estimate : part -> Z) (refine : Z -> part -> Z -> Z -> Z -> Z) (steps : nat)
     (m0 m1 m2 m3 : moving) (q0 q1 q2 q3 : integer_motion) : outcome :=
@@ -1010,7 +1010,7 @@ Theorem vertex_edge_decision_right m0 m1 m2 v e0 e1 : in_integers unit m0 v -> i
 Proof.
   unfold in_integers, edge_contact. intros -> -> ->.
   rewrite andb_true_iff, negb_true_iff, contact_right, (vertex_edge_units unit) by easy.
-  split; [tauto |]. intros H. split; auto. destruct (parted m0 m1 m2) eqn:P; auto. now apply parted_right in P.
+  split; [tauto |]. intros H. split; auto. destruct (separated m0 m1 m2) eqn:P; auto. now apply separated_right in P.
 Qed.
 Lemma face_edges m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
   in_integers unit m2 f1 -> in_integers unit m3 f2 ->

@@ -122,14 +122,14 @@ Inductive on_part (p : list R) : R -> R -> list interval -> Prop :=
 | no_variation lo hi b : controls b p lo hi -> sign_variations (map sgn b) = 0%nat -> on_part p lo hi []
 | one_variation lo hi b : controls b p lo hi -> sign_variations (map sgn b) = 1%nat ->
     hd 0 b <> 0 -> last b 0 <> 0 -> on_part p lo hi [Interval lo hi]
-| no_variation_of_row lo hi signs : row_of p lo hi signs -> most_sign_variations signs = 0%nat ->
+| no_variation_of_row lo hi signs : row_of p lo hi signs -> max_sign_variations signs = 0%nat ->
     on_part p lo hi []
-| one_variation_of_row lo hi signs : row_of p lo hi signs -> most_sign_variations signs = 1%nat ->
+| one_variation_of_row lo hi signs : row_of p lo hi signs -> max_sign_variations signs = 1%nat ->
     hd 0%Z signs <> 0%Z -> last signs 0%Z <> 0%Z -> on_part p lo hi [Interval lo hi]
 | pair lo hi b x : controls b p lo hi -> sign_variations (map sgn b) = 2%nat ->
     hd 0 b <> 0 -> last b 0 <> 0 -> lo < x < hi -> sgn (power_form p x) = (- sgn (hd 0%R b))%Z ->
     on_part p lo hi [Interval lo x; Interval x hi]
-| pair_of_row lo hi signs x : row_of p lo hi signs -> most_sign_variations signs = 2%nat ->
+| pair_of_row lo hi signs x : row_of p lo hi signs -> max_sign_variations signs = 2%nat ->
     hd 0%Z signs <> 0%Z -> last signs 0%Z <> 0%Z -> lo < x < hi ->
     sgn (power_form p x) = (- hd 0 signs)%Z -> on_part p lo hi [Interval lo x; Interval x hi]
 | parts lo x hi left right : lo < x < hi -> on_part p lo x left -> on_part p x hi right ->
@@ -322,10 +322,10 @@ Proof.
     + apply sgn_not_0. rewrite Eh. now apply sgn_not_0.
     + apply sgn_not_0. rewrite El. now apply sgn_not_0.
     + now apply isolated_one with r.
-  - destruct (most_variations_right _ _ R) as (W & _); [lia |]. rewrite V in W.
+  - destruct (max_variations_right _ _ R) as (W & _); [lia |]. rewrite V in W.
     rewrite <- scaled_signs in W. apply isolated_none. intros x X.
     exact (no_root_part p _ lo hi L C ltac:(lia) x NZ X).
-  - destruct (most_variations_right _ _ R) as (W & E); [lia |]. rewrite V in W, E.
+  - destruct (max_variations_right _ _ R) as (W & E); [lia |]. rewrite V in W, E.
     destruct (ends_seen _ _ R H K) as (Eh & El). rewrite <- scaled_signs in W, E, Eh, El.
     rewrite <- (proj1 (signs_hd_last _)) in Eh. rewrite <- (proj2 (signs_hd_last _)) in El.
     destruct (one_root_part p _ lo hi L C) as (r & I).
@@ -342,7 +342,7 @@ Proof.
       * now apply sgn_not_0.
       * apply equal_ends; auto. now rewrite V.
       * now rewrite Eh.
-  - destruct (most_variations_right _ _ R) as (W & E); [lia |]. rewrite V in W, E.
+  - destruct (max_variations_right _ _ R) as (W & E); [lia |]. rewrite V in W, E.
     destruct (ends_seen _ _ R H K) as (Eh & El). rewrite <- scaled_signs in W, E, Eh, El.
     rewrite <- (proj1 (signs_hd_last _)) in Eh. rewrite <- (proj2 (signs_hd_last _)) in El.
     apply Two; auto.

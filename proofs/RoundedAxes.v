@@ -14,7 +14,7 @@
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
 From Flocq Require Import Core.
-From Errbound Require Import Format Contact Decisions Parted.
+From Errbound Require Import Format Contact Decisions SeparatingAxis.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -54,8 +54,8 @@ Definition face_gap (v f0 f1 f2 : R) : R * R :=
   (single (v - Rmax (Rmax f0 f1) f2), single (Rmin (Rmin f0 f1) f2 - v)).
 Definition edges_gap (a0 a1 b0 b1 : R) : R * R :=
   (single (Rmin b0 b1 - Rmax a0 a1), single (Rmin a0 a1 - Rmax b0 b1)).
-(** parted_by, of the gaps at both ends of the step *)
-Definition parted_by (gap : bool -> R * R) : R :=
+(** separated_by, of the gaps at both ends of the step *)
+Definition separated_by (gap : bool -> R * R) : R :=
   Rmax (Rmin (fst (gap false)) (fst (gap true))) (Rmin (snd (gap false)) (snd (gap true))).
 
 (** An axis: what is computed of rounded coordinates, and the axis itself. *)
@@ -68,8 +68,8 @@ Definition diagonals_in_float : list float_axis :=
    (fun d => single (z d + x d), Point 1 0 1); (fun d => single (z d - x d), Point (-1) 0 1)].
 Definition float_margin : R := 13 * eps.
 Definition largest_gap (gap : float_axis -> bool -> R * R) (axes : list float_axis) : R :=
-  fold_left (fun m a => Rmax m (parted_by (gap a))) axes (-1).
-Definition parted_in_float (gap : float_axis -> bool -> R * R) : bool :=
+  fold_left (fun m a => Rmax m (separated_by (gap a))) axes (-1).
+Definition separated_in_float (gap : float_axis -> bool -> R * R) : bool :=
   Rlt_bool 0 (largest_gap gap coordinates_in_float) || Rlt_bool float_margin (largest_gap gap
     diagonals_in_float).
 
@@ -339,19 +339,19 @@ Proof.
     auto with typeclass_instances.
 Qed.
 Lemma largest_of t gap axes : -1 <= t -> t < largest_gap gap axes -> exists a, In a axes /\
-  t < parted_by (gap a).
+  t < separated_by (gap a).
 Proof.
   intros T. unfold largest_gap.
-  assert (G : forall l m, m <= t -> t < fold_left (fun m a => Rmax m (parted_by (gap a))) l m ->
-    exists a, In a l /\ t < parted_by (gap a)).
+  assert (G : forall l m, m <= t -> t < fold_left (fun m a => Rmax m (separated_by (gap a))) l m ->
+    exists a, In a l /\ t < separated_by (gap a)).
   { induction l as [| a l IH]; intros m M L; simpl in L; [lra |].
-    destruct (Rle_or_lt (parted_by (gap a)) t) as [C | C]; [| exists a; simpl; auto].
+    destruct (Rle_or_lt (separated_by (gap a)) t) as [C | C]; [| exists a; simpl; auto].
     destruct (IH _ (Rmax_lub _ _ _ M C) L) as (b & I & H). exists b. simpl. auto. }
   apply G. lra.
 Qed.
-Lemma both_ends t gap : t < parted_by gap -> (forall e, t < fst (gap e)) \/ (forall e, t < snd (gap e)).
+Lemma both_ends t gap : t < separated_by gap -> (forall e, t < fst (gap e)) \/ (forall e, t < snd (gap e)).
 Proof.
-  unfold parted_by. intros L.
+  unfold separated_by. intros L.
   destruct (Rlt_or_le t (Rmin (fst (gap false)) (fst (gap true)))) as [A | A];
     [left | right; destruct (Rlt_or_le t (Rmin (snd (gap false)) (snd (gap true)))) as [B | B];
               [| pose proof (Rmax_lub _ _ _ A B); lra]]; intros [].
@@ -360,7 +360,7 @@ Proof.
   - pose proof (Rmin_r (snd (gap false)) (snd (gap true))). lra.
   - pose proof (Rmin_l (snd (gap false)) (snd (gap true))). lra.
 Qed.
-Lemma parted_axis gap : parted_in_float gap = true -> exists a t, float t /\ tells t a /\
+Lemma separated_axis gap : separated_in_float gap = true -> exists a t, float t /\ tells t a /\
   ((forall e, t < fst (gap a e)) \/ (forall e, t < snd (gap a e))).
 Proof.
   assert (N : float 0 /\ float float_margin).
@@ -383,21 +383,21 @@ Proof.
 Qed.
 
 Theorem rounded_face_separate v f0 f1 f2 : in_frame v -> in_frame f0 -> in_frame f1 -> in_frame f2 ->
-  parted_in_float (fun a e => let at_ q := fst a (rounded_point f (at_end q e)) in
+  separated_in_float (fun a e => let at_ q := fst a (rounded_point f (at_end q e)) in
                               face_gap (at_ v) (at_ f0) (at_ f1) (at_ f2)) = true ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros V F0 F1 F2 H. apply parted_axis in H. destruct H as (a & t & N & T & H). unfold face_gap in H.
+  intros V F0 F1 F2 H. apply separated_axis in H. destruct H as (a & t & N & T & H). unfold face_gap in H.
     cbv zeta in H.
   cbn [fst snd] in H. destruct H as [H | H].
-  - apply (face_parted (minus origin (snd a))); apply before_opposite, before_of; intros e;
+  - apply (face_separated (minus origin (snd a))); apply before_opposite, before_of; intros e;
     apply told with t; auto;
       specialize (H e); apply gap_of in H; auto; revert H;
       generalize (fst a (rounded_point f (at_end v e))) (fst a (rounded_point f (at_end f0 e)))
         (fst a (rounded_point f (at_end f1 e))) (fst a (rounded_point f (at_end f2 e))); intros r i j k;
       pose proof (Rmax_l (Rmax i j) k); pose proof (Rmax_r (Rmax i j) k); pose proof (Rmax_l i j);
       pose proof (Rmax_r i j); lra.
-  - apply (face_parted (snd a)); apply before_of; intros e; apply told with t; auto;
+  - apply (face_separated (snd a)); apply before_of; intros e; apply told with t; auto;
       specialize (H e); apply gap_of in H; auto; revert H;
       generalize (fst a (rounded_point f (at_end v e))) (fst a (rounded_point f (at_end f0 e)))
         (fst a (rounded_point f (at_end f1 e))) (fst a (rounded_point f (at_end f2 e))); intros r i j k;
@@ -405,19 +405,19 @@ Proof.
       pose proof (Rmin_r i j); lra.
 Qed.
 Theorem rounded_edges_separate a0 a1 b0 b1 : in_frame a0 -> in_frame a1 -> in_frame b0 -> in_frame b1 ->
-  parted_in_float (fun a e => let at_ q := fst a (rounded_point f (at_end q e)) in
+  separated_in_float (fun a e => let at_ q := fst a (rounded_point f (at_end q e)) in
                               edges_gap (at_ a0) (at_ a1) (at_ b0) (at_ b1)) = true ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros A0 A1 B0 B1 H. apply parted_axis in H. destruct H as (a & t & N & T & H). unfold edges_gap in H.
+  intros A0 A1 B0 B1 H. apply separated_axis in H. destruct H as (a & t & N & T & H). unfold edges_gap in H.
     cbv zeta in H.
   cbn [fst snd] in H. destruct H as [H | H].
-  - apply (edges_parted (snd a)); apply before_of; intros e; apply told with t; auto;
+  - apply (edges_separated (snd a)); apply before_of; intros e; apply told with t; auto;
       specialize (H e); apply gap_of in H; auto; revert H;
       generalize (fst a (rounded_point f (at_end a0 e))) (fst a (rounded_point f (at_end a1 e)))
         (fst a (rounded_point f (at_end b0 e))) (fst a (rounded_point f (at_end b1 e))); intros i j k l;
       pose proof (Rmax_l i j); pose proof (Rmax_r i j); pose proof (Rmin_l k l); pose proof (Rmin_r k l); lra.
-  - apply (edges_parted (minus origin (snd a))); apply before_opposite, before_of; intros e;
+  - apply (edges_separated (minus origin (snd a))); apply before_opposite, before_of; intros e;
     apply told with t; auto;
       specialize (H e); apply gap_of in H; auto; revert H;
       generalize (fst a (rounded_point f (at_end a0 e))) (fst a (rounded_point f (at_end a1 e)))
@@ -503,13 +503,13 @@ Qed.
 Theorem swept_face_separate k v f0 f1 f2 : ends_before k v [] f0 [f1; f2] \/ ends_before k f0 [f1; f2] v [] ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
-  intros [H | H]; [apply (face_parted (axis_of k)) | apply (face_parted (minus origin (axis_of k)))];
+  intros [H | H]; [apply (face_separated (axis_of k)) | apply (face_separated (minus origin (axis_of k)))];
     try apply before_opposite; eapply swept_before; try exact H; simpl; auto.
 Qed.
 Theorem swept_edges_separate k a0 a1 b0 b1 : ends_before k a0 [a1] b0 [b1] \/ ends_before k b0 [b1] a0 [a1] ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
-  intros [H | H]; [apply (edges_parted (axis_of k)) | apply (edges_parted (minus origin (axis_of k)))];
+  intros [H | H]; [apply (edges_separated (axis_of k)) | apply (edges_separated (minus origin (axis_of k)))];
     try apply before_opposite; eapply swept_before; try exact H; simpl; auto.
 Qed.
 Theorem swept_boxes_touch k a l b m :

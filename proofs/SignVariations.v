@@ -6,7 +6,7 @@
         one_variation_one_root   one, and no root at the ends: one root inside, where the sign changes
         two_variations_two_roots at most two, equal signs at the ends and another sign at a place
                                  between: one root on each side of that place
-        most_variations_right    counted of uncertain signs: not below the true number where it is
+        max_variations_right    counted of uncertain signs: not below the true number where it is
                                  below 3, and both even or both odd *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
@@ -27,19 +27,19 @@ Fixpoint changes_after (last : Z) (signs : list Z) : nat :=
   end.
 Definition sign_variations (signs : list Z) : nat := changes_after 0 signs.
 
-Fixpoint most_after (last : Z) (most open : nat) (signs : list Z) : nat :=
+Fixpoint max_after (last : Z) (most open : nat) (signs : list Z) : nat :=
   match signs with
   | [] => if (0 <? open)%nat then 3 else most
   | s :: l =>
-      if (s =? 0)%Z then most_after last most (S open) l
+      if (s =? 0)%Z then max_after last most (S open) l
       else
         let most := (most + if (s =? last)%Z then (open + 1) / 2 * 2 else open / 2 * 2 + 1)%nat in
-        if (2 <? most)%nat then 3 else most_after s most 0 l
+        if (2 <? most)%nat then 3 else max_after s most 0 l
   end.
-Definition most_sign_variations (signs : list Z) : nat :=
+Definition max_sign_variations (signs : list Z) : nat :=
   match signs with
   | [] => 3
-  | s :: l => if (s =? 0)%Z then 3 else most_after s 0 0 l
+  | s :: l => if (s =? 0)%Z then 3 else max_after s 0 0 l
   end.
 
 Lemma sgn_cases x : (0 < x /\ sgn x = 1%Z) \/ (x < 0 /\ sgn x = (-1)%Z) \/ (x = 0 /\ sgn x = 0%Z).
@@ -73,15 +73,15 @@ Lemma even_sum a b c d : Nat.even a = Nat.even b -> Nat.even c = Nat.even d ->
   Nat.even (a + c) = Nat.even (b + d).
 Proof. intros H K. now rewrite !Nat.even_add, H, K. Qed.
 
-Lemma most_after_right signs truth : Forall2 sign_seen signs truth ->
+Lemma max_after_right signs truth : Forall2 sign_seen signs truth ->
   forall u last most open, plain last -> Forall (fun v => plain v \/ v = 0%Z) u -> length u = open ->
-  (most_after last most open signs < 3)%nat ->
-  (most + changes_after last (u ++ truth) <= most_after last most open signs)%nat /\
-  Nat.even (most + changes_after last (u ++ truth)) = Nat.even (most_after last most open signs).
+  (max_after last most open signs < 3)%nat ->
+  (most + changes_after last (u ++ truth) <= max_after last most open signs)%nat /\
+  Nat.even (most + changes_after last (u ++ truth)) = Nat.even (max_after last most open signs).
 Proof.
   induction 1 as [| s t signs truth (T & K) F IH]; intros u last most open L U O.
   - simpl. destruct open; simpl; intros B; [| lia]. destruct u; [| discriminate]. simpl. split; [lia | f_equal; lia].
-  - cbn [most_after]. destruct (Z.eqb_spec s 0) as [-> | N].
+  - cbn [max_after]. destruct (Z.eqb_spec s 0) as [-> | N].
     + intros B. destruct (IH (u ++ [t]) last most (S open)) as (A & E); auto.
       * apply Forall_app. split; auto.
       * rewrite app_length, O. simpl. lia.
@@ -104,15 +104,15 @@ Proof.
       apply even_sum; auto. now apply even_sum.
 Qed.
 
-Theorem most_variations_right signs truth : Forall2 sign_seen signs truth ->
-  (most_sign_variations signs < 3)%nat ->
-  (sign_variations truth <= most_sign_variations signs)%nat /\
-  Nat.even (sign_variations truth) = Nat.even (most_sign_variations signs).
+Theorem max_variations_right signs truth : Forall2 sign_seen signs truth ->
+  (max_sign_variations signs < 3)%nat ->
+  (sign_variations truth <= max_sign_variations signs)%nat /\
+  Nat.even (sign_variations truth) = Nat.even (max_sign_variations signs).
 Proof.
   intros F. destruct F as [| s t signs truth (T & K) F]; [simpl; lia |].
-  unfold most_sign_variations. destruct (Z.eqb_spec s 0) as [-> | N]; [lia |].
+  unfold max_sign_variations. destruct (Z.eqb_spec s 0) as [-> | N]; [lia |].
   specialize (K N). subst t. assert (P : plain s) by (destruct T; [easy | now subst]). intros B.
-  destruct (most_after_right _ _ F [] s 0 0 P (Forall_nil _) eq_refl B) as (A & E).
+  destruct (max_after_right _ _ F [] s 0 0 P (Forall_nil _) eq_refl B) as (A & E).
   cbn [app] in A, E. unfold sign_variations. cbn [changes_after].
   destruct (Z.eqb_spec s 0); [easy |]. destruct (Z.eqb_spec s (- 0)); [easy |]. now split.
 Qed.

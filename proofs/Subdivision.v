@@ -204,9 +204,9 @@ Fixpoint subdivide (halvings_left : nat) (y : list S) (gs : list (list S)) : out
     end.
 
 Variables stands_y stands_g : nat -> S -> R -> Prop.
-Variables most_y most_g : nat.
-Hypothesis reads_y : reads sign_y stands_y most_y.
-Hypothesis reads_g : reads sign_g stands_g most_g.
+Variables max_y max_g : nat.
+Hypothesis reads_y : reads sign_y stands_y max_y.
+Hypothesis reads_g : reads sign_g stands_g max_g.
 
 Definition quartics (j : nat) (gs : list (list S)) (Gs : list (list R)) : Prop :=
   Forall2 (fun g G => length g = 5%nat /\ Forall2 (stands_g j) g G) gs Gs.
@@ -232,7 +232,7 @@ Proof.
 Qed.
 
 Lemma subdivision_right n : forall i j y Y gs Gs, length y = 4%nat -> Forall2 (stands_y i) y Y ->
-  quartics j gs Gs -> (i + 3 * n <= most_y)%nat -> (j + 4 * n <= most_g)%nat ->
+  quartics j gs Gs -> (i + 3 * n <= max_y)%nat -> (j + 4 * n <= max_g)%nat ->
   (subdivide n y gs = separate -> forall t, 0 <= t <= 1 -> control_at Y t = 0 ->
      exists G, In G Gs /\ control_at G t < 0) /\
   (subdivide n y gs = collides -> exists t, 0 <= t <= 1 /\ control_at Y t = 0 /\
@@ -291,12 +291,12 @@ Proof.
 Qed.
 
 Theorem subdivision_separate n i j y Y gs Gs t : length y = 4%nat -> Forall2 (stands_y i) y Y ->
-  quartics j gs Gs -> (i + 3 * n <= most_y)%nat -> (j + 4 * n <= most_g)%nat ->
+  quartics j gs Gs -> (i + 3 * n <= max_y)%nat -> (j + 4 * n <= max_g)%nat ->
   subdivide n y gs = separate -> 0 <= t <= 1 -> control_at Y t = 0 ->
   exists G, In G Gs /\ control_at G t < 0.
 Proof. intros L F Q MY MG E. now apply (proj1 (subdivision_right n i j y Y gs Gs L F Q MY MG)). Qed.
 Theorem subdivision_collides n i j y Y gs Gs : length y = 4%nat -> Forall2 (stands_y i) y Y ->
-  quartics j gs Gs -> (i + 3 * n <= most_y)%nat -> (j + 4 * n <= most_g)%nat ->
+  quartics j gs Gs -> (i + 3 * n <= max_y)%nat -> (j + 4 * n <= max_g)%nat ->
   subdivide n y gs = collides ->
   exists t, 0 <= t <= 1 /\ control_at Y t = 0 /\ forall G, In G Gs -> 0 < control_at G t.
 Proof. intros L F Q MY MG E. now apply (proj2 (subdivision_right n i j y Y gs Gs L F Q MY MG)). Qed.

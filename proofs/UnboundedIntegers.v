@@ -365,7 +365,7 @@ Qed.
 (** contact_at_border: the query as given, and in integers. *)
 Definition edge_contact (query : list given) (v e0 e1 : given) : bool :=
   let integer := to_integers query in
-  negb (parted (given_motion v) (given_motion e0) (given_motion e1)) &&
+  negb (separated (given_motion v) (given_motion e0) (given_motion e1)) &&
   contact (integer v) (integer e0) (integer e1).
 Definition face_border (v f0 f1 f2 : given) : bool :=
   let on := edge_contact [v; f0; f1; f2] in on v f0 f1 || on v f1 f2 || on v f2 f0.
@@ -381,7 +381,7 @@ Proof.
   destruct (to_integers_right query e1 E1) as (_ & E1i). unfold edge_contact, in_integers in *.
   rewrite andb_true_iff, negb_true_iff, integer_contact_right, Vi, E0i, E1i, (vertex_edge_units (unit_of
     query)) by exact K.
-  split; [tauto |]. intros H. split; auto. destruct (parted _ _ _) eqn:P; auto. now apply parted_right
+  split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto. now apply separated_right
     in P.
 Qed.
 Theorem face_border_right (v f0 f1 f2 : given) : face_border v f0 f1 f2 = true <->

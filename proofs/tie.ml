@@ -51,10 +51,10 @@ let tiny p exponent_bits =
         | None ->
             let c = encode (f.integer n) in
             Hashtbl.add integers n c; c) in
-  let most_scale = 64 in
+  let max_scale = 64 in
   let scaled =
-    Array.map (fun x -> Array.init ((2 * most_scale) + 1)
-                          (fun e -> encode (f.scale x (z (e - most_scale))))) decoded in
+    Array.map (fun x -> Array.init ((2 * max_scale) + 1)
+                          (fun e -> encode (f.scale x (z (e - max_scale))))) decoded in
   let values =
     List.filter (fun c -> c <= nan || (c >= codes / 2 && c < nan + (codes / 2))) (List.init codes Fun.id) in
   { name = Printf.sprintf "tiny_float<%d,%d>" p exponent_bits;
@@ -64,7 +64,7 @@ let tiny p exponent_bits =
       fma = (fun x y v -> encode (f.fma decoded.(x) decoded.(y) decoded.(v)));
       opposite = (fun x -> opposites.(x));
       less = table2 f.less; at_most = table2 f.at_most; equal = table2 f.equal;
-      scale = (fun x e -> scaled.(x).(of_z e + most_scale));
+      scale = (fun x e -> scaled.(x).(of_z e + max_scale));
       integer; digits = f.digits;
       five_quarters = encode f.five_quarters; epsilon = encode f.epsilon;
       unit_roundoff = encode f.unit_roundoff; underflow_unit = encode f.underflow_unit;

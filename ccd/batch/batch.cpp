@@ -9,9 +9,9 @@
 #include <string>
 
 #include "ccd/batch/batch_worker.hpp"
-#include "ccd/exact/finite.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
+#include "ccd/exact/finite.hpp"
 
 namespace ccd {
 namespace {
@@ -52,10 +52,10 @@ void check_lengths(std::size_t queries, std::size_t answers) {
                                     " answers");
 }
 
-template <class Indices>
-void check_indices(std::span<const Indices> queries, std::size_t first, std::size_t vertices) {
+template <class Pair>
+void check_indices(std::span<const Pair> queries, std::size_t first, std::size_t vertices) {
     index largest = 0;
-    for (const Indices& q : queries)
+    for (const Pair& q : queries)
         for (const index v : vertices_of(q)) largest = std::max(largest, v);
     if (largest < vertices) return;
     for (std::size_t i = 0; i < queries.size(); ++i)
@@ -66,8 +66,8 @@ void check_indices(std::span<const Indices> queries, std::size_t first, std::siz
                                             std::to_string(v) + " of " + std::to_string(vertices));
 }
 
-template <class Indices>
-void decide_indexed(const vertex_rows& rows, std::span<const Indices> queries,
+template <class Pair>
+void decide_indexed(const vertex_rows& rows, std::span<const Pair> queries,
                     std::span<outcome> answers, const batch_options& options) {
     check_lengths(queries.size(), answers.size());
     // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
@@ -111,11 +111,11 @@ void decide_stored(std::span<const Query> queries, std::span<outcome> answers,
 
 }  // namespace
 
-void decide_batch(const vertex_rows& positions, std::span<const vertex_face_indices> queries,
+void decide_batch(const vertex_rows& positions, std::span<const vertex_face_pair> queries,
                   std::span<outcome> answers, const batch_options& options) {
     decide_indexed(positions, queries, answers, options);
 }
-void decide_batch(const vertex_rows& positions, std::span<const edge_edge_indices> queries,
+void decide_batch(const vertex_rows& positions, std::span<const edge_edge_pair> queries,
                   std::span<outcome> answers, const batch_options& options) {
     decide_indexed(positions, queries, answers, options);
 }

@@ -5,12 +5,12 @@
 // arrays) and some hundred queries: about 200 KB in all, which stay in the second cache.
 #include "ccd/batch/batch_kernels.hpp"
 
-#include "ccd/exact/static_filter.hpp"
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/exact/stage_timer.hpp"
+#include "ccd/exact/static_filter.hpp"
 
 namespace ccd::ERRBOUND_INSTRUCTION_SET {
 namespace {
@@ -123,10 +123,10 @@ struct queue {
     }
 };
 
-constexpr index vertex_of(const vertex_face_indices& q, std::size_t point) {
+constexpr index vertex_of(const vertex_face_pair& q, std::size_t point) {
     return point == 0 ? q.v : point == 1 ? q.f0 : point == 2 ? q.f1 : q.f2;
 }
-constexpr index vertex_of(const edge_edge_indices& q, std::size_t point) {
+constexpr index vertex_of(const edge_edge_pair& q, std::size_t point) {
     return point == 0 ? q.a0 : point == 1 ? q.a1 : point == 2 ? q.b0 : q.b1;
 }
 
@@ -139,7 +139,7 @@ inline bool is_due(cull_state& state) {
 
 /// A cull costs about as much as the next stage. Where it settles fewer than a quarter of several
 /// blocks in a row, it is left out of the next ones.
-inline void judge(cull_state& state, std::size_t settled, std::size_t of) {
+inline void update_pause(cull_state& state, std::size_t settled, std::size_t of) {
     constexpr std::size_t patience = 4, pause = 124;
     state.poor_blocks = 4 * settled < of ? state.poor_blocks + 1 : 0;
     if (state.poor_blocks >= patience) state = {0, pause};
@@ -235,7 +235,7 @@ class pipeline {
     }
 
     [[gnu::flatten]] void test_axes(const std::uint32_t* ids, std::size_t size, cull_state* axes) {
-        stage_turn turn(axes != nullptr ? report_ : nullptr, stage::axes);
+        stage_timer turn(axes != nullptr ? report_ : nullptr, stage::axes);
         for (std::size_t i = size; i % width != 0; ++i)
             for (auto& column : coordinates_) column[i] = 0;
         const bool asked = axes != nullptr && is_due(*axes);
@@ -246,21 +246,21 @@ class pipeline {
             std::uint32_t left = first_lanes(count);
             if (asked) {
                 const static_filter::sizes<pack> sizes(forms);
-                left &= ~bits_of(static_filter::parted<pack>(forms, sizes) & sizes.usable);
+                left &= ~bits_of(static_filter::separated<pack>(forms, sizes) & sizes.usable);
                 separate += count - count_of(left);
             }
             if (left != 0) append(to_coplanarity_, forms, ids + at, left);
         }
         if (asked) {
             turn.count(size, separate, 0);
-            judge(*axes, separate, size);
+            update_pause(*axes, separate, size);
         } else {
             turn.leave_out(size);
         }
     }
 
     [[gnu::flatten]] void test_coplanarity() {
-        stage_turn turn(report_, stage::coplanarity);
+        stage_timer turn(report_, stage::coplanarity);
         for_each_pack(to_coplanarity_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_coplanarity_, at);
             const static_filter::sizes<pack> sizes(forms);
@@ -275,7 +275,7 @@ class pipeline {
     }
 
     [[gnu::flatten]] void test_inside() {
-        stage_turn turn(report_, stage::inside);
+        stage_timer turn(report_, stage::inside);
         for_each_pack(to_inside_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_inside_, at);
             const static_filter::sizes<pack> sizes(forms);
@@ -322,7 +322,7 @@ class pipeline {
 
     /// All parts are halved alike, level by level.
     [[gnu::flatten]] void subdivide() {
-        stage_turn turn(report_, stage::subdivision);
+        stage_timer turn(report_, stage::subdivision);
         std::size_t collide = 0, uncertain = 0;
         const std::size_t entered = parts_[0].size;
         for (std::size_t depth = 0; parts_[depth % 2].size > 0; ++depth) {
@@ -419,21 +419,21 @@ struct rounded_columns {
 };
 
 /// Whether an axis certainly parts the features of the queries from `lane` on.
-template <class Indices>
-xsimd::batch_bool<float, xsimd::default_arch> parted(const rounded_columns& columns,
-                                                     std::size_t lane) {
+template <class Pair>
+xsimd::batch_bool<float, xsimd::default_arch> separated(const rounded_columns& columns,
+                                                        std::size_t lane) {
     float_pack coordinates[3][2][4];
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t end = 0; end < 2; ++end)
             for (std::size_t p = 0; p < 4; ++p)
                 coordinates[k][end][p] = columns.load(6 * p + 3 * end + k, lane);
-    return rounded_axes::parted<Indices>(coordinates);
+    return rounded_axes::separated<Pair>(coordinates);
 }
 
 /// Writes those of the queries first, first + 1, ... that no axis certainly parts to `left`;
 /// returns their number.
-template <class Indices>
-[[gnu::flatten]] std::size_t cull(const float* rounded, const Indices* queries, std::uint32_t first,
+template <class Pair>
+[[gnu::flatten]] std::size_t cull(const float* rounded, const Pair* queries, std::uint32_t first,
                                   std::size_t count, std::uint32_t* left) {
     rounded_columns columns;
     for (std::size_t at = 0; at < count; at += 4)
@@ -449,7 +449,7 @@ template <class Indices>
     std::size_t size = 0;
     for (std::size_t at = 0; at < count; at += float_width) {
         const std::size_t lanes = count - at < float_width ? count - at : float_width;
-        std::uint32_t open = first_lanes(lanes) & ~bits_of(parted<Indices>(columns, at));
+        std::uint32_t open = first_lanes(lanes) & ~bits_of(separated<Pair>(columns, at));
         for (; open != 0; open &= open - 1)
             left[size++] = first + static_cast<std::uint32_t>(at) +
                            static_cast<std::uint32_t>(__builtin_ctz(open));
@@ -461,8 +461,8 @@ inline void read_row(const double* row, double* to, std::size_t stride) {
     for (std::size_t k = 0; k < 3; ++k) to[k * stride] = row[k];
 }
 
-template <template <class> class Query, template <class> class Forms, class Indices>
-void decide_indexed(const batch_positions& positions, const Indices* queries, std::size_t count,
+template <template <class> class Query, template <class> class Forms, class Pair>
+void decide_indexed(const batch_positions& positions, const Pair* queries, std::size_t count,
                     outcome* answers, axes_state& axes, stage_report* report) {
     using stages_type = pipeline<Query, Forms>;
     stages_type stages(answers, report);
@@ -480,12 +480,12 @@ void decide_indexed(const batch_positions& positions, const Indices* queries, st
         for (std::size_t i = 0; i < size; ++i) answers[first + i] = outcome::separate;
         std::uint32_t ids[rounded_block];
         if (positions.rounded != nullptr && is_due(axes.in_float)) {
-            stage_turn turn(report, stage::axes);
+            stage_timer turn(report, stage::axes);
             const std::size_t left =
                 cull(positions.rounded, queries, static_cast<std::uint32_t>(first), size, ids);
             turn.count(size, size - left, 0);
             turn.end();
-            judge(axes.in_float, size - left, size);
+            update_pause(axes.in_float, size - left, size);
             stages.take(ids, left, read, nullptr);
         } else {
             for (std::size_t i = 0; i < size; ++i) ids[i] = static_cast<std::uint32_t>(first + i);
@@ -523,8 +523,8 @@ void decide_stored(const Query<double>* queries, std::size_t count, outcome* ans
 }  // namespace
 
 const batch_kernels kernels = {
-    decide_indexed<vertex_face, linear_vertex_face_forms, vertex_face_indices>,
-    decide_indexed<edge_edge, linear_edge_edge_forms, edge_edge_indices>,
+    decide_indexed<vertex_face, linear_vertex_face_forms, vertex_face_pair>,
+    decide_indexed<edge_edge, linear_edge_edge_forms, edge_edge_pair>,
     decide_stored<vertex_face, linear_vertex_face_forms>,
     decide_stored<edge_edge, linear_edge_edge_forms>,
 };

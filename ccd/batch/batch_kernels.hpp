@@ -1,8 +1,8 @@
 // The floating-point stages of `exact` over SIMD packs, compiled once per instruction set.
 //
-// Internal. ccd/batch/batch_kernels.cpp is compiled several times, each time with other flags and another
-// value of ERRBOUND_INSTRUCTION_SET, the namespace of its results. So that nothing compiled for a
-// newer machine is ever called on an older one, that file may define no function that another
+// Internal. ccd/batch/batch_kernels.cpp is compiled several times, each time with other flags and
+// another value of ERRBOUND_INSTRUCTION_SET, the namespace of its results. So that nothing compiled
+// for a newer machine is ever called on an older one, that file may define no function that another
 // could share: tests/ccd/batch/instruction_sets_test.sh looks at its symbols.
 #pragma once
 
@@ -35,10 +35,10 @@ struct batch_positions {
 /// Decides `count` queries in floating point: `uncertain` in answers[i] leaves the query to exact
 /// arithmetic. `report` may be null. No allocation; some 300 KB of stack.
 struct batch_kernels {
-    void (*indexed_vertex_face)(const batch_positions& positions,
-                                const vertex_face_indices* queries, std::size_t count,
-                                outcome* answers, axes_state& axes, stage_report* report);
-    void (*indexed_edge_edge)(const batch_positions& positions, const edge_edge_indices* queries,
+    void (*indexed_vertex_face)(const batch_positions& positions, const vertex_face_pair* queries,
+                                std::size_t count, outcome* answers, axes_state& axes,
+                                stage_report* report);
+    void (*indexed_edge_edge)(const batch_positions& positions, const edge_edge_pair* queries,
                               std::size_t count, outcome* answers, axes_state& axes,
                               stage_report* report);
     void (*stored_vertex_face)(const vertex_face<double>* queries, std::size_t count,

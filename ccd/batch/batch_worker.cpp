@@ -77,14 +77,14 @@ void batch_worker::settle_uncertain(std::size_t count, outcome* answers, const A
 }
 
 void batch_worker::decide(const batch_positions& positions,
-                          std::span<const vertex_face_indices> queries, outcome* answers) {
+                          std::span<const vertex_face_pair> queries, outcome* answers) {
     kernels_->indexed_vertex_face(positions, queries.data(), queries.size(), answers,
                                   axes_vertex_face_, counts());
     settle_uncertain(queries.size(), answers,
                      [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
 }
-void batch_worker::decide(const batch_positions& positions,
-                          std::span<const edge_edge_indices> queries, outcome* answers) {
+void batch_worker::decide(const batch_positions& positions, std::span<const edge_edge_pair> queries,
+                          outcome* answers) {
     kernels_->indexed_edge_edge(positions, queries.data(), queries.size(), answers, axes_edge_edge_,
                                 counts());
     settle_uncertain(queries.size(), answers,

@@ -21,9 +21,9 @@ class batch_worker {
         : kernels_(&kernels), counted_(counted) {}
 
     /// Decides by `exact`. Coordinates must be finite and indices in range.
-    void decide(const batch_positions& positions, std::span<const vertex_face_indices> queries,
+    void decide(const batch_positions& positions, std::span<const vertex_face_pair> queries,
                 outcome* answers);
-    void decide(const batch_positions& positions, std::span<const edge_edge_indices> queries,
+    void decide(const batch_positions& positions, std::span<const edge_edge_pair> queries,
                 outcome* answers);
     void decide(std::span<const vertex_face<double>> queries, outcome* answers);
     void decide(std::span<const edge_edge<double>> queries, outcome* answers);

@@ -9,10 +9,11 @@
 
 #include <algorithm>
 #include <ccd/batch.hpp>
-#include "ccd/exact/static_filter.hpp"
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+
+#include "ccd/exact/static_filter.hpp"
 
 namespace ccd::rounded_axes {
 
@@ -67,32 +68,32 @@ template <class S>
 struct gap {
     S above, below;
 };
-template <class Indices, class S>
+template <class Pair, class S>
 constexpr gap<S> gap_between(const S (&x)[4]) {
     using std::max, std::min;
-    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
+    if constexpr (std::is_same_v<Pair, vertex_face_pair>)
         return {x[0] - max(max(x[1], x[2]), x[3]), min(min(x[1], x[2]), x[3]) - x[0]};
     else
         return {min(x[2], x[3]) - max(x[0], x[1]), min(x[0], x[1]) - max(x[2], x[3])};
 }
-template <class Indices, class S>
-constexpr S parted_by(const S (&start)[4], const S (&end)[4]) {
+template <class Pair, class S>
+constexpr S separated_by(const S (&start)[4], const S (&end)[4]) {
     using std::max, std::min;
-    const gap<S> g0 = gap_between<Indices>(start), g1 = gap_between<Indices>(end);
+    const gap<S> g0 = gap_between<Pair>(start), g1 = gap_between<Pair>(end);
     return max(min(g0.above, g1.above), min(g0.below, g1.below));
 }
 
 }  // namespace detail
 
 /// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly parts the features throughout the step:
-/// static_filter::parted in single precision. x[axis][end of the step][point], the points in the
+/// static_filter::separated in single precision. x[axis][end of the step][point], the points in the
 /// order of the indices; S is float or a pack of floats.
-template <class Indices, class S>
-constexpr static_filter::mask<S> parted(const S (&x)[3][2][4]) {
+template <class Pair, class S>
+constexpr static_filter::mask<S> separated(const S (&x)[3][2][4]) {
     using std::max;
     S along(-1.0f), across(-1.0f);
     for (std::size_t k = 0; k < 3; ++k)
-        along = max(along, detail::parted_by<Indices>(x[k][0], x[k][1]));
+        along = max(along, detail::separated_by<Pair>(x[k][0], x[k][1]));
     for (std::size_t k = 0; k < 3; ++k) {
         const auto &u = x[k], &v = x[(k + 1) % 3];
         S sum[2][4], difference[2][4];
@@ -101,8 +102,8 @@ constexpr static_filter::mask<S> parted(const S (&x)[3][2][4]) {
                 sum[end][p] = u[end][p] + v[end][p];
                 difference[end][p] = u[end][p] - v[end][p];
             }
-        across = max(across, detail::parted_by<Indices>(sum[0], sum[1]));
-        across = max(across, detail::parted_by<Indices>(difference[0], difference[1]));
+        across = max(across, detail::separated_by<Pair>(sum[0], sum[1]));
+        across = max(across, detail::separated_by<Pair>(difference[0], difference[1]));
     }
     const static_filter::mask<S> by_coordinates = along > S(0.0f),
                                  by_diagonals = across > S(margin);

@@ -61,19 +61,19 @@ std::string fault_of_scratch(const scratch& memory, std::size_t vertices, std::s
 }
 
 /// The largest number of candidates in one call: they are numbered in 32 bits, and one more.
-constexpr std::size_t most_candidates = std::numeric_limits<std::uint32_t>::max() - 1;
+constexpr std::size_t max_candidates = std::numeric_limits<std::uint32_t>::max() - 1;
 
-template <class Indices>
-std::string fault_of(const positions& at, const candidates<Indices>& candidates,
+template <class Pair>
+std::string fault_of(const positions& at, const candidates<Pair>& candidates,
                      const outcome* answers, const scratch& memory, method m) {
     if (std::string fault = fault_of_method(m); !fault.empty()) return fault;
-    if (candidates.count > most_candidates)
-        return found_of("candidates", candidates.count, most_candidates) + " at most";
+    if (candidates.count > max_candidates)
+        return found_of("candidates", candidates.count, max_candidates) + " at most";
     if (candidates.count == 0) return {};
     if (at.vertices == 0)
         return "ccd::cuda: found no vertices, or frames of different strides, expected positions";
-    if (at.vertices > most_candidates)
-        return found_of("vertices", at.vertices, most_candidates) + " at most";
+    if (at.vertices > max_candidates)
+        return found_of("vertices", at.vertices, max_candidates) + " at most";
     const bool named = candidates.of_rows != nullptr ||
                        (candidates.columns[0] != nullptr && candidates.columns[1] != nullptr &&
                         (candidates.elements != nullptr ||
@@ -85,8 +85,8 @@ std::string fault_of(const positions& at, const candidates<Indices>& candidates,
     return fault_of_scratch(memory, at.vertices, candidates.count);
 }
 
-template <class Indices>
-status decide_any(const positions& at, const candidates<Indices>& candidates, outcome* answers,
+template <class Pair>
+status decide_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
                   scratch memory, const batch_options& options) {
     if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
         !fault.empty())
@@ -104,8 +104,8 @@ status decide_any(const positions& at, const candidates<Indices>& candidates, ou
     return launcher.result();
 }
 
-template <class Indices>
-status finish_any(const positions& at, const candidates<Indices>& candidates, outcome* answers,
+template <class Pair>
+status finish_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
                   scratch memory, const batch_options& options, stage_counts* counts) {
     if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
         !fault.empty())
@@ -146,22 +146,22 @@ bool has_coordinates(const positions& at) {
     return all(at.before) && all(at.after);
 }
 
-template <class Indices>
+template <class Pair>
 void queue_float_method(device_launcher& launcher, const positions& at,
-                        const candidates<Indices>& candidates, outcome* answers, arena memory,
+                        const candidates<Pair>& candidates, outcome* answers, arena memory,
                         const batch_options& options) {
     const device_method& m = *std::ranges::find(table, options.method, &entry::method)->functions;
     const auto& functions = options.precision == precision::float32 ? m.float32 : m.float64;
-    if constexpr (std::is_same_v<Indices, vertex_face_indices>)
+    if constexpr (std::is_same_v<Pair, vertex_face_pair>)
         functions.vertex_face(launcher, at, candidates, answers, memory);
     else
         functions.edge_edge(launcher, at, candidates, answers, memory);
 }
 template void queue_float_method(device_launcher&, const positions&,
-                                 const candidates<vertex_face_indices>&, outcome*, arena,
+                                 const candidates<vertex_face_pair>&, outcome*, arena,
                                  const batch_options&);
 template void queue_float_method(device_launcher&, const positions&,
-                                 const candidates<edge_edge_indices>&, outcome*, arena,
+                                 const candidates<edge_edge_pair>&, outcome*, arena,
                                  const batch_options&);
 
 std::span<const method> device_methods() {
@@ -189,20 +189,20 @@ std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates) {
     return temporary.used() + std::max({exact.used(), other.used(), place.used()});
 }
 
-status decide_batch(const positions& positions, const candidates<vertex_face_indices>& candidates,
+status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options) {
     return decide_any(positions, candidates, answers, memory, options);
 }
-status decide_batch(const positions& positions, const candidates<edge_edge_indices>& candidates,
+status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options) {
     return decide_any(positions, candidates, answers, memory, options);
 }
-status finish(const positions& positions, const candidates<vertex_face_indices>& candidates,
+status finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts) {
     return finish_any(positions, candidates, answers, memory, options, counts);
 }
-status finish(const positions& positions, const candidates<edge_edge_indices>& candidates,
+status finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts) {
     return finish_any(positions, candidates, answers, memory, options, counts);
@@ -210,8 +210,8 @@ status finish(const positions& positions, const candidates<edge_edge_indices>& c
 
 status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
                         std::size_t room, index* count, scratch memory, stream stream) {
-    if (answer_count > most_candidates)
-        return {found_of("answers", answer_count, most_candidates) + " at most"};
+    if (answer_count > max_candidates)
+        return {found_of("answers", answer_count, max_candidates) + " at most"};
     if ((answer_count > 0 && answers == nullptr) || (room > 0 && found == nullptr) ||
         count == nullptr)
         return {"ccd::cuda: found a null pointer, expected device memory"};

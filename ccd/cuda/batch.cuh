@@ -14,9 +14,9 @@ std::string fault_of_method(method m);
 bool has_coordinates(const positions& at);
 
 /// Queues options.method, which is not `exact`. `memory` is for a method_memory.
-template <class Indices>
+template <class Pair>
 void queue_float_method(device_launcher& launcher, const positions& at,
-                        const candidates<Indices>& candidates, outcome* answers, arena memory,
+                        const candidates<Pair>& candidates, outcome* answers, arena memory,
                         const batch_options& options);
 
 }  // namespace ccd::cuda

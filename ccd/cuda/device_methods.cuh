@@ -10,13 +10,12 @@ namespace ccd::cuda {
 
 /// Queues one method but `exact`.
 struct device_method {
-    template <class Indices>
+    template <class Pair>
     using function = void (*)(device_launcher& launcher, const positions& at,
-                              const candidates<Indices>& candidates, outcome* answers,
-                              arena memory);
+                              const candidates<Pair>& candidates, outcome* answers, arena memory);
     struct functions {
-        function<vertex_face_indices> vertex_face;
-        function<edge_edge_indices> edge_edge;
+        function<vertex_face_pair> vertex_face;
+        function<edge_edge_pair> edge_edge;
     };
     functions float64, float32;
 };
@@ -27,10 +26,10 @@ extern const device_method device_float, device_safe, device_tight, device_safec
 
 /// run_exact_stages, compiled in ccd/cuda/exact.cu.
 void queue_exact(device_launcher& launcher, const positions& at,
-                 const candidates<vertex_face_indices>& candidates, outcome* answers,
+                 const candidates<vertex_face_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);
 void queue_exact(device_launcher& launcher, const positions& at,
-                 const candidates<edge_edge_indices>& candidates, outcome* answers,
+                 const candidates<edge_edge_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);
 
 }  // namespace ccd::cuda

@@ -1,10 +1,10 @@
-// `exact` for the device, compiled once for each kind (ERRBOUND_INDICES).
+// `exact` for the device, compiled once for each kind (ERRBOUND_PAIR).
 #include "ccd/cuda/device_methods.cuh"
 
 namespace ccd::cuda {
 
 void queue_exact(device_launcher& launcher, const positions& at,
-                 const candidates<ERRBOUND_INDICES>& candidates, outcome* answers,
+                 const candidates<ERRBOUND_PAIR>& candidates, outcome* answers,
                  const exact_memory& memory, precision p) {
     run_exact_stages(launcher, at, candidates, answers, memory, p);
 }

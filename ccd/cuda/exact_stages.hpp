@@ -9,18 +9,18 @@
 #include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
-#include "ccd/exact/static_filter.hpp"
 #include <ccd/verdict.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/roots/control_values.hpp>
 #include <errbound/number_traits.hpp>
+#include <errbound/roots/control_values.hpp>
 #include <type_traits>
 
+#include "ccd/batch/rounded_axes.hpp"
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
 #include "ccd/exact/integer_decision.hpp"
-#include "ccd/batch/rounded_axes.hpp"
+#include "ccd/exact/static_filter.hpp"
 #include "ccd/exact/subdivision.hpp"
 
 namespace ccd::cuda {
@@ -96,51 +96,51 @@ struct round_vertex {
 };
 
 /// What every stage knows.
-template <class Indices>
+template <class Pair>
 struct exact_stage {
     template <class S>
-    using forms = typename query_kind<Indices>::template forms<S>;
+    using forms = linear_forms<kind_of<Pair>, S>;
 
     positions at;
-    cuda::candidates<Indices> candidates;
+    cuda::candidates<Pair> candidates;
     outcome* answers;
     queue open;  ///< what the stage leaves to the next
 
-    constexpr query_of_kind<Indices, double> query(std::uint32_t i) const {
-        return query_at<double>(at, indices_of(candidates, i));
+    constexpr query_of_pair<Pair, double> query(std::uint32_t i) const {
+        return query_at<double>(at, pair_at(candidates, i));
     }
 };
 
 /// All candidates: the cull by axes, in floats. Sets every answer to `separate`.
-template <class Indices>
-struct axes_stage : exact_stage<Indices> {
+template <class Pair>
+struct axes_stage : exact_stage<Pair> {
     const scene_extent* scene;
     const rounded_position* rows;
 
     constexpr void operator()(std::uint32_t i) const {
         this->answers[i] = outcome::separate;
         // Comparisons may overlook NaN.
-        if (!scene->finite || !parted(i)) this->open.push(i);
+        if (!scene->finite || !separated(i)) this->open.push(i);
     }
 
   private:
-    constexpr bool parted(std::uint32_t i) const {
+    constexpr bool separated(std::uint32_t i) const {
         float x[3][2][4];
-        const auto vertices = vertices_of(indices_of(this->candidates, i));
+        const auto vertices = vertices_of(pair_at(this->candidates, i));
         for (std::size_t p = 0; p < 4; ++p)
             for (std::size_t end = 0; end < 2; ++end) {
                 const rounded_position r = load_aligned(rows + 2 * std::size_t(vertices[p]) + end);
                 x[0][end][p] = r.x, x[1][end][p] = r.y, x[2][end][p] = r.z;
             }
-        return rounded_axes::parted<Indices>(x);
+        return rounded_axes::separated<Pair>(x);
     }
 };
 
 /// What the tests of coefficients share. In floats, differences come in units of the scene's size.
-template <class Indices, class Real>
-struct coefficient_stage : exact_stage<Indices> {
+template <class Pair, class Real>
+struct coefficient_stage : exact_stage<Pair> {
     template <class S>
-    using forms = typename exact_stage<Indices>::template forms<S>;
+    using forms = typename exact_stage<Pair>::template forms<S>;
 
     const scene_extent* scene;
 
@@ -148,7 +148,7 @@ struct coefficient_stage : exact_stage<Indices> {
     /// The query's forms. Differences are rounded once in doubles, and to floats where asked for:
     /// off by at most ε each, as error_count::difference() says, and by η where that underflows.
     /// Proof: proofs/RoundedAxes.v, converted_difference_near.
-    constexpr forms<Real> forms_of_query(const query_of_kind<Indices, double>& query) const {
+    constexpr forms<Real> forms_of_query(const query_of_pair<Pair, double>& query) const {
         if constexpr (std::is_same_v<Real, double>) {
             return forms<double>(query);
         } else {
@@ -172,9 +172,9 @@ struct coefficient_stage : exact_stage<Indices> {
 };
 
 /// The coefficients of Y. Candidates whose coordinates are not finite are `uncertain` and leave.
-template <class Indices, class Real>
-struct coplanarity_stage : coefficient_stage<Indices, Real> {
-    using base = coefficient_stage<Indices, Real>;
+template <class Pair, class Real>
+struct coplanarity_stage : coefficient_stage<Pair, Real> {
+    using base = coefficient_stage<Pair, Real>;
 
     constexpr void operator()(std::uint32_t i) const {
         const auto query = this->query(i);
@@ -196,9 +196,9 @@ struct coplanarity_stage : coefficient_stage<Indices, Real> {
 };
 
 /// The coefficients of the G_i.
-template <class Indices, class Real>
-struct inside_stage : coefficient_stage<Indices, Real> {
-    using base = coefficient_stage<Indices, Real>;
+template <class Pair, class Real>
+struct inside_stage : coefficient_stage<Pair, Real> {
+    using base = coefficient_stage<Pair, Real>;
 
     constexpr void operator()(std::uint32_t i) const {
         const auto forms = this->forms_of_query(this->query(i));
@@ -209,9 +209,9 @@ struct inside_stage : coefficient_stage<Indices, Real> {
 };
 
 /// Y and G_i on ever smaller parts of the step.
-template <class Indices>
-struct subdivision_stage : exact_stage<Indices> {
-    using base = exact_stage<Indices>;
+template <class Pair>
+struct subdivision_stage : exact_stage<Pair> {
+    using base = exact_stage<Pair>;
 
     constexpr void operator()(std::uint32_t i) const {
         const typename base::template forms<double> forms(this->query(i));
@@ -229,8 +229,8 @@ struct subdivision_stage : exact_stage<Indices> {
 };
 
 /// Integers of Words words. What needs more goes to `open`, what stays uncertain to `left`.
-template <class Indices, int Words>
-struct integer_stage : exact_stage<Indices> {
+template <class Pair, int Words>
+struct integer_stage : exact_stage<Pair> {
     queue left;
 
     constexpr void operator()(std::uint32_t i) const {
@@ -288,10 +288,9 @@ void run_rounding(Launcher& launcher, const positions& at, scene_extent* scene,
 }
 
 /// Queues all stages, the tests of coefficients in `p`; positions are rounded already.
-template <class Launcher, class Indices>
-void run_exact_stages(Launcher& launcher, const positions& at,
-                      const candidates<Indices>& candidates, outcome* answers,
-                      const exact_memory& memory, precision p) {
+template <class Launcher, class Pair>
+void run_exact_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
+                      outcome* answers, const exact_memory& memory, precision p) {
     launcher.set(memory.counters, exact_counters{});
     exact_counters& sizes = *memory.counters;  // its members' addresses alone are used
     const queue after_axes{memory.first, &sizes.coplanarity};
@@ -301,28 +300,27 @@ void run_exact_stages(Launcher& launcher, const positions& at,
     const queue after_one_word{memory.first, &sizes.two_words};
     const queue left{memory.left, &sizes.left};
     const auto stage = [&](const queue& open) {
-        return exact_stage<Indices>{at, candidates, answers, open};
+        return exact_stage<Pair>{at, candidates, answers, open};
     };
     launcher.for_each(candidates.count,
-                      axes_stage<Indices>{stage(after_axes), memory.scene, memory.rows});
+                      axes_stage<Pair>{stage(after_axes), memory.scene, memory.rows});
     const auto coefficients = [&](auto real) {
         using Real = decltype(real);
         const auto of = [&](const queue& open) {
-            return coefficient_stage<Indices, Real>{stage(open), memory.scene};
+            return coefficient_stage<Pair, Real>{stage(open), memory.scene};
         };
-        launcher.for_each_queued(after_axes,
-                                 coplanarity_stage<Indices, Real>{of(after_coplanarity)});
-        launcher.for_each_queued(after_coplanarity, inside_stage<Indices, Real>{of(after_inside)});
+        launcher.for_each_queued(after_axes, coplanarity_stage<Pair, Real>{of(after_coplanarity)});
+        launcher.for_each_queued(after_coplanarity, inside_stage<Pair, Real>{of(after_inside)});
     };
     if (p == precision::float32)
         coefficients(0.0f);
     else
         coefficients(0.0);
     // In doubles in either case: it looks at the whole step again first.
-    launcher.for_each_queued(after_inside, subdivision_stage<Indices>{stage(after_subdivision)});
+    launcher.for_each_queued(after_inside, subdivision_stage<Pair>{stage(after_subdivision)});
     launcher.for_each_queued(after_subdivision,
-                             integer_stage<Indices, 1>{stage(after_one_word), left});
-    launcher.for_each_queued(after_one_word, integer_stage<Indices, 2>{stage(left), left});
+                             integer_stage<Pair, 1>{stage(after_one_word), left});
+    launcher.for_each_queued(after_one_word, integer_stage<Pair, 2>{stage(left), left});
 }
 
 }  // namespace ccd::cuda

@@ -6,16 +6,16 @@
 namespace ccd::cuda {
 namespace {
 
-template <class T, class Indices>
+template <class T, class Pair>
 void queue_method(device_launcher& launcher, const positions& at,
-                  const candidates<Indices>& candidates, outcome* answers, arena memory) {
+                  const candidates<Pair>& candidates, outcome* answers, arena memory) {
     const method_memory all(memory, candidates.count);
     run_method<ERRBOUND_METHOD_TYPE, T>(launcher, at, candidates, answers, all);
 }
 
 template <class T>
-constexpr device_method::functions functions_in = {queue_method<T, vertex_face_indices>,
-                                                   queue_method<T, edge_edge_indices>};
+constexpr device_method::functions functions_in = {queue_method<T, vertex_face_pair>,
+                                                   queue_method<T, edge_edge_pair>};
 
 }  // namespace
 

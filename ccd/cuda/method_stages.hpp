@@ -5,8 +5,8 @@
 // cost and of the registers of the rest.
 #pragma once
 
-#include <ccd/methods/bsc.hpp>
 #include <ccd/cuda.hpp>
+#include <ccd/methods/bsc.hpp>
 #include <ccd/methods/safeccd.hpp>
 #include <ccd/methods/single_precision.hpp>
 #include <ccd/methods/tracked_query.hpp>
@@ -22,15 +22,15 @@
 namespace ccd::cuda {
 
 /// Calls f(query, finite) with a candidate's query over tracked numbers of T.
-template <class Rule, class T, class Indices, class F>
-constexpr auto with_tracked_query(const positions& at, const Indices& indices, const F& f) {
+template <class Rule, class T, class Pair, class F>
+constexpr auto with_tracked_query(const positions& at, const Pair& pair, const F& f) {
     const auto apply = [&](const auto& converted) { return f(converted.first, converted.second); };
     if constexpr (std::is_same_v<T, double>) {
-        return apply(tracked_query<Rule>(query_at<double>(at, indices)));
+        return apply(tracked_query<Rule>(query_at<double>(at, pair)));
     } else {
         // Floats are exact as they are.
-        return apply(at.in_floats ? tracked_query<Rule>(query_at<float>(at, indices))
-                                  : single_precision_query<Rule>(query_at<double>(at, indices)));
+        return apply(at.in_floats ? tracked_query<Rule>(query_at<float>(at, pair))
+                                  : single_precision_query<Rule>(query_at<double>(at, pair)));
     }
 }
 
@@ -57,21 +57,21 @@ struct safeccd_method {
     }
 };
 
-template <class Indices>
+template <class Pair>
 struct method_stage {
     positions at;
-    cuda::candidates<Indices> candidates;
+    cuda::candidates<Pair> candidates;
     outcome* answers;
     queue open;  ///< what the stage leaves to the next
 };
 
 /// `separate` where Y's coefficients tell so in T; the others are left open.
-template <class Method, class T, class Indices>
-struct never_coplanar_stage : method_stage<Indices> {
+template <class Method, class T, class Pair>
+struct never_coplanar_stage : method_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
-        const auto indices = indices_of(this->candidates, i);
+        const auto pair = pair_at(this->candidates, i);
         const bool separate = with_tracked_query<typename Method::rule, T>(
-            this->at, indices,
+            this->at, pair,
             [](const auto& query, bool finite) { return finite && never_coplanar(query); });
         if (separate)
             this->answers[i] = outcome::separate;
@@ -81,12 +81,12 @@ struct never_coplanar_stage : method_stage<Indices> {
 };
 
 /// The method's answer in T; uncertain ones are left open too, if there is a queue.
-template <class Method, class T, class Indices>
-struct decision_stage : method_stage<Indices> {
+template <class Method, class T, class Pair>
+struct decision_stage : method_stage<Pair> {
     constexpr void operator()(std::uint32_t i) const {
-        const auto indices = indices_of(this->candidates, i);
+        const auto pair = pair_at(this->candidates, i);
         const outcome found = with_tracked_query<typename Method::rule, T>(
-            this->at, indices, [](const auto& query, bool finite) {
+            this->at, pair, [](const auto& query, bool finite) {
                 return finite ? Method::decide(query) : outcome::uncertain;
             });
         this->answers[i] = found;
@@ -110,30 +110,29 @@ struct method_memory {
 };
 
 /// Queues all stages, with T = float or double first.
-template <class Method, class T, class Launcher, class Indices>
-void run_method(Launcher& launcher, const positions& at, const candidates<Indices>& candidates,
+template <class Method, class T, class Launcher, class Pair>
+void run_method(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                 outcome* answers, const method_memory& memory) {
     launcher.set(memory.counters, method_counters{});
     const queue none{nullptr, nullptr};
     const queue after_coplanarity{memory.first, &memory.counters->roots};
     const queue after_floats{memory.second, &memory.counters->in_doubles};
     const auto stage = [&](const queue& open) {
-        return method_stage<Indices>{at, candidates, answers, open};
+        return method_stage<Pair>{at, candidates, answers, open};
     };
     // `none` is never uncertain, but where its numbers overflow.
     constexpr bool doubles_follow =
         !std::is_same_v<T, double> && !std::is_same_v<typename Method::rule, errbound::none>;
-    const decision_stage<Method, T, Indices> decision{stage(doubles_follow ? after_floats : none)};
+    const decision_stage<Method, T, Pair> decision{stage(doubles_follow ? after_floats : none)};
     if constexpr (Method::coplanarity_first) {
         launcher.for_each(candidates.count,
-                          never_coplanar_stage<Method, T, Indices>{stage(after_coplanarity)});
+                          never_coplanar_stage<Method, T, Pair>{stage(after_coplanarity)});
         launcher.for_each_queued(after_coplanarity, decision);
     } else {
         launcher.for_each(candidates.count, decision);
     }
     if constexpr (doubles_follow)
-        launcher.for_each_queued(after_floats,
-                                 decision_stage<Method, double, Indices>{stage(none)});
+        launcher.for_each_queued(after_floats, decision_stage<Method, double, Pair>{stage(none)});
 }
 
 }  // namespace ccd::cuda

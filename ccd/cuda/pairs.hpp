@@ -17,15 +17,15 @@
 namespace ccd::cuda {
 
 /// Copies the queries of listed candidates.
-template <class Indices>
+template <class Pair>
 struct gather_queries {
     positions at;
-    cuda::candidates<Indices> candidates;
+    cuda::candidates<Pair> candidates;
     const std::uint32_t* numbers;
-    query_of_kind<Indices, double>* queries;
+    query_of_pair<Pair, double>* queries;
 
     constexpr void operator()(std::uint32_t k) const {
-        queries[k] = query_at<double>(at, indices_of(candidates, numbers[k]));
+        queries[k] = query_at<double>(at, pair_at(candidates, numbers[k]));
     }
 };
 
@@ -40,11 +40,11 @@ struct scatter_answers {
 /// Decides on the host, by all its threads, what run_exact_stages left open; waits until the
 /// answers are written. Returns the counters; if more candidates were left than there are, the
 /// memory is not that of these candidates, and nothing is done.
-template <class Launcher, class Indices>
+template <class Launcher, class Pair>
 exact_counters finish_exact(Launcher& launcher, const positions& at,
-                            const candidates<Indices>& candidates, outcome* answers,
+                            const candidates<Pair>& candidates, outcome* answers,
                             const exact_memory& memory) {
-    using query = query_of_kind<Indices, double>;
+    using query = query_of_pair<Pair, double>;
     exact_counters counters{};
     launcher.read(memory.counters, 1, &counters);
     if (counters.left > candidates.count) return counters;
@@ -58,7 +58,7 @@ exact_counters finish_exact(Launcher& launcher, const positions& at,
     for (std::size_t first = 0; first < counters.left && launcher.ok(); first += at_once) {
         const std::size_t count = std::min(at_once, counters.left - first);
         const std::uint32_t* numbers = memory.left + first;
-        launcher.for_each(count, gather_queries<Indices>{at, candidates, numbers, staged});
+        launcher.for_each(count, gather_queries<Pair>{at, candidates, numbers, staged});
         queries.resize(count);
         launcher.read(staged, count, queries.data());
         found.resize(count);

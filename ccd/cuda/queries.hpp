@@ -10,26 +10,6 @@
 
 namespace ccd::cuda {
 
-/// The query of a kind of indices.
-template <class Indices>
-struct query_kind;
-template <>
-struct query_kind<vertex_face_indices> {
-    template <class T>
-    using query = vertex_face<T>;
-    template <class S>
-    using forms = linear_vertex_face_forms<S>;
-};
-template <>
-struct query_kind<edge_edge_indices> {
-    template <class T>
-    using query = edge_edge<T>;
-    template <class S>
-    using forms = linear_edge_edge_forms<S>;
-};
-template <class Indices, class T>
-using query_of_kind = typename query_kind<Indices>::template query<T>;
-
 /// Sixteen bytes by one instruction where there is one.
 template <class T>
 constexpr T load_aligned(const T* p) {
@@ -45,13 +25,13 @@ constexpr T load_aligned(const T* p) {
 }
 
 /// The vertices of candidate i.
-template <class Indices>
-constexpr Indices indices_of(const candidates<Indices>& c, std::uint32_t i) {
+template <class Pair>
+constexpr Pair pair_at(const candidates<Pair>& c, std::uint32_t i) {
     if (c.of_rows != nullptr) return load_aligned(c.of_rows + i);
     if (c.elements == nullptr)
         return {c.columns[0][i], c.columns[1][i], c.columns[2][i], c.columns[3][i]};
     const auto& second = c.elements[c.columns[1][i]];
-    if constexpr (std::is_same_v<Indices, vertex_face_indices>) {
+    if constexpr (std::is_same_v<Pair, vertex_face_pair>) {
         return {c.columns[0][i], second[0], second[1], second[2]};
     } else {
         const edge& first = c.elements[c.columns[0][i]];
@@ -68,8 +48,8 @@ constexpr double coordinate_at(const positions& p, const positions::frame& frame
 }
 
 /// A query's points, in T: double, or float where positions are in floats.
-template <class T, class Indices>
-constexpr query_of_kind<Indices, T> query_at(const positions& p, const Indices& indices) {
+template <class T, class Pair>
+constexpr query_of_pair<Pair, T> query_at(const positions& p, const Pair& pair) {
     const auto at = [&](const positions::frame& frame, index v) {
         const auto coordinate = [&](std::size_t axis) {
             return static_cast<T>(coordinate_at(p, frame, axis, v));
@@ -77,7 +57,7 @@ constexpr query_of_kind<Indices, T> query_at(const positions& p, const Indices& 
         return point<T>{coordinate(0), coordinate(1), coordinate(2)};
     };
     const auto moving = [&](index v) { return moving_point<T>{at(p.before, v), at(p.after, v)}; };
-    const auto [a, b, c, d] = vertices_of(indices);
+    const auto [a, b, c, d] = vertices_of(pair);
     return {moving(a), moving(b), moving(c), moving(d)};
 }
 

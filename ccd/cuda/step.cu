@@ -99,7 +99,7 @@ struct device_frames {
     }
 };
 
-template <class Query, class Indices>
+template <class Query, class Pair>
 status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
                      const batch_options& options) {
     if (queries.size() != answers.size())
@@ -109,11 +109,11 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
     constexpr std::size_t block = std::size_t(1) << 20;
     device_launcher launcher(options.stream);
     device_frames frames;
-    device_launcher::buffer<Indices> rows;
+    device_launcher::buffer<Pair> rows;
     device_launcher::buffer<outcome> found;
     device_launcher::buffer<std::byte> memory;
     std::vector<point<double>> before, after;
-    std::vector<Indices> indices;
+    std::vector<Pair> indices;
     for (std::size_t first = 0; first < queries.size() && launcher.ok(); first += block) {
         const auto part = queries.subspan(first, std::min(block, queries.size() - first));
         before.clear(), after.clear(), indices.clear();
@@ -128,7 +128,7 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
         found.resize(launcher, part.size());
         memory.resize(launcher, scratch_bytes(at.vertices, part.size()));
         if (!launcher.ok()) break;
-        const auto all = candidates<Indices>::rows(rows.data(), part.size());
+        const auto all = candidates<Pair>::rows(rows.data(), part.size());
         const scratch given{memory.data(), memory.size()};
         if (status s = decide_batch(at, all, found.data(), given, options); !s) return s;
         if (status s = finish(at, all, found.data(), given, options); !s) return s;
@@ -141,11 +141,11 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
 
 status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
               const batch_options& options) {
-    return decide_stored<vertex_face<double>, vertex_face_indices>(queries, answers, options);
+    return decide_stored<vertex_face<double>, vertex_face_pair>(queries, answers, options);
 }
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options) {
-    return decide_stored<edge_edge<double>, edge_edge_indices>(queries, answers, options);
+    return decide_stored<edge_edge<double>, edge_edge_pair>(queries, answers, options);
 }
 
 status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
@@ -164,12 +164,12 @@ status step(const mesh& before, const mesh& after, const step_options& options, 
     if (status s = steps.run(at, {options.method, precision, nullptr}, found); !s) return s;
     result.narrow_phase_seconds = watch.lap();
 
-    std::vector<vertex_face_indices> vertex_face(found.vertex_face_count);
-    std::vector<edge_edge_indices> edge_edge(found.edge_edge_count);
+    std::vector<vertex_face_pair> vertex_face(found.vertex_face_count);
+    std::vector<edge_edge_pair> edge_edge(found.edge_edge_count);
     launcher.read(found.vertex_face, vertex_face.size(), vertex_face.data());
     launcher.read(found.edge_edge, edge_edge.size(), edge_edge.data());
-    for (const auto& q : vertex_face) result.vertex_face.push_back(pair_of(q));
-    for (const auto& q : edge_edge) result.edge_edge.push_back(pair_of(q));
+    for (const auto& q : vertex_face) result.vertex_face.push_back(canonical(q));
+    for (const auto& q : edge_edge) result.edge_edge.push_back(canonical(q));
     std::ranges::sort(result.vertex_face);
     std::ranges::sort(result.edge_edge);
     result.vertex_face_candidates = found.vertex_face_candidates;

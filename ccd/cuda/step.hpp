@@ -1,8 +1,8 @@
 // A step of a mesh on the device: candidates by a tree of boxes, decided in blocks. Internal.
 //
-// The tree is that of ccd/step/box_tree.hpp without its packs: boxes sorted along a Morton curve, eight
-// to a node, so that nodes need no pointers and a search no stack. Each element counts what it
-// touches; a prefix sum gives every candidate its number; then blocks of numbers are written out
+// The tree is that of ccd/step/box_tree.hpp without its packs: boxes sorted along a Morton curve,
+// eight to a node, so that nodes need no pointers and a search no stack. Each element counts what
+// it touches; a prefix sum gives every candidate its number; then blocks of numbers are written out
 // and decided. So nothing depends on the order of threads, and no block can run over.
 #pragma once
 
@@ -103,13 +103,13 @@ constexpr bool exactly_touch(const positions& at, const std::array<index, A>& a,
 /// Boxes of sorted elements, level by level: box i of a level is around boxes 8i to 8i + 7 of the
 /// level below it.
 struct box_levels {
-    static constexpr std::size_t children = 8, most_levels = 12;
+    static constexpr std::size_t children = 8, max_levels = 12;
     static constexpr unsigned child_bits = 3;
 
     const rounded_box* boxes = nullptr;
     const std::uint32_t* order = nullptr;  ///< leaf i holds element order[i]
     std::size_t levels = 0;
-    std::size_t start[most_levels] = {}, count[most_levels] = {};
+    std::size_t start[max_levels] = {}, count[max_levels] = {};
 
     constexpr box_levels() = default;
     /// The shape for so many leaves.
@@ -207,7 +207,7 @@ constexpr void visit_candidate(const positions& at, const std::array<index, A>& 
 
 /// Calls visit(candidate) for all candidates of the vertices in the tree with face i.
 struct face_search {
-    using indices = vertex_face_indices;
+    using indices = vertex_face_pair;
     positions at;
     const rounded_position* rows;
     box_levels tree;  ///< of all vertices
@@ -227,7 +227,7 @@ struct face_search {
 
 /// Calls visit(candidate) for all candidates of leaf i with later ones.
 struct edge_search {
-    using indices = edge_edge_indices;
+    using indices = edge_edge_pair;
     positions at;
     box_levels tree;  ///< of all edges
     elements<2> searching;
@@ -278,11 +278,11 @@ struct write_candidates {
     }
 };
 
-template <class Indices>
+template <class Pair>
 struct copy_rows {
-    const Indices* rows;
+    const Pair* rows;
     const index* numbers;
-    Indices* to;
+    Pair* to;
     constexpr void operator()(std::uint32_t k) const { to[k] = rows[numbers[k]]; }
 };
 
@@ -348,8 +348,8 @@ class step_memory {
         return found;
     }
 
-    buffer<vertex_face_indices>& vertex_face() { return vertex_face_; }
-    buffer<edge_edge_indices>& edge_edge() { return edge_edge_; }
+    buffer<vertex_face_pair>& vertex_face() { return vertex_face_; }
+    buffer<edge_edge_pair>& edge_edge() { return edge_edge_; }
 
   private:
     template <std::size_t N>
@@ -378,9 +378,9 @@ class step_memory {
     }
 
     /// Returns the number of candidates.
-    template <class Search, class Decide, class Indices>
+    template <class Search, class Decide, class Pair>
     std::size_t run_search(Launcher& launcher, const Search& search, std::size_t searches,
-                           const Decide& decide, buffer<Indices>& pairs, std::size_t& pair_count,
+                           const Decide& decide, buffer<Pair>& pairs, std::size_t& pair_count,
                            std::size_t& finished_on_host) {
         counts_.resize(launcher, searches);
         numbers_.resize(launcher, searches + 1);
@@ -391,7 +391,7 @@ class step_memory {
 
         const auto at_once = static_cast<std::size_t>(std::min<std::uint64_t>(total, block_));
         block_rows_.resize(launcher, at_once);
-        auto* const rows = reinterpret_cast<Indices*>(block_rows_.data());
+        auto* const rows = reinterpret_cast<Pair*>(block_rows_.data());
         answers_.resize(launcher, at_once);
         place_.resize(launcher, at_once + 1);
         numbers_found_.resize(launcher, at_once);
@@ -403,7 +403,7 @@ class step_memory {
                 static_cast<std::size_t>(std::min<std::uint64_t>(at_once, total - first));
             launcher.for_each(
                 searches, write_candidates<Search>{search, numbers_.data(), first, count, rows});
-            finished_on_host += decide(candidates<Indices>::rows(rows, count), answers_.data(),
+            finished_on_host += decide(candidates<Pair>::rows(rows, count), answers_.data(),
                                        scene_.data(), rows_.data());
             run_select(launcher, answers_.data(), count, numbers_found_.data(), count,
                        count_found_.data(), place_.data());
@@ -411,7 +411,7 @@ class step_memory {
             launcher.read(count_found_.data(), 1, &more);
             pairs.extend(launcher, pair_count + more);
             launcher.for_each(
-                more, copy_rows<Indices>{rows, numbers_found_.data(), pairs.data() + pair_count});
+                more, copy_rows<Pair>{rows, numbers_found_.data(), pairs.data() + pair_count});
             pair_count += more;
         }
         return static_cast<std::size_t>(total);
@@ -429,8 +429,8 @@ class step_memory {
     buffer<std::array<index, 4>> block_rows_;  // of either kind
     buffer<outcome> answers_;
     buffer<index> numbers_found_, count_found_;
-    buffer<vertex_face_indices> vertex_face_;
-    buffer<edge_edge_indices> edge_edge_;
+    buffer<vertex_face_pair> vertex_face_;
+    buffer<edge_edge_pair> edge_edge_;
 };
 
 }  // namespace ccd::cuda

@@ -81,11 +81,11 @@ constexpr std::array<double, N> approximated(
 /// Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
 constexpr double estimated_root(const std::array<double, 4>& h) {
     constexpr double precision = 0x1p-52;
-    constexpr int most_steps = 60;
+    constexpr int max_steps = 60;
     const bool rising = h[3] > h[0];
     // The secant's root; if an end is a root itself, the one inside is asked for.
     double low = 0, high = 1, t = h[0] == 0 || h[3] == 0 ? 0.5 : h[0] / (h[0] - h[3]);
-    for (int k = 0; k < most_steps && high - low > precision; ++k) {
+    for (int k = 0; k < max_steps && high - low > precision; ++k) {
         const double s = 1 - t;
         const double value = ((h[0] * s + h[1] * t) * s + h[2] * t * t) * s + h[3] * t * t * t;
         const double slope =
@@ -102,10 +102,10 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
 }
 
 /// A cubic on [index, index + 1]/2^level: its coefficients there, times a power of two, in spare
-/// words for `most_halvings`, each of which multiplies them by 8.
+/// words for `max_halvings`, each of which multiplies them by 8.
 template <int Words>
 struct cubic_part {
-    static constexpr int most_halvings = 40;
+    static constexpr int max_halvings = 40;
 
     cubic_form<Words + 2> y;
     inner_sign_changes roots;

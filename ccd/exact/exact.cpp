@@ -12,7 +12,7 @@ namespace {
 template <class Query>
 verdict settle_any(const Query& query, stage_report* report) {
     const auto counted = [&](stage s, const auto& decide) {
-        stage_turn turn(report, s);
+        stage_timer turn(report, s);
         const verdict answer = decide(query);
         turn.count(1, answer.outcome == outcome::separate, answer.outcome == outcome::collides);
         return answer;

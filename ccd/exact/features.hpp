@@ -3,14 +3,14 @@
 #pragma once
 
 #include <ccd/methods/forms.hpp>
-#include <ccd/query.hpp>
 #include <ccd/methods/transform.hpp>
+#include <ccd/query.hpp>
 
 namespace ccd {
 
 /// True if some coordinate axis parts v from the edge the same way at t = 0 and at t = 1, and
-/// therefore, the motion being linear, throughout. Proof: proofs/AxisUnits.v, parted_right.
-constexpr bool parted(const vertex_edge<double>& q) {
+/// therefore, the motion being linear, throughout. Proof: proofs/AxisUnits.v, separated_right.
+constexpr bool separated(const vertex_edge<double>& q) {
     bool apart = false;
     for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z}) {
         const double v0 = q.v.t0.*axis, v1 = q.v.t1.*axis;

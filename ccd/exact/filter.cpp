@@ -1,8 +1,7 @@
-#include "ccd/exact/static_filter.hpp"
-
 #include "ccd/exact/cascade.hpp"
 #include "ccd/exact/finite.hpp"
 #include "ccd/exact/stage_timer.hpp"
+#include "ccd/exact/static_filter.hpp"
 #include "ccd/exact/subdivision.hpp"
 
 namespace ccd {
@@ -19,13 +18,13 @@ template <template <class> class Forms, template <class> class Query>
     const static_filter::sizes<double> sizes(forms);
     if (!sizes.usable) return {outcome::uncertain, cause::range};
     {
-        stage_turn turn(report, stage::axes);
-        const bool parted = static_filter::parted_by_coordinates<double>(forms, sizes);
-        turn.count(1, parted, 0);
-        if (parted) return {outcome::separate, cause::none};
+        stage_timer turn(report, stage::axes);
+        const bool separated = static_filter::separated_by_coordinates<double>(forms, sizes);
+        turn.count(1, separated, 0);
+        if (separated) return {outcome::separate, cause::none};
     }
     {
-        stage_turn turn(report, stage::coplanarity);
+        stage_timer turn(report, stage::coplanarity);
         const auto y = errbound::control_values_of(forms.y());
         const double error = sizes.error_of_y<Forms>();
         const bool rootless = above(y, error) || below(y, error);
@@ -34,19 +33,19 @@ template <template <class> class Forms, template <class> class Query>
     }
     {
         // The axes across cost one query more than Y's four coefficients do, a pack of floats less.
-        stage_turn turn(report, stage::axes);
-        const bool parted = static_filter::parted_by_diagonals<double>(forms, sizes);
-        turn.count(0, parted, 0);  // it entered above
-        if (parted) return {outcome::separate, cause::none};
+        stage_timer turn(report, stage::axes);
+        const bool separated = static_filter::separated_by_diagonals<double>(forms, sizes);
+        turn.count(0, separated, 0);  // it entered above
+        if (separated) return {outcome::separate, cause::none};
     }
-    stage_turn inside_turn(report, stage::inside);
+    stage_timer inside_turn(report, stage::inside);
     const static_filter::whole_step<double, Forms> whole(forms, sizes);
     const bool outside = whole.outside();
     inside_turn.count(1, outside, 0);
     inside_turn.end();
     if (outside) return {outcome::separate, cause::none};
 
-    stage_turn turn(report, stage::subdivision);
+    stage_timer turn(report, stage::subdivision);
     const outcome answer = subdivide(whole);
     turn.count(1, answer == outcome::separate, answer == outcome::collides);
     return {answer, answer == outcome::uncertain ? cause::inside : cause::none};

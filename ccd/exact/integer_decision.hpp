@@ -1,5 +1,5 @@
-// The decision of one query in integers of a given fixed width. Internal: ccd/exact/integers.hpp says
-// what it promises; this is what host and device code share.
+// The decision of one query in integers of a given fixed width. Internal: ccd/exact/integers.hpp
+// says what it promises; this is what host and device code share.
 #pragma once
 
 #include <ccd/methods/forms.hpp>
@@ -7,16 +7,16 @@
 #include <cstddef>
 #include <errbound/integers/fixed_integer.hpp>
 
-#include "ccd/exact/features.hpp"
 #include "ccd/exact/axis_units.hpp"
+#include "ccd/exact/features.hpp"
 #include "ccd/exact/interior_contact.hpp"
 #include "ccd/exact/vertex_edge_contact.hpp"
 
 namespace ccd {
 
 /// The most bits that coordinates may differ by (integer_units::bits) for Words words to carry
-/// through all forms: ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp say how. Proof, for
-/// one and two words: proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths,
+/// through all forms: ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp say how.
+/// Proof, for one and two words: proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths,
 /// interior_widths, halving_widths, bracket_widths, cut_widths.
 constexpr int extent_limit(int words) {
     return 64 * words - 3;
@@ -24,9 +24,9 @@ constexpr int extent_limit(int words) {
 
 namespace detail {
 
-/// VF and EE: the union that the head of ccd/exact/reference.cpp states, vertex/edge contacts first.
-/// Every contact has Y = 0.
-/// Proof: proofs/InteriorContact.v, face_decision_right, edges_decision_right.
+/// VF and EE: the union that the head of ccd/exact/reference.cpp states, vertex/edge contacts
+/// first. Every contact has Y = 0. Proof: proofs/InteriorContact.v, face_decision_right,
+/// edges_decision_right.
 template <int Words, template <class> class Query>
 constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
                              const Query<double>& original, const integer_units& units) {
@@ -36,14 +36,14 @@ constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
     const auto edges = vertex_edge_queries(query);
     const auto original_edges = vertex_edge_queries(original);
     for (std::size_t i = 0; i < edges.size(); ++i)
-        if (!parted(original_edges[i]) && contact(edges[i])) return outcome::collides;
+        if (!separated(original_edges[i]) && contact(edges[i])) return outcome::collides;
     return interior_contact(forms, y, units)();
 }
 /// Proof: proofs/InteriorContact.v, vertex_edge_decision_right.
 template <int Words>
 constexpr outcome contact_of(const vertex_edge<errbound::fixed_integer<Words>>& query,
                              const vertex_edge<double>& original, const integer_units&) {
-    return !parted(original) && contact(query) ? outcome::collides : outcome::separate;
+    return !separated(original) && contact(query) ? outcome::collides : outcome::separate;
 }
 template <int Words>
 constexpr outcome contact_of(const vertex_vertex<errbound::fixed_integer<Words>>& query,

@@ -3,12 +3,12 @@
 // Asked of queries WITHOUT vertex/edge contact at any time of the step. Then contact holds exactly
 // if Y = 0 and all G_i > 0, strictly, at some t in [0, 1]: the G_i add up to (pairs of them to)
 // |N|² >= 0, so strict signs imply N ≠ 0 and contact; and a contact where some G_i = 0, or N = 0,
-// lies on a border, as the head of ccd/exact/reference.cpp shows, which makes it a vertex/edge contact.
-// If Y ≡ 0, t = 0 alone is to be asked: let contact hold at some t > 0, and go back in time as long
-// as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is contact,
-// since contact is closed, but with some G_i = 0: a vertex/edge contact.
-// Proof: proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; and that this
-// is what is found: proofs/InteriorContact.v, interior_contact_right.
+// lies on a border, as the head of ccd/exact/reference.cpp shows, which makes it a vertex/edge
+// contact. If Y ≡ 0, t = 0 alone is to be asked: let contact hold at some t > 0, and go back in
+// time as long as all G_i > 0. Either that leads to t = 0, or to a first time at which it still is
+// contact, since contact is closed, but with some G_i = 0: a vertex/edge contact. Proof:
+// proofs/Contact.v, face_inside, edges_inside, face_coplanar, edges_coplanar; and that this is what
+// is found: proofs/InteriorContact.v, interior_contact_right.
 //
 // So G_i are needed at roots of Y alone, and are never expanded into quartics:
 //  * Roots at t = 0 and 1, double and triple roots are rational: G_i are evaluated there.
@@ -33,10 +33,10 @@
 #include <errbound/integers/fixed_integer.hpp>
 #include <optional>
 
+#include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/bounded_integer.hpp"
 #include "ccd/exact/common_roots.hpp"
 #include "ccd/exact/cubic_roots.hpp"
-#include "ccd/exact/axis_units.hpp"
 
 namespace ccd {
 
@@ -73,7 +73,7 @@ class interior_contact {
     using part = cubic_part<3 * Words>;
 
     /// Brackets after the first have two words as their ends' numerators, then three and so on.
-    static constexpr int most_end_words = 4;
+    static constexpr int max_end_words = 4;
 
     template <class Values>
     static constexpr bool all_positive(const Values& forms_at_a_time) {
@@ -146,7 +146,7 @@ class interior_contact {
         }
         // There is a root; if all over the part G_i have the signs asked for, its place matters
         // not.
-        if (whole.level == part::most_halvings) return throughout<1>(whole.index, whole.level, 1);
+        if (whole.level == part::max_halvings) return throughout<1>(whole.index, whole.level, 1);
 
         const auto middle = sign_of(whole.y[0] + whole.y[1] + whole.y[2] + whole.y[3]);
         if (middle == sign_type::zero) {
@@ -173,7 +173,7 @@ class interior_contact {
         if (found != outcome::uncertain) return found;
         if constexpr (T == 2)
             if (distinct_ && normal_vanishes(*bracket)) return outcome::separate;
-        if constexpr (T == most_end_words)
+        if constexpr (T == max_end_words)
             return outcome::uncertain;
         else
             return near(whole, refined_place(y_, *bracket)).value_or(outcome::uncertain);

@@ -68,7 +68,7 @@ bool contact(const Query<integer>& query, const Query<double>& original) {
     return regular_contact(query) || contact_at_border(query, original);
 }
 bool contact(const vertex_edge<integer>& query, const vertex_edge<double>& original) {
-    return !parted(original) && contact(query);
+    return !separated(original) && contact(query);
 }
 bool contact(const vertex_vertex<integer>& query, const vertex_vertex<double>&) {
     return contact(query);

@@ -9,15 +9,15 @@
 namespace ccd {
 
 /// Does nothing if there is no report.
-class stage_turn {
+class stage_timer {
   public:
-    [[gnu::always_inline]] inline stage_turn(stage_report* report, stage s)
+    [[gnu::always_inline]] inline stage_timer(stage_report* report, stage s)
         : entry_(report != nullptr ? &report->stages[static_cast<std::size_t>(s)] : nullptr) {
         if (entry_ != nullptr) start_ = now();
     }
-    [[gnu::always_inline]] inline ~stage_turn() { end(); }
-    stage_turn(const stage_turn&) = delete;
-    stage_turn& operator=(const stage_turn&) = delete;
+    [[gnu::always_inline]] inline ~stage_timer() { end(); }
+    stage_timer(const stage_timer&) = delete;
+    stage_timer& operator=(const stage_timer&) = delete;
 
     [[gnu::always_inline]] inline void count(std::size_t entered, std::size_t separate,
                                              std::size_t collides) {

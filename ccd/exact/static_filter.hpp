@@ -15,8 +15,8 @@
 #include <ccd/methods/forms.hpp>
 #include <cmath>
 #include <cstddef>
-#include <errbound/roots/control_values.hpp>
 #include <errbound/filters/error_count.hpp>
+#include <errbound/roots/control_values.hpp>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -188,8 +188,8 @@ namespace detail {
 /// Whether the projections part the features the same way at both ends of the step; `project`
 /// takes a difference and an end, and is off by at most margin/2.
 template <class S, class Project>
-constexpr mask<S> parted_along(const vertex_face_forms<S>& f, const S& margin,
-                               const Project& project) {
+constexpr mask<S> separated_along(const vertex_face_forms<S>& f, const S& margin,
+                                  const Project& project) {
     using std::max, std::min;
     const auto at = [&](int end) {
         const S b = project(f.b, end), c = project(f.c, end), v = project(f.p, end);
@@ -201,8 +201,8 @@ constexpr mask<S> parted_along(const vertex_face_forms<S>& f, const S& margin,
     return (start.first & end.first) | (start.second & end.second);
 }
 template <class S, class Project>
-constexpr mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin,
-                               const Project& project) {
+constexpr mask<S> separated_along(const edge_edge_forms<S>& f, const S& margin,
+                                  const Project& project) {
     using std::max, std::min;
     const auto at = [&](int end) {
         const S a1 = project(f.b, end), b0 = project(f.p, end), b1 = b0 + project(f.c, end);
@@ -214,17 +214,17 @@ constexpr mask<S> parted_along(const edge_edge_forms<S>& f, const S& margin,
     return (start.first & end.first) | (start.second & end.second);
 }
 
-/// See `parted`. Not for floats, whose differences may underflow.
+/// See `separated`. Not for floats, whose differences may underflow.
 inline constexpr double margin = 9.2 * errbound::number_traits<double>::epsilon();
 
 }  // namespace detail
 
-/// The first three axes of `parted`.
+/// The first three axes of `separated`.
 template <class S, class Forms>
-constexpr mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
+constexpr mask<S> separated_by_coordinates(const Forms& f, const sizes<S>& m) {
     static_assert(std::is_same_v<typename sizes<S>::real, double>);
     const auto along = [&](const S& size, const auto& project) {
-        return detail::parted_along<S>(f, size * S(detail::margin), project);
+        return detail::separated_along<S>(f, size * S(detail::margin), project);
     };
     const mask<S> x = along(m.x, [](const auto& d, int end) { return d.x[end]; });
     const mask<S> y = along(m.y, [](const auto& d, int end) { return d.y[end]; });
@@ -234,13 +234,13 @@ constexpr mask<S> parted_by_coordinates(const Forms& f, const sizes<S>& m) {
 
 /// The other six.
 template <class S, class Forms>
-constexpr mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
+constexpr mask<S> separated_by_diagonals(const Forms& f, const sizes<S>& m) {
     static_assert(std::is_same_v<typename sizes<S>::real, double>);
     const auto along = [&](const S& size, const auto& u, const auto& v) {
         const S e = size * S(detail::margin);
-        const mask<S> sum = detail::parted_along<S>(
+        const mask<S> sum = detail::separated_along<S>(
             f, e, [&](const auto& d, int end) { return S(u(d)[end] + v(d)[end]); });
-        const mask<S> difference = detail::parted_along<S>(
+        const mask<S> difference = detail::separated_along<S>(
             f, e, [&](const auto& d, int end) { return S(u(d)[end] - v(d)[end]); });
         return mask<S>(sum | difference);
     };
@@ -261,16 +261,16 @@ constexpr mask<S> parted_by_diagonals(const Forms& f, const sizes<S>& m) {
 
 /// Whether one of nine fixed axes (x, y, z, x ± y, y ± z, z ± x) parts the features the same way
 /// at both ends of the step. The motion is linear, so it then parts them throughout.
-/// Proof: proofs/Decisions.v, face_parted, edges_parted.
-/// Proof of the margin: proofs/Parted.v, parted_face_separate, parted_edges_separate.
+/// Proof: proofs/Decisions.v, face_separated, edges_separated.
+/// Proof of the margin: proofs/SeparatingAxis.v, separated_face_separate, separated_edges_separate.
 ///
 /// Margins: a difference d̂ is off by at most ε·m, a sum of two axes by 2ε(1 + ε)(m_x + m_y), so two
 /// compared projections together by 4ε(1 + ε)(m_x + m_y); an edge's far end is a sum of two such,
 /// rounded once more, of twice the size: 8ε(1 + ε)(m_x + m_y). The bound's own addition rounds too,
 /// by ε(m_x + m_y): 9.2ε serves all. Sums lose nothing to underflow.
 template <class S, class Forms>
-constexpr mask<S> parted(const Forms& f, const sizes<S>& m) {
-    return parted_by_coordinates<S>(f, m) | parted_by_diagonals<S>(f, m);
+constexpr mask<S> separated(const Forms& f, const sizes<S>& m) {
+    return separated_by_coordinates<S>(f, m) | separated_by_diagonals<S>(f, m);
 }
 
 /// All control values certainly positive (`above`), or negative (`below`).

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <array>
-#include "ccd/exact/static_filter.hpp"
 #include <ccd/verdict.hpp>
 #include <cstddef>
+
+#include "ccd/exact/static_filter.hpp"
 
 namespace ccd {
 namespace detail {

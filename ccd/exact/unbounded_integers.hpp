@@ -102,7 +102,7 @@ bool contact_at_border(const Query<integer>& query, const Query<double>& origina
     const auto edges = vertex_edge_queries(query);
     const auto original_edges = vertex_edge_queries(original);
     for (std::size_t i = 0; i < edges.size(); ++i)
-        if (!parted(original_edges[i]) && contact(edges[i])) return true;
+        if (!separated(original_edges[i]) && contact(edges[i])) return true;
     return false;
 }
 

@@ -1,10 +1,10 @@
 // Vertex/edge contact in closed form, in integers of fixed width.
 //
 // With E = e1 − e0, W = v − e0, X = v − e1, contact at t means that the three quadratics of W × E
-// vanish there and that the quadratic W·X is not positive (ccd/exact/reference.cpp says why). Where the
-// three have a rational root in common, W·X is evaluated there. Where they are all proportional to
-// some f, W·X modulo f is a linear form times s, whose sign at f's roots follows from the sign of f
-// at the linear form's own root.
+// vanish there and that the quadratic W·X is not positive (ccd/exact/reference.cpp says why). Where
+// the three have a rational root in common, W·X is evaluated there. Where they are all proportional
+// to some f, W·X modulo f is a linear form times s, whose sign at f's roots follows from the sign
+// of f at the linear form's own root.
 //
 // Widths, for coordinates of W words whose differences stay below D = 2^(64W − 3): f in 2W words
 // (|f0|, |f2| <= 2D², |f1| <= 4D²), b = W·X in 2W words (3D², 6D²), b at a rational root in 6W

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/face_check.hpp"
-#include "errbound/support/output_file.hpp"
 #include "ccd/io/text.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 
 namespace ccd::io {
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/face_check.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/text.hpp"
+#include "errbound/support/error.hpp"
 
 namespace ccd::io {
 namespace {

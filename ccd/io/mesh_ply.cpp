@@ -11,10 +11,10 @@
 #include <optional>
 #include <utility>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/face_check.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/text.hpp"
+#include "errbound/support/error.hpp"
 
 namespace ccd::io {
 namespace {
@@ -35,7 +35,7 @@ struct scalar_name {
 };
 
 /// Elements of a header, or properties of an element, at most: names are compared pairwise.
-constexpr std::size_t most_names = 1000;
+constexpr std::size_t max_names = 1000;
 
 constexpr std::array<scalar_name, 16> scalar_names{{{"char", scalar::int8},
                                                     {"uchar", scalar::uint8},
@@ -158,7 +158,7 @@ class ply_header_parser {
             fail("found " + excerpt(whole) + ", expected element NAME COUNT");
         }
         e.count = *count;
-        if (header_.elements.size() == most_names)
+        if (header_.elements.size() == max_names)
             fail("found more than 1000 elements, expected at most that many");
         for (const element& other : header_.elements) {
             if (other.name == e.name) fail("found element " + excerpt(e.name) + " twice");
@@ -190,7 +190,7 @@ class ply_header_parser {
             fail("found " + excerpt(whole) + ", expected property [list TYPE] TYPE NAME");
         }
         std::vector<property>& properties = header_.elements.back().properties;
-        if (properties.size() == most_names)
+        if (properties.size() == max_names)
             fail("found more than 1000 properties, expected at most that many");
         for (const property& other : properties) {
             if (other.name == p.name) fail("found property " + excerpt(p.name) + " twice");

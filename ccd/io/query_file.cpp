@@ -5,16 +5,16 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "ccd/io/text.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
-#include "ccd/io/text.hpp"
 
 namespace ccd::io {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t rows_per_query = 8;
-constexpr std::size_t most_columns = 7;
+constexpr std::size_t max_columns = 7;
 
 constexpr const char* row_forms =
     "6 integers (numerator, denominator of x, y, z) or 3 decimal or hexadecimal floats, then "
@@ -22,7 +22,7 @@ constexpr const char* row_forms =
 
 /// One line's columns. `count` goes on past the last column that is stored.
 struct columns {
-    std::array<std::string_view, most_columns> values;
+    std::array<std::string_view, max_columns> values;
     std::size_t count = 0;
 };
 
@@ -30,7 +30,7 @@ columns split(std::string_view line) {
     columns result;
     for (bool more = true; more;) {
         const std::size_t comma = line.find(',');
-        if (result.count < most_columns) {
+        if (result.count < max_columns) {
             result.values[result.count] = trimmed(line.substr(0, comma));
         }
         ++result.count;
@@ -42,8 +42,7 @@ columns split(std::string_view line) {
 
 class query_parser {
   public:
-    query_parser(const std::string& name, query_kind kind, bool round)
-        : name_(name), round_(round) {
+    query_parser(const std::string& name, ccd::kind kind, bool round) : name_(name), round_(round) {
         result_.kind = kind;
     }
 
@@ -149,7 +148,7 @@ class query_parser {
         const auto& p = points_;
         const moving_point<double> first{p[0], p[4]}, second{p[1], p[5]}, third{p[2], p[6]},
             fourth{p[3], p[7]};
-        if (result_.kind == query_kind::vertex_face) {
+        if (result_.kind == kind::vertex_face) {
             result_.vertex_face_queries.push_back({first, second, third, fourth});
         } else {
             result_.edge_edge_queries.push_back({first, second, third, fourth});
@@ -169,32 +168,33 @@ class query_parser {
 
 }  // namespace
 
-std::optional<query_kind> kind_from_path(const fs::path& path) {
+std::vector<std::string> kind_names() {
+    std::vector<std::string> names;
+    for (const kind k : stored_kinds) names.emplace_back(short_name(k));
+    return names;
+}
+
+std::optional<ccd::kind> kind_from_path(const fs::path& path) {
     const std::string stem = path.stem().string();
-    for (const auto& [suffix, kind] :
-         {std::pair{"vf", query_kind::vertex_face}, std::pair{"ee", query_kind::edge_edge}}) {
+    for (const kind k : stored_kinds)
         // "227vf" and "vf" name a kind, "coffee" does not.
-        if (stem.ends_with(suffix) && (stem.size() == 2 || !std::isalpha(static_cast<unsigned char>(
-                                                               stem[stem.size() - 3])))) {
-            return kind;
-        }
-    }
+        if (stem.ends_with(short_name(k)) &&
+            (stem.size() == 2 || !std::isalpha(static_cast<unsigned char>(stem[stem.size() - 3]))))
+            return k;
     // The innermost directory that names a kind counts.
-    std::optional<query_kind> result;
+    std::optional<kind> result;
     for (const fs::path& part : path) {
-        const std::string name = part.stem().string();
-        if (name == "vertex-face" || name == "vf") result = query_kind::vertex_face;
-        if (name == "edge-edge" || name == "ee") result = query_kind::edge_edge;
+        if (const auto k = find_kind(part.stem().string())) result = k;
     }
     return result;
 }
 
-query_file parse_queries(std::string_view text, const std::string& name, query_kind kind,
+query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round) {
     return query_parser(name, kind, round).parse(text);
 }
 
-query_file read_queries(const fs::path& path, std::optional<query_kind> kind, bool round) {
+query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round) {
     const std::string text = read_whole(path);
     if (!kind) kind = kind_from_path(path);
     if (!kind) {

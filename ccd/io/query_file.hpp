@@ -2,6 +2,7 @@
 // truth beside a file.
 #pragma once
 
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <cstddef>
 #include <filesystem>
@@ -13,11 +14,9 @@
 
 namespace ccd::io {
 
-enum class query_kind { vertex_face, edge_edge };
-
 /// Queries of one kind in file order. Exactly one of the two vectors is filled.
 struct query_file {
-    query_kind kind{};
+    ccd::kind kind{};
     std::vector<vertex_face<double>> vertex_face_queries;
     std::vector<edge_edge<double>> edge_edge_queries;
     std::optional<std::vector<bool>> truth;  ///< one per query
@@ -25,17 +24,20 @@ struct query_file {
     std::size_t size() const { return vertex_face_queries.size() + edge_edge_queries.size(); }
 };
 
+/// What --kind takes: "vf", "ee".
+std::vector<std::string> kind_names();
+
 /// The kind that a path names (`vertex-face`, `edge-edge`, `vf`, `ee`), if it names one.
-std::optional<query_kind> kind_from_path(const std::filesystem::path& path);
+std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 
 /// Reads queries from text. `name` is used in messages. Throws file_error.
 /// With `round`, a rational that no double equals is rounded to nearest instead of refused.
-query_file parse_queries(std::string_view text, const std::string& name, query_kind kind,
+query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round);
 
 /// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` beside it.
 /// The kind is `kind` if given, else from the path. Throws file_error.
-query_file read_queries(const std::filesystem::path& path, std::optional<query_kind> kind,
+query_file read_queries(const std::filesystem::path& path, std::optional<ccd::kind> kind,
                         bool round);
 
 /// Reads a JSON array of booleans. `name` is used in messages. Throws file_error.

@@ -1,9 +1,9 @@
 // The table of methods and the dispatch by method.
 #include <algorithm>
-#include <ccd/methods/bsc.hpp>
-#include <ccd/methods/bsc_exact.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/methods/bsc.hpp>
+#include <ccd/methods/bsc_exact.hpp>
 #include <ccd/methods/provot.hpp>
 #include <ccd/methods/root_parity.hpp>
 #include <ccd/methods/safeccd.hpp>
@@ -42,7 +42,7 @@ constexpr method_info table[] = {
      "BSC in interval arithmetic, then in unbounded integers; Tang, Tong, Wang, Manocha 2014"},
     {method::safeccd, "safeccd", false, true,
      "never loses a collision; many false positives, from one uniform bound",
-     "SafeCCD; Wang 2014, mended as ccd/methods/safeccd.hpp tells"},
+     "SafeCCD; Wang 2014, corrected as ccd/methods/safeccd.hpp tells"},
     {method::safeccd_tight, "safeccd-tight", false, true,
      "never loses a collision; false positives where TightBound cannot tell",
      "SafeCCD with TightBound; Wang, Tang, Manocha, Tong 2015, Section 6"},

@@ -19,7 +19,7 @@ struct query_arguments {
     std::vector<std::filesystem::path> files;
     std::vector<ccd::method> methods;
     device_choice device;
-    std::optional<io::query_kind> kind;  ///< none: from each path
+    std::optional<ccd::kind> kind;  ///< none: from each path
     bool round = false;
     std::optional<std::filesystem::path> verdicts;  ///< with one file and one method only
     std::optional<std::filesystem::path> json;

@@ -7,10 +7,10 @@
 #include <iostream>
 #include <string>
 
-#include "errbound/support/command_line.hpp"
 #include "ccd/program/commands.hpp"
-#include "errbound/support/error.hpp"
 #include "ccd/report/report.hpp"
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/error.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -132,7 +132,7 @@ struct command_line {
         query_command
             ->add_option("--kind", query_kind,
                          "Kind of query; else the path tells (vertex-face or vf, edge-edge or ee)")
-            ->check(CLI::IsMember({"vf", "ee"}));
+            ->check(CLI::IsMember(io::kind_names()));
         query_command->add_flag(
             "--round", query.round,
             "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
@@ -240,10 +240,7 @@ struct command_line {
                 all && query.device.cuda ? methods_on_device() : methods_named(query_methods, all);
             if (query.device.cuda)
                 for (const ccd::method m : query.methods) require_on_device(m);
-            if (!query_kind.empty()) {
-                query.kind =
-                    query_kind == "vf" ? io::query_kind::vertex_face : io::query_kind::edge_edge;
-            }
+            query.kind = find_kind(query_kind);
             if (query.verdicts && (query.files.size() != 1 || query.methods.size() != 1)) {
                 throw usage_error("--verdicts: found " + std::to_string(query.files.size()) +
                                   " files and " + std::to_string(query.methods.size()) +

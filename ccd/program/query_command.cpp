@@ -24,7 +24,7 @@ double seconds_since(steady_clock::time_point start) {
 /// One row of the table.
 struct result {
     std::string file;
-    io::query_kind kind{};
+    ccd::kind kind{};
     ccd::method method{};
     std::vector<bool> verdicts;  ///< true: may collide
     std::optional<std::size_t> false_positives, false_negatives;
@@ -61,7 +61,7 @@ result decide_file(const io::query_file& queries, const std::string& file, ccd::
     out.file = file;
     out.kind = queries.kind;
     out.method = method;
-    if (queries.kind == io::query_kind::vertex_face) {
+    if (queries.kind == kind::vertex_face) {
         decide_all(queries.vertex_face_queries, device, out);
     } else {
         decide_all(queries.edge_edge_queries, device, out);
@@ -78,10 +78,6 @@ result decide_file(const io::query_file& queries, const std::string& file, ccd::
     return out;
 }
 
-std::string name_of(io::query_kind kind) {
-    return kind == io::query_kind::vertex_face ? "vf" : "ee";
-}
-
 std::string text_of_results(const std::vector<result>& results) {
     const auto or_dash = [](const std::optional<std::size_t>& count) {
         return count ? std::to_string(*count) : std::string("-");
@@ -90,7 +86,7 @@ std::string text_of_results(const std::vector<result>& results) {
     for (const result& r : results) {
         char ns[32];
         std::snprintf(ns, sizeof ns, "%.1f", r.ns_per_query);
-        rows.push_back({r.file, name_of(r.kind), std::string(info(r.method).name),
+        rows.push_back({r.file, std::string(short_name(r.kind)), std::string(info(r.method).name),
                         std::to_string(r.verdicts.size()), std::to_string(r.collisions()),
                         or_dash(r.false_positives), or_dash(r.false_negatives), ns});
     }
@@ -104,7 +100,7 @@ std::string json_of(const std::vector<result>& results) {
     auto array = nlohmann::ordered_json::array();
     for (const result& r : results) {
         array.push_back({{"file", r.file},
-                         {"kind", name_of(r.kind)},
+                         {"kind", std::string(short_name(r.kind))},
                          {"method", info(r.method).name},
                          {"queries", r.verdicts.size()},
                          {"collisions", r.collisions()},

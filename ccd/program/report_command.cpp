@@ -4,9 +4,9 @@
 #include <system_error>
 
 #include "ccd/program/commands.hpp"
+#include "ccd/report/report.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/progress_line.hpp"
-#include "ccd/report/report.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {

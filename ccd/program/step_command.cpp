@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ccd/program/commands.hpp"
 #include "ccd/io/mesh_file.hpp"
+#include "ccd/program/commands.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/table.hpp"
 
@@ -29,13 +29,15 @@ std::size_t peak_memory_bytes() {
 
 std::string lines_of_pairs(const step_result& result) {
     std::string lines;
-    const auto add = [&lines](const char* kind, const std::initializer_list<index>& indices) {
+    const auto add = [&lines](std::string_view kind, const std::initializer_list<index>& indices) {
         lines += kind;
         for (const index i : indices) lines += ',' + std::to_string(i);
         lines += '\n';
     };
-    for (const vertex_face_pair& p : result.vertex_face) add("vf", {p.v, p.f[0], p.f[1], p.f[2]});
-    for (const edge_edge_pair& p : result.edge_edge) add("ee", {p.a[0], p.a[1], p.b[0], p.b[1]});
+    for (const vertex_face_pair& p : result.vertex_face)
+        add(short_name(kind::vertex_face), {p.v, p.f0, p.f1, p.f2});
+    for (const edge_edge_pair& p : result.edge_edge)
+        add(short_name(kind::edge_edge), {p.a0, p.a1, p.b0, p.b1});
     return lines;
 }
 

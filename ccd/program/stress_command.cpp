@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "ccd/program/commands.hpp"
+#include "ccd/stress/stress.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
-#include "ccd/stress/stress.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -28,10 +28,6 @@ std::string formatted(const char* pattern, double value) {
     char text[64];
     std::snprintf(text, sizeof text, pattern, value);
     return text;
-}
-
-std::string name_of(stress::kind kind) {
-    return kind == stress::kind::vertex_face ? "vf" : "ee";
 }
 
 std::string knob_of(const cell& c) {
@@ -77,7 +73,7 @@ struct summary {
                                    : c.false_negatives > 0 ? std::pair("FN", c.false_negatives)
                                    : c.false_positives > 0 ? std::pair("FP", c.false_positives)
                                                            : std::pair("", std::size_t{0});
-        const std::string where = " at " + knob_of(c) + ", " + name_of(c.kind);
+        const std::string where = " at " + knob_of(c) + ", " + std::string(short_name(c.kind));
         if (count == 0) return formatted("%.0f ns", c.ns_per_query) + where;
         return what + std::string(" ") + std::to_string(count) + "/" + std::to_string(c.queries) +
                where;
@@ -149,12 +145,12 @@ std::string report_broken(const std::vector<const cell*>& broken, const stress::
     for (const cell* c : broken) {
         const std::string& method = plan.subjects[c->subject].name;
         lines += "broken by " + method + ": " + std::string(c->broken->what) + "; family " +
-                 std::string(c->family->name) + ", knob " + knob_of(*c) + ", " + name_of(c->kind) +
-                 ", query " + std::to_string(c->broken->index);
+                 std::string(c->family->name) + ", knob " + knob_of(*c) + ", " +
+                 std::string(short_name(c->kind)) + ", query " + std::to_string(c->broken->index);
         if (c->family->finite) {
             const fs::path path =
                 folder / ("stress-" + method + "-" + std::string(c->family->name) + "-" +
-                          name_of(c->kind) + ".csv");
+                          std::string(short_name(c->kind)) + ".csv");
             const stress::points p =
                 stress::make(*c->family, c->knob, c->kind, plan.seed, c->broken->index);
             io::write_whole(path, query_families::csv(p, c->broken->collides ? ",1" : ",0"));
@@ -171,7 +167,8 @@ std::string csv_of(const std::vector<cell>& cells, const stress::plan& plan) {
         "uncertain,ns_per_query\n";
     for (const cell& c : cells) {
         text += std::string(c.family->name) + ',' + std::string(c.family->knob_name) + ',' +
-                knob_of(c) + ',' + name_of(c.kind) + ',' + plan.subjects[c.subject].name;
+                knob_of(c) + ',' + std::string(short_name(c.kind)) + ',' +
+                plan.subjects[c.subject].name;
         for (const std::size_t count :
              {c.queries, c.collisions, c.false_positives, c.false_negatives, c.uncertain})
             text += ',' + std::to_string(count);
@@ -186,7 +183,7 @@ std::string json_of(const std::vector<cell>& cells, const stress::plan& plan) {
         array.push_back({{"family", c.family->name},
                          {"knob_name", c.family->knob_name},
                          {"knob", c.knob},  // JSON has no infinity: null
-                         {"kind", name_of(c.kind)},
+                         {"kind", std::string(short_name(c.kind))},
                          {"method", plan.subjects[c.subject].name},
                          {"queries", c.queries},
                          {"collisions", c.collisions},

@@ -17,8 +17,8 @@ struct bound_sample {
 };
 using bound_samples = std::array<bound_sample, variable_names.size()>;
 
-/// Adds the query's bounds, as decide_bsc meets them (ccd/methods/bsc.hpp), and relative to the largest
-/// |k|, the control values of Y.
+/// Adds the query's bounds, as decide_bsc meets them (ccd/methods/bsc.hpp), and relative to the
+/// largest |k|, the control values of Y.
 template <class Rule, class Query>
 void add_bounds(const Query& query, bound_samples& samples) {
     const auto [scaled, finite] = tracked_query<Rule>(query);

@@ -8,14 +8,14 @@
 #include <set>
 #include <tuple>
 
-#include "ccd/step/broad_phase.hpp"
-#include "errbound/support/error.hpp"
+#include "ccd/batch/threads.hpp"
 #include "ccd/io/mesh_file.hpp"
-#include "errbound/support/output_file.hpp"
 #include "ccd/io/query_file.hpp"
 #include "ccd/report/machine.hpp"
+#include "ccd/step/broad_phase.hpp"
 #include "ccd/step/step_frames.hpp"
-#include "ccd/batch/threads.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
 namespace {
@@ -30,8 +30,7 @@ bool is_mesh(const fs::path& path) {
 
 /// A folder that only tells what is in it: the one above has the name.
 bool is_kind_of_content(const fs::path& folder) {
-    static const std::set<std::string> names{"edge-edge", "vertex-face", "ee", "vf"};
-    return names.contains(folder.filename().string());
+    return find_kind(folder.filename().string()).has_value();
 }
 
 std::string name_of_queries(const fs::path& folder) {
@@ -106,12 +105,12 @@ void settle_truth(const std::vector<signed char>& truths, judged_queries<Query>&
 // ---- Scenes ----
 
 /// A pair's vertices, those of one element in ascending order: the same for every way to write it.
-std::array<index, 4> key(const vertex_face_indices& q) {
+std::array<index, 4> key(const vertex_face_pair& q) {
     std::array<index, 4> k{q.v, q.f0, q.f1, q.f2};
     std::sort(k.begin() + 1, k.end());
     return k;
 }
-std::array<index, 4> key(const edge_edge_indices& q) {
+std::array<index, 4> key(const edge_edge_pair& q) {
     edge a{q.a0, q.a1}, b{q.b0, q.b1};
     std::ranges::sort(a);
     std::ranges::sort(b);
@@ -120,15 +119,15 @@ std::array<index, 4> key(const edge_edge_indices& q) {
 }
 
 /// Collects the blocks that a broad phase hands out from its threads, sorted.
-template <class Indices, class Find>
-std::vector<Indices> collected(const Find& find) {
-    std::vector<Indices> all;
+template <class Pair, class Find>
+std::vector<Pair> collected(const Find& find) {
+    std::vector<Pair> all;
     std::mutex mutex;
-    find([&](std::span<const Indices> block) {
+    find([&](std::span<const Pair> block) {
         const std::lock_guard lock(mutex);
         all.insert(all.end(), block.begin(), block.end());
     });
-    std::ranges::sort(all, {}, [](const Indices& q) { return vertices_of(q); });
+    std::ranges::sort(all, {}, [](const Pair& q) { return vertices_of(q); });
     return all;
 }
 
@@ -137,11 +136,11 @@ void find_candidates(data_set& data, int threads) {
     const std::vector<face>& faces = data.before.faces;
     on_threads(threads, [&] {
         data.vertex_face_queries.queries.by_index =
-            collected<vertex_face_indices>([&](const auto& consume) {
+            collected<vertex_face_pair>([&](const auto& consume) {
                 vertex_face_candidates(frames, faces, data.before.vertices.size(), consume);
             });
         data.edge_edge_queries.queries.by_index =
-            collected<edge_edge_indices>([&](const auto& consume) {
+            collected<edge_edge_pair>([&](const auto& consume) {
                 edge_edge_candidates(frames, unique_edges(faces), consume);
             });
     });
@@ -221,20 +220,20 @@ void compare_stored(const fs::path& frame, data_set& data, std::string& contents
     const std::vector<face>& faces = data.before.faces;
     compare_stored(
         frame, "vf.json",
-        [&](std::size_t i, std::size_t j) -> std::optional<vertex_face_indices> {
+        [&](std::size_t i, std::size_t j) -> std::optional<vertex_face_pair> {
             const std::size_t first = vertices + edges.size();
             if (i >= vertices || j < first || j - first >= faces.size()) return std::nullopt;
             const face& f = faces[j - first];
-            return vertex_face_indices{static_cast<index>(i), f[0], f[1], f[2]};
+            return vertex_face_pair{static_cast<index>(i), f[0], f[1], f[2]};
         },
         data.vertex_face_queries, contents);
     compare_stored(
         frame, "ee.json",
-        [&](std::size_t i, std::size_t j) -> std::optional<edge_edge_indices> {
+        [&](std::size_t i, std::size_t j) -> std::optional<edge_edge_pair> {
             if (std::min(i, j) < vertices || std::max(i, j) - vertices >= edges.size())
                 return std::nullopt;
             const edge &a = edges[i - vertices], &b = edges[j - vertices];
-            return edge_edge_indices{a[0], a[1], b[0], b[1]};
+            return edge_edge_pair{a[0], a[1], b[0], b[1]};
         },
         data.edge_edge_queries, contents);
 }
@@ -310,7 +309,7 @@ std::unique_ptr<data_set> load(const data_source& source, int threads) {
         for (const fs::path& path : source.queries) {
             const io::query_file file = io::read_queries(path, std::nullopt, false);
             contents += io::read_whole(path);
-            if (file.kind == io::query_kind::vertex_face) {
+            if (file.kind == kind::vertex_face) {
                 append(file.vertex_face_queries, file.truth, data->vertex_face_queries,
                        vertex_face_truths);
             } else {

@@ -102,7 +102,7 @@ std::string failures(const summary& report) {
 std::string data(const summary& report) {
     std::vector<std::vector<std::string>> lines;
     for (const data_summary& set : report.data) {
-        const auto add = [&](const char* kind, const data_summary::kind& k) {
+        const auto add = [&](std::string_view kind, const data_summary::kind& k) {
             if (k.queries == 0) return;
             std::string truth = "exact, in batches";
             if (k.stored_truths > 0 && set.origin != origin::scene)
@@ -112,11 +112,11 @@ std::string data(const summary& report) {
                 truth +=
                     "; of " + grouped(k.stored_truths) + " stored ones " +
                     (k.contradictions == 0 ? "all agree" : grouped(k.contradictions) + " differ");
-            lines.push_back({set.name, kind, std::string(name(set.origin)), grouped(k.queries),
-                             grouped(k.colliding), truth});
+            lines.push_back({set.name, std::string(kind), std::string(name(set.origin)),
+                             grouped(k.queries), grouped(k.colliding), truth});
         };
-        add("vf", set.vertex_face);
-        add("ee", set.edge_edge);
+        add(short_name(ccd::kind::vertex_face), set.vertex_face);
+        add(short_name(ccd::kind::edge_edge), set.edge_edge);
     }
     std::string text =
         "## Data\n\n" +
@@ -276,7 +276,8 @@ std::string notes(const summary& report) {
            std::to_string(sizes(report.settings.quick).repeats) +
            " timings, taken at different times, so that interrupts do not pose as slow queries. "
            "Caches are warm, and a few ns are within the clock's own noise.\n"
-           "* Bounds: those that decide_bsc meets (ccd/methods/bsc.hpp), of queries drawn evenly where "
+           "* Bounds: those that decide_bsc meets (ccd/methods/bsc.hpp), of queries drawn evenly "
+           "where "
            "there are very many; queries whose coordinates are not of moderate size are first "
            "scaled by a power of two. Quantiles are by the nearest rank.\n"
            "* The CSV files hold the figures; `python3 plot.py` draws the "

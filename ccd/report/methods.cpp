@@ -2,10 +2,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include "ccd/batch/threads.hpp"
 #include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
-#include "ccd/batch/threads.hpp"
 
 namespace ccd::report {
 namespace {

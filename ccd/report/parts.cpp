@@ -5,9 +5,9 @@
 #include <system_error>
 #include <utility>
 
+#include "ccd/report/machine.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
-#include "ccd/report/machine.hpp"
 
 namespace ccd::report {
 namespace {

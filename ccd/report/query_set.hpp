@@ -11,27 +11,12 @@
 
 namespace ccd::report {
 
-template <class Query>
-struct kind_of;
-template <>
-struct kind_of<ccd::vertex_face<double>> {
-    using indices = ccd::vertex_face_indices;
-    static constexpr std::string_view name = "vf";
-};
-template <>
-struct kind_of<ccd::edge_edge<double>> {
-    using indices = ccd::edge_edge_indices;
-    static constexpr std::string_view name = "ee";
-};
-
 /// Queries of one kind, in the order in which they are decided. Either `by_index` into `rows`,
 /// which are not owned, or `stored`.
 template <class Query>
 struct query_set {
-    using indices = typename kind_of<Query>::indices;
-
     ccd::vertex_rows rows;
-    std::vector<indices> by_index;
+    std::vector<pair_of_query<Query>> by_index;
     std::vector<Query> stored;
 
     std::size_t size() const { return by_index.size() + stored.size(); }

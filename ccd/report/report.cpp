@@ -6,9 +6,9 @@
 #include <ctime>
 #include <system_error>
 
+#include "ccd/report/tasks.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
-#include "ccd/report/tasks.hpp"
 
 namespace ccd::report {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <ccd/batch.hpp>
-#include <ccd/methods/bsc.hpp>
 #include <ccd/method.hpp>
+#include <ccd/methods/bsc.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -52,8 +52,8 @@ rows stress_methods(const stress::family& family, const std::vector<std::string>
     for (const stress::cell& c : stress::run(plan, tell)) {
         result.push_back(
             {{"knob", number_or_text(c.knob)},
-             {"kind", c.kind == stress::kind::vertex_face ? kind_of<vertex_face<double>>::name
-                                                          : kind_of<edge_edge<double>>::name},
+             {"kind", c.kind == stress::kind::vertex_face ? short_name(kind_of<vertex_face<double>>)
+                                                          : short_name(kind_of<edge_edge<double>>)},
              {"method", plan.subjects[c.subject].name},
              {"queries", c.queries},
              {"collisions", c.collisions},

@@ -33,9 +33,10 @@ template <class Query>
 void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
     const std::size_t n = judged.queries.size();
     if (n == 0) return;
-    const row about = {
-        {"data_set", data.name}, {"origin", name(data.origin)}, {"kind", kind_of<Query>::name}};
-    const std::string prefix = data.name + " " + std::string(kind_of<Query>::name) + ": ";
+    const row about = {{"data_set", data.name},
+                       {"origin", name(data.origin)},
+                       {"kind", short_name(kind_of<Query>)}};
+    const std::string prefix = data.name + " " + std::string(short_name(kind_of<Query>)) + ": ";
     const auto add_part = [&](const std::string& what, row depends_on, double cost,
                               std::function<rows(const progress&)> measure, rows& into) {
         depends_on["data"] = data.fingerprint;

@@ -159,7 +159,7 @@ class box_tree {
         struct node {
             std::size_t level, position;
         };
-        std::array<node, pack::size * most_levels> open;
+        std::array<node, pack::size * max_levels> open;
         std::size_t opened = 0;
         open[opened++] = {levels_ - 1, 0};
         while (opened > 0) {
@@ -179,7 +179,7 @@ class box_tree {
 
   private:
     /// Eight to the power of 11 exceeds every number of indices.
-    static constexpr std::size_t most_levels = 11;
+    static constexpr std::size_t max_levels = 11;
     static constexpr std::size_t pack_bits = std::countr_zero(pack::size);
 
     /// Sets the packs of a level to `count` boxes.
@@ -196,7 +196,7 @@ class box_tree {
     }
 
     std::vector<pack> packs_;  ///< the leaves, the nodes above them, ..., the root
-    std::array<std::size_t, most_levels + 1> level_start_{};
+    std::array<std::size_t, max_levels + 1> level_start_{};
     std::size_t levels_ = 0;
 };
 

@@ -81,7 +81,7 @@ std::size_t vertex_face_candidates_by(const step_frames& frames, std::span<const
     const box_tree<Real> face_tree(faces.size(),
                                    [&](std::size_t i) { return frames.swept_box<Real>(faces[i]); });
 
-    candidate_blocks<vertex_face_indices, Consume> blocks(consume);
+    candidate_blocks<vertex_face_pair, Consume> blocks(consume);
     for_each_touching(
         vertex_tree, face_tree, [&]() -> auto& { return blocks.local(); },
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
@@ -99,7 +99,7 @@ std::size_t edge_edge_candidates_by(const step_frames& frames, std::vector<edge>
     edges = frames.along_curve<Real>(std::span<const edge>(edges));
     const box_tree<Real> tree(edges.size(),
                               [&](std::size_t i) { return frames.swept_box<Real>(edges[i]); });
-    candidate_blocks<edge_edge_indices, Consume> blocks(consume);
+    candidate_blocks<edge_edge_pair, Consume> blocks(consume);
     for_each_touching(
         tree, tree, [&]() -> auto& { return blocks.local(); },
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
@@ -110,7 +110,7 @@ std::size_t edge_edge_candidates_by(const step_frames& frames, std::vector<edge>
     return blocks.finish();
 }
 
-/// Calls consume(block) with all vertex/face candidates, in blocks (spans of vertex_face_indices)
+/// Calls consume(block) with all vertex/face candidates, in blocks (spans of vertex_face_pair)
 /// of up to 2048, from several threads at once; it must not wait for other tasks of its arena. The
 /// vertices of a face come in the mesh's order. Returns the number of candidates. Working memory:
 /// about 40 bytes a face and 32 a vertex, twice as much where floats do not do, and 32 KB a thread.
@@ -122,7 +122,7 @@ std::size_t vertex_face_candidates(const step_frames& frames, std::span<const fa
                : vertex_face_candidates_by<float>(frames, faces, vertex_count, consume);
 }
 
-/// The same for the edge/edge candidates, in blocks of edge_edge_indices: each edge as given, the
+/// The same for the edge/edge candidates, in blocks of edge_edge_pair: each edge as given, the
 /// lesser edge first. `edges` must be unique; they are released when no longer needed. Working
 /// memory: about 44 bytes an edge, twice as much where floats do not do, and 32 KB a thread.
 template <class Consume>

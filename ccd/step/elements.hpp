@@ -19,12 +19,12 @@ constexpr bool share_vertex(const std::array<index, A>& a, const std::array<inde
 }
 
 /// The candidate of a vertex and a face, whose vertices come in the mesh's order.
-constexpr vertex_face_indices candidate_of(const std::array<index, 1>& v, const face& f) {
+constexpr vertex_face_pair candidate_of(const std::array<index, 1>& v, const face& f) {
     return {v[0], f[0], f[1], f[2]};
 }
 /// The candidate of two ascending edges that share no vertex: the lesser edge first, which is that
 /// with the lesser first vertex.
-constexpr edge_edge_indices candidate_of(const edge& a, const edge& b) {
+constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
     const bool in_order = a[0] < b[0];
     const edge &x = in_order ? a : b, &y = in_order ? b : a;
     return {x[0], x[1], y[0], y[1]};

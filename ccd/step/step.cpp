@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
-#include "ccd/step/broad_phase.hpp"
 #include "ccd/batch/rounded_positions.hpp"
+#include "ccd/batch/threads.hpp"
+#include "ccd/step/broad_phase.hpp"
 #include "ccd/step/step_frames.hpp"
 #include "ccd/step/step_parts.hpp"
-#include "ccd/batch/threads.hpp"
 
 namespace ccd {
 namespace {
@@ -39,11 +39,11 @@ class narrow_phase {
             local.worker.decide(positions_, candidates, local.answers.data());
             for (std::size_t i = 0; i < candidates.size(); ++i)
                 if (local.answers[i] == outcome::collides)
-                    local.pairs.push_back(pair_of(candidates[i]));
+                    local.pairs.push_back(canonical(candidates[i]));
         } else {
             for (const Candidate& c : candidates)
                 if (may_collide(ccd::decide(method_, query_of(positions_.exact, c))))
-                    local.pairs.push_back(pair_of(c));
+                    local.pairs.push_back(canonical(c));
         }
         local.seconds += watch.lap();
     }

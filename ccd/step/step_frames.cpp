@@ -61,7 +61,7 @@ box<double> box_of_middles(std::span<const curve_key> keys, const BoxOf& box_of)
         });
 }
 
-/// Every how manieth of `count` to take for a sample of about a thousand.
+/// The sampling stride of `count` to take for a sample of about a thousand.
 std::size_t sample_stride(std::size_t count) {
     return 1 + count / 1024;
 }

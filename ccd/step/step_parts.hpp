@@ -49,14 +49,13 @@ class stopwatch {
 };
 
 /// A candidate in canonical form.
-inline vertex_face_pair pair_of(const vertex_face_indices& q) {
-    face f{q.f0, q.f1, q.f2};
+inline vertex_face_pair canonical(const vertex_face_pair& p) {
+    face f{p.f0, p.f1, p.f2};
     std::ranges::sort(f);
-    return {q.v, f};
+    return {p.v, f[0], f[1], f[2]};
 }
-
-inline edge_edge_pair pair_of(const edge_edge_indices& q) {
-    return {{q.a0, q.a1}, {q.b0, q.b1}};  // edges are ascending, the lesser one first
+inline edge_edge_pair canonical(const edge_edge_pair& p) {
+    return p;  // edges are ascending, the lesser one first
 }
 
 }  // namespace ccd

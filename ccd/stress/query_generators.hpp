@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +21,7 @@
 
 namespace query_families {
 
-enum class kind { vertex_face, edge_edge, vertex_edge, vertex_vertex };
+using ccd::kind;
 
 /// Four points in the order of the query's members; shorter kinds use the first three or two.
 using points = std::array<ccd::moving_point<double>, 4>;

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <string>
 
+#include "errbound/program/validate_command.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/error.hpp"
-#include "errbound/program/validate_command.hpp"
 
 namespace errbound::validation {
 namespace {
@@ -50,14 +50,14 @@ struct command_line {
         validate
             ->add_option("--operations", arguments.options.operations,
                          "Operations in an expression, at most")
-            ->check(CLI::Range(1, most_operations))
+            ->check(CLI::Range(1, max_operations))
             ->capture_default_str();
         validate
             ->add_option("--queries", arguments.queries,
                          "Stored queries (ccd query --help tells their form): their forms and BSC")
             ->type_name("FILE...");
         validate->add_option("--kind", kind, "Kind of queries; else the path tells")
-            ->check(CLI::IsMember({"vf", "ee"}));
+            ->check(CLI::IsMember(ccd::io::kind_names()));
         validate->add_flag("--round", arguments.round,
                            "Round rationals that no double equals, instead of refusing them");
         validate->add_flag("--tiny", arguments.tiny, "Every case of number formats of 6 to 8 bits");
@@ -76,9 +76,7 @@ struct command_line {
             arguments.rules.assign(rules().begin(), rules().end());
         else
             arguments.rules = ccd::program::all_named(rule_list, rule_named);
-        if (!kind.empty())
-            arguments.kind =
-                kind == "vf" ? ccd::io::query_kind::vertex_face : ccd::io::query_kind::edge_edge;
+        arguments.kind = ccd::find_kind(kind);
         arguments.expressions =
             validate->count("--expressions") > 0 || (!arguments.tiny && arguments.queries.empty());
         ccd::program::require_separate({arguments.json, arguments.csv}, arguments.queries);

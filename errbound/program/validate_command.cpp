@@ -152,7 +152,7 @@ bool run_validate(const validate_arguments& arguments) {
             [&](const progress& show) { return validate_tiny(arguments.rules, threads, show); });
     for (std::size_t i = 0; i < files.size(); ++i)
         run(arguments.queries[i].string(), [&](const progress& show) {
-            return files[i].kind == ccd::io::query_kind::vertex_face
+            return files[i].kind == ccd::kind::vertex_face
                        ? validate_queries(arguments.rules, files[i].vertex_face_queries, threads,
                                           show)
                        : validate_queries(arguments.rules, files[i].edge_edge_queries, threads,

@@ -15,7 +15,7 @@ struct validate_arguments {
     bool expressions = false, tiny = false;  ///< whether to run them
     expression_options options;              ///< threads: of all parts
     std::vector<std::filesystem::path> queries;
-    std::optional<ccd::io::query_kind> kind;  ///< none: from each path
+    std::optional<ccd::kind> kind;  ///< none: from each path
     bool round = false;
     std::optional<std::filesystem::path> json, csv;
 };

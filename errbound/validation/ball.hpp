@@ -15,7 +15,7 @@ namespace errbound::validation {
 
 /// MPFR's exponents reach ±2^62, and each operation at most doubles an exponent: fewer than 50
 /// operations on double's ±1100 stay inside.
-inline constexpr int most_operations = 48;
+inline constexpr int max_operations = 48;
 
 /// Sets the calling thread's range of exponents to the widest while it lives.
 class widest_exponents {

@@ -8,12 +8,12 @@
 namespace errbound::validation {
 
 std::size_t distribution::bin_of(double log10_ratio) {
-    const double inside = std::clamp(log10_ratio, least_log, most_log);
+    const double inside = std::clamp(log10_ratio, least_log, max_log);
     return static_cast<std::size_t>(std::lround((inside - least_log) / resolution));
 }
 
 void distribution::add(double log10_ratio) {
-    if (bins_.empty()) bins_.resize(bin_of(most_log) + 1);
+    if (bins_.empty()) bins_.resize(bin_of(max_log) + 1);
     ++bins_[bin_of(log10_ratio)];
     least_ = ratios_ == 0 ? log10_ratio : std::min(least_, log10_ratio);
     most_ = ratios_ == 0 ? log10_ratio : std::max(most_, log10_ratio);

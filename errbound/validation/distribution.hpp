@@ -30,7 +30,7 @@ class distribution {
 
   private:
     // Beyond these ends, ratios share the outermost bins; the extremes are still kept exactly.
-    static constexpr double least_log = -40, most_log = 100;
+    static constexpr double least_log = -40, max_log = 100;
     static std::size_t bin_of(double log10_ratio);
 
     std::vector<std::uint64_t> bins_;  // empty until there is a ratio

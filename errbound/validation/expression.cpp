@@ -137,7 +137,7 @@ expression made(random_source& random, bool may_divide, int longest) {
     expression e;
     input_maker<T> inputs(random, static_cast<operand_scale>(random.below(operand_scales)));
     const int bounded = random.below(3);  // no input, some, or every one has a bound of its own
-    e.input_count = static_cast<std::size_t>(random.between(1, expression::most_inputs));
+    e.input_count = static_cast<std::size_t>(random.between(1, expression::max_inputs));
     for (std::size_t i = 0; i < e.input_count; ++i) {
         expression_input& in = e.inputs[i];
         in.value = inputs.value();

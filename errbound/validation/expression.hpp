@@ -38,13 +38,12 @@ struct expression_operation {
 };
 
 struct expression {
-    static constexpr std::size_t most_inputs = 8;
-    static constexpr std::size_t most_values =
-        most_inputs + static_cast<std::size_t>(most_operations);
+    static constexpr std::size_t max_inputs = 8;
+    static constexpr std::size_t max_values = max_inputs + static_cast<std::size_t>(max_operations);
 
-    std::array<expression_input, most_inputs> inputs;
+    std::array<expression_input, max_inputs> inputs;
     std::size_t input_count = 0;
-    std::array<expression_operation, most_operations> operations;
+    std::array<expression_operation, max_operations> operations;
     std::size_t operation_count = 0;
 
     std::size_t size() const { return input_count + operation_count; }
@@ -77,7 +76,7 @@ struct claim {
 template <class Rule, class T>
 void evaluate(const expression& e, claim* claims) {
     using number = tracked<T, Rule>;
-    std::array<number, expression::most_values> x;
+    std::array<number, expression::max_values> x;
     std::size_t n = 0;
     for (; n < e.input_count; ++n) {
         const expression_input& in = e.inputs[n];

@@ -25,7 +25,7 @@ void evaluate(const rule& r, number_type type, const expression& e, claim* claim
 /// The values of one expression: exact ones and how far the computed ones are from them.
 class reference {
   public:
-    reference() : values_(expression::most_values, ball(precisions[0])), off_(values_.size()) {}
+    reference() : values_(expression::max_values, ball(precisions[0])), off_(values_.size()) {}
 
     /// computed: claims of any rule, for their values.
     void compute(const expression& e, mpfr_prec_t precision, const claim* computed) {
@@ -84,8 +84,8 @@ struct tally {
 
 struct worker {
     reference exact;
-    std::vector<std::array<claim, expression::most_values>> claims;  // one per rule
-    std::map<number_type, std::vector<tally>> tallies;               // one per rule
+    std::vector<std::array<claim, expression::max_values>> claims;  // one per rule
+    std::map<number_type, std::vector<tally>> tallies;              // one per rule
 
     void check(std::span<const rule> rules, const expression& e, number_type type,
                std::uint64_t index) {
@@ -142,7 +142,7 @@ struct worker {
 
 violation described(const rule& r, number_type type, const expression& e) {
     reference exact;
-    std::array<claim, expression::most_values> claims;
+    std::array<claim, expression::max_values> claims;
     const auto finding_of = [&](const expression& tried, std::size_t n) {
         finding f = finding::undetermined;
         for (std::size_t i = 0; i < precisions.size() && f == finding::undetermined; ++i) {
@@ -173,7 +173,7 @@ report validate_expressions(std::span<const rule> rules, const expression_option
     // Rules without division see three of four expressions.
     const std::uint64_t all = options.expressions + (options.expressions + 2) / 3;
     const std::uint64_t blocks = (all + block_size - 1) / block_size;
-    const int longest = std::clamp(options.operations, 1, most_operations);
+    const int longest = std::clamp(options.operations, 1, max_operations);
     const auto workers =
         in_blocks<worker>(options.threads, blocks, show, [&](worker& w, std::uint64_t block) {
             const std::uint64_t end = std::min(all, (block + 1) * block_size);

@@ -9,7 +9,7 @@ namespace {
 
 /// Only what `root` is made of.
 expression cut(const expression& e, std::size_t root) {
-    std::array<bool, expression::most_values> used{};
+    std::array<bool, expression::max_values> used{};
     used[root] = true;
     for (std::size_t n = root + 1; n-- > e.input_count;) {
         if (!used[n]) continue;
@@ -18,7 +18,7 @@ expression cut(const expression& e, std::size_t root) {
         if (o.has_right()) used[o.right] = true;
     }
     expression r;
-    std::array<std::uint8_t, expression::most_values> renamed{};
+    std::array<std::uint8_t, expression::max_values> renamed{};
     for (std::size_t n = 0; n <= root; ++n) {
         if (!used[n]) continue;
         renamed[n] = static_cast<std::uint8_t>(r.size());
@@ -80,7 +80,7 @@ std::vector<double> simpler_numbers(double x) {
 std::optional<expression> with_input(const expression& e, std::size_t n,
                                      const expression_input& in) {
     expression r = cut(e, e.size() - 1);
-    if (r.size() != e.size() || r.input_count == expression::most_inputs) return std::nullopt;
+    if (r.size() != e.size() || r.input_count == expression::max_inputs) return std::nullopt;
     const std::size_t added = r.input_count, root = r.size() - 1;
     const auto moved = [&](std::uint8_t v) {
         return static_cast<std::uint8_t>(v == n ? added : v >= added ? v + 1U : v);
@@ -106,7 +106,7 @@ expression with_other(const expression& e, std::size_t n, std::size_t m) {
 
 std::vector<expression> smaller(const expression& e, number_type type) {
     std::vector<expression> r;
-    std::array<claim, expression::most_values> plain;
+    std::array<claim, expression::max_values> plain;
     if (type == number_type::float_type)
         evaluate<none, float>(e, plain.data());
     else

@@ -11,7 +11,8 @@
 
 namespace errbound::validation {
 
-/// Made by rule_of; a rule that is not in errbound/validation/rule_list.hpp can be validated as well.
+/// Made by rule_of; a rule that is not in errbound/validation/rule_list.hpp can be validated as
+/// well.
 struct rule {
     std::string_view name;
     bool promises = false;  ///< a bound at all

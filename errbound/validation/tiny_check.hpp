@@ -87,7 +87,7 @@ class tiny_checker {
     };
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
-    static constexpr std::uint64_t most_described = 5;
+    static constexpr std::uint64_t max_described = 5;
 
     static bool is_finite(const operand_range& a, const operand_range& b) {
         return std::isfinite(a.low) && std::isfinite(b.low);
@@ -156,7 +156,7 @@ class tiny_checker {
     }
     template <class Code>
     void add(const number& r, const char* broken, const Code& code) {
-        if (++found_.violations > most_described) return;
+        if (++found_.violations > max_described) return;
         found_.first.push_back({std::string(broken) + " (rounding " + std::string(direction_) +
                                     "): value " + hexadecimal(double(r.value())) + ", bound " +
                                     hexadecimal(double(r.error())),

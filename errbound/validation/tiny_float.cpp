@@ -76,7 +76,7 @@ tiny_tables::tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction)
             add_to(product, mpfr_mul);
             add_to(quotient, mpfr_div);
         }
-        for (int e = -most_scale; e <= most_scale; ++e) {
+        for (int e = -max_scale; e <= max_scale; ++e) {
             mpfr_clear_flags();
             scaled.push_back(result(mpfr_mul_2si(r, a, e, direction)));
         }

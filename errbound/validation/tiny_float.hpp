@@ -24,7 +24,7 @@ inline constexpr std::uint16_t unnoticed_overflow = 1U << 15;
 
 /// The results of all operations of one format in one rounding direction, by the operands' codes.
 struct tiny_tables {
-    static constexpr int most_scale = 64;  ///< scaling by more has the same result
+    static constexpr int max_scale = 64;  ///< scaling by more has the same result
 
     int bits = 0;  ///< codes have so many
     std::vector<std::uint16_t> sum, difference, product, quotient, scaled;
@@ -32,8 +32,8 @@ struct tiny_tables {
     tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction);
     std::size_t pair(std::uint8_t a, std::uint8_t b) const { return (std::size_t{a} << bits) | b; }
     std::size_t scale(std::uint8_t a, int e) const {
-        e = e < -most_scale ? -most_scale : e > most_scale ? most_scale : e;
-        return std::size_t{a} * (2 * most_scale + 1) + static_cast<std::size_t>(e + most_scale);
+        e = e < -max_scale ? -max_scale : e > max_scale ? max_scale : e;
+        return std::size_t{a} * (2 * max_scale + 1) + static_cast<std::size_t>(e + max_scale);
     }
 };
 

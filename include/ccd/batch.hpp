@@ -4,8 +4,8 @@
 // instruction set is chosen at run time; no flag is needed when compiling.
 #pragma once
 
-#include <array>
 #include <ccd/explain.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
@@ -17,22 +17,6 @@
 #include <string_view>
 
 namespace ccd {
-
-/// Vertex v against face f0 f1 f2.
-struct vertex_face_indices {
-    index v, f0, f1, f2;
-};
-/// Edge a0 a1 against edge b0 b1.
-struct edge_edge_indices {
-    index a0, a1, b0, b1;
-};
-
-constexpr std::array<index, 4> vertices_of(const vertex_face_indices& q) {
-    return {q.v, q.f0, q.f1, q.f2};
-}
-constexpr std::array<index, 4> vertices_of(const edge_edge_indices& q) {
-    return {q.a0, q.a1, q.b0, q.b1};
-}
 
 /// Positions of the same vertices at t = 0 and t = 1: `vertices` rows of x y z each, contiguous.
 /// Not owned.
@@ -74,10 +58,10 @@ struct vertex_rows {
 };
 
 /// The query that the indices stand for.
-inline vertex_face<double> query_of(const vertex_rows& rows, const vertex_face_indices& q) {
+inline vertex_face<double> query_of(const vertex_rows& rows, const vertex_face_pair& q) {
     return {rows[q.v], rows[q.f0], rows[q.f1], rows[q.f2]};
 }
-inline edge_edge<double> query_of(const vertex_rows& rows, const edge_edge_indices& q) {
+inline edge_edge<double> query_of(const vertex_rows& rows, const edge_edge_pair& q) {
     return {rows[q.a0], rows[q.a1], rows[q.b0], rows[q.b1]};
 }
 
@@ -102,9 +86,9 @@ struct batch_options {
 /// `uncertain`. Throws std::invalid_argument if the two lengths differ, an index is out of range or
 /// the instruction set is not of instruction_sets(). Cost: see `./run bench`; memory: some
 /// 300 KB of stack a thread, and 32 bytes a vertex if there are queries for half the vertices.
-void decide_batch(const vertex_rows& positions, std::span<const vertex_face_indices> queries,
+void decide_batch(const vertex_rows& positions, std::span<const vertex_face_pair> queries,
                   std::span<outcome> answers, const batch_options& options = {});
-void decide_batch(const vertex_rows& positions, std::span<const edge_edge_indices> queries,
+void decide_batch(const vertex_rows& positions, std::span<const edge_edge_pair> queries,
                   std::span<outcome> answers, const batch_options& options = {});
 void decide_batch(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
                   const batch_options& options = {});

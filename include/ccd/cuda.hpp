@@ -75,31 +75,31 @@ struct positions {
           vertices(at_start.stride == at_end.stride ? count : 0) {}
 };
 
-/// The elements of a pair of Indices: a vertex and a face, or two edges.
-template <class Indices>
+/// The elements of a pair of Pair: a vertex and a face, or two edges.
+template <class Pair>
 struct pair_elements;
 template <>
-struct pair_elements<vertex_face_indices> {
+struct pair_elements<vertex_face_pair> {
     using second = face;
 };
 template <>
-struct pair_elements<edge_edge_indices> {
+struct pair_elements<edge_edge_pair> {
     using second = edge;
 };
 
-/// Candidates: rows or columns of vertex indices, or pairs of elements. Indices must be in range:
+/// Candidates: rows or columns of vertex indices, or pairs of elements. Pair must be in range:
 /// the device does not look.
-template <class Indices>
+template <class Pair>
 struct candidates {
-    using element = typename pair_elements<Indices>::second;
+    using element = typename pair_elements<Pair>::second;
 
-    const Indices* of_rows = nullptr;
+    const Pair* of_rows = nullptr;
     const index* columns[4] = {};  ///< of vertex indices, or the first two of elements
     const element* elements = nullptr;
     std::size_t count = 0;
 
     /// Rows of vertex indices; their memory must be aligned to 16 bytes, as CUDA's is.
-    static constexpr candidates rows(const Indices* rows, std::size_t count) {
+    static constexpr candidates rows(const Pair* rows, std::size_t count) {
         return {rows, {}, nullptr, count};
     }
     /// Four columns: v f0 f1 f2, or a0 a1 b0 b1.
@@ -135,9 +135,9 @@ struct batch_options {
 /// After `exact`, `uncertain` stands for the few candidates that integers of fixed width cannot
 /// decide (ccd/exact.hpp) and those with coordinates that are not finite; finish() decides the
 /// former. Until then the scratch memory must stay as it is.
-status decide_batch(const positions& positions, const candidates<vertex_face_indices>& candidates,
+status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options = {});
-status decide_batch(const positions& positions, const candidates<edge_edge_indices>& candidates,
+status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options = {});
 
 /// What the stages of `exact` were asked, in one call of decide_batch.
@@ -150,10 +150,10 @@ struct stage_counts {
 /// Decides what decide_batch of `exact` left open, on the host by all its threads, and writes the
 /// answers. Waits for the stream. `counts`, if not null, receives what the stages did. Throws
 /// only std::bad_alloc.
-status finish(const positions& positions, const candidates<vertex_face_indices>& candidates,
+status finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts = nullptr);
-status finish(const positions& positions, const candidates<edge_edge_indices>& candidates,
+status finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts = nullptr);
 
@@ -169,9 +169,9 @@ class mesh_steps {
   public:
     /// Pairs in device memory, as vertex indices, in no particular order but always the same one.
     struct result {
-        const vertex_face_indices* vertex_face = nullptr;
+        const vertex_face_pair* vertex_face = nullptr;
         std::size_t vertex_face_count = 0;
-        const edge_edge_indices* edge_edge = nullptr;
+        const edge_edge_pair* edge_edge = nullptr;
         std::size_t edge_edge_count = 0;
         std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
         std::size_t finished_on_host = 0;  ///< candidates that `exact` left open

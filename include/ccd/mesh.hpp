@@ -2,13 +2,12 @@
 #pragma once
 
 #include <array>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
-#include <cstdint>
 #include <vector>
 
 namespace ccd {
 
-using index = std::uint32_t;
 using face = std::array<index, 3>;  ///< vertex indices in the file's order
 using edge = std::array<index, 2>;  ///< vertex indices, ascending
 

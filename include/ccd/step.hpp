@@ -4,25 +4,11 @@
 #include <ccd/batch.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
-#include <compare>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace ccd {
-
-/// A vertex and a face that may touch. `f` ascending.
-struct vertex_face_pair {
-    index v;
-    face f;
-    friend auto operator<=>(const vertex_face_pair&, const vertex_face_pair&) = default;
-};
-
-/// Two edges that may touch, each ascending, the smaller edge first.
-struct edge_edge_pair {
-    edge a, b;
-    friend auto operator<=>(const edge_edge_pair&, const edge_edge_pair&) = default;
-};
 
 struct step_options {
     ccd::method method = ccd::method::exact;
@@ -34,12 +20,13 @@ struct step_options {
 struct step_result {
     std::size_t vertex_face_candidates = 0;  ///< pairs whose swept boxes touch, no shared vertex
     std::size_t edge_edge_candidates = 0;
-    std::vector<vertex_face_pair> vertex_face;  ///< reported pairs, sorted
-    std::vector<edge_edge_pair> edge_edge;      ///< reported pairs, sorted
-    double prepare_seconds = 0;                 ///< checks of the input, the mesh's edges
-    double broad_phase_seconds = 0;             ///< both phases together, less the narrow phase
-    double narrow_phase_seconds = 0;            ///< of all threads together, over their number
-    double sort_seconds = 0;                    ///< of the reported pairs
+    /// Reported pairs, sorted; the vertices of a face or an edge ascending, the lesser edge first.
+    std::vector<vertex_face_pair> vertex_face;
+    std::vector<edge_edge_pair> edge_edge;
+    double prepare_seconds = 0;       ///< checks of the input, the mesh's edges
+    double broad_phase_seconds = 0;   ///< both phases together, less the narrow phase
+    double narrow_phase_seconds = 0;  ///< of all threads together, over their number
+    double sort_seconds = 0;          ///< of the reported pairs
     double total_seconds = 0;
     int threads = 0;      ///< used at most
     stage_report stages;  ///< of `exact`, if asked for

@@ -5,8 +5,8 @@
 // positive number, u = 2^-p, ulp(x) the unit in the last place of x (at least η).
 #pragma once
 
-#include <errbound/number_traits.hpp>
 #include <errbound/detail/rounded.hpp>
+#include <errbound/number_traits.hpp>
 #include <type_traits>
 
 namespace errbound {

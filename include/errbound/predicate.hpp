@@ -35,11 +35,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/filters/expression_count.hpp>
-#include <errbound/integers/common_exponent.hpp>
 #include <errbound/filters/semi_static_filter.hpp>
-#include <errbound/sign.hpp>
-#include <errbound/integers/sized_integer.hpp>
 #include <errbound/filters/static_filter.hpp>
+#include <errbound/integers/common_exponent.hpp>
+#include <errbound/integers/sized_integer.hpp>
+#include <errbound/sign.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
 #include <tuple>
@@ -280,7 +280,7 @@ class predicate_type {
     using options = Options;
 
     /// Of coordinates that fit a word.
-    static constexpr int word_bits = word_coordinates<1>::most_bits;
+    static constexpr int word_bits = word_coordinates<1>::max_bits;
     /// Counts for coordinates of one word.
     static constexpr expression_counts counts = detail::counts_of<Shape, F>(word_bits);
     /// The static filter's: certain where |value| exceeds it times the sum of the terms' sizes. Of
@@ -297,7 +297,7 @@ class predicate_type {
     /// Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         int least = word_bits;
-        for (int degree = 0; degree <= expression_counts::most_degree; ++degree) {
+        for (int degree = 0; degree <= expression_counts::max_degree; ++degree) {
             const int excess = counts.bits[static_cast<std::size_t>(degree)] - bits;
             if (excess <= 0) continue;
             least = std::min(least, degree == 0 ? 0 : word_bits - (excess + degree - 1) / degree);
@@ -345,8 +345,8 @@ class predicate_type {
                 return detail::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// What the static filter computes: a value, with its bound (errbound/filters/static_filter.hpp), or
-    /// the sign_type of an expression that branches.
+    /// What the static filter computes: a value, with its bound
+    /// (errbound/filters/static_filter.hpp), or the sign_type of an expression that branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = detail::filtered_scalars<number_of<Points...>, Stored, Points...>;

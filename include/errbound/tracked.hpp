@@ -12,8 +12,8 @@
 
 #include <algorithm>
 #include <concepts>
-#include <errbound/number_traits.hpp>
 #include <errbound/detail/rounded.hpp>
+#include <errbound/number_traits.hpp>
 #include <errbound/rules/interval.hpp>
 #include <errbound/rules/none.hpp>
 #include <errbound/rules/residual.hpp>

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "errbound/support/output_file.hpp"
 #include "ccd/report/machine.hpp"
+#include "errbound/support/output_file.hpp"
 #include "tests/bench/gpu_peaks.hpp"
 #include "tests/bench/harness.hpp"
 #include "tests/bench/operations.hpp"
@@ -134,7 +134,7 @@ void methods(const bench::scene& s, const device_scene& device,
                          bench::percent(moved / peaks.bytes_per_second),
                          bench::count(c.false_positives), bench::count(c.false_negatives)});
     }
-    const std::string kind(bench::kind_of<Query>::name);
+    const std::string kind(short_name(ccd::kind_of<Query>));
     out.table("gpu-methods", {{"scene", s.name}, {"kind", kind}, {"queries", rows.size()}},
               "Methods on the device: " + bench::count(candidates.size()).text + ' ' + kind +
                   " candidates, " + std::to_string(copies) + " times; errors of one of the copies",

@@ -20,7 +20,7 @@ void add_rows(const query_set<Query>& all, const options& o, std::vector<std::ve
                                    [&] { set.decide_batch(0, answers, {.threads = 0}); }},
                                   o.repeats());
         const auto ns = [n](double seconds) { return 1e9 * seconds / static_cast<double>(n); };
-        rows.push_back({word(kind_of<Query>::name),
+        rows.push_back({word(short_name(ccd::kind_of<Query>)),
                         word(n == all.size()  ? "all"
                              : n < all.size() ? "even sample"
                                               : "over and over"),

@@ -20,7 +20,7 @@ struct options {
 
     int repeats() const { return quick ? 3 : 7; }
     /// Of queries one by one, which are drawn evenly from more.
-    std::size_t most_queries() const { return quick ? 10'000 : 200'000; }
+    std::size_t max_queries() const { return quick ? 10'000 : 200'000; }
     bool wants(std::string_view section) const {
         return sections.empty() || std::ranges::find(sections, section) != sections.end();
     }

@@ -4,8 +4,8 @@
 #include <exception>
 #include <string>
 
-#include "errbound/support/output_file.hpp"
 #include "ccd/report/machine.hpp"
+#include "errbound/support/output_file.hpp"
 #include "tests/bench/sections.hpp"
 
 namespace {

@@ -33,8 +33,8 @@ template <class Query>
 void add_rows(const scene& s, const query_set<Query>& all, const options& o,
               std::vector<std::vector<cell>>& rows) {
     if (all.size() == 0) return;
-    const std::vector<Query> sample = all.at_most(o.most_queries()).all_stored();
-    const query_set<Query> batch = o.quick ? all.at_most(5 * o.most_queries()) : all;
+    const std::vector<Query> sample = all.at_most(o.max_queries()).all_stored();
+    const query_set<Query> batch = o.quick ? all.at_most(5 * o.max_queries()) : all;
     std::vector<ccd::outcome> answers(batch.size());
 
     std::vector<contestant> contestants;
@@ -71,7 +71,7 @@ void add_rows(const scene& s, const query_set<Query>& all, const options& o,
         add_batch(set, 1, "batch on " + std::string(ccd::name(set)));
     }
     // What batches answered is what the queries get one by one.
-    for (std::size_t i = 0; i < batch.size(); i += 1 + batch.size() / o.most_queries()) {
+    for (std::size_t i = 0; i < batch.size(); i += 1 + batch.size() / o.max_queries()) {
         if (ccd::decide(ccd::method::exact, batch[i]).outcome != answers[i])
             throw std::runtime_error(s.name + ": batches and one by one differ");
     }
@@ -92,7 +92,7 @@ void add_rows(const scene& s, const query_set<Query>& all, const options& o,
         return 1e9 * seconds / static_cast<double>(contestants[i].queries);
     };
     for (std::size_t i = 0; i < contestants.size(); ++i) {
-        rows.push_back({word(kind_of<Query>::name), word(contestants[i].name),
+        rows.push_back({word(short_name(ccd::kind_of<Query>)), word(contestants[i].name),
                         count(contestants[i].queries), count(contestants[i].collisions),
                         number(ns(i, timings[i].minimum), 1), number(ns(i, timings[i].median), 1),
                         number(ns(tight, timings[tight].minimum) / ns(i, timings[i].minimum), 2)});

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <ccd/batch.hpp>
-#include "ccd/exact/static_filter.hpp"
 #include <cstdint>
 #include <errbound/roots/control_values.hpp>
 
-#include "ccd/cuda/queries.hpp"
 #include "ccd/batch/rounded_axes.hpp"
+#include "ccd/cuda/queries.hpp"
+#include "ccd/exact/static_filter.hpp"
 
 namespace bench {
 
@@ -36,11 +36,11 @@ struct stage_operations {
     std::uint64_t axes_in_floats, coplanarity, inside;
 };
 
-template <class Indices>
+template <class Pair>
 stage_operations operations_of_stages() {
     using single = counted<float>;
     using scalar = counted<double>;
-    using kind = ccd::cuda::query_kind<Indices>;
+    using kind = ccd::cuda::query_kind<Pair>;
     const auto counted_by = [](auto& counter, const auto& run) {
         counter = 0;
         run();
@@ -49,7 +49,7 @@ stage_operations operations_of_stages() {
     stage_operations all{};
     all.axes_in_floats = counted_by(single::operations, [] {
         const single x[3][2][4] = {};
-        (void)ccd::rounded_axes::parted<Indices>(x);
+        (void)ccd::rounded_axes::separated<Pair>(x);
     });
     const typename kind::template query<scalar> query{};
     const auto filtered = [&](const auto& test) {

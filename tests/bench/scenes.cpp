@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "tests/support/query_families.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/query_file.hpp"
+#include "tests/support/query_families.hpp"
 
 namespace bench {
 namespace {

@@ -9,7 +9,6 @@
 
 namespace bench {
 
-using ccd::report::kind_of;
 using ccd::report::query_set;
 using ccd::report::query_sets;
 

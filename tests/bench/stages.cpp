@@ -36,9 +36,9 @@ void add_stage_rows(const query_set<Query>& set, const options& o,
         const auto stage = static_cast<ccd::stage>(i);
         const auto& e = r[stage];
         const auto entered = static_cast<double>(e.entered);
-        rows.push_back({word(kind_of<Query>::name), word(ccd::info(stage).name), count(e.entered),
-                        count(e.left_out), percent(entered / all), count(e.separate),
-                        count(e.collides), percent(e.seconds / total_seconds(r)),
+        rows.push_back({word(short_name(ccd::kind_of<Query>)), word(ccd::info(stage).name),
+                        count(e.entered), count(e.left_out), percent(entered / all),
+                        count(e.separate), count(e.collides), percent(e.seconds / total_seconds(r)),
                         e.entered > 0 ? number(1e9 * e.seconds / entered, 1) : none(),
                         number(1e9 * e.seconds / all, 2)});
     }
@@ -87,7 +87,7 @@ void add_slow_row(const query_set<Query>& set, const options& o,
     }
     double sum = 0;
     for (const Query& q : last) sum += least_seconds_of(q, o.repeats());
-    rows.push_back({word(kind_of<Query>::name), count(set.size()), count(last.size()),
+    rows.push_back({word(short_name(ccd::kind_of<Query>)), count(set.size()), count(last.size()),
                     last.empty() ? none() : number(1e6 * sum / static_cast<double>(last.size()), 2),
                     number(1e6 * slowest_seconds(set, o.repeats()), 2)});
 }
@@ -97,7 +97,7 @@ void add_slow_row(const query_set<Query>& set, const options& o,
 void stages(const scene& s, const options& o, report& out) {
     // Quick runs sample, others take all: the slowest query may be the only one of its sort.
     const std::size_t most =
-        o.quick ? o.most_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
+        o.quick ? o.max_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
     const auto vf = s.queries.vertex_face.at_most(most);
     const auto ee = s.queries.edge_edge.at_most(most);
     std::vector<std::vector<cell>> rows;

@@ -4,8 +4,8 @@
 #include <array>
 #include <ccd/batch.hpp>
 #include <ccd/method.hpp>
-#include <ccd/reference.hpp>
 #include <ccd/methods/transform.hpp>
+#include <ccd/reference.hpp>
 #include <utility>
 
 #include "ccd/exact/integers.hpp"
@@ -38,7 +38,7 @@ template <class Query>
 struct indexed {
     std::vector<ccd::point<double>> before, after;
     using indices = std::conditional_t<std::is_same_v<Query, ccd::vertex_face<double>>,
-                                       ccd::vertex_face_indices, ccd::edge_edge_indices>;
+                                       ccd::vertex_face_pair, ccd::edge_edge_pair>;
     std::vector<indices> queries;
 
     explicit indexed(std::span<const Query> stored) {
@@ -134,10 +134,6 @@ void compare(std::uint64_t seed, std::uint64_t block, kind which,
 
 }  // namespace
 
-std::string_view short_name(kind which) {
-    return which == kind::vertex_face ? "vf" : "ee";
-}
-
 decider reference() {
     return one_by_one("reference", [](const auto& q) { return ccd::decide_reference(q); });
 }
@@ -217,7 +213,7 @@ void totals::add(const totals& other) {
     }
     differing_queries += other.differing_queries;
     for (const difference& d : other.differences) {
-        if (differences.size() < most_kept) differences.push_back(d);
+        if (differences.size() < max_kept) differences.push_back(d);
     }
 }
 

@@ -24,8 +24,6 @@ inline constexpr std::size_t family_count = std::size(query_families::families);
 /// The two kinds that batches decide, in the order in which tables show them.
 inline constexpr query_families::kind kinds[] = {query_families::kind::vertex_face,
                                                  query_families::kind::edge_edge};
-/// "vf" or "ee".
-std::string_view short_name(query_families::kind which);
 
 /// Decides queries[i] into answers[i], by whatever means. Called from several threads at once.
 template <class Query>
@@ -81,7 +79,7 @@ struct difference {
 /// What a run found so far.
 struct totals {
     /// So many differences are kept; those beyond are only counted.
-    static constexpr std::size_t most_kept = 10000;
+    static constexpr std::size_t max_kept = 10000;
 
     std::uint64_t blocks = 0;
     std::vector<kind_counts> families[std::size(kinds)] = {std::vector<kind_counts>(family_count),

@@ -49,7 +49,7 @@ difference difference_of(const json& j) {
     const auto found = std::ranges::find(families, family, &query_families::family::name);
     if (found == std::end(families)) throw std::runtime_error("no family \"" + family + "\"");
     d.family = static_cast<std::size_t>(found - std::begin(families));
-    d.which = j.at("kind").get<std::string>() == "vf" ? kind::vertex_face : kind::edge_edge;
+    d.which = ccd::find_kind(j.at("kind").get<std::string>()).value();
     d.index = whole(j.at("index"));
     d.collides = j.at("collides").get<bool>();
     d.wrong = j.at("wrong").get<std::vector<std::string>>();

@@ -114,7 +114,8 @@ void report(const soak::state& s, const fs::path& folder) {
     for (const auto& d : s.found.deciders) {
         deciders.push_back({d.name, grouped(d.compared), grouped(d.differences)});
     }
-    std::puts("\nfamilies: tests/support/query_families.hpp; 1 in N: a query takes tenths of a second");
+    std::puts(
+        "\nfamilies: tests/support/query_families.hpp; 1 in N: a query takes tenths of a second");
     std::printf("\n%s\n%s\n", ccd::program::text_of(families, 1).c_str(),
                 ccd::program::text_of(deciders, 1).c_str());
     std::printf("seed %ju: %s queries in %s, %s differ\n", std::uintmax_t{s.seed},

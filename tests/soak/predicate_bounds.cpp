@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "tests/soak/predicate_jobs.hpp"
 #include "tests/ccd/exact/audited.hpp"
+#include "tests/soak/predicate_jobs.hpp"
 
 namespace soak {
 namespace {
@@ -45,7 +45,7 @@ void add(bound_findings& all, const bound_findings& found) {
 template <class T, class Entry>
 bound_findings attack(const Entry& entry, predicate_inputs::generator& random,
                       std::uint64_t attempts) {
-    constexpr int most_steps = 500, most_vain = 100;  // of a climb
+    constexpr int max_steps = 500, max_vain = 100;  // of a climb
     const auto& families = predicate_inputs::families<T, Entry::dimension, Entry::count>;
     bound_findings found;
     const auto try_at = [&](const auto& p) {
@@ -61,7 +61,7 @@ bound_findings attack(const Entry& entry, predicate_inputs::generator& random,
             random, entry.surfaces[climb / families.size() % 2]);
         double most = try_at(best);
         for (int step = 0, vain = 0;
-             step < most_steps && vain < most_vain && found.attempts < attempts; ++step, ++vain) {
+             step < max_steps && vain < max_vain && found.attempts < attempts; ++step, ++vain) {
             auto next = best;
             move_one(random, next);
             const double used = try_at(next);

@@ -13,8 +13,8 @@
 #include <tuple>
 #include <vector>
 
-#include "tests/soak/predicates.hpp"
 #include "tests/errbound/predicates/predicate_list.hpp"
+#include "tests/soak/predicates.hpp"
 
 namespace soak {
 

@@ -57,8 +57,8 @@ class comparison {
   private:
     void check(const char* how, const points& p, sign_type right, sign_type found) {
         if (found == right) return;
-        constexpr std::uint64_t most_shown = 3;  // of a chunk
-        if (++found_.wrong <= most_shown)
+        constexpr std::uint64_t max_shown = 3;  // of a chunk
+        if (++found_.wrong <= max_shown)
             std::fprintf(stderr, "wrong %s, %d for %d:%s\n", how, static_cast<int>(found) - 1,
                          static_cast<int>(right) - 1, predicate_inputs::text_of(p).c_str());
     }

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "errbound/support/output_file.hpp"
 #include "ccd/io/query_file.hpp"
+#include "errbound/support/output_file.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/long_run.hpp"
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <errbound/bernstein.hpp>
 #include <type_traits>
@@ -55,8 +56,8 @@ constexpr vector_form<S, 0> coefficient(const vector_form<S, N>& p, int i) {
 
 /// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. They are linear in
 /// t; of degree 0, it is the forms' values at one time. Over scalars of W words
-/// (errbound/integers/fixed_integer.hpp) n has coefficients of 2W words, y of 3W and the others of 4W; every
-/// other scalar is its own product.
+/// (errbound/integers/fixed_integer.hpp) n has coefficients of 2W words, y of 3W and the others of
+/// 4W; every other scalar is its own product.
 template <class S, int Degree = 1>
 struct coplanarity_forms {
     using product = decltype(std::declval<S>() * std::declval<S>());
@@ -124,6 +125,27 @@ template <class S>
 using linear_vertex_face_forms = vertex_face_forms<S>;
 template <class S>
 using linear_edge_edge_forms = edge_edge_forms<S>;
+
+namespace detail {
+
+template <kind K>
+struct linear_forms;
+template <>
+struct linear_forms<kind::vertex_face> {
+    template <class S>
+    using type = linear_vertex_face_forms<S>;
+};
+template <>
+struct linear_forms<kind::edge_edge> {
+    template <class S>
+    using type = linear_edge_edge_forms<S>;
+};
+
+}  // namespace detail
+
+/// The forms of a kind that has them.
+template <kind K, class S>
+using linear_forms = typename detail::linear_forms<K>::template type<S>;
 
 template <class S>
 constexpr vertex_face_forms<S> forms_of(const vertex_face<S>& q) {

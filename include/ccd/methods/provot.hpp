@@ -16,8 +16,8 @@
 #include <ccd/methods/transform.hpp>
 #include <ccd/verdict.hpp>
 #include <cstddef>
-#include <errbound/roots/floating_roots.hpp>
 #include <errbound/number_traits.hpp>
+#include <errbound/roots/floating_roots.hpp>
 
 namespace ccd {
 namespace provot {

@@ -23,8 +23,8 @@
 #include <array>
 #include <ccd/methods/forms.hpp>
 #include <cmath>
-#include <errbound/roots/floating_roots.hpp>
 #include <errbound/number_traits.hpp>
+#include <errbound/roots/floating_roots.hpp>
 
 namespace ccd {
 

@@ -2,7 +2,7 @@
 // scalar that counts.
 //
 // An expression may branch on signs. Then it is run once for each sequence of signs that it can be
-// told, up to `most_runs`; the counts are the largest of all.
+// told, up to `max_runs`; the counts are the largest of all.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct expression_counts {
     int roundings = 0;  ///< that bear on a sign: errbound/filters/static_filter.hpp
     /// Of the longest number of each degree whose sign is asked, for the coordinates' bits given;
     /// 0: none.
-    static constexpr int most_degree = 63;
-    std::array<int, most_degree + 1> bits{};
+    static constexpr int max_degree = 63;
+    std::array<int, max_degree + 1> bits{};
     int degree = 0;        ///< the highest of these numbers
     bool mixed = false;    ///< terms of different degree are added
     bool complete = true;  ///< all branches were seen
@@ -31,10 +31,10 @@ inline void too_many_signs() {}
 
 /// One run: the signs that it is told, and what it asks.
 struct counting_run {
-    static constexpr std::size_t most_signs = 256;
+    static constexpr std::size_t max_signs = 256;
 
     expression_counts counts;
-    std::array<sign_type, most_signs> told{};  ///< by default `negative`, the first of its type
+    std::array<sign_type, max_signs> told{};  ///< by default `negative`, the first of its type
     std::size_t asked = 0;
     int coordinate_bits = 0;
 
@@ -101,11 +101,11 @@ class expression_count {
         auto& run = *x.run_;
         const int roundings = x.roundings_ == 0 ? 0 : x.roundings_ - 1;
         run.counts.roundings = larger(run.counts.roundings, roundings);
-        if (x.degree_ > expression_counts::most_degree) detail::degree_that_is_too_high();
+        if (x.degree_ > expression_counts::max_degree) detail::degree_that_is_too_high();
         int& bits = run.counts.bits[static_cast<std::size_t>(x.degree_)];
         bits = larger(bits, x.bits_);
         run.counts.degree = larger(run.counts.degree, x.degree_);
-        if (run.asked == detail::counting_run::most_signs) detail::too_many_signs();
+        if (run.asked == detail::counting_run::max_signs) detail::too_many_signs();
         return run.told[run.asked++];
     }
 
@@ -128,10 +128,10 @@ class expression_count {
 /// and asks for its sign if it does not end in one.
 template <class Run>
 constexpr expression_counts count_expression(int coordinate_bits, const Run& run) {
-    constexpr int most_runs = 250;
+    constexpr int max_runs = 250;
     detail::counting_run state;
     state.coordinate_bits = coordinate_bits;
-    for (int i = 0; i < most_runs; ++i) {
+    for (int i = 0; i < max_runs; ++i) {
         run(state);
         if (!state.advance()) return state.counts;
     }

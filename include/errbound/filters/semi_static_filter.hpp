@@ -1,10 +1,11 @@
 // The scalar of semi-static filters: an expression's value alone, with a bound from the largest
 // coordinate difference in it. For expressions of so many terms that their sizes
-// (errbound/filters/static_filter.hpp) would cost more than that maximum; they decide somewhat less.
+// (errbound/filters/static_filter.hpp) would cost more than that maximum; they decide somewhat
+// less.
 //
-// Notation as in errbound/filters/static_filter.hpp; S is the size there, k the roundings, τ the allowance.
-// For an expression whose terms are all of degree d, with M the largest of |d̂| of its coordinates'
-// differences, and of |x| of coordinates that stand for themselves,
+// Notation as in errbound/filters/static_filter.hpp; S is the size there, k the roundings, τ the
+// allowance. For an expression whose terms are all of degree d, with M the largest of |d̂| of its
+// coordinates' differences, and of |x| of coordinates that stand for themselves,
 //     S <= m·M^d + a·τ·(1 + M^d),
 // where the mass m is the value of the expression with all terms positive and all differences 1,
 // and a counts products. By induction over the expression, with X and Y powers of M:
@@ -31,8 +32,8 @@
 #pragma once
 
 #include <concepts>
-#include <errbound/number_traits.hpp>
 #include <errbound/filters/static_filter.hpp>
+#include <errbound/number_traits.hpp>
 
 namespace errbound {
 

@@ -38,8 +38,8 @@
 #pragma once
 
 #include <concepts>
-#include <errbound/number_traits.hpp>
 #include <errbound/detail/rounded.hpp>
+#include <errbound/number_traits.hpp>
 #include <errbound/sign.hpp>
 #include <type_traits>
 

@@ -58,9 +58,9 @@ struct short_coordinates {
 /// Coordinates that fit one word: x = value·2^unit.
 template <std::size_t N>
 struct word_coordinates {
-    /// Coordinates are less than 2^most_bits units: with 61 their differences' products, and the
+    /// Coordinates are less than 2^max_bits units: with 61 their differences' products, and the
     /// sums of these that predicates need, come out at the end of a word or just before.
-    static constexpr int most_bits = 61;
+    static constexpr int max_bits = 61;
 
     std::array<std::int64_t, N> value;
     int unit;
@@ -73,7 +73,7 @@ struct word_coordinates {
     /// Proof: proofs/Widths.v, word_coordinates_exact.
     constexpr word_coordinates(const std::array<double, N>& coordinates, std::uint64_t largest) {
         const auto field = static_cast<int>(largest >> 52);
-        unit = field - 1022 - most_bits;
+        unit = field - 1022 - max_bits;
         fit = field > 61;  // both powers of two are normal numbers
         if (!fit) return;
         const double from_unit = power_of_two(unit), to_unit = power_of_two(-unit);
@@ -86,14 +86,14 @@ struct word_coordinates {
             any |= static_cast<std::uint64_t>(value[i]);
         }
         fit = differing << 1 == 0;  // zeros may differ in sign
-        least_bits_ = any == 0 ? 0 : most_bits - std::countr_zero(any);
+        least_bits_ = any == 0 ? 0 : max_bits - std::countr_zero(any);
     }
 
     /// Of values in the largest common unit.
     constexpr int least_bits() const { return least_bits_; }
 
   private:
-    int least_bits_ = most_bits;
+    int least_bits_ = max_bits;
 };
 
 /// The common unit of any finite coordinates, and how many bits they take in it.

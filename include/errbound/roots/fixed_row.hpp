@@ -1,5 +1,5 @@
-// Bernstein coefficients cut to a fixed number of words: what errbound/roots/root_isolation.hpp halves
-// instead of integers that grow by the degree with every halving.
+// Bernstein coefficients cut to a fixed number of words: what errbound/roots/root_isolation.hpp
+// halves instead of integers that grow by the degree with every halving.
 #pragma once
 
 #include <algorithm>
@@ -54,9 +54,9 @@ class fixed_row {
         return b_[i] > fixed_integer<Words>(error_) ? 1 : 0;
     }
     bool ends_are_certain() const { return sign(0) != 0 && sign(b_.size() - 1) != 0; }
-    /// As most_sign_variations counts.
-    int most_variations() const {
-        return most_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
+    /// As max_sign_variations counts.
+    int max_variations() const {
+        return max_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
     }
 
     /// In the row's unit.

@@ -1,12 +1,13 @@
-// Polynomials as users write them, and as the two stages of errbound/roots/real_roots.hpp want them.
+// Polynomials as users write them, and as the two stages of errbound/roots/real_roots.hpp want
+// them.
 #pragma once
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <errbound/roots/integer_polynomial.hpp>
 #include <errbound/number_traits.hpp>
+#include <errbound/roots/integer_polynomial.hpp>
 #include <errbound/rules/tight.hpp>
 #include <errbound/tracked.hpp>
 #include <initializer_list>

@@ -1,5 +1,6 @@
-// Real roots of one polynomial, always exactly: floating point first (errbound/roots/root_filter.hpp),
-// integers for what it leaves open (errbound/roots/root_isolation.hpp).
+// Real roots of one polynomial, always exactly: floating point first
+// (errbound/roots/root_filter.hpp), integers for what it leaves open
+// (errbound/roots/root_isolation.hpp).
 //
 // errbound/polynomial.hpp has the calls that most users want.
 #pragma once

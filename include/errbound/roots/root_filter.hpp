@@ -1,11 +1,12 @@
 // Real roots of polynomials in floating point: what tracked Bernstein coefficients tell for
-// certain, and which parts of the line they leave open. The first stage of errbound/roots/real_roots.hpp.
+// certain, and which parts of the line they leave open. The first stage of
+// errbound/roots/real_roots.hpp.
 //
-// Descartes' rule in Bernstein form, as in errbound/roots/root_isolation.hpp: control values (Bernstein
-// coefficients) without sign change exclude a root inside the part, one change proves exactly one.
-// Every control value has an error bound of its own, by a rule that bounds absolute errors; values
-// and bounds lie in arrays of their own, so that halving a part, which is additions alone, runs in
-// vector registers.
+// Descartes' rule in Bernstein form, as in errbound/roots/root_isolation.hpp: control values
+// (Bernstein coefficients) without sign change exclude a root inside the part, one change proves
+// exactly one. Every control value has an error bound of its own, by a rule that bounds absolute
+// errors; values and bounds lie in arrays of their own, so that halving a part, which is additions
+// alone, runs in vector registers.
 #pragma once
 
 #include <algorithm>
@@ -96,7 +97,7 @@ struct tracked_row {
         return (value[j] > error[j] ? 1 : 0) - (value[j] < -error[j] ? 1 : 0);
     }
     int variations(std::size_t count) const {
-        return most_sign_variations(count, [this](std::size_t j) { return sign(j); });
+        return max_sign_variations(count, [this](std::size_t j) { return sign(j); });
     }
 
   private:
@@ -108,25 +109,25 @@ struct tracked_row {
 
 }  // namespace detail
 
-/// Cost: at most most_halvings halvings of degree² additions each; few for separated roots.
+/// Cost: at most max_halvings halvings of degree² additions each; few for separated roots.
 template <absolute_rule Rule>
 class root_filter {
   public:
     using number = tracked<double, Rule>;
 
     /// Up to this degree n, binomials are exact in double, and so are their products with n.
-    static constexpr std::size_t most_degree = 50;
-    static constexpr int most_halvings = 200;
+    static constexpr std::size_t max_degree = 50;
+    static constexpr int max_halvings = 200;
     /// Ends of parts of at least half this share of their distance from at0 are exact in double.
     static constexpr double narrowest = 0x1p-46;
     /// Of parts on the way.
-    static constexpr std::size_t most_rows = 64;
+    static constexpr std::size_t max_rows = 64;
 
     /// The parts of [a, b] that have a root or may have one, in ascending order, for a < b, which
     /// may be infinite. Coefficients ascend in the power basis; empty means zero.
     root_filter(std::span<const number> coefficients, double a, double b) {
         const std::size_t size = coefficients.size();
-        if (size == 0 || size - 1 > most_degree || !is_strict(sign_of(coefficients.back()))) {
+        if (size == 0 || size - 1 > max_degree || !is_strict(sign_of(coefficients.back()))) {
             parts_.push_back({a, b, 0, 1, false});
             return;
         }
@@ -220,7 +221,7 @@ class root_filter {
     void set_control_values() {
         const std::size_t n = c_.size() - 1;
         const number high(at1_);
-        std::array<number, most_degree + 1> b;
+        std::array<number, max_degree + 1> b;
         number power = high;
         double binomial = 1;
         b[0] = c_[0];
@@ -261,13 +262,13 @@ class root_filter {
         };
         const std::size_t size = c_.size(), n = size - 1;
         set_control_values();
-        std::array<double, most_degree + 1> right_factor, left_factor;
+        std::array<double, max_degree + 1> right_factor, left_factor;
         double factor = 1;
         for (std::size_t i = 0; i <= n; ++i, factor /= 2)
             left_factor[i] = right_factor[n - i] = factor;
 
         // Row k of rows_ belongs to spans[k]; the last is the leftmost.
-        std::array<span_of_u, most_rows> spans;
+        std::array<span_of_u, max_rows> spans;
         spans[0] = {0, 1};
         int halvings = 0;
         for (std::size_t count = 1; count > 0;) {
@@ -285,8 +286,8 @@ class root_filter {
                 continue;
             }
             // Ends of an uncertain sign stay so however often the part is halved.
-            if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == most_halvings ||
-                count == most_rows || to - from < narrowest * to) {
+            if (whole.sign(0) == 0 || whole.sign(n) == 0 || halvings == max_halvings ||
+                count == max_rows || to - from < narrowest * to) {
                 parts_.push_back({at0_, at1_, from, to, false});
                 --count;
                 continue;
@@ -352,7 +353,7 @@ class root_filter {
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    std::array<number, most_degree + 1> first_;
+    std::array<number, max_degree + 1> first_;
     std::span<number> c_;  ///< of first_
     double at0_ = 0, at1_ = 0;
     std::vector<double> rows_;

@@ -345,7 +345,7 @@ class root_isolation {
             on_part(p, low, high, control_values_on(p, low, high), halvings, roots);
             return;
         }
-        const int variations = row.most_variations();
+        const int variations = row.max_variations();
         if (variations == 0) return;
         if (variations == 1) {
             roots.push_back({low, high});

@@ -24,9 +24,9 @@ int sign_variations(std::size_t count, const Sign& sign) {
 /// standing for all above 2 and for an uncertain sign at an end. 0 and 1 are the number itself,
 /// whose parity the ends' signs tell. (Uncertain signs between opposite ones add two for each two
 /// of them; between equal ones already the first adds two.)
-/// Proof: proofs/SignVariations.v, most_variations_right.
+/// Proof: proofs/SignVariations.v, max_variations_right.
 template <class Sign>
-int most_sign_variations(std::size_t count, const Sign& sign) {
+int max_sign_variations(std::size_t count, const Sign& sign) {
     int last = sign(0), most = 0, open = 0;
     if (last == 0) return 3;
     for (std::size_t i = 1; i < count; ++i) {

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <ccd/methods/bsc.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/methods/bsc.hpp>
 #include <ccd/methods/single_precision.hpp>
-#include <ccd/step.hpp>
 #include <ccd/methods/transform.hpp>
+#include <ccd/step.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -47,8 +47,8 @@ using cuda_sets::data_folder;
 using cuda_sets::positions_of;
 
 /// `exact` to the end, host's part included.
-template <class Indices>
-std::vector<outcome> decide_exact(const positions& at, const candidates<Indices>& all,
+template <class Pair>
+std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& all,
                                   precision p = precision::float64,
                                   ccd::cuda::exact_counters* counters = nullptr) {
     host_launcher launcher;
@@ -69,22 +69,22 @@ std::uint64_t queries_per_family() {
     return cuda_sets::queries_per_family(200);
 }
 
-template <class Indices>
-const batch<Indices>& difficult() {
-    static const auto set = cuda_sets::of_families<Indices>(queries_per_family(), 11);
+template <class Pair>
+const batch<Pair>& difficult() {
+    static const auto set = cuda_sets::of_families<Pair>(queries_per_family(), 11);
     return set;
 }
 
-template <class Indices>
+template <class Pair>
 class device_bodies : public testing::Test {};
-using kinds = testing::Types<ccd::vertex_face_indices, ccd::edge_edge_indices>;
+using kinds = testing::Types<ccd::vertex_face_pair, ccd::edge_edge_pair>;
 TYPED_TEST_SUITE(device_bodies, kinds);
 
 /// How many queries entered each stage of `exact`, the first one to the host.
 using entered = std::array<std::size_t, 7>;
 
-template <class Indices>
-entered expect_exact(const batch<Indices>& set, const std::vector<outcome>& truth, precision p) {
+template <class Pair>
+entered expect_exact(const batch<Pair>& set, const std::vector<outcome>& truth, precision p) {
     ccd::cuda::exact_counters c{};
     const auto answers = decide_exact(set.positions(), set.candidates(), p, &c);
     std::size_t wrong = 0;
@@ -92,8 +92,8 @@ entered expect_exact(const batch<Indices>& set, const std::vector<outcome>& trut
     EXPECT_EQ(wrong, 0u);
     return {set.size(), c.coplanarity, c.inside, c.subdivision, c.one_word, c.two_words, c.left};
 }
-template <class Indices>
-std::vector<outcome> truth_of(const batch<Indices>& set) {
+template <class Pair>
+std::vector<outcome> truth_of(const batch<Pair>& set) {
     std::vector<outcome> truth;
     for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
     return truth;
@@ -151,8 +151,8 @@ ccd::verdict in_single_precision(ccd::cuda::safeccd_method<Rule>, const Query& q
 
 /// In doubles the answers are those of decide(). In floats they are those of floats alone where
 /// these are certain, and then right; else those of doubles.
-template <class Method, class Indices>
-void expect_as_on_host(const batch<Indices>& set, ccd::method m) {
+template <class Method, class Pair>
+void expect_as_on_host(const batch<Pair>& set, ccd::method m) {
     constexpr bool promises = !std::is_same_v<typename Method::rule, errbound::none>;
     const auto at = set.positions();
     const auto all = set.candidates();
@@ -177,8 +177,8 @@ void expect_as_on_host(const batch<Indices>& set, ccd::method m) {
     EXPECT_LT(uncertain, set.size());
 }
 
-template <class Indices>
-void expect_methods_as_on_host(const batch<Indices>& set) {
+template <class Pair>
+void expect_methods_as_on_host(const batch<Pair>& set) {
     cuda_on_host::for_each_float_method([&]<class Method>(ccd::method m) {
         SCOPED_TRACE(info(m).name);
         expect_as_on_host<Method>(set, m);
@@ -401,9 +401,9 @@ ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, st
         result.vertex_face_candidates = found.vertex_face_candidates;
         result.edge_edge_candidates = found.edge_edge_candidates;
         for (std::size_t k = 0; k < found.vertex_face; ++k)
-            result.vertex_face.push_back(ccd::pair_of(memory.vertex_face().data()[k]));
+            result.vertex_face.push_back(ccd::canonical(memory.vertex_face().data()[k]));
         for (std::size_t k = 0; k < found.edge_edge; ++k)
-            result.edge_edge.push_back(ccd::pair_of(memory.edge_edge().data()[k]));
+            result.edge_edge.push_back(ccd::canonical(memory.edge_edge().data()[k]));
     }
     std::ranges::sort(result.vertex_face);
     std::ranges::sort(result.edge_edge);

@@ -32,13 +32,13 @@ class on_device : public testing::Test {
     }
 };
 
-template <class Indices>
-batch<Indices> difficult() {
-    return cuda_sets::of_families<Indices>(cuda_sets::queries_per_family(2000), 21);
+template <class Pair>
+batch<Pair> difficult() {
+    return cuda_sets::of_families<Pair>(cuda_sets::queries_per_family(2000), 21);
 }
 
-template <class Indices>
-void expect_same(const batch<Indices>& set, ccd::method m, precision p,
+template <class Pair>
+void expect_same(const batch<Pair>& set, ccd::method m, precision p,
                  const std::vector<outcome>& expected) {
     std::vector<outcome> found(set.size(), outcome::uncertain);
     const auto s = ccd::cuda::decide(set.queries, found, {m, p, nullptr});
@@ -48,8 +48,8 @@ void expect_same(const batch<Indices>& set, ccd::method m, precision p,
     EXPECT_EQ(differ, 0u) << info(m).name << " of " << set.size() << " queries";
 }
 
-template <class Indices>
-void expect_all_methods_same(const batch<Indices>& set) {
+template <class Pair>
+void expect_all_methods_same(const batch<Pair>& set) {
     std::vector<outcome> truth;
     for (const auto& q : set.queries) truth.push_back(ccd::decide_exact(q).outcome);
     for (const precision p : {precision::float64, precision::float32})
@@ -64,15 +64,15 @@ void expect_all_methods_same(const batch<Indices>& set) {
 }
 
 TEST_F(on_device, decides_difficult_queries_as_the_host_does) {
-    expect_all_methods_same(difficult<ccd::vertex_face_indices>());
-    expect_all_methods_same(difficult<ccd::edge_edge_indices>());
+    expect_all_methods_same(difficult<ccd::vertex_face_pair>());
+    expect_all_methods_same(difficult<ccd::edge_edge_pair>());
 }
 
 TEST_F(on_device, decides_stored_queries_as_the_host_does) {
     const fs::path data = cuda_sets::data_folder();
     if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
-    expect_all_methods_same(cuda_sets::stored<ccd::vertex_face_indices>(data));
-    expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_indices>(data));
+    expect_all_methods_same(cuda_sets::stored<ccd::vertex_face_pair>(data));
+    expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_pair>(data));
 }
 
 void expect_same_step(const fs::path& scene, const char* first, const char* second) {
@@ -96,7 +96,7 @@ TEST_F(on_device, finds_the_pairs_of_a_step) {
 
 // The calls that a simulation makes: memory, stream and lists of its own.
 TEST_F(on_device, works_on_device_memory_and_streams) {
-    const auto set = cuda_sets::of_families<ccd::vertex_face_indices>(100, 33);
+    const auto set = cuda_sets::of_families<ccd::vertex_face_pair>(100, 33);
     cudaStream_t stream = nullptr;
     ASSERT_EQ(cudaStreamCreate(&stream), cudaSuccess);
     const auto copied = [](const auto& host) {
@@ -108,14 +108,14 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     };
     auto* const before = static_cast<double*>(copied(set.before));
     auto* const after = static_cast<double*>(copied(set.after));
-    auto* const rows = static_cast<ccd::vertex_face_indices*>(copied(set.rows));
+    auto* const rows = static_cast<ccd::vertex_face_pair*>(copied(set.rows));
     auto* const answers = static_cast<outcome*>(copied(std::vector<outcome>(set.size())));
     auto* const found = static_cast<ccd::index*>(copied(std::vector<ccd::index>(set.size() + 1)));
     const std::size_t bytes = ccd::cuda::scratch_bytes(set.before.size(), set.size());
     const ccd::cuda::scratch memory{copied(std::vector<std::byte>(bytes)), bytes};
 
     const auto at = cuda_sets::positions_of({before, after, set.before.size()});
-    const auto all = ccd::cuda::candidates<ccd::vertex_face_indices>::rows(rows, set.size());
+    const auto all = ccd::cuda::candidates<ccd::vertex_face_pair>::rows(rows, set.size());
     const ccd::cuda::batch_options options{ccd::method::exact, precision::float64, stream};
     ccd::cuda::stage_counts counts;
     for (const auto& s : {ccd::cuda::decide_batch(at, all, answers, memory, options),
@@ -143,8 +143,8 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
 // Arguments are looked at before anything runs, so these need no device.
 TEST(device_arguments, are_refused_in_words) {
     const ccd::cuda::positions nowhere;
-    alignas(16) const ccd::vertex_face_indices row{0, 1, 2, 3};
-    using candidates = ccd::cuda::candidates<ccd::vertex_face_indices>;
+    alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
+    using candidates = ccd::cuda::candidates<ccd::vertex_face_pair>;
     outcome answer{};
     alignas(256) std::byte some[256];
     const double xyz[12]{};
@@ -160,7 +160,7 @@ TEST(device_arguments, are_refused_in_words) {
     EXPECT_NE(error(at, one, &answer, little).find("scratch memory of 256, expected"),
               std::string::npos);
     const auto* const crooked =
-        reinterpret_cast<const ccd::vertex_face_indices*>(reinterpret_cast<const char*>(&row) + 4);
+        reinterpret_cast<const ccd::vertex_face_pair*>(reinterpret_cast<const char*>(&row) + 4);
     EXPECT_NE(error(at, candidates::rows(crooked, 1), &answer, little).find("multiple of 16"),
               std::string::npos);
     EXPECT_NE(error(at, one, &answer, little, ccd::cuda::batch_options{ccd::method::provot})

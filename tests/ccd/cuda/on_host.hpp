@@ -44,9 +44,9 @@ class laid_out {
 
 /// Answers by a float method's stages. `in_doubles`, if not null, receives how many candidates
 /// floats left to doubles.
-template <class Method, class T, class Indices>
+template <class Method, class T, class Pair>
 std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
-                                    const ccd::cuda::candidates<Indices>& all,
+                                    const ccd::cuda::candidates<Pair>& all,
                                     std::size_t* in_doubles = nullptr) {
     ccd::cuda::host_launcher launcher;
     // Nothing may rely on what was there.

@@ -27,14 +27,14 @@ inline ccd::cuda::positions positions_of(const ccd::vertex_rows& rows) {
 }
 
 /// Queries of one kind, each with four vertices of its own.
-template <class Indices>
+template <class Pair>
 struct batch {
-    static constexpr bool of_faces = std::is_same_v<Indices, ccd::vertex_face_indices>;
-    using query = ccd::cuda::query_of_kind<Indices, double>;
+    static constexpr bool of_faces = std::is_same_v<Pair, ccd::vertex_face_pair>;
+    using query = ccd::query_of_pair<Pair>;
 
     std::vector<query> queries;
     std::vector<ccd::point<double>> before, after;
-    std::vector<Indices> rows;
+    std::vector<Pair> rows;
 
     void add(const query& q) {
         const auto v = static_cast<ccd::index>(before.size());
@@ -48,47 +48,47 @@ struct batch {
     std::size_t size() const { return queries.size(); }
     /// As device code takes them, in this batch's memory.
     ccd::cuda::positions positions() const { return positions_of({before, after}); }
-    ccd::cuda::candidates<Indices> candidates() const {
-        return ccd::cuda::candidates<Indices>::rows(rows.data(), size());
+    ccd::cuda::candidates<Pair> candidates() const {
+        return ccd::cuda::candidates<Pair>::rows(rows.data(), size());
     }
 };
 
-template <class Indices>
-typename batch<Indices>::query query_of(const query_families::points& p) {
-    if constexpr (batch<Indices>::of_faces)
+template <class Pair>
+typename batch<Pair>::query query_of(const query_families::points& p) {
+    if constexpr (batch<Pair>::of_faces)
         return query_families::as_vertex_face(p);
     else
         return query_families::as_edge_edge(p);
 }
 
 /// `count` queries of a family, fewer of one whose truth is slow.
-template <class Indices>
-batch<Indices> of_family(const query_families::family& family, std::uint64_t count,
-                         std::uint64_t seed, batch<Indices> all = {}) {
+template <class Pair>
+batch<Pair> of_family(const query_families::family& family, std::uint64_t count, std::uint64_t seed,
+                      batch<Pair> all = {}) {
     using query_families::kind;
     for (std::uint64_t i = 0; i * family.thinning < count; ++i)
-        all.add(query_of<Indices>(query_families::make(
-            family, batch<Indices>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
+        all.add(query_of<Pair>(query_families::make(
+            family, batch<Pair>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
     return all;
 }
 
 /// The same of every family.
-template <class Indices>
-batch<Indices> of_families(std::uint64_t count, std::uint64_t seed) {
-    batch<Indices> all;
+template <class Pair>
+batch<Pair> of_families(std::uint64_t count, std::uint64_t seed) {
+    batch<Pair> all;
     for (const auto& family : query_families::families)
-        all = of_family<Indices>(family, count, seed, std::move(all));
+        all = of_family<Pair>(family, count, seed, std::move(all));
     return all;
 }
 
 /// All stored queries under a folder.
-template <class Indices>
-batch<Indices> stored(const std::filesystem::path& folder) {
-    batch<Indices> all;
+template <class Pair>
+batch<Pair> stored(const std::filesystem::path& folder) {
+    batch<Pair> all;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".csv") continue;
         const auto file = ccd::io::read_queries(entry.path(), std::nullopt, false);
-        if constexpr (batch<Indices>::of_faces)
+        if constexpr (batch<Pair>::of_faces)
             for (const auto& q : file.vertex_face_queries) all.add(q);
         else
             for (const auto& q : file.edge_edge_queries) all.add(q);

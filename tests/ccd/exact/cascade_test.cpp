@@ -7,9 +7,8 @@
 #include <array>
 #include <ccd/batch.hpp>
 #include <ccd/exact.hpp>
-#include <ccd/reference.hpp>
-#include "ccd/exact/static_filter.hpp"
 #include <ccd/methods/transform.hpp>
+#include <ccd/reference.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "ccd/exact/integers.hpp"
 #include "ccd/batch/rounded_axes.hpp"
+#include "ccd/exact/integers.hpp"
+#include "ccd/exact/static_filter.hpp"
 #include "tests/support/query_families.hpp"
 
 namespace {
@@ -92,7 +92,7 @@ struct float_stages {
     static ccd::outcome axes(const Query& query) {
         const Forms<double> forms(query);
         const ccd::static_filter::sizes<double> sizes(forms);
-        return sizes.usable && ccd::static_filter::parted<double>(forms, sizes)
+        return sizes.usable && ccd::static_filter::separated<double>(forms, sizes)
                    ? ccd::outcome::separate
                    : ccd::outcome::uncertain;
     }
@@ -201,7 +201,7 @@ TEST(batch, indices_give_the_same_answers_as_stored_queries) {
         using query_type = typename std::decay_t<decltype(set.queries)>::value_type;
         using indices_type =
             std::conditional_t<std::is_same_v<query_type, ccd::vertex_face<double>>,
-                               ccd::vertex_face_indices, ccd::edge_edge_indices>;
+                               ccd::vertex_face_pair, ccd::edge_edge_pair>;
         const rows_of_queries<query_type> positions(set.queries);
         // Few queries a vertex, and so many that positions are rounded for the cull in float.
         for (const std::size_t times : {std::size_t(1), std::size_t(5)}) {
@@ -249,7 +249,7 @@ TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_quer
         truth[i] = ccd::outcome::uncertain;
         EXPECT_EQ(decide_exact(queries[i]).cause, ccd::cause::range);
     }
-    std::vector<ccd::vertex_face_indices> indices;
+    std::vector<ccd::vertex_face_pair> indices;
     for (ccd::index i = 0; i < 4 * queries.size(); i += 4)
         indices.push_back({i, i + 1, i + 2, i + 3});
     const rows_of_queries<ccd::vertex_face<double>> positions(queries);
@@ -258,7 +258,7 @@ TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_quer
         ccd::decide_batch(std::span<const ccd::vertex_face<double>>(queries), std::span(answers),
                           {.set = isa});
         EXPECT_EQ(answers, truth);
-        ccd::decide_batch(positions.rows(), std::span<const ccd::vertex_face_indices>(indices),
+        ccd::decide_batch(positions.rows(), std::span<const ccd::vertex_face_pair>(indices),
                           std::span(answers), {.set = isa});
         EXPECT_EQ(answers, truth);
     }
@@ -268,8 +268,8 @@ TEST(batch, refuses_what_it_cannot_do) {
     const std::vector<double> numbers(12);
     const ccd::vertex_rows rows(numbers.data(), numbers.data(), 4);
     std::vector<ccd::outcome> answers(1);
-    const std::vector<ccd::vertex_face_indices> good{{0, 1, 2, 3}}, bad{{0, 1, 2, 4}};
-    using span = std::span<const ccd::vertex_face_indices>;
+    const std::vector<ccd::vertex_face_pair> good{{0, 1, 2, 3}}, bad{{0, 1, 2, 4}};
+    using span = std::span<const ccd::vertex_face_pair>;
     EXPECT_NO_THROW(ccd::decide_batch(rows, span(good), answers));
     EXPECT_THROW(ccd::decide_batch(rows, span(bad), answers), std::invalid_argument);
     answers.resize(2);

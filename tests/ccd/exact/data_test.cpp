@@ -39,9 +39,8 @@ std::vector<fs::path> query_paths(const fs::path& folder) {
 }
 
 ccd::verdict decide(ccd::method method, const ccd::io::query_file& file, std::size_t i) {
-    return file.kind == ccd::io::query_kind::vertex_face
-               ? ccd::decide(method, file.vertex_face_queries[i])
-               : ccd::decide(method, file.edge_edge_queries[i]);
+    return file.kind == ccd::kind::vertex_face ? ccd::decide(method, file.vertex_face_queries[i])
+                                               : ccd::decide(method, file.edge_edge_queries[i]);
 }
 
 struct errors {
@@ -98,7 +97,7 @@ TEST(stored_queries, are_decided_in_integers_of_fixed_width) {
         const ccd::io::query_file file = ccd::io::read_queries(path, std::nullopt, false);
         if (!file.truth) continue;
         for (std::size_t i = 0; i < file.size(); ++i) {
-            const ccd::outcome said = (file.kind == ccd::io::query_kind::vertex_face
+            const ccd::outcome said = (file.kind == ccd::kind::vertex_face
                                            ? ccd::decide_integers(file.vertex_face_queries[i])
                                            : ccd::decide_integers(file.edge_edge_queries[i]))
                                           .outcome;

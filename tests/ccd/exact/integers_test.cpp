@@ -9,10 +9,10 @@
 #include <errbound/integers/fixed_integer.hpp>
 #include <random>
 
+#include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/bounded_integer.hpp"
 #include "ccd/exact/common_roots.hpp"
 #include "ccd/exact/cubic_roots.hpp"
-#include "ccd/exact/axis_units.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <ccd/exact.hpp>
-#include <ccd/methods/forms.hpp>
 #include <ccd/method.hpp>
-#include <ccd/reference.hpp>
+#include <ccd/methods/forms.hpp>
 #include <ccd/methods/tracked_query.hpp>
+#include <ccd/reference.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -57,13 +57,6 @@ std::string format(const char* pattern, Values... values) {
     std::array<char, 256> text;
     std::snprintf(text.data(), text.size(), pattern, values...);
     return text.data();
-}
-
-std::string_view name(kind which) {
-    return which == kind::vertex_face   ? "vertex-face"
-           : which == kind::edge_edge   ? "edge-edge"
-           : which == kind::vertex_edge ? "vertex-edge"
-                                        : "vertex-vertex";
 }
 
 ccd::verdict decide(ccd::method method, kind which, const points& p) {
@@ -185,7 +178,7 @@ void expect_no_failures(const report& r) {
 std::string describe(std::size_t family, kind which, std::uint64_t index, const points& p,
                      const std::string& what) {
     return what + "\nfamily " + std::string(families[family].name) + ", " +
-           std::string(name(which)) + ", ERRBOUND_PROPERTY_SEED=" + std::to_string(seed()) +
+           std::string(path_name(which)) + ", ERRBOUND_PROPERTY_SEED=" + std::to_string(seed()) +
            ", index " + std::to_string(index) + "\n" + csv(p);
 }
 
@@ -276,7 +269,7 @@ void print(kind which, const report& r) {
     columns.push_back({"out of range", [](const tally& t) { return t.out_of_range; }});
     columns.push_back({"unsettled", [](const tally& t) { return t.unsettled; }});
 
-    std::cout << format("%-25s", std::string(name(which)).c_str());
+    std::cout << format("%-25s", std::string(path_name(which)).c_str());
     for (const column& c : columns) std::cout << "  " << c.title;
     std::cout << '\n';
     const auto row = [&columns](std::string_view title, const tally& t) {

@@ -1,7 +1,8 @@
 // Collision detection asked as questions about polynomials: root_where_nonnegative against `exact`.
 //
 // A contact is a t in [0, 1] with Y(t) = 0, N(t) ≠ 0 and all G_i(t) >= 0, or one of a vertex with
-// an edge, where three quadratics vanish and a fourth is not positive (ccd/exact/reference.cpp says why).
+// an edge, where three quadratics vanish and a fourth is not positive (ccd/exact/reference.cpp says
+// why).
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_int.hpp>

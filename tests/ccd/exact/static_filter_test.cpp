@@ -1,10 +1,11 @@
 // The bounds of the static filters against rationals: no computed control value, of the whole step
 // or of any part, is further from the exact one than the filter allows for.
+#include "ccd/exact/static_filter.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <boost/multiprecision/gmp.hpp>
-#include "ccd/exact/static_filter.hpp"
 #include <ccd/methods/transform.hpp>
 #include <cstddef>
 #include <cstdint>

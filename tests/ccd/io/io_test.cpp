@@ -17,11 +17,11 @@
 #include <string>
 #include <vector>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/mesh_file.hpp"
-#include "errbound/support/output_file.hpp"
 #include "ccd/io/query_file.hpp"
 #include "ccd/io/text.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 
 namespace {
 
@@ -68,7 +68,7 @@ std::string repeated(const std::string& text, int times) {
 }
 
 query_file queries(const std::string& text, bool round = false) {
-    return parse_queries(text, "q.csv", query_kind::vertex_face, round);
+    return parse_queries(text, "q.csv", kind::vertex_face, round);
 }
 
 std::string query_error(const std::string& text) {
@@ -196,7 +196,7 @@ TEST(Queries, RowsBecomePoints) {
     EXPECT_EQ(q.f1, (moving_point<double>{{1, 1, 0}, {3, 1, 0}}));
     EXPECT_EQ(q.f2, (moving_point<double>{{1.5, 1, 0}, {3.5, 1, 0}}));
 
-    const query_file ee = parse_queries(text, "q", query_kind::edge_edge, false);
+    const query_file ee = parse_queries(text, "q", kind::edge_edge, false);
     ASSERT_EQ(ee.edge_edge_queries.size(), 1U);
     EXPECT_EQ(ee.edge_edge_queries[0].a1, q.f0);
     EXPECT_EQ(ee.edge_edge_queries[0].b1, q.f2);
@@ -265,12 +265,12 @@ TEST(Queries, BadInput) {
 }
 
 TEST(Queries, KindFromPath) {
-    EXPECT_EQ(kind_from_path("a/vertex-face/data.csv"), query_kind::vertex_face);
-    EXPECT_EQ(kind_from_path("a/edge-edge/b/data.csv"), query_kind::edge_edge);
-    EXPECT_EQ(kind_from_path("queries/227vf.csv"), query_kind::vertex_face);
-    EXPECT_EQ(kind_from_path("vertex-face/227ee.csv"), query_kind::edge_edge);
-    EXPECT_EQ(kind_from_path("ee/data.csv"), query_kind::edge_edge);
-    EXPECT_EQ(kind_from_path("vf.csv"), query_kind::vertex_face);
+    EXPECT_EQ(kind_from_path("a/vertex-face/data.csv"), kind::vertex_face);
+    EXPECT_EQ(kind_from_path("a/edge-edge/b/data.csv"), kind::edge_edge);
+    EXPECT_EQ(kind_from_path("queries/227vf.csv"), kind::vertex_face);
+    EXPECT_EQ(kind_from_path("vertex-face/227ee.csv"), kind::edge_edge);
+    EXPECT_EQ(kind_from_path("ee/data.csv"), kind::edge_edge);
+    EXPECT_EQ(kind_from_path("vf.csv"), kind::vertex_face);
     EXPECT_EQ(kind_from_path("coffee.csv"), std::nullopt);
     EXPECT_EQ(kind_from_path("not-edge-edges/data.csv"), std::nullopt);
 }
@@ -280,7 +280,7 @@ TEST(Queries, Files) {
     const fs::path file = directory.path / "queries" / "7vf.csv";
     write(file, repeated("1,1,1,1,1,1\n", 16));
     EXPECT_FALSE(read_queries(file, std::nullopt, false).truth.has_value());
-    EXPECT_EQ(read_queries(file, query_kind::edge_edge, false).kind, query_kind::edge_edge);
+    EXPECT_EQ(read_queries(file, kind::edge_edge, false).kind, kind::edge_edge);
 
     const fs::path truth = directory.path / "mma_bool" / "7vf_mma_bool.json";
     write(truth, "[true, false]");
@@ -295,7 +295,7 @@ TEST(Queries, Files) {
               }).find("/no/such/vf.csv: found no such file"),
               std::string::npos);
     EXPECT_NE(message_of([&] {
-                  read_queries(directory.path, query_kind::edge_edge, false);
+                  read_queries(directory.path, kind::edge_edge, false);
               }).find("found a directory, expected a file"),
               std::string::npos);
     write(directory.path / "plain.csv", "1,1,1\n");

@@ -6,8 +6,8 @@
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <ccd/methods/proximity.hpp>
-#include <ccd/reference.hpp>
 #include <ccd/methods/safeccd.hpp>
+#include <ccd/reference.hpp>
 #include <cmath>
 #include <cstdint>
 #include <string>

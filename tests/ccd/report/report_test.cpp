@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "errbound/support/error.hpp"
-#include "errbound/support/output_file.hpp"
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
+#include "errbound/support/error.hpp"
+#include "errbound/support/output_file.hpp"
 
 namespace {
 

@@ -76,7 +76,7 @@ ccd::step_result brute_force(const ccd::mesh& before, const ccd::mesh& after, cc
             if (may_collide(ccd::decide(
                     method,
                     ccd::vertex_face<double>{moving(v), moving(f[0]), moving(f[1]), moving(f[2])})))
-                result.vertex_face.push_back({v, sorted});
+                result.vertex_face.push_back({v, sorted[0], sorted[1], sorted[2]});
         }
     }
     const auto edges = ccd::unique_edges(before.faces);
@@ -91,7 +91,7 @@ ccd::step_result brute_force(const ccd::mesh& before, const ccd::mesh& after, cc
             if (may_collide(
                     ccd::decide(method, ccd::edge_edge<double>{moving(a[0]), moving(a[1]),
                                                                moving(b[0]), moving(b[1])})))
-                result.edge_edge.push_back({a, b});
+                result.edge_edge.push_back({a[0], a[1], b[0], b[1]});
         }
     std::ranges::sort(result.vertex_face);
     std::ranges::sort(result.edge_edge);
@@ -263,10 +263,10 @@ TEST(Step, FindsInEachOfManyCopiesWhatItFindsInOne) {
         }
         for (const auto& [a, b, c] : before.faces)
             all_before.faces.push_back({first + a, first + b, first + c});
-        for (const auto& [v, f] : one.vertex_face)
-            vertex_face.push_back({first + v, {first + f[0], first + f[1], first + f[2]}});
-        for (const auto& [a, b] : one.edge_edge)
-            edge_edge.push_back({{first + a[0], first + a[1]}, {first + b[0], first + b[1]}});
+        for (const auto& [v, f0, f1, f2] : one.vertex_face)
+            vertex_face.push_back({first + v, first + f0, first + f1, first + f2});
+        for (const auto& [a0, a1, b0, b1] : one.edge_edge)
+            edge_edge.push_back({first + a0, first + a1, first + b0, first + b1});
     }
     all_after.faces = all_before.faces;
     for (const int threads : {1, 2, 3}) {

@@ -10,8 +10,8 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/methods/forms.hpp>
-#include <ccd/reference.hpp>
 #include <ccd/methods/transform.hpp>
+#include <ccd/reference.hpp>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -25,11 +25,11 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/program/commands.hpp"
 #include "ccd/exact/features.hpp"
+#include "ccd/io/query_file.hpp"
+#include "ccd/program/commands.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
-#include "ccd/io/query_file.hpp"
 
 namespace {
 

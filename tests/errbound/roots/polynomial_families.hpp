@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/roots/integer_polynomial.hpp>
 #include <errbound/multiprecision.hpp>
+#include <errbound/roots/integer_polynomial.hpp>
 #include <limits>
 #include <random>
 #include <vector>

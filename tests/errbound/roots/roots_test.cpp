@@ -386,7 +386,7 @@ TEST(Roots, EndsAtRoots) {
     }
 }
 
-// Degrees on both sides of root_filter::most_degree.
+// Degrees on both sides of root_filter::max_degree.
 TEST_P(Families, DegreesUpTo60) {
     if (GetParam() == family::wide) GTEST_SKIP() << "thousands of bits";
     generator make(400 + static_cast<unsigned>(GetParam()));
@@ -463,7 +463,7 @@ TEST(Roots, PreconditionsAreAsserted) {
 #endif
 }
 
-// Of more than root_filter::most_degree: integers alone.
+// Of more than root_filter::max_degree: integers alone.
 TEST(Roots, HighDegrees) {
     form p{1};
     for (int k = 1; k <= 60; ++k) p = generator::product(p, form{-k, 1});

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "errbound/validation/validation.hpp"
-#include "tests/support/query_families.hpp"
 #include "tests/errbound/validation/validation_rules.hpp"
+#include "tests/support/query_families.hpp"
 
 namespace {
 

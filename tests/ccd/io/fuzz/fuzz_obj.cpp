@@ -3,8 +3,8 @@
 #include <charconv>
 #include <string>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/mesh_file.hpp"
+#include "errbound/support/error.hpp"
 #include "tests/ccd/io/fuzz/same_mesh.hpp"
 
 namespace {

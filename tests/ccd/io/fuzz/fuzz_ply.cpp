@@ -4,8 +4,8 @@
 #include <bit>
 #include <string>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/mesh_file.hpp"
+#include "errbound/support/error.hpp"
 #include "tests/ccd/io/fuzz/same_mesh.hpp"
 
 namespace {

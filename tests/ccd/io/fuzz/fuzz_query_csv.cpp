@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/query_file.hpp"
+#include "errbound/support/error.hpp"
 
 namespace {
 
+using ccd::kind;
 using ccd::io::query_file;
-using ccd::io::query_kind;
 
 using row = std::array<double, 3>;
 
@@ -60,7 +60,7 @@ void require_same(const query_file& a, const query_file& b) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const query_kind kind = size % 2 == 0 ? query_kind::vertex_face : query_kind::edge_edge;
+    const ccd::kind kind = size % 2 == 0 ? ccd::kind::vertex_face : ccd::kind::edge_edge;
     query_file rounded;
     try {
         rounded = ccd::io::parse_queries(text, "fuzz", kind, true);

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "errbound/support/error.hpp"
 #include "ccd/io/query_file.hpp"
+#include "errbound/support/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<bool> truth;

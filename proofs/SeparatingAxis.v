@@ -1,7 +1,7 @@
-(** `parted` of ccd/exact/static_filter.hpp: its margin covers the rounding errors of what is compared,
+(** `separated` of ccd/exact/static_filter.hpp: its margin covers the rounding errors of what is compared,
     underflow included. In double, any direction; the constant, which the compiler computes, to nearest.
 
-    Results: parted_face_separate, parted_edges_separate    where an axis parts the features as
+    Results: separated_face_separate, separated_edges_separate    where an axis parts the features as
              computed, with sizes that cover the computed differences, they do not collide *)
 
 From Coq Require Import Reals ZArith List Lia Lra Psatz Bool.
@@ -14,7 +14,7 @@ Notation p := 53%Z (only parsing).
 Notation emin := (-1074)%Z (only parsing).
 #[local] Instance double_precision : Prec_gt_0 p := eq_refl.
 
-Section Parted.
+Section SeparatingAxis.
 
 Variable direction : R -> Z.
 Context {direction_valid : Valid_rnd direction}.
@@ -45,7 +45,7 @@ Definition diagonal_axes (mx my mz : R) : list axis :=
 
 (** The differences b, c and p at an end of the step: `false` is the start. *)
 Record differences := Differences { b : bool -> point; c : bool -> point; p_ : bool -> point }.
-Definition parted_along (sides : bool -> bool * bool) : bool :=
+Definition separated_along (sides : bool -> bool * bool) : bool :=
   (fst (sides false) && fst (sides true)) || (snd (sides false) && snd (sides true)).
 Definition face_sides (d : differences) (a : axis) (finish : bool) : bool * bool :=
   let e := fl (size a * margin) in
@@ -56,8 +56,8 @@ Definition edge_sides (d : differences) (a : axis) (finish : bool) : bool * bool
   let a1 := project a (b d finish) in let b0 := project a (p_ d finish) in
   let b1 := fl (b0 + project a (c d finish)) in
   (Rlt_bool (fl (Rmax a1 0 + e)) (Rmin b0 b1), Rlt_bool (Rmax b0 b1) (fl (Rmin a1 0 - e))).
-Definition parted (sides : axis -> bool -> bool * bool) (axes : list axis) : bool :=
-  existsb (fun a => parted_along (sides a)) axes.
+Definition separated (sides : axis -> bool -> bool * bool) (axes : list axis) : bool :=
+  existsb (fun a => separated_along (sides a)) axes.
 
 (** ** Errors: none, or at most a bound less one smallest number *)
 
@@ -359,10 +359,10 @@ Proof. intros H. split; [apply (H false) | apply (H true)]. Qed.
 Lemma before_opposite n q r : before n q r -> before (minus origin n) r q.
 Proof. unfold before, dot, minus, origin. simpl. lra. Qed.
 
-Lemma parted_sides sides : parted_along sides = true ->
+Lemma separated_sides sides : separated_along sides = true ->
   (forall e, fst (sides e) = true) \/ (forall e, snd (sides e) = true).
 Proof.
-  unfold parted_along. intros H. apply orb_prop in H. destruct H as [H | H]; apply andb_prop in H;
+  unfold separated_along. intros H. apply orb_prop in H. destruct H as [H | H]; apply andb_prop in H;
     [left | right]; intros []; apply H.
 Qed.
 Lemma less_of a b : Rlt_bool a b = true -> a < b.
@@ -380,7 +380,7 @@ Hypothesis f2_numbers : numbers f2.
 Notation d := (differences_of f1 f0 f2 f0 v f0).
 Hypothesis d_sized : sized d.
 
-Lemma face_axis a : measures m a -> parted_along (face_sides d a) = true ->
+Lemma face_axis a : measures m a -> separated_along (face_sides d a) = true ->
   ~ vertex_face_collides v f0 f1 f2.
 Proof.
   intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
@@ -420,18 +420,18 @@ Proof.
     pose proof (Rmin_l b' c'). pose proof (Rmin_r b' c').
     split; intros K; apply less_of in K; (split; [apply G0 | split; [apply G1 | apply G2]]);
       (eapply Rle_lt_trans; [| exact K]) || (eapply Rlt_le_trans; [exact K |]); apply fl_le; lra. }
-  apply parted_sides in T. destruct T as [T | T].
-  - apply (face_parted (minus origin (along_axis a))); apply before_opposite, before_of;
+  apply separated_sides in T. destruct T as [T | T].
+  - apply (face_separated (minus origin (along_axis a))); apply before_opposite, before_of;
       intros e; apply (Side e); apply T.
-  - apply (face_parted (along_axis a)); apply before_of; intros e; apply (Side e); apply T.
+  - apply (face_separated (along_axis a)); apply before_of; intros e; apply (Side e); apply T.
 Qed.
 
-Theorem parted_face_separate :
-  parted (face_sides d) (coordinate_axes (x m) (y m) (z m)) = true \/
-  parted (face_sides d) (diagonal_axes (x m) (y m) (z m)) = true -> ~ vertex_face_collides v f0 f1 f2.
+Theorem separated_face_separate :
+  separated (face_sides d) (coordinate_axes (x m) (y m) (z m)) = true \/
+  separated (face_sides d) (diagonal_axes (x m) (y m) (z m)) = true -> ~ vertex_face_collides v f0 f1 f2.
 Proof.
   intros T. assert (E : exists a, In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\
-    parted_along (face_sides d a) = true).
+    separated_along (face_sides d a) = true).
   { destruct T as [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a;
     rewrite in_app_iff; auto. }
   destruct E as (a & I & E). exact (face_axis a (axes_measure a I) E).
@@ -449,7 +449,7 @@ Hypothesis b1_numbers : numbers b1.
 Notation d := (differences_of a1 a0 b1 b0 b0 a0).
 Hypothesis d_sized : sized d.
 
-Lemma edges_axis a : measures m a -> parted_along (edge_sides d a) = true ->
+Lemma edges_axis a : measures m a -> separated_along (edge_sides d a) = true ->
   ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
   intros (M & M0 & Ms & H) T. generalize eps_tiny. intros P. destruct d_sized as (Wb & Wc & Wp).
@@ -503,18 +503,18 @@ Proof.
     unfold Rminus in *.
     split; intros K; apply less_of in K;
       (split; [apply G00 | split; [apply G01 | split; [apply G10 | apply G11]]]); lra. }
-  apply parted_sides in T. destruct T as [T | T].
-  - apply (edges_parted (along_axis a)); apply before_of; intros e; apply (Side e); apply T.
-  - apply (edges_parted (minus origin (along_axis a))); apply before_opposite, before_of;
+  apply separated_sides in T. destruct T as [T | T].
+  - apply (edges_separated (along_axis a)); apply before_of; intros e; apply (Side e); apply T.
+  - apply (edges_separated (minus origin (along_axis a))); apply before_opposite, before_of;
       intros e; apply (Side e); apply T.
 Qed.
 
-Theorem parted_edges_separate :
-  parted (edge_sides d) (coordinate_axes (x m) (y m) (z m)) = true \/
-  parted (edge_sides d) (diagonal_axes (x m) (y m) (z m)) = true -> ~ edge_edge_collides a0 a1 b0 b1.
+Theorem separated_edges_separate :
+  separated (edge_sides d) (coordinate_axes (x m) (y m) (z m)) = true \/
+  separated (edge_sides d) (diagonal_axes (x m) (y m) (z m)) = true -> ~ edge_edge_collides a0 a1 b0 b1.
 Proof.
   intros T. assert (E : exists a, In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\
-    parted_along (edge_sides d a) = true).
+    separated_along (edge_sides d a) = true).
   { destruct T as [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a;
     rewrite in_app_iff; auto. }
   destruct E as (a & I & E). exact (edges_axis a (axes_measure a I) E).
@@ -522,4 +522,4 @@ Qed.
 
 End Edges.
 End Axes.
-End Parted.
+End SeparatingAxis.
