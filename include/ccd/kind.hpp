@@ -53,7 +53,8 @@ constexpr std::array<index, 2> vertices_of(const vertex_vertex_pair& p) {
 enum class kind : std::uint8_t { vertex_face, edge_edge, vertex_edge, vertex_vertex };
 
 /// What belongs to a kind: `query<T>`, `pair`, the numbers of vertices of its two elements, and its
-/// names in files, options and tables. (ccd/methods/forms.hpp has the forms of those that have any.)
+/// names in files, options and tables. (ccd/methods/forms.hpp has the forms of those that have
+/// any.)
 template <kind K>
 struct kind_traits;
 template <>
@@ -62,7 +63,8 @@ struct kind_traits<kind::vertex_face> {
     using query = vertex_face<T>;
     using pair = vertex_face_pair;
     static constexpr std::size_t first_vertices = 1, second_vertices = 3;
-    static constexpr std::string_view short_name = "vf", name = "vertex_face", path_name = "vertex-face";
+    static constexpr std::string_view short_name = "vf", name = "vertex_face",
+                                      path_name = "vertex-face";
 };
 template <>
 struct kind_traits<kind::edge_edge> {
@@ -70,7 +72,8 @@ struct kind_traits<kind::edge_edge> {
     using query = edge_edge<T>;
     using pair = edge_edge_pair;
     static constexpr std::size_t first_vertices = 2, second_vertices = 2;
-    static constexpr std::string_view short_name = "ee", name = "edge_edge", path_name = "edge-edge";
+    static constexpr std::string_view short_name = "ee", name = "edge_edge",
+                                      path_name = "edge-edge";
 };
 template <>
 struct kind_traits<kind::vertex_edge> {
@@ -78,7 +81,8 @@ struct kind_traits<kind::vertex_edge> {
     using query = vertex_edge<T>;
     using pair = vertex_edge_pair;
     static constexpr std::size_t first_vertices = 1, second_vertices = 2;
-    static constexpr std::string_view short_name = "ve", name = "vertex_edge", path_name = "vertex-edge";
+    static constexpr std::string_view short_name = "ve", name = "vertex_edge",
+                                      path_name = "vertex-edge";
 };
 template <>
 struct kind_traits<kind::vertex_vertex> {
@@ -86,7 +90,8 @@ struct kind_traits<kind::vertex_vertex> {
     using query = vertex_vertex<T>;
     using pair = vertex_vertex_pair;
     static constexpr std::size_t first_vertices = 1, second_vertices = 1;
-    static constexpr std::string_view short_name = "vv", name = "vertex_vertex", path_name = "vertex-vertex";
+    static constexpr std::string_view short_name = "vv", name = "vertex_vertex",
+                                      path_name = "vertex-vertex";
 };
 
 namespace detail {
@@ -134,10 +139,14 @@ using query_of_pair = typename kind_traits<kind_of<Pair>>::template query<T>;
 template <class Visit>
 constexpr decltype(auto) visit_kind(kind k, Visit&& visit) {
     switch (k) {
-        case kind::edge_edge: return visit.template operator()<kind::edge_edge>();
-        case kind::vertex_edge: return visit.template operator()<kind::vertex_edge>();
-        case kind::vertex_vertex: return visit.template operator()<kind::vertex_vertex>();
-        default: return visit.template operator()<kind::vertex_face>();
+        case kind::edge_edge:
+            return visit.template operator()<kind::edge_edge>();
+        case kind::vertex_edge:
+            return visit.template operator()<kind::vertex_edge>();
+        case kind::vertex_vertex:
+            return visit.template operator()<kind::vertex_vertex>();
+        default:
+            return visit.template operator()<kind::vertex_face>();
     }
 }
 
@@ -153,7 +162,6 @@ constexpr std::string_view path_name(kind k) {
 constexpr std::string_view name(kind k) {
     return visit_kind(k, []<kind K>() { return kind_traits<K>::name; });
 }
-
 
 /// The kinds that files of queries hold and that every method decides.
 inline constexpr std::array stored_kinds{kind::vertex_face, kind::edge_edge};

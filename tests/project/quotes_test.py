@@ -1,24 +1,95 @@
-"""Every C++ block of a page is in the program that it is said to be from.
+"""What documents quote is what it is quoted from.
 
-Arguments: page, program. Indentation and empty lines do not matter; order of lines does.
+usage: quotes_test.py SOURCE_FOLDER
+
+C++ blocks of a page stand in one of its programs (indentation and empty lines do not matter). Rows of measured tables, and figures with a unit, that pages state stand in docs/measured.md.
+Relative links lead to files.
 """
 import re
 import sys
+from pathlib import Path
+
+root = Path(sys.argv[1])
+
+# Pages whose every C++ block is code of these programs.
+PROGRAMS = {
+    "README.md": ["examples/three_uses.cpp"],
+    "docs/authoring-predicates.md": ["examples/authoring.cpp"],
+}
+# Pages that quote measured figures.
+QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]
+MEASURED = "docs/measured.md"
+
+NUMBER = r"\d[\d,]*(?:\.\d+)?"
+FIGURE = re.compile(rf"(?:{NUMBER} (?:to|and|/) )?{NUMBER} (?:ns|ms|µs|%|times)(?!\w)"
+                    rf"|\d{{1,3}}(?:,\d{{3}})+(?!\d)")
+
+
+def read(name):
+    return (root / name).read_text()
 
 
 def lines(text):
     return [line.strip() for line in text.splitlines() if line.strip()]
 
 
-page, program = (open(name).read() for name in sys.argv[1:3])
-blocks = re.findall(r"^```cpp\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-assert blocks, f"{sys.argv[1]} has no C++ block"
-compiled = lines(program)
-missing = 0
-for block in map(lines, blocks):
-    starts = range(len(compiled) - len(block) + 1)
-    if not any(compiled[i:i + len(block)] == block for i in starts):
-        print(f"not in {sys.argv[2]}:", *block, sep="\n  ")
-        missing += 1
-print(f"{len(blocks) - missing} of {len(blocks)} blocks are in the program")
-sys.exit(missing != 0)
+def without_code(text):
+    return re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+
+
+def is_include(line):
+    return line.startswith("#include")
+
+
+def holds(source, block):
+    """Includes may stand anywhere (with or without a comment), the rest in one piece."""
+    included = {line.split(">")[0] for line in source if is_include(line)}
+    code = [line for line in block if not is_include(line)]
+    return (all(line.split(">")[0] in included for line in block if is_include(line)) and
+            any(source[i:i + len(code)] == code for i in range(len(source) - len(code) + 1)))
+
+
+def missing_blocks(page, programs):
+    blocks = [lines(block)
+              for block in re.findall(r"^```cpp\n(.*?)^```", read(page), re.MULTILINE | re.DOTALL)]
+    assert blocks, f"{page} has no C++ block"
+    sources = [lines(read(program)) for program in programs]
+    for block in blocks:
+        if not any(holds(source, block) for source in sources):
+            yield f"{page}: not in {' or '.join(programs)}:\n  " + "\n  ".join(block)
+    print(f"{page}: {len(blocks)} C++ blocks")
+
+
+def missing_figures(page, measured):
+    text = without_code(read(page))
+    rows = [line for line in text.splitlines() if line.startswith("|") and len(re.findall(NUMBER, line)) > 2]
+    for row in rows:
+        if row not in measured.splitlines():
+            yield f"{page}: a row that {MEASURED} does not have: {row}"
+    prose = " ".join(line for line in text.splitlines() if line not in rows)
+    figures = FIGURE.findall(prose)
+    for figure in figures:
+        if figure not in " ".join(measured.split()):
+            yield f"{page}: {MEASURED} does not have '{figure}'"
+    print(f"{page}: {len(rows)} rows, {len(figures)} figures")
+
+
+def dead_links():
+    pages = [root / "README.md", root / "CONTRIBUTING.md", root / "proofs/README.md",
+             *sorted((root / "docs").glob("*.md"))]
+    found = 0
+    for page in pages:
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", without_code(page.read_text())):
+            found += 1
+            if not (page.parent / target).exists():
+                yield f"{page.relative_to(root)}: '{target}' is not there"
+    print(f"{len(pages)} pages: {found} links")
+
+
+errors = list(dead_links())
+for page, programs in PROGRAMS.items():
+    errors += missing_blocks(page, programs)
+for page in QUOTING:
+    errors += missing_figures(page, read(MEASURED))
+print(*errors, sep="\n")
+sys.exit(bool(errors))
