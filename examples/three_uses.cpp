@@ -1,11 +1,12 @@
-// The README's three uses as one program: a predicate, a step of a mesh, a number that knows its error.
+// The README's three uses as one program: a predicate, a step of a mesh, a number that knows its
+// error.
 #include <ccd/step.hpp>
 #include <cstdio>
 #include <errbound/predicate.hpp>
 #include <errbound/tracked.hpp>
 
-inline constexpr auto orient2d = errbound::predicate<errbound::points<2, 2, 2>>(
-    [](const auto& a, const auto& b, const auto& c) {
+inline constexpr auto orient2d =
+    errbound::predicate<errbound::points<2, 2, 2>>([](const auto& a, const auto& b, const auto& c) {
         return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     });
 

@@ -14,4 +14,5 @@ cmake --build "$work/build" >/dev/null
 if [[ -f $work/prefix/lib/liberrbound_ccd_cuda.a ]]; then "$work/build/use_ccd_cuda"; fi
 "$work/prefix/bin/ccd" methods | grep -q exact
 test -f "$work/prefix/share/errbound/scenes/cloth-over-ball/frame0.ply"
+test -f "$work/prefix/share/doc/errbound/CITATION.cff"
 echo "installed package found, built against and run"

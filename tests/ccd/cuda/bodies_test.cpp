@@ -26,6 +26,7 @@
 #include "ccd/step/step_parts.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
+#include "tests/support/scaled.hpp"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -66,7 +67,7 @@ std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& a
 }
 
 std::uint64_t queries_per_family() {
-    return cuda_sets::queries_per_family(200);
+    return support::scaled(200u);
 }
 
 template <class Pair>

@@ -16,6 +16,7 @@
 #include "ccd/io/mesh_file.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -34,7 +35,7 @@ class on_device : public testing::Test {
 
 template <class Pair>
 batch<Pair> difficult() {
-    return cuda_sets::of_families<Pair>(cuda_sets::queries_per_family(2000), 21);
+    return cuda_sets::of_families<Pair>(support::scaled(2000u), 21);
 }
 
 template <class Pair>

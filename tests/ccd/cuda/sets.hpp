@@ -96,12 +96,6 @@ batch<Pair> stored(const std::filesystem::path& folder) {
     return all;
 }
 
-/// How many queries of a family: the environment's ERRBOUND_DEVICE_QUERIES, else `usual`.
-inline std::uint64_t queries_per_family(std::uint64_t usual) {
-    const char* text = std::getenv("ERRBOUND_DEVICE_QUERIES");
-    return text == nullptr ? usual : std::strtoull(text, nullptr, 10);
-}
-
 inline std::filesystem::path data_folder() {
     if (const char* folder = std::getenv("ERRBOUND_SHARED_DATA")) return folder;
     return ERRBOUND_SHARED_DATA;

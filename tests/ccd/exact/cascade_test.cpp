@@ -21,6 +21,7 @@
 #include "ccd/exact/integers.hpp"
 #include "ccd/exact/static_filter.hpp"
 #include "tests/support/query_families.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -28,8 +29,7 @@ using query_families::families;
 using query_families::kind;
 
 std::uint64_t queries_per_family() {
-    const char* text = std::getenv("ERRBOUND_CASCADE_QUERIES");
-    return text == nullptr ? 200 : std::strtoull(text, nullptr, 10);
+    return support::scaled(200u);
 }
 
 template <class Query>

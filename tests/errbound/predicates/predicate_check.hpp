@@ -1,5 +1,4 @@
 // What tests of predicates share: each against an oracle, every stage alone and all together.
-// ERRBOUND_PREDICATE_INPUTS: inputs per predicate and family.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,13 +7,13 @@
 #include <boost/multiprecision/gmp.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <errbound/multiprecision.hpp>
 #include <errbound/predicate.hpp>
 #include <string>
 #include <tuple>
 
 #include "tests/errbound/predicates/predicate_list.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace predicate_check {
 
@@ -28,8 +27,7 @@ using point2 = std::array<double, 2>;
 using point3 = std::array<double, 3>;
 
 inline int inputs_per_family() {
-    const char* const text = std::getenv("ERRBOUND_PREDICATE_INPUTS");
-    return text == nullptr ? 4000 : std::atoi(text);
+    return support::scaled(4000);
 }
 
 /// The same expression over rationals, all by itself.

@@ -1,17 +1,15 @@
 // Root counts against FLINT's, whole line and positive half; signs at the roots against Tarski's
 // query and FLINT's count of common roots.
-//
-// ERRBOUND_ROOTS_POLYNOMIALS: how many polynomials per family.
 #include <flint/fmpz_poly.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <errbound/polynomial.hpp>
 #include <limits>
 
 #include "tests/errbound/roots/flint_polynomial.hpp"
 #include "tests/errbound/roots/polynomial_families.hpp"
 #include "tests/errbound/roots/tarski.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -26,8 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class Flint : public testing::TestWithParam<family> {};
 
 int polynomials() {
-    const char* const asked = std::getenv("ERRBOUND_ROOTS_POLYNOMIALS");
-    return asked != nullptr ? std::atoi(asked) : 300;
+    return support::scaled(300);
 }
 
 TEST_P(Flint, CountsAgree) {

@@ -1,6 +1,4 @@
 // Roots and signs of polynomials of any degree, against Sturm chains in integers.
-//
-// ERRBOUND_ROOTS_POLYNOMIALS: how many polynomials per family.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 
 #include "tests/errbound/roots/polynomial_families.hpp"
 #include "tests/errbound/roots/tarski.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -31,8 +30,7 @@ using form = std::vector<integer>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 int polynomials() {
-    const char* const asked = std::getenv("ERRBOUND_ROOTS_POLYNOMIALS");
-    return asked != nullptr ? std::atoi(asked) : 120;
+    return support::scaled(120);
 }
 
 std::string text(const sample& s) {

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "errbound/validation/validation.hpp"
 #include "tests/errbound/validation/validation_rules.hpp"
 #include "tests/support/query_families.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -20,10 +20,8 @@ using validation_test::as_printed;
 using validation_test::expect_all_kept;
 using validation_test::too_small;
 
-/// As many as a test's time allows; sanitizers make everything slower.
 std::uint64_t expression_count() {
-    const char* wanted = std::getenv("ERRBOUND_VALIDATE_EXPRESSIONS");
-    return wanted ? std::strtoull(wanted, nullptr, 10) : 20000;
+    return support::scaled(20000u);
 }
 
 TEST(Validate, EveryRuleKeepsItsPromisesInRandomExpressions) {

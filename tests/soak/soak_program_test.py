@@ -1,6 +1,6 @@
 """The soak program as a person uses it: stopped by signals, resumed, same report as in one go.
 
-    SOAK_PROGRAM=build/tests/errbound_soak python3 stop_and_resume.py
+    SOAK_PROGRAM=build/tests/soak/errbound_soak python3 soak_program_test.py
 """
 
 import json

@@ -1,0 +1,265 @@
+"""The house's rules that can be counted: sizes of folders, files and functions, and who includes whom.
+
+Argument: the source folder. Prints what it counted; status 1 if a limit is passed.
+"""
+import ast
+import collections
+import pathlib
+import re
+import sys
+
+FILES_PER_FOLDER = 22
+ROOT_CMAKE_LINES = 80
+README_LINES = 160
+FUNCTION_LINES = 50
+INTERNALS_NAMED = 8  # to be none
+LONGER_FUNCTIONS = 19  # to be none
+
+FOLDERS = ["ccd", "errbound", "include", "python", "examples", "tests"]
+CPP = {".hpp", ".cpp", ".cu", ".cuh"}
+SOURCES = CPP | {".py"}
+
+# Lowest first; a file belongs to the first layer with a pattern that it matches, and includes files
+# of its own and of lower layers. Within a layer, no cycle between folders.
+LAYERS = [
+    ("floating-point facts", r"include/errbound/((environment|number_traits|sign|error_free)\.hpp|detail/)"),
+    ("bound rules", r"include/errbound/rules/"),
+    ("tracked scalar", r"include/errbound/tracked\.hpp"),
+    ("exact numbers", r"include/errbound/(integers/|(multiprecision|eigen)\.hpp)"),
+    ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),
+    ("predicates", r"include/errbound/(predicate\w*\.hpp|filters/)"),
+    ("all of errbound", r"include/errbound/"),
+    ("ccd: queries and calls", r"include/ccd/(?!ccd\.hpp)\w+\.hpp"),
+    ("ccd: methods' headers", r"include/ccd/methods/"),
+    ("all of ccd", r"include/ccd/"),
+    ("support of programs", r"errbound/support/"),
+    ("validation", r"errbound/validation/"),
+    ("ccd: one query", r"ccd/exact/"),
+    ("ccd: other methods", r"ccd/methods/"),
+    ("ccd: batches", r"ccd/batch/"),
+    ("ccd: steps", r"ccd/step/"),
+    ("ccd: devices, ranks", r"ccd/(cuda|mpi)/"),
+    ("files", r"ccd/io/"),
+    ("stress", r"ccd/stress/"),
+    ("reports", r"ccd/report/"),
+    ("programs", r"(ccd|errbound)/program/"),
+]
+KNOWS_CCD = r"errbound/(validation|program)/"  # as their CMakeLists.txt say
+INTERNAL = r"(errbound/(detail|integers|filters|roots)|ccd/(exact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
+PUBLIC_HEADERS = r"include/(errbound/(rules/)?|ccd/(methods/)?)\w+\.hpp$"
+
+
+def blank(match):
+    """As many lines of nothing."""
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+def code_alone(text):
+    """C++ without comments, literals and preprocessor lines, every line where it was."""
+    literal = r'R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\''
+    text = re.sub(rf"//[^\n]*|/\*.*?\*/|{literal}", blank, text, flags=re.DOTALL)
+    return re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", blank, text, flags=re.MULTILINE)
+
+
+def without_brackets(text, opening, closing):
+    kept, depth = [], 0
+    for c in text:
+        depth += c == opening
+        if depth == 0:
+            kept.append(c)
+        depth -= c == closing and depth > 0
+    return "".join(kept)
+
+
+def kind_of_brace(head):
+    """What a brace opens at namespace or class scope, from the text since the last statement."""
+    plain = without_brackets(without_brackets(head, "(", ")"), "<", ">")
+    declared = re.sub(r"\b(template|inline|constexpr|static|extern|typedef)\b", " ", plain).split()
+    if not declared or declared[0] in ("namespace", "class", "struct", "union", "enum"):
+        return "scope"
+    if re.search(r"\brequires\s*$", plain):
+        return "part of the head"
+    if "operator" not in plain and "=" in plain:
+        return "function" if re.search(r"=\s*\[[^]]*\]\s*\S*\s*$", plain) else "value"
+    if "(" not in head:
+        return "value"
+    in_initialisers = re.search(r"\)[^()]*:[^:]", head) and re.search(r"[\w>]\s*$", head)
+    return "part of the head" if in_initialisers else "function"
+
+
+def cpp_functions(text):
+    """(name, first line, lines) of every function that is in no other."""
+    code = code_alone(text)
+    found, stack, start, i = [], [], 0, 0
+    while i < len(code):
+        c = code[i]
+        outside = all(kind == "scope" for kind, _ in stack)
+        if c == "{":
+            kind = kind_of_brace(code[start:i]) if outside else "inside"
+            stack.append((kind, start))
+            if kind == "scope":
+                start = i + 1
+        elif c == "}" and stack:
+            kind, begin = stack.pop()
+            if kind == "function":
+                head = code[begin:i].split("{")[0]
+                signature = re.sub(r"^\s*(template\s*<[^;{]*?>\s*(?=[\w\[:~]))?", "", head)
+                first = code.count("\n", 0, begin + len(head) - len(signature)) + 1
+                name = re.sub(r"\s+", " ", signature.split("\n")[0].strip())
+                found.append((name, first, code.count("\n", 0, i) + 2 - first))
+            if kind in ("scope", "function"):
+                start = i + 1
+        elif c == ";" and outside:
+            start = i + 1
+        elif c == ":" and outside and re.search(r"\b(public|private|protected)\s*$", code[start:i]):
+            start = i + 1
+        i += 1
+    return found
+
+
+def python_functions(text):
+    return [(node.name, node.lineno, node.end_lineno + 1 - node.lineno)
+            for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+
+
+class findings:
+    def __init__(self):
+        self.failed = False
+
+    def check(self, what, found, limit, where=""):
+        """Prints the largest value found beside its limit."""
+        self.failed |= found > limit
+        print(f"{'FAILED' if found > limit else 'ok':7}{what}: {found} of at most {limit} {where}".rstrip())
+
+    def wrong(self, what, cases, limit=0):
+        self.check(what, len(cases), limit)
+        for case in cases:
+            print(f"         {case}")
+
+
+def check_sizes(root, sources, found):
+    per_folder = collections.Counter(str(path.parent) for path in sources)
+    folder, count = per_folder.most_common(1)[0]
+    found.check("source files in a folder", count, FILES_PER_FOLDER, f"({folder})")
+    for name, limit in (("CMakeLists.txt", ROOT_CMAKE_LINES), ("README.md", README_LINES)):
+        found.check(f"lines of {name}", len((root / name).read_text().splitlines()), limit)
+
+
+def check_functions(root, sources, found):
+    functions = []
+    for path in sources:
+        text = (root / path).read_text()
+        of = python_functions if path.suffix == ".py" else cpp_functions
+        functions += [(lines, f"{path}:{first}: {name}") for name, first, lines in of(text)]
+    functions.sort(reverse=True)
+    longer = [case for case in functions if case[0] > FUNCTION_LINES]
+    found.check(f"functions of more than {FUNCTION_LINES} lines, of {len(functions)}", len(longer),
+                LONGER_FUNCTIONS)
+    for lines, where in longer or functions[:1]:
+        print(f"{lines:12} lines: {where}")
+
+
+def layer_of(path):
+    return next((i for i, (_, pattern) in enumerate(LAYERS) if re.match(pattern, path)), None)
+
+
+def includes(root, sources):
+    """(file, included file) of the project's own, paths from the root."""
+    own = {str(path) for path in sources}
+    for path in own:
+        if pathlib.Path(path).suffix not in CPP:
+            continue
+        text = (root / path).read_text()
+        for name in re.findall(r'^[ \t]*#[ \t]*include[ \t]*[<"]([^">]+)[">]', text, re.MULTILINE):
+            beside = str(pathlib.Path(path).parent / name)
+            for candidate in ("include/" + name, name, beside):
+                if candidate in own:
+                    yield path, candidate
+                    break
+
+
+def cycle(edges):
+    """A cycle of a graph of sets, as a list, or nothing."""
+    done, path = set(), []
+
+    def visit(node):
+        if node in path:
+            return path[path.index(node):] + [node]
+        if node in done:
+            return []
+        path.append(node)
+        found = next((c for c in map(visit, sorted(edges.get(node, ()))) if c), [])
+        path.pop()
+        done.add(node)
+        return found
+
+    return next((c for c in map(visit, sorted(edges)) if c), [])
+
+
+def room_of(path):
+    """Its folder; a header right under include/errbound or include/ccd is a room of its own."""
+    folder = str(pathlib.Path(path).parent)
+    return path if folder in ("include/errbound", "include/ccd") else folder
+
+
+def check_includes(root, sources, found):
+    homeless, upwards, of_ccd, of_tests = set(), [], [], []
+    rooms = collections.defaultdict(set)
+    for file, included in sorted(includes(root, sources)):
+        if file.startswith(("tests/", "examples/")):
+            continue
+        if included.startswith("tests/"):
+            of_tests.append(f"{file} includes {included}")
+            continue
+        if room_of(file) != room_of(included):
+            rooms[room_of(file)].add(room_of(included))
+        layers = layer_of(file), layer_of(included)
+        homeless |= {path for path, layer in zip((file, included), layers) if layer is None}
+        if None not in layers and layers[0] < layers[1]:
+            upwards.append(f"{file} ({LAYERS[layers[0]][0]}) includes {included} ({LAYERS[layers[1]][0]})")
+        if (re.match(r"(include/)?ccd/", included) and re.match(r"(include/)?errbound/", file)
+                and not re.match(KNOWS_CCD, file)):
+            of_ccd.append(f"{file} includes {included}")
+    found.wrong("files of no layer", sorted(homeless))
+    found.wrong("includes of a higher layer", upwards)
+    found.wrong("includes of tests", of_tests)
+    found.wrong("includes of ccd by errbound, but for its validation", of_ccd)
+    around = cycle(rooms)
+    found.wrong("cycles of rooms", [" -> ".join(around)] if around else [])
+
+
+def check_internals_unnamed(root, sources, found):
+    """Nobody is told to include what is internal."""
+    named = []
+    for path in [*sources, *(p.relative_to(root) for p in [root / "README.md", *root.glob("docs/*.md")])]:
+        text = (root / path).read_text()
+        if path.suffix == ".md" or path.parts[0] == "examples" and path.suffix in CPP:
+            told = rf'#\s*include\s*[<"]({INTERNAL})[>"]'
+        elif re.match(PUBLIC_HEADERS, str(path)):
+            told = rf"^\s*//.*?({INTERNAL})"
+        else:
+            continue
+        named += [f"{path} names {m[1]}" for m in re.finditer(told, text, re.MULTILINE)]
+    found.wrong("internal headers named as something to include", named, INTERNALS_NAMED)
+
+
+def check_version(root, found):
+    of_cmake = re.search(r"project\(errbound VERSION (\S+)", (root / "CMakeLists.txt").read_text())[1]
+    of_citation = re.search(r"^version: (\S+)", (root / "CITATION.cff").read_text(), re.MULTILINE)[1]
+    found.wrong("versions that differ from CMakeLists.txt's",
+                [] if of_citation == of_cmake else [f"CITATION.cff: {of_citation}, not {of_cmake}"])
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    sources = sorted(path.relative_to(root) for folder in FOLDERS
+                     for path in (root / folder).rglob("*") if path.suffix in SOURCES)
+    found = findings()
+    for check in check_sizes, check_functions, check_includes, check_internals_unnamed:
+        check(root, sources, found)
+    check_version(root, found)
+    return found.failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())
