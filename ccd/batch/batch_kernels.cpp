@@ -264,7 +264,7 @@ class pipeline {
         for_each_pack(to_coplanarity_, block, [&](std::size_t at, std::size_t count) {
             const Forms<pack> forms = forms_at(to_coplanarity_, at);
             const static_filter::sizes<pack> sizes(forms);
-            const auto y = errbound::control_values_of(forms.y());
+            const auto y = errbound::roots::control_values_of(forms.y());
             const pack error = sizes.template error_of_y<Forms>();
             const pack_mask rootless =
                 static_filter::above(y, error) | static_filter::below(y, error);
@@ -297,15 +297,15 @@ class pipeline {
     }
 
     template <int N, class Queue>
-    static errbound::control_values<pack, N> load_form(const Queue& from, std::size_t column,
-                                                       std::size_t at) {
-        errbound::control_values<pack, N> c;
+    static errbound::roots::control_values<pack, N> load_form(const Queue& from, std::size_t column,
+                                                              std::size_t at) {
+        errbound::roots::control_values<pack, N> c;
         for (int i = 0; i <= N; ++i) c[i] = from.load(column + static_cast<std::size_t>(i), at);
         return c;
     }
     template <int N, class Queue>
-    static void put_form(Queue& to, const errbound::control_values<pack, N>& c, std::size_t column,
-                         std::uint32_t lanes, std::size_t offset = 0) {
+    static void put_form(Queue& to, const errbound::roots::control_values<pack, N>& c,
+                         std::size_t column, std::uint32_t lanes, std::size_t offset = 0) {
         for (int i = 0; i <= N; ++i)
             to.put(column + static_cast<std::size_t>(i), c[i], lanes, offset);
     }
@@ -358,7 +358,7 @@ class pipeline {
                 if (open == 0) return;
                 const std::size_t lefts = count_of(open);  // the right halves come behind them
                 const auto put_halves = [&](const auto& form, std::size_t column) {
-                    const auto halves = errbound::halves(form);
+                    const auto halves = errbound::roots::halves(form);
                     put_form(halved, halves.first, column, open);
                     put_form(halved, halves.second, column, open, lefts);
                 };

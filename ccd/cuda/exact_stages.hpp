@@ -188,7 +188,7 @@ struct coplanarity_stage : coefficient_stage<Pair, Real> {
         }
         const auto forms = this->forms_of_query(query);
         const static_filter::sizes<Real> sizes(forms);
-        const auto y = errbound::control_values_of(forms.y());
+        const auto y = errbound::roots::control_values_of(forms.y());
         const Real error = sizes.template error_of_y<base::template forms>();
         const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
         if (!this->usable(sizes) || !rootless) this->open.push(i);

@@ -58,9 +58,9 @@ struct integer_units {
     template <int Words, class Query>
     constexpr auto converted(const Query& query) const {
         return transformed_points(query, [this](const point<double>& p) {
-            return point<errbound::fixed_integer<Words>>{in_units<Words>(p.x, x.unit),
-                                                         in_units<Words>(p.y, y.unit),
-                                                         in_units<Words>(p.z, z.unit)};
+            return point<errbound::integers::fixed_integer<Words>>{in_units<Words>(p.x, x.unit),
+                                                                   in_units<Words>(p.y, y.unit),
+                                                                   in_units<Words>(p.z, z.unit)};
         });
     }
 
@@ -72,10 +72,11 @@ struct integer_units {
           z(points, &point<double>::z) {}
 
     template <int Words>
-    static constexpr errbound::fixed_integer<Words> in_units(double coordinate, int unit) {
+    static constexpr errbound::integers::fixed_integer<Words> in_units(double coordinate,
+                                                                       int unit) {
         const errbound::binary_double d(coordinate);
         const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
-        const auto size = errbound::fixed_integer<Words>::shifted(
+        const auto size = errbound::integers::fixed_integer<Words>::shifted(
             d.magnitude >> std::clamp(-shift, 0, 63), std::max(shift, 0));
         return d.negative ? -size : size;
     }

@@ -9,13 +9,13 @@ namespace ccd {
 /// The real number that it stands for is less than 2^error_bits away from `value`, or equal to it
 /// if error_bits is below exact/2. Bounds are kept to powers of two, and rounded up: some ten
 /// operations cost as many bits, which is little where errors are far below the values. Widths are
-/// those of errbound::fixed_integer, and so is the caller's duty to bound the values.
+/// those of errbound::integers::fixed_integer, and so is the caller's duty to bound the values.
 template <int Words>
 struct bounded_integer {
     /// So low that a few operations leave it below exact/2.
     static constexpr int exact = -(1 << 20);
 
-    errbound::fixed_integer<Words> value;
+    errbound::integers::fixed_integer<Words> value;
     int error_bits = exact;
 
     /// Proof: proofs/BoundedInteger.v, bounded_sum_known, bounded_difference_known.

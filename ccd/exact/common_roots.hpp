@@ -18,14 +18,14 @@
 namespace ccd {
 
 template <int Words>
-using linear_form = errbound::bernstein<errbound::fixed_integer<Words>, 1>;
+using linear_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>;
 template <int Words>
-using quadratic_form = errbound::bernstein<errbound::fixed_integer<Words>, 2>;
+using quadratic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>;
 
 /// f at the point whose (s², st, t²) is m.
 template <int A, int B>
-constexpr errbound::fixed_integer<A + B> value_at_squares(const quadratic_form<A>& f,
-                                                          const quadratic_form<B>& m) {
+constexpr errbound::integers::fixed_integer<A + B> value_at_squares(const quadratic_form<A>& f,
+                                                                    const quadratic_form<B>& m) {
     return f[0] * m[0] + f[1] * m[1] + f[2] * m[2];
 }
 

@@ -19,11 +19,12 @@
 namespace ccd {
 
 template <int Words>
-using cubic_form = errbound::bernstein<errbound::fixed_integer<Words>, 3>;
+using cubic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 3>;
 
 /// 3x, which must fit.
 template <int Words>
-constexpr errbound::fixed_integer<Words> thrice(const errbound::fixed_integer<Words>& x) {
+constexpr errbound::integers::fixed_integer<Words> thrice(
+    const errbound::integers::fixed_integer<Words>& x) {
     return (x << 1) + x;
 }
 
@@ -58,7 +59,7 @@ struct inner_sign_changes {
 /// triple_root_place.
 /// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
 template <int Words>
-constexpr errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(
+constexpr errbound::bernstein<errbound::integers::fixed_integer<2 * Words>, 2> hessian(
     const cubic_form<Words>& y) {
     return {{y[1] * y[1] - thrice(y[0] * y[2]), y[1] * y[2] - thrice(thrice(y[0] * y[3])),
              y[2] * y[2] - thrice(y[1] * y[3])}};
@@ -67,7 +68,7 @@ constexpr errbound::bernstein<errbound::fixed_integer<2 * Words>, 2> hessian(
 /// All numbers, in floating point, times one power of two.
 template <int Words, std::size_t N>
 constexpr std::array<double, N> approximated(
-    const std::array<errbound::fixed_integer<Words>, N>& x) {
+    const std::array<errbound::integers::fixed_integer<Words>, N>& x) {
     int bits = 0;
     for (const auto& number : x) bits = std::max(bits, number.bit_length());
     std::array<double, N> r;
@@ -116,7 +117,7 @@ struct cubic_part {
 /// A point numerator/2^bits.
 template <int T>
 struct dyadic_point {
-    errbound::fixed_integer<T> numerator;
+    errbound::integers::fixed_integer<T> numerator;
     int bits;
 };
 
@@ -124,9 +125,9 @@ struct dyadic_point {
 /// 2^(3·bits); or the root itself if low = high.
 template <int Words, int T>
 struct root_bracket {
-    errbound::fixed_integer<T> low, high;
+    errbound::integers::fixed_integer<T> low, high;
     int bits;
-    errbound::fixed_integer<Words + 3 * T> y_low, y_high;
+    errbound::integers::fixed_integer<Words + 3 * T> y_low, y_high;
 
     constexpr bool is_root() const { return low == high; }
     constexpr std::int64_t width() const { return (high - low).low_word(); }
@@ -152,7 +153,7 @@ template <int Words, int T>
 constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Words>& y,
                                                              const cubic_part<Words>& part,
                                                              const dyadic_point<T>& place) {
-    using number = errbound::fixed_integer<T>;
+    using number = errbound::integers::fixed_integer<T>;
     using errbound::sign_type;
     const auto end = number::shifted(1, place.bits);
     const auto to_bits = [&](std::int64_t index) {
@@ -186,12 +187,12 @@ constexpr std::optional<root_bracket<Words, T>> bracket_near(const cubic_form<Wo
 template <int Words, int T>
 constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
                                             const root_bracket<Words, T>& bracket) {
-    using number = errbound::fixed_integer<Words + 3 * T>;
-    const auto end = errbound::fixed_integer<T>::shifted(1, bracket.bits);
+    using number = errbound::integers::fixed_integer<Words + 3 * T>;
+    const auto end = errbound::integers::fixed_integer<T>::shifted(1, bracket.bits);
     // dy/dt, at most twice as large as y's coefficients may be.
-    const errbound::bernstein<errbound::fixed_integer<Words>, 2> slope{
+    const errbound::bernstein<errbound::integers::fixed_integer<Words>, 2> slope{
         {y[1] - thrice(y[0]), (y[2] - y[1]) << 1, thrice(y[3]) - y[2]}};
-    const errbound::fixed_integer<1> width(bracket.width());
+    const errbound::integers::fixed_integer<1> width(bracket.width());
     const number rise_at_low = width * value_at(slope, end - bracket.low, bracket.low);
     const number rise_at_high = width * value_at(slope, end - bracket.high, bracket.high);
     const std::array h{bracket.y_low, thrice(bracket.y_low) + rise_at_low,
@@ -199,8 +200,8 @@ constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
     const int more = 46 - bracket.width_bits();
     const double place =
         std::ldexp(static_cast<double>(bracket.width()) * estimated_root(approximated(h)), more);
-    return {(errbound::fixed_integer<T + 1>(bracket.low) << more) +
-                errbound::fixed_integer<T + 1>(static_cast<std::int64_t>(place)),
+    return {(errbound::integers::fixed_integer<T + 1>(bracket.low) << more) +
+                errbound::integers::fixed_integer<T + 1>(static_cast<std::int64_t>(place)),
             bracket.bits + more};
 }
 

@@ -25,7 +25,7 @@ template <template <class> class Forms, template <class> class Query>
     }
     {
         stage_timer turn(report, stage::coplanarity);
-        const auto y = errbound::control_values_of(forms.y());
+        const auto y = errbound::roots::control_values_of(forms.y());
         const double error = sizes.error_of_y<Forms>();
         const bool rootless = above(y, error) || below(y, error);
         turn.count(1, rootless, 0);

@@ -28,7 +28,7 @@ namespace detail {
 /// first. Every contact has Y = 0. Proof: proofs/InteriorContact.v, face_decision_right,
 /// edges_decision_right.
 template <int Words, template <class> class Query>
-constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
+constexpr outcome contact_of(const Query<errbound::integers::fixed_integer<Words>>& query,
                              const Query<double>& original, const integer_units& units) {
     const auto forms = forms_of(query);
     const auto y = forms.y();
@@ -41,12 +41,12 @@ constexpr outcome contact_of(const Query<errbound::fixed_integer<Words>>& query,
 }
 /// Proof: proofs/InteriorContact.v, vertex_edge_decision_right.
 template <int Words>
-constexpr outcome contact_of(const vertex_edge<errbound::fixed_integer<Words>>& query,
+constexpr outcome contact_of(const vertex_edge<errbound::integers::fixed_integer<Words>>& query,
                              const vertex_edge<double>& original, const integer_units&) {
     return !separated(original) && contact(query) ? outcome::collides : outcome::separate;
 }
 template <int Words>
-constexpr outcome contact_of(const vertex_vertex<errbound::fixed_integer<Words>>& query,
+constexpr outcome contact_of(const vertex_vertex<errbound::integers::fixed_integer<Words>>& query,
                              const vertex_vertex<double>&, const integer_units&) {
     return contact(query) ? outcome::collides : outcome::separate;
 }

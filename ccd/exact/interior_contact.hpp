@@ -46,7 +46,7 @@ template <int Words, template <class, int> class Forms>
 class interior_contact {
   public:
     /// y = forms.y(). Differences of coordinates are below 2^units.x.bits and so on.
-    constexpr interior_contact(const Forms<errbound::fixed_integer<Words>, 1>& forms,
+    constexpr interior_contact(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
                                const cubic_form<3 * Words>& y, const integer_units& units)
         : forms_(forms), y_(y), units_(units) {}
 
@@ -68,7 +68,7 @@ class interior_contact {
 
   private:
     template <int W>
-    using number = errbound::fixed_integer<W>;
+    using number = errbound::integers::fixed_integer<W>;
     using sign_type = errbound::sign_type;
     using part = cubic_part<3 * Words>;
 
@@ -231,7 +231,7 @@ class interior_contact {
         return found;
     }
 
-    const Forms<errbound::fixed_integer<Words>, 1>& forms_;
+    const Forms<errbound::integers::fixed_integer<Words>, 1>& forms_;
     const cubic_form<3 * Words>& y_;
     const integer_units& units_;
     bool distinct_ = true;           ///< no root of Y is known to be multiple

@@ -26,7 +26,7 @@ namespace ccd {
 namespace {
 
 using errbound::sign_type;
-using form = errbound::integer_form<integer>;
+using form = errbound::roots::integer_form<integer>;
 
 /// Y = 0, N ≠ 0 and all G_i >= 0 at some t in [0, 1].
 template <template <class> class Query>
@@ -50,12 +50,12 @@ bool regular_contact(const Query<integer>& query) {
     if (y.h.front() == 0 && contact_at(at_start)) return true;
     if (y.h.back() == 0 && contact_at(at_end)) return true;
 
-    const form inner = errbound::without_end_roots(y);
+    const form inner = errbound::roots::without_end_roots(y);
     if (inner.size() < 2) return false;
     errbound::real_roots<integer> roots(inner);
     for (std::size_t k = 0; k < roots.size(); ++k) {
         const auto at_root = [&roots, k](const auto& f) {
-            return roots.sign_at_root(errbound::without_end_roots(f), k);
+            return roots.sign_at_root(errbound::roots::without_end_roots(f), k);
         };
         if (contact_at(at_root)) return true;
     }

@@ -2,7 +2,7 @@
 //
 // One template for one query (S = double) and for a pack of queries (S a SIMD batch, masks instead
 // of bools): the pack's lanes compute what the scalar computes, bit for bit. Constants come from
-// errbound::error_count, run on the same forms.
+// errbound::filters::error_count, run on the same forms.
 //
 // Sizes are measured after the subtraction of one point from the others, by axis: m_x, m_y, m_z
 // bound the computed differences. Every term of Y has one factor from each axis, so Y's errors are
@@ -62,10 +62,11 @@ struct constants {
 
 namespace detail {
 
-using errbound::basic_error_count;
 using errbound::bernstein;
-using errbound::control_values;
-using errbound::error_count;
+using errbound::filters::basic_error_count;
+using errbound::filters::error_count;
+using errbound::roots::control_values;
+using errbound::roots::control_values_of;
 
 template <class Real, int N>
 constexpr basic_error_count<Real> worst_of(const control_values<basic_error_count<Real>, N>& c) {
@@ -275,14 +276,14 @@ constexpr mask<S> separated(const Forms& f, const sizes<S>& m) {
 
 /// All control values certainly positive (`above`), or negative (`below`).
 template <class S, int N>
-constexpr mask<S> above(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> above(const errbound::roots::control_values<S, N>& c, const S& error) {
     using std::min;
     S least = c[0];
     for (int i = 1; i <= N; ++i) least = min(least, c[i]);
     return least > error;
 }
 template <class S, int N>
-constexpr mask<S> below(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> below(const errbound::roots::control_values<S, N>& c, const S& error) {
     using std::max;
     S greatest = c[0];
     for (int i = 1; i <= N; ++i) greatest = max(greatest, c[i]);
@@ -291,7 +292,7 @@ constexpr mask<S> below(const errbound::control_values<S, N>& c, const S& error)
 
 /// The largest control value's size.
 template <class S, int N>
-constexpr S size_of(const errbound::control_values<S, N>& c) {
+constexpr S size_of(const errbound::roots::control_values<S, N>& c) {
     using std::abs, std::max;
     S size = abs(c[0]);
     for (int i = 1; i <= N; ++i) size = max(size, abs(c[i]));
@@ -300,7 +301,7 @@ constexpr S size_of(const errbound::control_values<S, N>& c) {
 
 /// The end values certainly differ in sign: a root is certain.
 template <class S, int N>
-constexpr mask<S> changes_sign(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, const S& error) {
     const S& start = c[0];
     const S& end = c[N];
     const mask<S> starts_above = start > error, starts_below = start < -error;
@@ -310,15 +311,15 @@ constexpr mask<S> changes_sign(const errbound::control_values<S, N>& c, const S&
 
 /// No control value has a certain sign, nor will any of a part's.
 template <class S, int N>
-constexpr mask<S> within_error(const errbound::control_values<S, N>& c, const S& error) {
+constexpr mask<S> within_error(const errbound::roots::control_values<S, N>& c, const S& error) {
     return size_of(c) <= error;
 }
 
 /// Y and G_i on a part of the step.
 template <class S, std::size_t Constraints>
 struct part_forms {
-    errbound::control_values<S, 3> y;
-    std::array<errbound::control_values<S, 4>, Constraints> g;
+    errbound::roots::control_values<S, 3> y;
+    std::array<errbound::roots::control_values<S, 4>, Constraints> g;
 };
 
 /// The errors of all control values after up to max_depth halvings.
@@ -340,11 +341,11 @@ struct whole_step {
         using std::max;
         const S y_error = m.template error_of_y<Forms>();
         const S g_error = m.template error_of_g<Forms>();
-        forms.y = errbound::control_values_of(f.y());
+        forms.y = errbound::roots::control_values_of(f.y());
         const auto g = f.inside();
         S largest(0.0);
         for (std::size_t i = 0; i < constraints; ++i) {
-            forms.g[i] = errbound::control_values_of(g[i]);
+            forms.g[i] = errbound::roots::control_values_of(g[i]);
             largest = max(largest, size_of(forms.g[i]));
         }
         using real = typename real_of<S>::type;

@@ -52,10 +52,10 @@ constexpr outcome subdivide(const static_filter::whole_step<double, Forms>& whol
                                                        static_filter::within_error(y, errors.y)))
             return outcome::uncertain;
         auto& next = waiting.parts[waiting.size++];
-        const auto [left, right] = errbound::halves(y);
+        const auto [left, right] = errbound::roots::halves(y);
         part.forms.y = right, next.forms.y = left;
         for (std::size_t i = 0; i < constraints; ++i) {
-            const auto [g_left, g_right] = errbound::halves(g[i]);
+            const auto [g_left, g_right] = errbound::roots::halves(g[i]);
             part.forms.g[i] = g_right, next.forms.g[i] = g_left;
         }
         next.depth = ++part.depth;

@@ -78,9 +78,9 @@ inline bool contact(const vertex_edge<integer>& query) {
     if (on_line_at(2) && beyond.h[2] <= 0) return true;
 
     // The common factor of the three; empty: the motion is collinear throughout.
-    errbound::integer_form<integer> on_line;
+    errbound::roots::integer_form<integer> on_line;
     for (const auto* f : {&off_line.x, &off_line.y, &off_line.z})
-        on_line = errbound::common_factor(on_line, errbound::without_end_roots(*f));
+        on_line = errbound::roots::common_factor(on_line, errbound::roots::without_end_roots(*f));
     if (on_line.empty()) {
         // Both ends are positive by now, so a value <= 0 inside needs real roots with t/s > 0.
         return beyond.h[1] < 0 && beyond.h[1] * beyond.h[1] >= 4 * beyond.h[0] * beyond.h[2];
@@ -88,7 +88,7 @@ inline bool contact(const vertex_edge<integer>& query) {
     if (on_line.size() < 2) return false;
     errbound::real_roots<integer> roots(on_line);
     for (std::size_t k = 0; k < roots.size(); ++k)
-        if (roots.sign_at_root(errbound::without_end_roots(beyond), k) !=
+        if (roots.sign_at_root(errbound::roots::without_end_roots(beyond), k) !=
             errbound::sign_type::positive)
             return true;
     return false;

@@ -21,7 +21,8 @@
 namespace ccd {
 
 template <int Words>
-constexpr errbound::fixed_integer<Words> magnitude(const errbound::fixed_integer<Words>& x) {
+constexpr errbound::integers::fixed_integer<Words> magnitude(
+    const errbound::integers::fixed_integer<Words>& x) {
     return x.negative() ? -x : x;
 }
 
@@ -69,7 +70,7 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
 /// root in [0, 1] in all three components.
 /// Proof: proofs/VertexEdge.v, contact_right.
 template <int Words>
-constexpr bool contact(const vertex_edge<errbound::fixed_integer<Words>>& query) {
+constexpr bool contact(const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {
     using errbound::sign_of;
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);

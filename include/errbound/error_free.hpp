@@ -24,7 +24,7 @@ struct with_error {
 /// precision >= 2. Proof: proofs/ErrorFree.v, two_sum_exact.
 template <class T>
 constexpr with_error<T> two_sum(const T& a, const T& b) {
-    const T x = rounded(a), y = rounded(b);
+    const T x = detail::rounded(a), y = detail::rounded(b);
     const T sum = x + y;
     const T y_in_sum = sum - x;
     return {sum, (x - (sum - y_in_sum)) + (y - y_in_sum)};
@@ -35,7 +35,7 @@ constexpr with_error<T> two_sum(const T& a, const T& b) {
 /// Proof: proofs/ErrorFree.v, fast_two_sum_exact.
 template <class T>
 constexpr with_error<T> fast_two_sum(const T& a, const T& b) {
-    const T x = rounded(a), y = rounded(b);
+    const T x = detail::rounded(a), y = detail::rounded(b);
     const T sum = x + y;
     return {sum, y - (sum - x)};
 }
@@ -71,7 +71,7 @@ constexpr with_error<T> split(const T& x) {
         for (int i = 0; i < s; ++i) two_to_s *= 2;
         return two_to_s;
     }();
-    const T c = rounded_product(T(T(power) + 1), x);
+    const T c = detail::rounded_product(T(T(power) + 1), x);
     const T high = c - (c - x);
     return {high, x - high};
 }
@@ -82,7 +82,7 @@ constexpr with_error<T> split(const T& x) {
 /// Proof: proofs/ErrorFree.v, two_product_exact, two_product_fma_exact.
 template <class T>
 constexpr with_error<T> two_product(const T& a, const T& b) {
-    const T v = rounded_product(a, b);
+    const T v = detail::rounded_product(a, b);
     if constexpr (has_fast_fma<T>) {
         if (!std::is_constant_evaluated()) {
             if constexpr (sizeof(T) == sizeof(float))
@@ -93,9 +93,10 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     }
     const auto [a_high, a_low] = split(a);
     const auto [b_high, b_low] = split(b);
-    const T first = rounded_product(a_high, b_high) - v;
-    const T middle = (first + rounded_product(a_high, b_low)) + rounded_product(a_low, b_high);
-    return {v, middle + rounded_product(a_low, b_low)};
+    const T first = detail::rounded_product(a_high, b_high) - v;
+    const T middle =
+        (first + detail::rounded_product(a_high, b_low)) + detail::rounded_product(a_low, b_high);
+    return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
 /// Whether two_product(a, b)'s result is known to be exact: an operand is zero, or the product is

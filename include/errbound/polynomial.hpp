@@ -34,7 +34,7 @@
 
 namespace errbound {
 
-namespace detail {
+namespace roots {
 
 /// The integer type to decide in: the one named, or that of the coefficients.
 template <class Named, class C>
@@ -57,32 +57,32 @@ struct integer_for<void, C> {
 template <class Named, class C>
 using integer_for_t = typename integer_for<Named, C>::type;
 
-}  // namespace detail
+}  // namespace roots
 
 /// The distinct roots of p in [a, b], a <= b, each in an interval of its own, with multiplicities.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
-    using integer = detail::integer_for_t<Integer, C>;
-    return real_roots<integer>(staged<integer>(p), a, b);
+    using integer = roots::integer_for_t<Integer, C>;
+    return real_roots<integer>(roots::staged<integer>(p), a, b);
 }
 
 /// The number of distinct roots of p in [a, b], a <= b; `infinitely_many` if p is identically zero.
 template <class Integer = void, class C>
 std::size_t count_roots(const polynomial<C>& p, double a, double b) {
-    using integer = detail::integer_for_t<Integer, C>;
-    assert(is_interval(a, b));
+    using integer = roots::integer_for_t<Integer, C>;
+    assert(roots::is_interval(a, b));
     if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
         // No intervals are made, and no integers copied, where the filter decides.
-        const auto c = floating_coefficients(p.coefficients());
-        const std::size_t zeros = leading_zeros(c);
+        const auto c = roots::floating_coefficients(p.coefficients());
+        const std::size_t zeros = roots::leading_zeros(c);
         const std::span others(c.begin() + static_cast<std::ptrdiff_t>(zeros), c.end());
         if (!others.empty() && a < b) {
-            const root_filter<tight> filter(others, a, b);
+            const roots::root_filter<tight> filter(others, a, b);
             if (filter.decides()) return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
-            return real_roots<integer>::count(staged<integer>(p), a, b, filter.parts());
+            return real_roots<integer>::count(roots::staged<integer>(p), a, b, filter.parts());
         }
     }
-    const real_roots<integer> roots(staged<integer>(p), a, b);
+    const real_roots<integer> roots(roots::staged<integer>(p), a, b);
     return roots.everywhere() ? infinitely_many : roots.size();
 }
 
@@ -91,7 +91,7 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
-    assert(is_interval(a, b));
+    assert(roots::is_interval(a, b));
     // The filter is asked for roots other than 0.
     std::span others(p.coefficients());
     while (!others.empty() && others[0].value() == 0 && others[0].error() == 0)
@@ -100,10 +100,11 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
     const bool zero = others.size() < p.coefficients().size() && a <= 0 && 0 <= b;
     if (a == b) {
         const sign_type s =
-            zero ? sign_type::zero : sign_of(value_at(p.coefficients(), tracked<double, Rule>(a)));
+            zero ? sign_type::zero
+                 : sign_of(roots::value_at(p.coefficients(), tracked<double, Rule>(a)));
         return certain(s) ? std::optional<std::size_t>(s == sign_type::zero) : std::nullopt;
     }
-    const root_filter<Rule> filter(others, a, b);
+    const roots::root_filter<Rule> filter(others, a, b);
     if (!filter.decides()) return {};
     return filter.parts().size() + zero;
 }
@@ -111,9 +112,9 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
 /// The greatest common divisor, primitive over the integers.
 template <class Integer = void, class C>
 auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
-    using integer = detail::integer_for_t<Integer, C>;
+    using integer = roots::integer_for_t<Integer, C>;
     return polynomial<integer>(
-        common_factor(staged<integer>(p).exact(), staged<integer>(q).exact()));
+        roots::common_factor(roots::staged<integer>(p).exact(), roots::staged<integer>(q).exact()));
 }
 
 /// The roots that p and q have in common in [a, b], a <= b, with the lower of their multiplicities.
@@ -125,11 +126,11 @@ auto common_roots(const polynomial<C>& p, const polynomial<C>& q, double a, doub
 /// The signs that p takes on [a, b], a <= b.
 template <class Integer = void, class C>
 occurring_signs sign_on(const polynomial<C>& p, double a, double b) {
-    using integer = detail::integer_for_t<Integer, C>;
-    return real_roots<integer>(staged<integer>(p), a, b).signs_on(a, b);
+    using integer = roots::integer_for_t<Integer, C>;
+    return real_roots<integer>(roots::staged<integer>(p), a, b).signs_on(a, b);
 }
 
-namespace detail {
+namespace roots {
 
 /// f as a form in (s, t) of degree N on [a, b]: x = (a·s + b·t)/(s + t).
 template <int N, class S>
@@ -177,7 +178,7 @@ existence by_bsc(const staged_polynomial<Integer>& f,
     }
 }
 
-}  // namespace detail
+}  // namespace roots
 
 /// Is there t in [a, b], a <= b, with f(t) = 0 and every g_i(t) >= 0?
 ///
@@ -186,11 +187,11 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {
-    using integer = detail::integer_for_t<Integer, C>;
-    assert(is_interval(a, b));
-    auto root_of = staged<integer>(f);
-    std::vector<staged_polynomial<integer>> constraints;
-    for (const polynomial<C>& p : g) constraints.push_back(staged<integer>(p));
+    using integer = roots::integer_for_t<Integer, C>;
+    assert(roots::is_interval(a, b));
+    auto root_of = roots::staged<integer>(f);
+    std::vector<roots::staged_polynomial<integer>> constraints;
+    for (const polynomial<C>& p : g) constraints.push_back(roots::staged<integer>(p));
     const auto holds_at_any = [&](real_roots<integer> roots) {
         for (std::size_t k = 0; k < roots.size(); ++k) {
             const auto holds = [&](auto& p) { return roots.sign_at(p, k) != sign_type::negative; };
@@ -199,14 +200,14 @@ bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial
         return false;
     };
     if (!root_of.is_zero()) {
-        const existence quick = detail::by_bsc(root_of, constraints, a, b);
+        const existence quick = roots::by_bsc(root_of, constraints, a, b);
         if (quick == existence::yes || quick == existence::no) return quick == existence::yes;
         return holds_at_any(real_roots<integer>(std::move(root_of), a, b));
     }
     // Where all g_i >= 0 is a closed set: if it is neither empty nor holds the point of [a, b] next
     // to 0, then its end towards that point is a root of some g_i.
     const double next_to_zero = std::min(std::max(0.0, a), b);
-    const staged_polynomial<integer> shifted(std::vector{-next_to_zero, 1.0});
+    const roots::staged_polynomial<integer> shifted(std::vector{-next_to_zero, 1.0});
     if (holds_at_any(real_roots<integer>(shifted, next_to_zero, next_to_zero))) return true;
     for (const auto& p : constraints)
         if (holds_at_any(real_roots<integer>(p, a, b))) return true;

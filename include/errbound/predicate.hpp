@@ -182,7 +182,7 @@ template <class T, bool Stored, class... Points>
 struct filtered_scalars {
     std::tuple<const Points&...> points;
     template <std::size_t Argument>
-    constexpr filtered_coordinate<T> at(int i) const {
+    constexpr filters::filtered_coordinate<T> at(int i) const {
         return {settled_coordinate<T, Stored>(std::get<Argument>(points), i)};
     }
 };
@@ -192,7 +192,7 @@ struct semi_static_scalars {
     std::tuple<const Points&...> points;
     T* largest;
     template <std::size_t Argument>
-    constexpr semi_static_coordinate<T> at(int i) const {
+    constexpr filters::semi_static_coordinate<T> at(int i) const {
         return {settled_coordinate<T, Stored>(std::get<Argument>(points), i), largest};
     }
 };
@@ -212,11 +212,11 @@ inline void coordinate_that_the_point_lacks() {}
 /// Coordinates that only count.
 template <class Shape>
 struct counted_scalars {
-    counting_run& run;
+    filters::counting_run& run;
     template <std::size_t Argument>
-    constexpr expression_count at(int i) const {
+    constexpr filters::expression_count at(int i) const {
         if (i < 0 || (i > 0 && i >= Shape::dimensions[Argument])) coordinate_that_the_point_lacks();
-        return expression_count(run);
+        return filters::expression_count(run);
     }
 };
 
@@ -259,8 +259,8 @@ constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
 inline void expression_that_asks_for_signs_must_return_one() {}
 /// What the expression asks for coordinates of this many bits.
 template <class Shape, class F>
-constexpr expression_counts counts_of(int coordinate_bits) {
-    return count_expression(coordinate_bits, [](counting_run& run) {
+constexpr filters::expression_counts counts_of(int coordinate_bits) {
+    return filters::count_expression(coordinate_bits, [](filters::counting_run& run) {
         const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run});
         if (!std::is_same_v<decltype(x), const sign_type> && run.asked > 0)
             expression_that_asks_for_signs_must_return_one();
@@ -280,13 +280,13 @@ class predicate_type {
     using options = Options;
 
     /// Of coordinates that fit a word.
-    static constexpr int word_bits = word_coordinates<1>::max_bits;
+    static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
     /// Counts for coordinates of one word.
-    static constexpr expression_counts counts = detail::counts_of<Shape, F>(word_bits);
+    static constexpr filters::expression_counts counts = detail::counts_of<Shape, F>(word_bits);
     /// The static filter's: certain where |value| exceeds it times the sum of the terms' sizes. Of
     /// an expression that branches, the largest of all.
     template <class T>
-    static constexpr T static_constant = filter_constant<T>(counts.roundings);
+    static constexpr T static_constant = filters::filter_constant<T>(counts.roundings);
     /// Whether there is a semi-static filter: what it saves grows with the degree.
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 &&
@@ -297,7 +297,7 @@ class predicate_type {
     /// Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
         int least = word_bits;
-        for (int degree = 0; degree <= expression_counts::max_degree; ++degree) {
+        for (int degree = 0; degree <= filters::expression_counts::max_degree; ++degree) {
             const int excess = counts.bits[static_cast<std::size_t>(degree)] - bits;
             if (excess <= 0) continue;
             least = std::min(least, degree == 0 ? 0 : word_bits - (excess + degree - 1) / degree);
@@ -370,13 +370,13 @@ class predicate_type {
         if (stage == semi_static_filter)
             return has_semi_static_filter ? first_sign(p...) : sign_type::uncertain;
         const coordinate_list list = listed(p...);
-        const std::uint64_t largest = largest_size(list);
-        if (!is_finite_size(largest)) return sign_type::uncertain;
+        const std::uint64_t largest = integers::largest_size(list);
+        if (!integers::is_finite_size(largest)) return sign_type::uncertain;
         if (stage == tracked) return by_tracked<number_of<Points...>>(list);
         if (stage == exact_doubles) return by_doubles(list, largest);
         if (stage == two_word_integers) return by_two_words(list);
         if (stage == long_integers) return by_any(list);
-        word_coordinates<listed_size> words(list, largest);
+        integers::word_coordinates<listed_size> words(list, largest);
         if (!words.fit) return sign_type::uncertain;
         if (stage == word_integers) return by_words(words);
         if constexpr (short_bits >= 1) return by_short(words);
@@ -443,8 +443,8 @@ class predicate_type {
             if (report != nullptr) report->count(stage);
             return s;
         };
-        const std::uint64_t largest = largest_size(list);
-        if (!is_finite_size(largest)) {
+        const std::uint64_t largest = integers::largest_size(list);
+        if (!integers::is_finite_size(largest)) {
             if (report != nullptr) ++report->undecided;
             return sign_type::uncertain;
         }
@@ -468,7 +468,7 @@ class predicate_type {
             const sign_type s = by_doubles(list, largest);
             if (certain(s)) return counted(s, exact_doubles);
         }
-        word_coordinates<listed_size> words(list, largest);
+        integers::word_coordinates<listed_size> words(list, largest);
         if (words.fit) {
             if constexpr (short_bits >= 1) {
                 if (words.least_bits() <= short_bits)
@@ -485,7 +485,7 @@ class predicate_type {
     [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_filter(
         const coordinate_list& list) {
         return detail::sign_over<Shape>(
-            F(), list, [](double x) { return filtered_coordinate<T>{static_cast<T>(x)}; });
+            F(), list, [](double x) { return filters::filtered_coordinate<T>{static_cast<T>(x)}; });
     }
     template <class T>
     [[gnu::noinline]] static constexpr sign_type by_tracked(const coordinate_list& list) {
@@ -500,31 +500,33 @@ class predicate_type {
         if constexpr (bits < 1) {
             return sign_type::uncertain;
         } else {
-            const short_coordinates<listed_size, bits> c(list, largest);
+            const integers::short_coordinates<listed_size, bits> c(list, largest);
             return c.fit ? by_short_doubles<bits>(c) : sign_type::uncertain;
         }
     }
     template <int Bits>
     [[gnu::noinline]] static constexpr sign_type by_short_doubles(
-        const short_coordinates<listed_size, Bits>& c) {
-        using scalar = sized_integer<integer_level<integer_kind::floating, Bits, mixed>, Bits, 1>;
+        const integers::short_coordinates<listed_size, Bits>& c) {
+        using scalar = integers::sized_integer<
+            integers::integer_level<integers::integer_kind::floating, Bits, mixed>, Bits, 1>;
         return detail::sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
     }
 
     /// Words that are short when brought to the largest common unit.
-    static constexpr sign_type by_short(const word_coordinates<listed_size>& words) {
+    static constexpr sign_type by_short(const integers::word_coordinates<listed_size>& words) {
         if (words.least_bits() > short_bits) return sign_type::uncertain;
         if constexpr (short_bits == word_bits) return by_words(words);
         return by_values<short_bits>(words, word_bits - words.least_bits());
     }
-    static constexpr sign_type by_words(const word_coordinates<listed_size>& words) {
+    static constexpr sign_type by_words(const integers::word_coordinates<listed_size>& words) {
         return by_values<word_bits>(words, 0);
     }
     /// Inlined: passing the values on would cost as much as a small expression.
     template <int Bits>
     [[gnu::always_inline]] static constexpr sign_type by_values(
-        const word_coordinates<listed_size>& words, int shift) {
-        using scalar = sized_integer<integer_level<integer_kind::words, Bits, mixed>, Bits, 1>;
+        const integers::word_coordinates<listed_size>& words, int shift) {
+        using scalar = integers::sized_integer<
+            integers::integer_level<integers::integer_kind::words, Bits, mixed>, Bits, 1>;
         return detail::sign_over<Shape>(F(), words.value, [&](std::int64_t v) {
             return scalar{v >> shift, words.unit + shift};
         });
@@ -534,20 +536,21 @@ class predicate_type {
     /// Coordinates of two words: their differences' products end before a word's end.
     static constexpr int two_word_bits = 124;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
-        const common_unit unit(list);
+        const integers::common_unit unit(list);
         if (unit.bits > two_word_bits) return sign_type::uncertain;
         return detail::sign_over<Shape>(F(), list, [&](double x) {
-            return unit
-                .template converted<integer_level<integer_kind::words, two_word_bits, mixed>>(x);
+            return unit.template converted<
+                integers::integer_level<integers::integer_kind::words, two_word_bits, mixed>>(x);
         });
     }
 
     [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
         if constexpr (std::is_void_v<typename Options::exact_type>) {
             // Long ones are made once.
-            using level = integer_level<integer_kind::any_length, full_range_bits, mixed>;
-            using scalar = sized_integer<level, full_range_bits, 1>;
-            const common_unit unit(list);
+            using level = integers::integer_level<integers::integer_kind::any_length,
+                                                  integers::full_range_bits, mixed>;
+            using scalar = integers::sized_integer<level, integers::full_range_bits, 1>;
+            const integers::common_unit unit(list);
             const auto longs = [&]<std::size_t... I>(std::index_sequence<I...>) {
                 return std::array{unit.template converted<level>(list[I])...};
             }

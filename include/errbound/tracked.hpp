@@ -37,13 +37,13 @@ class tracked {
     /// Exactly zero.
     constexpr tracked() : tracked(T(0)) {}
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
-    constexpr tracked(const T& value) : tracked(exactly(rounded(value))) {}
+    constexpr tracked(const T& value) : tracked(exactly(detail::rounded(value))) {}
     /// `value`, for literals such as 2: exact if T holds it (every int in double, up to 2^24 in
     /// float), else within the rounding error of its conversion.
     constexpr tracked(int value) requires(!std::same_as<T, int>) : tracked(from_int(value)) {}
     /// A number that is known to lie within `error` of `value`; unknown unless error >= 0.
     static constexpr tracked within(const T& value, const T& error) {
-        const T v = rounded(value);
+        const T v = detail::rounded(value);
         return {v, Rule::within(v, error)};
     }
 
@@ -63,7 +63,7 @@ class tracked {
         return {v, Rule::template subtract<T>(v, a.as_operand(), b.as_operand())};
     }
     friend constexpr tracked operator*(const tracked& a, const tracked& b) {
-        const T v = rounded_product(a.value_, b.value_);
+        const T v = detail::rounded_product(a.value_, b.value_);
         return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
     }
     /// Does not compile for a rule without division. Unknown where b may be zero.

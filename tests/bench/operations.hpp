@@ -60,7 +60,7 @@ stage_operations operations_of_stages() {
         });
     };
     all.coplanarity = filtered([](const auto& forms, const auto& sizes) {
-        const auto y = errbound::control_values_of(forms.y());
+        const auto y = errbound::roots::control_values_of(forms.y());
         const scalar error = sizes.template error_of_y<kind::template forms>();
         (void)ccd::static_filter::above(y, error);
         (void)ccd::static_filter::below(y, error);

@@ -85,12 +85,12 @@ verdict decide_provot(const Query<T>& query) {
         return weights.finite() && provot::inside(there, weights);
     };
     bool found = false;
-    const auto pieces = errbound::monotone_pieces(y);
+    const auto pieces = errbound::roots::monotone_pieces(y);
     T before = 0;
     for (std::size_t i = 0; i < pieces.count && !found; ++i) {
         const T at_end = value_at(y, T(1), pieces.at[i]);
         if (i > 0 && ((before < 0 && at_end > 0) || (before > 0 && at_end < 0)))
-            found = inside_at(errbound::guarded_newton(y, pieces.at[i - 1], pieces.at[i]));
+            found = inside_at(errbound::roots::guarded_newton(y, pieces.at[i - 1], pieces.at[i]));
         if (at_end == 0 && !found) found = inside_at(pieces.at[i]);
         before = at_end;
     }

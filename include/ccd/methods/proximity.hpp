@@ -141,7 +141,7 @@ constexpr bool proximity(const vector_form<Scalar, 1>& e, const vector_form<Scal
     };
     if (touches(T(0)) || touches(T(1))) return true;
     for (const quadratic& f : q)
-        for (const T t : errbound::quadratic_roots(f.p[0], f.p[1], f.p[2]))
+        for (const T t : errbound::roots::quadratic_roots(f.p[0], f.p[1], f.p[2]))
             if (touches(t)) return true;
     // Signed sums: the signs of q_y and q_z relative to q_x, and which ±E_j is subtracted.
     for (int signs = 0; signs < 4; ++signs) {

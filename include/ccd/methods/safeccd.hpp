@@ -213,10 +213,10 @@ class solver {
                 return {outcome::uncertain, cause::range};
             plain[i] = f[i].value();
         }
-        const auto slope = errbound::power_derivative(f);
-        const T vertex =
-            errbound::quadratic_roots(slope[0].value(), slope[1].value(), slope[2].value())[2];
-        const auto pieces = errbound::monotone_pieces(plain);
+        const auto slope = errbound::roots::power_derivative(f);
+        const T vertex = errbound::roots::quadratic_roots(slope[0].value(), slope[1].value(),
+                                                          slope[2].value())[2];
+        const auto pieces = errbound::roots::monotone_pieces(plain);
         for (std::size_t i = 1; i < pieces.count; ++i) {
             const verdict found = on_piece(f, plain, slope, vertex, pieces.at[i - 1], pieces.at[i]);
             if (found.outcome != outcome::separate) return found;
@@ -263,7 +263,7 @@ class solver {
         const auto low_end = [&](const scalar& x) { return direction * x.value() - x.error(); };
         const scalar at_p = at(slope, p), at_q = at(slope, q);
         const scalar half_length = (scalar(q) - scalar(p)) * scalar(T(0.5));
-        const scalar middle = at_p + at(errbound::power_derivative(slope), p) * half_length;
+        const scalar middle = at_p + at(errbound::roots::power_derivative(slope), p) * half_length;
         const T hull = std::min({low_end(at_p), low_end(middle), low_end(at_q)});
 
         T least = std::min(direction * at_p.value(), direction * at_q.value());
@@ -291,7 +291,7 @@ class solver {
         if (low > tolerance(at_p) || high < -tolerance(at_q)) return none;
 
         T root = p;
-        if (low < 0) root = high > 0 ? errbound::guarded_newton(plain, p, q) : q;
+        if (low < 0) root = high > 0 ? errbound::roots::guarded_newton(plain, p, q) : q;
         // f rises (times direction) through the window, if its ends tell.
         bool before = false, after = false, within = false;
         T left = p, right = q;

@@ -4,7 +4,7 @@
 #include <concepts>
 #include <type_traits>
 
-namespace errbound {
+namespace errbound::detail {
 
 /// x as a number of its own: a product in it is not fused into the sum that uses it
 /// (-ffp-contract=fast, GCC's default, does so across statements and inlined calls, and
@@ -69,4 +69,4 @@ constexpr T rounded_product(const T& a, const T& b) {
     return rounded(T(a * b));
 }
 
-}  // namespace errbound
+}  // namespace errbound::detail

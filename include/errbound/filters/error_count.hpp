@@ -18,7 +18,7 @@
 #include <concepts>
 #include <errbound/number_traits.hpp>
 
-namespace errbound {
+namespace errbound::filters {
 
 /// Of floating-point type T, in which the counts are computed, too.
 template <std::floating_point T>
@@ -76,4 +76,4 @@ struct basic_error_count {
 };
 using error_count = basic_error_count<double>;
 
-}  // namespace errbound
+}  // namespace errbound::filters

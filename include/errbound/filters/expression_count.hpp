@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <errbound/sign.hpp>
 
-namespace errbound {
+namespace errbound::filters {
 
 struct expression_counts {
     int roundings = 0;  ///< that bear on a sign: errbound/filters/static_filter.hpp
@@ -22,8 +22,6 @@ struct expression_counts {
     bool mixed = false;    ///< terms of different degree are added
     bool complete = true;  ///< all branches were seen
 };
-
-namespace detail {
 
 /// Not for constant expressions: an expression that gets to one of them does not compile.
 inline void degree_that_is_too_high() {}
@@ -54,12 +52,10 @@ struct counting_run {
     }
 };
 
-}  // namespace detail
-
 class expression_count {
   public:
     /// A coordinate.
-    constexpr explicit expression_count(detail::counting_run& run)
+    constexpr explicit expression_count(counting_run& run)
         : run_(&run), bits_(run.coordinate_bits), degree_(1) {}
     /// A whole number in the expression. No other type: 0.5 would become 0.
     constexpr expression_count(std::same_as<int> auto) : bits_(32) {}
@@ -101,16 +97,16 @@ class expression_count {
         auto& run = *x.run_;
         const int roundings = x.roundings_ == 0 ? 0 : x.roundings_ - 1;
         run.counts.roundings = larger(run.counts.roundings, roundings);
-        if (x.degree_ > expression_counts::max_degree) detail::degree_that_is_too_high();
+        if (x.degree_ > expression_counts::max_degree) degree_that_is_too_high();
         int& bits = run.counts.bits[static_cast<std::size_t>(x.degree_)];
         bits = larger(bits, x.bits_);
         run.counts.degree = larger(run.counts.degree, x.degree_);
-        if (run.asked == detail::counting_run::max_signs) detail::too_many_signs();
+        if (run.asked == counting_run::max_signs) too_many_signs();
         return run.told[run.asked++];
     }
 
   private:
-    constexpr expression_count(detail::counting_run* run, int bits, int degree, int roundings)
+    constexpr expression_count(counting_run* run, int bits, int degree, int roundings)
         : run_(run), bits_(bits), degree_(degree), roundings_(roundings) {}
     static constexpr int larger(int a, int b) { return a < b ? b : a; }
     /// The bits, brought to another's degree where that is higher.
@@ -120,16 +116,16 @@ class expression_count {
                    : bits_;
     }
 
-    detail::counting_run* run_ = nullptr;
+    counting_run* run_ = nullptr;
     int bits_ = 0, degree_ = 0, roundings_ = 0;
 };
 
-/// `run(detail::counting_run&)` runs the expression, whose coordinates are made of that argument,
+/// `run(counting_run&)` runs the expression, whose coordinates are made of that argument,
 /// and asks for its sign if it does not end in one.
 template <class Run>
 constexpr expression_counts count_expression(int coordinate_bits, const Run& run) {
     constexpr int max_runs = 250;
-    detail::counting_run state;
+    counting_run state;
     state.coordinate_bits = coordinate_bits;
     for (int i = 0; i < max_runs; ++i) {
         run(state);
@@ -139,4 +135,4 @@ constexpr expression_counts count_expression(int coordinate_bits, const Run& run
     return state.counts;
 }
 
-}  // namespace errbound
+}  // namespace errbound::filters

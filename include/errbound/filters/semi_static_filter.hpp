@@ -35,7 +35,7 @@
 #include <errbound/filters/static_filter.hpp>
 #include <errbound/number_traits.hpp>
 
-namespace errbound {
+namespace errbound::filters {
 
 /// Kept between an expression and its parts; users write `auto`. Mass and allowances, m and a, are
 /// known to the compiler.
@@ -114,8 +114,6 @@ inline constexpr bool is_semi_static<semi_static_coordinate<T>> = true;
 template <class X>
 concept semi_static_operand = is_semi_static<X>;
 
-namespace detail {
-
 template <class X, class Y>
 constexpr auto semi_static_sum(typename X::value_type value, const X& x, const Y& y) {
     static_assert(X::degree == Y::degree, "errbound: the expression was taken for homogeneous");
@@ -131,19 +129,17 @@ constexpr auto semi_static_product(const X& x, const Y& y) {
         2 * (x.mass * y.allowances + y.mass * x.allowances) + 2};
 }
 
-}  // namespace detail
-
 template <semi_static_operand X, semi_static_operand Y>
 constexpr auto operator+(const X& x, const Y& y) {
-    return detail::semi_static_sum(x.value + y.value, as_semi_static(x), as_semi_static(y));
+    return semi_static_sum(x.value + y.value, as_semi_static(x), as_semi_static(y));
 }
 template <semi_static_operand X, semi_static_operand Y>
 constexpr auto operator-(const X& x, const Y& y) {
-    return detail::semi_static_sum(x.value - y.value, as_semi_static(x), as_semi_static(y));
+    return semi_static_sum(x.value - y.value, as_semi_static(x), as_semi_static(y));
 }
 template <semi_static_operand X, semi_static_operand Y>
 constexpr auto operator*(const X& x, const Y& y) {
-    return detail::semi_static_product(as_semi_static(x), as_semi_static(y));
+    return semi_static_product(as_semi_static(x), as_semi_static(y));
 }
 /// By a whole number. (Sums with one are of mixed degree, and not for this filter.)
 template <semi_static_operand X>
@@ -160,4 +156,4 @@ constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
 
-}  // namespace errbound
+}  // namespace errbound::filters

@@ -43,7 +43,7 @@
 #include <errbound/sign.hpp>
 #include <type_traits>
 
-namespace errbound {
+namespace errbound::filters {
 
 /// The error of k roundings in units of the size: see above.
 template <std::floating_point T>
@@ -81,7 +81,8 @@ struct filtered {
     friend constexpr sign_type sign_of(const filtered& x) {
         const T magnitude = number_traits<T>::abs(x.value);
         bool decided = magnitude > x.bound();
-        if constexpr (may_contract || Roundings <= 1)  // then the bound is not infinite either
+        if constexpr (detail::may_contract ||
+                      Roundings <= 1)  // then the bound is not infinite either
             decided = decided && number_traits<T>::is_finite(x.value);
         if (decided) [[likely]]
             return x.value > 0 ? sign_type::positive : sign_type::negative;
@@ -131,8 +132,6 @@ constexpr auto filtered_constant(int c) {
     return filtered<T, (number_traits<T>::digits < 31), 0, true>{v, number_traits<T>::abs(v)};
 }
 
-namespace detail {
-
 template <class X, class Y>
 constexpr auto filtered_sum(typename X::value_type value, const X& x, const Y& y) {
     using T = typename X::value_type;
@@ -151,19 +150,17 @@ constexpr auto filtered_product(const X& x, const Y& y) {
         return filtered<T, roundings, 1, false>{v, x.full_size() * y.full_size()};
 }
 
-}  // namespace detail
-
 template <filtered_operand X, filtered_operand Y>
 constexpr auto operator+(const X& x, const Y& y) {
-    return detail::filtered_sum(x.value + y.value, as_filtered(x), as_filtered(y));
+    return filtered_sum(x.value + y.value, as_filtered(x), as_filtered(y));
 }
 template <filtered_operand X, filtered_operand Y>
 constexpr auto operator-(const X& x, const Y& y) {
-    return detail::filtered_sum(x.value - y.value, as_filtered(x), as_filtered(y));
+    return filtered_sum(x.value - y.value, as_filtered(x), as_filtered(y));
 }
 template <filtered_operand X, filtered_operand Y>
 constexpr auto operator*(const X& x, const Y& y) {
-    return detail::filtered_product(as_filtered(x), as_filtered(y));
+    return filtered_product(as_filtered(x), as_filtered(y));
 }
 template <filtered_operand X>
 constexpr auto operator+(const X& x, std::same_as<int> auto c) {
@@ -190,4 +187,4 @@ constexpr auto operator*(std::same_as<int> auto c, const X& x) {
     return x * c;
 }
 
-}  // namespace errbound
+}  // namespace errbound::filters

@@ -10,7 +10,7 @@
 #include <errbound/integers/sized_integer.hpp>
 #include <limits>
 
-namespace errbound {
+namespace errbound::integers {
 
 /// The size of the largest coordinate, as bits of a double; infinities and NaN exceed all others.
 template <std::size_t N>
@@ -137,4 +137,4 @@ struct common_unit {
 /// All finite doubles are multiples of 2^-1074 and less than 2^1024.
 inline constexpr int full_range_bits = 1024 + 1074;
 
-}  // namespace errbound
+}  // namespace errbound::integers

@@ -20,7 +20,7 @@
 #include <errbound/sign.hpp>
 #include <type_traits>
 
-namespace errbound {
+namespace errbound::integers {
 
 namespace words {
 
@@ -278,4 +278,4 @@ constexpr fixed_integer<Words> scale(const fixed_integer<Words>& x, int e) {
     return x << e;
 }
 
-}  // namespace errbound
+}  // namespace errbound::integers

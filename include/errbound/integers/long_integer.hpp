@@ -10,7 +10,7 @@
 #include <errbound/sign.hpp>
 #include <type_traits>
 
-namespace errbound {
+namespace errbound::integers {
 
 namespace words {
 
@@ -199,4 +199,4 @@ class long_integer {
     std::array<word, Words> words_;  ///< beyond the size never read
 };
 
-}  // namespace errbound
+}  // namespace errbound::integers

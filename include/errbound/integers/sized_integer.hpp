@@ -20,7 +20,7 @@
 #include <errbound/sign.hpp>
 #include <type_traits>
 
-namespace errbound {
+namespace errbound::integers {
 
 /// What numbers are made of: doubles that hold whole numbers, words, or as many words as it takes.
 enum class integer_kind : std::uint8_t { floating, words, any_length };
@@ -33,8 +33,6 @@ struct integer_level {
     static constexpr int coordinate_bits = CoordinateBits;
     static constexpr bool mixed = Mixed;
 };
-
-namespace detail {
 
 template <integer_kind Kind, int Bits>
 constexpr auto integer_of() {
@@ -72,8 +70,6 @@ constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
     return fixed_integer<Words>::from_words(low);
 }
 
-}  // namespace detail
-
 /// |x| < 2^Bits units of its degree.
 /// Proof: proofs/Widths.v, sized_exact.
 /// Proof: proofs/Widths.v, sized_fits.
@@ -81,7 +77,7 @@ template <class Level, int Bits, int Degree>
 struct sized_integer {
     static constexpr int bits = Bits, degree = Degree;
     using level = Level;
-    using storage = decltype(detail::integer_of<Level::kind, Bits>());
+    using storage = decltype(integer_of<Level::kind, Bits>());
     static constexpr bool is_native =
         Level::kind == integer_kind::floating ||
         (Level::kind == integer_kind::words && sizeof(storage) <= sizeof(words::double_word));
@@ -131,13 +127,9 @@ template <sized_operand X, sized_operand Y>
     } else if constexpr (result::is_native) {
         return result{static_cast<storage>(x.value) * static_cast<storage>(y.value), x.unit};
     } else {
-        return result{detail::narrowed<storage::width / 64>(detail::as_fixed(x.value) *
-                                                            detail::as_fixed(y.value)),
-                      x.unit};
+        return result{narrowed<storage::width / 64>(as_fixed(x.value) * as_fixed(y.value)), x.unit};
     }
 }
-
-namespace detail {
 
 /// x brought to a higher degree: times a power of 1 = 2^−unit units.
 template <int Degree, class X>
@@ -180,15 +172,13 @@ template <bool Subtract, class X, class Y>
     return sum_of_raised<Subtract>(raised<Y::degree>(x), raised<X::degree>(y));
 }
 
-}  // namespace detail
-
 template <sized_operand X, sized_operand Y>
 [[gnu::always_inline]] constexpr auto operator+(const X& x, const Y& y) {
-    return detail::sum_of<false>(x, y);
+    return sum_of<false>(x, y);
 }
 template <sized_operand X, sized_operand Y>
 [[gnu::always_inline]] constexpr auto operator-(const X& x, const Y& y) {
-    return detail::sum_of<true>(x, y);
+    return sum_of<true>(x, y);
 }
 template <sized_operand X>
 [[gnu::always_inline]] constexpr auto operator+(const X& x, std::same_as<int> auto c) {
@@ -215,4 +205,4 @@ template <sized_operand X>
     return x * c;
 }
 
-}  // namespace errbound
+}  // namespace errbound::integers

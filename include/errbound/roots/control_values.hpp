@@ -7,7 +7,7 @@
 #include <errbound/bernstein.hpp>
 #include <utility>
 
-namespace errbound {
+namespace errbound::roots {
 
 /// The control values b_0..b_N of a polynomial of degree N, times multiple(N).
 template <class S, int N>
@@ -56,4 +56,4 @@ constexpr std::pair<control_values<S, N>, control_values<S, N>> halves(
     return {left, right};
 }
 
-}  // namespace errbound
+}  // namespace errbound::roots

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace errbound {
+namespace errbound::roots {
 
 /// Multiples of one unit, each within `error` units of the coefficient it stands for.
 template <int Words>
@@ -26,7 +26,7 @@ class fixed_row {
         for (const Integer& c : b)
             if (c != 0) bits = std::max(bits, floor_log2(c) + 1);
         // Room for the sign and for a sum of two.
-        const int excess = bits - (fixed_integer<Words>::width - 3);
+        const int excess = bits - (integers::fixed_integer<Words>::width - 3);
         const Integer word = Integer(1) << 64U;
         b_.reserve(b.size());
         for (const Integer& c : b) {
@@ -35,13 +35,13 @@ class fixed_row {
                 rest >>= static_cast<unsigned>(excess);
             else
                 rest <<= static_cast<unsigned>(-excess);
-            std::array<words::word, Words> all{};
+            std::array<integers::words::word, Words> all{};
             for (auto& w : all) {
-                w = static_cast<words::word>(Integer(rest % word));
+                w = static_cast<integers::words::word>(Integer(rest % word));
                 rest >>= 64U;
                 if (rest == 0) break;
             }
-            const auto cut = fixed_integer<Words>::from_words(all);
+            const auto cut = integers::fixed_integer<Words>::from_words(all);
             b_.push_back(c < 0 ? -cut : cut);
         }
         error_ = excess > 0 ? 1 : 0;
@@ -50,8 +50,8 @@ class fixed_row {
     /// 1 or −1 for a certain sign, otherwise 0.
     /// Proof: proofs/ControlValues.v, row_signs_right.
     int sign(std::size_t i) const {
-        if (b_[i].negative()) return -b_[i] > fixed_integer<Words>(error_) ? -1 : 0;
-        return b_[i] > fixed_integer<Words>(error_) ? 1 : 0;
+        if (b_[i].negative()) return -b_[i] > integers::fixed_integer<Words>(error_) ? -1 : 0;
+        return b_[i] > integers::fixed_integer<Words>(error_) ? 1 : 0;
     }
     bool ends_are_certain() const { return sign(0) != 0 && sign(b_.size() - 1) != 0; }
     /// As max_sign_variations counts.
@@ -92,8 +92,8 @@ class fixed_row {
   private:
     fixed_row() = default;
 
-    std::vector<fixed_integer<Words>> b_;
+    std::vector<integers::fixed_integer<Words>> b_;
     std::int64_t error_ = 0;
 };
 
-}  // namespace errbound
+}  // namespace errbound::roots

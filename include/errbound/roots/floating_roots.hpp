@@ -14,7 +14,7 @@
 #include <limits>
 #include <utility>
 
-namespace errbound {
+namespace errbound::roots {
 
 /// dp/dt for p in the power basis.
 template <class S, int N>
@@ -86,4 +86,4 @@ constexpr T guarded_newton(const bernstein<T, N>& p, T low, T high) {
     return t;
 }
 
-}  // namespace errbound
+}  // namespace errbound::roots

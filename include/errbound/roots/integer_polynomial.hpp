@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace errbound {
+namespace errbound::roots {
 
 template <exact_number Integer>
 using integer_form = std::vector<Integer>;
@@ -100,8 +100,6 @@ sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
     return sign_of(value_at(p, x));
 }
 
-namespace detail {
-
 /// x modulo the field's prime.
 template <class Integer>
 std::uint64_t residue(const Integer& x, const prime_field& field) {
@@ -163,8 +161,6 @@ bool surely_squarefree(const integer_form<Integer>& p) {
            common_factor(field, std::move(image), std::move(slope)).size() == 1;
 }
 
-}  // namespace detail
-
 /// The greatest common divisor, primitive; empty only if both are identically zero.
 ///
 /// By images modulo primes (W. S. Brown, On Euclid's algorithm and the computation of polynomial
@@ -180,10 +176,10 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
     if (b.empty()) return a;
     if (a.empty()) return b;
     const Integer lead = gcd(a.back(), b.back());
-    detail::remainders<Integer> found;
+    remainders<Integer> found;
     for (std::size_t k = 0;; ++k) {
         const prime_field field(large_prime(k));
-        auto a_image = detail::residues(a, field), b_image = detail::residues(b, field);
+        auto a_image = residues(a, field), b_image = residues(b, field);
         if (a_image.back() == 0 || b_image.back() == 0) continue;
         auto image = common_factor(field, std::move(a_image), std::move(b_image));
         if (image.size() == 1) return {Integer(1)};
@@ -191,7 +187,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         if (image.size() < found.p.size()) found = {};
         // Its last coefficient becomes `lead`, a multiple of that of the divisor sought.
         const std::uint64_t factor =
-            field.multiply(detail::residue(lead, field), field.inverse(image.back()));
+            field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);
         found.add(image, field);
         if (!found.settled()) continue;
@@ -213,7 +209,7 @@ std::vector<integer_form<Integer>> squarefree_chain(
     make_primitive(p);
     std::vector<integer_form<Integer>> chain;
     while (p.size() > 1 && chain.size() < most) {
-        if (detail::surely_squarefree(p)) {
+        if (surely_squarefree(p)) {
             chain.push_back(std::move(p));
             break;
         }
@@ -224,4 +220,4 @@ std::vector<integer_form<Integer>> squarefree_chain(
     return chain;
 }
 
-}  // namespace errbound
+}  // namespace errbound::roots

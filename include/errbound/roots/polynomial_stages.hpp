@@ -41,6 +41,10 @@ class polynomial {
     std::vector<Coefficient> c_;
 };
 
+}  // namespace errbound
+
+namespace errbound::roots {
+
 /// What the floating-point stage computes with.
 using floating_coefficient = tracked<double, tight>;
 
@@ -165,4 +169,4 @@ Number value_at(const std::vector<Number>& coefficients, const Number& x) {
     return sum;
 }
 
-}  // namespace errbound
+}  // namespace errbound::roots

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace errbound {
+namespace errbound::roots {
 
 class prime_field {
   public:
@@ -146,4 +146,4 @@ inline std::vector<std::uint64_t> common_factor(const prime_field& field,
     return a;
 }
 
-}  // namespace errbound
+}  // namespace errbound::roots

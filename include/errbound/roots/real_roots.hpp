@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace errbound {
+namespace errbound::roots {
 
 /// The form Σ h_i s^(n−i) t^i of p without its roots at t = 0 and t = 1 (leading and trailing zero
 /// coefficients); empty if p is identically zero. Its coefficients are those of the power basis in
@@ -41,6 +41,10 @@ inline bool is_interval(double a, double b) {
     return a <= b && a < number_traits<double>::infinity() &&
            b > -number_traits<double>::infinity();
 }
+
+}  // namespace errbound::roots
+
+namespace errbound {
 
 /// The number of roots of the polynomial that is identically zero.
 inline constexpr std::size_t infinitely_many = std::numeric_limits<std::size_t>::max();
@@ -64,18 +68,18 @@ class real_roots {
   public:
     using interval = isolating_interval<Integer>;
     using point = dyadic<Integer>;
-    using number = typename staged_polynomial<Integer>::number;
+    using number = typename roots::staged_polynomial<Integer>::number;
 
     /// The roots of p in (0, ∞) by integers alone; p's first and last coefficients are not zero.
     /// Proof: proofs/RootFinder.v, found_roots_right.
-    explicit real_roots(const integer_form<Integer>& p) : p_(p) {
+    explicit real_roots(const roots::integer_form<Integer>& p) : p_(p) {
         const point zero;
         exact().isolate(zero, exact().upper_bound(), intervals_);
     }
 
     /// The roots in [a, b], a <= b, which may be infinite.
-    real_roots(staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
-        assert(is_interval(a, b));
+    real_roots(roots::staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
+        assert(roots::is_interval(a, b));
         if (p_.is_zero()) {
             everywhere_ = true;
             return;
@@ -85,14 +89,14 @@ class real_roots {
             if (a != 0 && possibly_zero(floating_sign_at(number(a))))
                 exact().isolate(point::from(a), point::from(a), intervals_);
         } else {
-            add(root_filter<tight>(p_.floating(), a, b).parts());
+            add(roots::root_filter<tight>(p_.floating(), a, b).parts());
         }
         if (a <= 0 && 0 <= b) add_zero();
     }
     /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
-    /// other than 0 and left some of these parts open.
-    static std::size_t count(staged_polynomial<Integer> p, double a, double b,
-                             const std::vector<filtered_part>& parts) {
+    /// roots other than 0 and left some of these parts open.
+    static std::size_t count(roots::staged_polynomial<Integer> p, double a, double b,
+                             const std::vector<roots::filtered_part>& parts) {
         real_roots roots;
         roots.p_ = std::move(p);
         const int zeros = roots.p_.divide_by_x();
@@ -123,22 +127,24 @@ class real_roots {
     }
 
     /// The sign of g at root k, exactly.
-    sign_type sign_at(staged_polynomial<Integer>& g, std::size_t k) {
+    sign_type sign_at(roots::staged_polynomial<Integer>& g, std::size_t k) {
         assert(k < size());
         interval& root = intervals_[k];
-        const auto by_values = [&] { return sign_of(value_at(g.floating(), enclosure(root))); };
+        const auto by_values = [&] {
+            return sign_of(roots::value_at(g.floating(), enclosure(root)));
+        };
         sign_type s = by_values();
         if (!certain(s) && narrow(root)) s = by_values();
         return certain(s) ? s : exact().sign_at_root(g.exact(), root);
     }
     template <class C>
     sign_type sign_at(const polynomial<C>& g, std::size_t k) {
-        auto p = errbound::staged<Integer>(g);
+        auto p = roots::staged<Integer>(g);
         return sign_at(p, k);
     }
 
     /// The same by integers alone.
-    sign_type sign_at_root(const integer_form<Integer>& g, std::size_t k) {
+    sign_type sign_at_root(const roots::integer_form<Integer>& g, std::size_t k) {
         return exact().sign_at_root(g, intervals_[k]);
     }
 
@@ -159,19 +165,19 @@ class real_roots {
   private:
     real_roots() = default;
 
-    const root_isolation<Integer>& exact() {
+    const roots::root_isolation<Integer>& exact() {
         if (!exact_) exact_.emplace(p_.exact());
         return *exact_;
     }
 
-    void add(const std::vector<filtered_part>& parts) {
+    void add(const std::vector<roots::filtered_part>& parts) {
         intervals_.reserve(parts.size() + 1);
         for (std::size_t i = 0; i < parts.size(); ++i) add(parts, i);
         decided_by_filter_ = !exact_;
     }
     /// The filter's part i, together with its neighbours if it is not known.
-    void add(const std::vector<filtered_part>& parts, std::size_t& i) {
-        const filtered_part& part = parts[i];
+    void add(const std::vector<roots::filtered_part>& parts, std::size_t& i) {
+        const roots::filtered_part& part = parts[i];
         if (part.has_one_root) {
             const auto [low, high] = ends(part);
             intervals_.push_back({low, high});
@@ -186,14 +192,15 @@ class real_roots {
         exact().isolate(low, high, intervals_);
     }
     /// Both in ascending order; root bounds for infinite ends, as far as they leave anything.
-    std::pair<point, point> ends(const filtered_part& part) {
+    std::pair<point, point> ends(const roots::filtered_part& part) {
         const auto end = [this](double x, double other) {
             if (std::isfinite(x)) return point::from(x);
             const point bound = x > 0 ? exact().upper_bound() : exact().lower_bound();
             const bool beyond = std::isfinite(other) && (bound < point::from(other)) == (x > 0);
             return beyond ? point::from(other) : bound;
         };
-        const auto quick_from = exact_place(part, part.from), quick_to = exact_place(part, part.to);
+        const auto quick_from = roots::exact_place(part, part.from),
+                   quick_to = roots::exact_place(part, part.to);
         if (quick_from && quick_to && std::isfinite(*quick_from) && std::isfinite(*quick_to)) {
             const auto [low, high] = std::minmax(*quick_from, *quick_to);
             return {point::from(low), point::from(high)};
@@ -248,7 +255,7 @@ class real_roots {
             (high - low) / 2 + 4 * traits::epsilon() * size + 4 * traits::underflow_unit());
     }
     sign_type floating_sign_at(const number& x) const {
-        return sign_of(value_at(p_.floating(), x));
+        return sign_of(roots::value_at(p_.floating(), x));
     }
 
     /// Narrows a root's interval to about double's precision, without integers. False on failure.
@@ -305,7 +312,7 @@ class real_roots {
         const number place = enclosure({x, x});
         const sign_type power = zeros_ % 2 == 1 ? sign_of(x) : sign_type::positive;
         const sign_type s = floating_sign_at(place);
-        return power * (certain(s) ? s : errbound::sign_at(p_.exact(), x));
+        return power * (certain(s) ? s : roots::sign_at(p_.exact(), x));
     }
     /// A point of [a, b] that is not a root.
     point beside_roots(double a, double b) const {
@@ -320,9 +327,9 @@ class real_roots {
         return intervals_[1].is_point() ? middle(first.low, intervals_[1].low) : intervals_[1].low;
     }
 
-    staged_polynomial<Integer> p_;  ///< divided by x^zeros_
+    roots::staged_polynomial<Integer> p_;  ///< divided by x^zeros_
     int zeros_ = 0;
-    std::optional<root_isolation<Integer>> exact_;
+    std::optional<roots::root_isolation<Integer>> exact_;
     std::vector<interval> intervals_;
     bool everywhere_ = false;
     bool decided_by_filter_ = false;

@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace errbound {
+namespace errbound::roots {
 
 /// A rule that stores the absolute error and nothing else.
 template <class Rule>
@@ -53,8 +53,6 @@ inline std::optional<double> exact_place(const filtered_part& part, double u) {
                        product_error_is_exact(width.value, u, offset);
     return exact ? std::optional(x.value) : std::nullopt;
 }
-
-namespace detail {
 
 /// Control values with their errors, in arrays that the caller keeps.
 template <absolute_rule Rule>
@@ -106,8 +104,6 @@ struct tracked_row {
         return Rule::template add<double>(sum, {a, bound{a_error}}, {b, bound{b_error}}).error;
     }
 };
-
-}  // namespace detail
 
 /// Cost: at most max_halvings halvings of degree² additions each; few for separated roots.
 template <absolute_rule Rule>
@@ -251,7 +247,7 @@ class root_filter {
         }
     }
 
-    detail::tracked_row<Rule> row(std::size_t k) {
+    tracked_row<Rule> row(std::size_t k) {
         const std::size_t size = c_.size();
         return {&rows_[2 * k * size], &rows_[(2 * k + 1) * size]};
     }
@@ -360,4 +356,4 @@ class root_filter {
     std::vector<filtered_part> parts_;
 };
 
-}  // namespace errbound
+}  // namespace errbound::roots

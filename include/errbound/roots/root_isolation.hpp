@@ -32,6 +32,10 @@ struct isolating_interval {
     bool is_point() const { return low == high; }
 };
 
+}  // namespace errbound
+
+namespace errbound::roots {
+
 /// A bound of Kioustelidis (1986): no root of p is at or above 2^(this). p has a last coefficient,
 /// not zero. INT_MIN: p has no positive root.
 /// Proof: with M the largest (|c_i|/|c_n|)^(1/(n−i)) over the c_i of the other sign than c_n's, and
@@ -412,4 +416,4 @@ class root_isolation {
     half_line right_, left_;
 };
 
-}  // namespace errbound
+}  // namespace errbound::roots

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace errbound {
+namespace errbound::roots {
 
 /// The number of sign changes among sign(0), ..., sign(count − 1), which are 1, −1 or 0, zeros left
 /// out.
@@ -43,4 +43,4 @@ int max_sign_variations(std::size_t count, const Sign& sign) {
     return open > 0 ? 3 : most;
 }
 
-}  // namespace errbound
+}  // namespace errbound::roots

@@ -89,10 +89,10 @@ struct interval {
             if (product_error_is_exact<T>(a.value, b.value, p)) return nearest<T>(v, p.error);
             return checked<T>(v, below<T>(v), above<T>(v));
         }
-        return hull<T>(v, rounded_product(a.bound.lower, b.bound.lower),
-                       rounded_product(a.bound.lower, b.bound.upper),
-                       rounded_product(a.bound.upper, b.bound.lower),
-                       rounded_product(a.bound.upper, b.bound.upper));
+        return hull<T>(v, detail::rounded_product(a.bound.lower, b.bound.lower),
+                       detail::rounded_product(a.bound.lower, b.bound.upper),
+                       detail::rounded_product(a.bound.upper, b.bound.lower),
+                       detail::rounded_product(a.bound.upper, b.bound.upper));
     }
     /// Unknown where b may be zero.
     /// Proof: proofs/IeeeInterval.v, interval_divide_known.
@@ -145,7 +145,7 @@ struct interval {
     template <class T>
     static constexpr T step(const T& c) {
         using traits = number_traits<T>;
-        return rounded_product(T(traits::abs(c) * traits::unit_roundoff()), T(1.25)) +
+        return detail::rounded_product(T(traits::abs(c) * traits::unit_roundoff()), T(1.25)) +
                traits::underflow_unit();
     }
     template <class T>

@@ -94,14 +94,15 @@ struct residual {
         if (is_exact(a) && is_exact(b)) return {own, unknown};
 
         const T ca = traits::abs(a.bound.correction), cb = traits::abs(b.bound.correction);
-        const T x = rounded_product(a.value, b.bound.correction);
-        const T y = rounded_product(a.bound.correction, b.value);
+        const T x = detail::rounded_product(a.value, b.bound.correction);
+        const T y = detail::rounded_product(a.bound.correction, b.value);
         const T inherited = x + y;
         const T correction = own + inherited;
         const T remainder =
-            rounded_product(T(traits::abs(a.value) + ca), b.bound.remainder) +
-            (rounded_product(T(traits::abs(b.value) + cb + b.bound.remainder), a.bound.remainder) +
-             rounded_product(ca, cb));
+            detail::rounded_product(T(traits::abs(a.value) + ca), b.bound.remainder) +
+            (detail::rounded_product(T(traits::abs(b.value) + cb + b.bound.remainder),
+                                     a.bound.remainder) +
+             detail::rounded_product(ca, cb));
         return {correction,
                 inflated<T>(remainder + roundings<T>(x, y, inherited, correction) + unknown)};
     }
@@ -123,7 +124,7 @@ struct residual {
         const T unknown = known ? T(0) : half_ulp<T>(v);
         if (own == 0 && is_exact(a) && is_exact(b)) return {T(0), unknown + (v - v)};
 
-        const T x = rounded_product(v, b.bound.correction);
+        const T x = detail::rounded_product(v, b.bound.correction);
         const T inherited = a.bound.correction - x;
         const T numerator = own + inherited;
         const T correction = numerator / b.value;
@@ -131,8 +132,8 @@ struct residual {
         // that of the distance among them, the outer one for four.
         const T lost = unknown + traits::underflow_unit();
         const T c = traits::abs(correction) + lost, q = traits::abs(v);
-        const T left = (rounded_product(c, off) +
-                        (rounded_product(q, b.bound.remainder) + a.bound.remainder)) +
+        const T left = (detail::rounded_product(c, off) +
+                        (detail::rounded_product(q, b.bound.remainder) + a.bound.remainder)) +
                        roundings<T>(x, T(0), inherited, numerator);
         return {correction,
                 inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) + lost)};
@@ -172,17 +173,19 @@ struct residual {
         using traits = number_traits<T>;
         const T sizes =
             (traits::abs(x) + traits::abs(y)) + (traits::abs(first) + traits::abs(second));
-        return rounded_product(sizes, traits::unit_roundoff()) + 4 * traits::underflow_unit();
+        return detail::rounded_product(sizes, traits::unit_roundoff()) +
+               4 * traits::underflow_unit();
     }
     /// At least the error of a result rounded to v, underflow included: u|v| + η.
     template <class T>
     static constexpr T half_ulp(const T& v) {
         using traits = number_traits<T>;
-        return rounded_product(traits::abs(v), traits::unit_roundoff()) + traits::underflow_unit();
+        return detail::rounded_product(traits::abs(v), traits::unit_roundoff()) +
+               traits::underflow_unit();
     }
     template <class T>
     static constexpr T inflated(const T& bound) {
-        return rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
+        return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
     }
     template <class T>
     static constexpr bool is_exact(operand<T, residual> a) {

@@ -53,7 +53,7 @@ struct safe {
         if (!(x <= 1) || b.operations == too_many || !traits::is_finite(value))
             return traits::infinity();
         if (b.operations == 0) return T(0);
-        return enlarged<T>(rounded_product(b.magnitude, enlarged<T>(x * (1 + x))) +
+        return enlarged<T>(detail::rounded_product(b.magnitude, enlarged<T>(x * (1 + x))) +
                            traits::underflow_unit());
     }
 
@@ -110,7 +110,7 @@ struct safe {
 
     template <class T>
     static constexpr T enlarged(const T& x) {
-        return rounded_product(x, T(1 + 4 * number_traits<T>::epsilon()));
+        return detail::rounded_product(x, T(1 + 4 * number_traits<T>::epsilon()));
     }
     template <class T>
     static constexpr bool is_zero(operand<T, safe> a) {

@@ -49,8 +49,8 @@ struct sharp {
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
         using traits = number_traits<T>;
-        return {rounded_product(T(rounding(v) + (a.bound.error + b.bound.error)),
-                                T(1 + 2 * traits::epsilon()))};
+        return {detail::rounded_product(T(rounding(v) + (a.bound.error + b.bound.error)),
+                                        T(1 + 2 * traits::epsilon()))};
     }
     /// Proof: proofs/IeeeRules.v, sharp_subtract_known.
     template <class T>
@@ -63,8 +63,9 @@ struct sharp {
     static constexpr bound<T> multiply(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {rounding(v)};  // 0, or NaN if the other is not finite
-        const T inherited = rounded_product(traits::abs(a.value), b.bound.error) +
-                            rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
+        const T inherited =
+            detail::rounded_product(traits::abs(a.value), b.bound.error) +
+            detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inherited)};
     }
     /// Where |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb); see `tight`. Elsewhere
@@ -80,7 +81,7 @@ struct sharp {
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);
         const T inherited =
-            (a.bound.error + (rounded_product(quotient, b.bound.error) + lost)) / distance;
+            (a.bound.error + (detail::rounded_product(quotient, b.bound.error) + lost)) / distance;
         return {inflated<T>((rounding(v) + 2 * traits::underflow_unit()) + inflated<T>(inherited))};
     }
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
@@ -97,11 +98,11 @@ struct sharp {
   private:
     template <class T>
     static constexpr T rounding(const T& v) {
-        return rounded_product(number_traits<T>::abs(v), number_traits<T>::unit_roundoff());
+        return detail::rounded_product(number_traits<T>::abs(v), number_traits<T>::unit_roundoff());
     }
     template <class T>
     static constexpr T inflated(const T& bound) {
-        return rounded_product(bound, T(1 + 4 * number_traits<T>::epsilon()));
+        return detail::rounded_product(bound, T(1 + 4 * number_traits<T>::epsilon()));
     }
     template <class T>
     static constexpr bool is_zero(operand<T, sharp> a) {

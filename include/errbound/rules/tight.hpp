@@ -70,8 +70,9 @@ struct tight {
     static constexpr bound<T> multiply(const T& v, operand<T, tight> a, operand<T, tight> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {rounding(v)};  // 0, or NaN if the other is not finite
-        const T inherited = rounded_product(traits::abs(a.value), b.bound.error) +
-                            rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
+        const T inherited =
+            detail::rounded_product(traits::abs(a.value), b.bound.error) +
+            detail::rounded_product(a.bound.error, T(traits::abs(b.value) + b.bound.error));
         return {inflated<T>(rounding(v) + inherited + 4 * traits::underflow_unit())};
     }
     /// Where |b̂| > σb: |v − a/b| <= |v|ε/(1 − ε) + (σa + |â/b̂|σb)/(|b̂| − σb), which is the printed
@@ -89,7 +90,7 @@ struct tight {
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
         const T inherited =
-            (a.bound.error + rounded_product(quotient, b.bound.error) + lost) / distance;
+            (a.bound.error + detail::rounded_product(quotient, b.bound.error) + lost) / distance;
         return {inflated<T>(rounding(v) + inflated<T>(inherited) + 4 * traits::underflow_unit())};
     }
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
@@ -109,11 +110,12 @@ struct tight {
     template <class T>
     static constexpr T rounding(const T& v) {
         using traits = number_traits<T>;
-        return rounded_product(traits::abs(v), T(traits::epsilon() * (1 + traits::epsilon())));
+        return detail::rounded_product(traits::abs(v),
+                                       T(traits::epsilon() * (1 + traits::epsilon())));
     }
     template <class T>
     static constexpr T inflated(const T& bound) {
-        return rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
+        return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
     }
     template <class T>
     static constexpr bool is_zero(operand<T, tight> a) {

@@ -69,10 +69,10 @@ struct audited {
 };
 
 template <class T>
-struct audited_coordinate : audited<errbound::filtered_coordinate<T>, 1> {
+struct audited_coordinate : audited<errbound::filters::filtered_coordinate<T>, 1> {
     explicit audited_coordinate(double x)
-        : audited<errbound::filtered_coordinate<T>, 1>{{static_cast<T>(x)},
-                                                       big_integer(x, audit::current().unit)} {}
+        : audited<errbound::filters::filtered_coordinate<T>, 1>{
+              {static_cast<T>(x)}, big_integer(x, audit::current().unit)} {}
 };
 
 template <class X, int A, class Y, int B>

@@ -100,7 +100,7 @@ struct float_stages {
     static ccd::outcome coplanarity(const Query& query) {
         const Forms<double> forms(query);
         const ccd::static_filter::sizes<double> sizes(forms);
-        const auto y = errbound::control_values_of(forms.y());
+        const auto y = errbound::roots::control_values_of(forms.y());
         const double error = sizes.template error_of_y<Forms>();
         return sizes.usable &&
                        (ccd::static_filter::above(y, error) || ccd::static_filter::below(y, error))

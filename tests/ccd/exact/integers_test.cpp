@@ -16,8 +16,8 @@
 
 namespace {
 
-using errbound::fixed_integer;
 using errbound::sign_type;
+using errbound::integers::fixed_integer;
 
 std::int64_t between(std::mt19937_64& random, std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));

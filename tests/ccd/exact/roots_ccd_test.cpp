@@ -23,7 +23,7 @@ namespace {
 
 using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                               boost::multiprecision::et_off>;
-using form = errbound::integer_form<integer>;
+using form = errbound::roots::integer_form<integer>;
 using errbound::polynomial;
 
 /// Σ h_i (1 − t)^(N − i) t^i in the power basis.
@@ -37,7 +37,7 @@ form power_basis(const errbound::bernstein<integer, N>& p) {
             binomial = -binomial * (N - i - k) / (k + 1);
         }
     }
-    errbound::trim(sum);
+    errbound::roots::trim(sum);
     return sum;
 }
 
@@ -77,8 +77,8 @@ answer ask(const Query& query) {
     const form n2 = power_basis(forms.normal_squared());
     if (n2.empty()) return answer::no;
     // Without the roots of Y at which the normal vanishes.
-    for (form common; !y.empty(); y = errbound::divided(y, common)) {
-        common = errbound::common_factor(y, n2);
+    for (form common; !y.empty(); y = errbound::roots::divided(y, common)) {
+        common = errbound::roots::common_factor(y, n2);
         if (common.size() < 2) break;
     }
     std::vector<polynomial<integer>> g;

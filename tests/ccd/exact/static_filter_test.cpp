@@ -24,8 +24,8 @@ using query_families::families;
 using query_families::kind;
 
 template <int N>
-double largest_error(const errbound::control_values<double, N>& computed,
-                     const errbound::control_values<rational, N>& exact) {
+double largest_error(const errbound::roots::control_values<double, N>& computed,
+                     const errbound::roots::control_values<rational, N>& exact) {
     rational largest = 0;
     for (int i = 0; i <= N; ++i) {
         const rational error = abs(rational(rational(computed[i]) - exact[i]));
@@ -53,20 +53,21 @@ void compare(const Query<double>& query, std::mt19937_64& random, const std::str
         ASSERT_LE(error, bound) << what << ", " << name;
         if (bound > 0x1p-400) so_far = std::max(so_far, error / bound);
     };
-    auto y = errbound::control_values_of(exact.y());
+    auto y = errbound::roots::control_values_of(exact.y());
     use(largest_error(whole.forms.y, y), sizes.template error_of_y<Forms>(), worst.y, "Y");
     const auto exact_inside = exact.inside();
-    std::array<errbound::control_values<rational, 4>, std::tuple_size_v<decltype(exact.inside())>>
+    std::array<errbound::roots::control_values<rational, 4>,
+               std::tuple_size_v<decltype(exact.inside())>>
         g;
     for (std::size_t i = 0; i < g.size(); ++i) {
-        g[i] = errbound::control_values_of(exact_inside[i]);
+        g[i] = errbound::roots::control_values_of(exact_inside[i]);
         use(largest_error(whole.forms.g[i], g[i]), sizes.template error_of_g<Forms>(), worst.g,
             "G");
     }
     for (std::size_t depth = 0; depth < filter::max_depth; ++depth) {
         const bool left = random() % 2 == 0;
         const auto half = [left](auto& form) {
-            auto both = errbound::halves(form);
+            auto both = errbound::roots::halves(form);
             form = left ? both.first : both.second;
         };
         half(whole.forms.y), half(y);
@@ -109,8 +110,8 @@ TEST(bounds, hold_for_halvings) {
     std::mt19937_64 random(3);
     double worst = 0;
     for (int trial = 0; trial < 20000; ++trial) {
-        errbound::control_values<double, 4> c;
-        errbound::control_values<rational, 4> exact;
+        errbound::roots::control_values<double, 4> c;
+        errbound::roots::control_values<rational, 4> exact;
         std::uniform_real_distribution<double> size(0.5, 1);
         for (int i = 0; i <= 4; ++i) {
             c[i] = random() % 4 == 0 ? -size(random) : size(random);
@@ -120,8 +121,8 @@ TEST(bounds, hold_for_halvings) {
             filter::g_constants<ccd::linear_vertex_face_forms>.halvings * filter::size_of(c);
         for (std::size_t depth = 0; depth < filter::max_depth; ++depth) {
             const bool left = random() % 2 == 0;
-            const auto halves = errbound::halves(c);
-            const auto exact_halves = errbound::halves(exact);
+            const auto halves = errbound::roots::halves(c);
+            const auto exact_halves = errbound::roots::halves(exact);
             c = left ? halves.first : halves.second;
             exact = left ? exact_halves.first : exact_halves.second;
             const double error = largest_error(c, exact);

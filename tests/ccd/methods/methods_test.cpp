@@ -38,7 +38,7 @@ TYPED_TEST(guarded_newton, pieces_are_monotone_and_roots_are_found) {
     int found = 0;
     for (int i = 0; i < 2000; ++i) {
         const auto f = with_roots<T>(number(), number(), number());
-        const auto pieces = errbound::monotone_pieces(f);
+        const auto pieces = errbound::roots::monotone_pieces(f);
         ASSERT_EQ(pieces.at[0], 0);
         ASSERT_EQ(pieces.at[pieces.count - 1], 1);
         for (std::size_t p = 1; p < pieces.count; ++p) {
@@ -52,7 +52,7 @@ TYPED_TEST(guarded_newton, pieces_are_monotone_and_roots_are_found) {
                 EXPECT_LE(inside, std::max(at_low, at_high) + slack);
             }
             if (!(at_low * at_high < 0)) continue;
-            const T root = errbound::guarded_newton(f, low, high);
+            const T root = errbound::roots::guarded_newton(f, low, high);
             EXPECT_GE(root, low);
             EXPECT_LE(root, high);
             EXPECT_LE(std::abs(value_at(f, T(1), root)), 16 * std::numeric_limits<T>::epsilon());
@@ -65,19 +65,21 @@ TYPED_TEST(guarded_newton, pieces_are_monotone_and_roots_are_found) {
 TYPED_TEST(guarded_newton, degrees_below_three) {
     using T = TypeParam;
     const auto count = [](const errbound::bernstein<T, 3>& f) {
-        return errbound::monotone_pieces(f).count;
+        return errbound::roots::monotone_pieces(f).count;
     };
     EXPECT_EQ(count({T(-1), T(4), T(-4), 0}), 3U);  // turns at 1/2
-    EXPECT_EQ(errbound::monotone_pieces(errbound::bernstein<T, 3>{T(-1), T(4), T(-4), 0}).at[1],
-              T(0.5));
+    EXPECT_EQ(
+        errbound::roots::monotone_pieces(errbound::bernstein<T, 3>{T(-1), T(4), T(-4), 0}).at[1],
+        T(0.5));
     EXPECT_EQ(count({T(-1), T(4), 0, 0}), 2U);
     EXPECT_EQ(count({T(1), 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, 0}), 2U);
     EXPECT_EQ(count({0, 0, 0, T(1)}), 2U);           // t³ turns at 0, which is an end
     EXPECT_EQ(count({0, 0, T(-1), T(1)}), 3U);       // t³ − t² at 2/3 too
     EXPECT_EQ(count({0, T(3), T(-7.5), T(5)}), 4U);  // 15t² − 15t + 3 at 0.28 and 0.72
-    EXPECT_EQ(errbound::guarded_newton(errbound::bernstein<T, 3>{T(-1), T(4), 0, 0}, T(0), T(1)),
-              T(0.25));
+    EXPECT_EQ(
+        errbound::roots::guarded_newton(errbound::bernstein<T, 3>{T(-1), T(4), 0, 0}, T(0), T(1)),
+        T(0.25));
 }
 
 // ---- Queries with known contacts ----

@@ -37,7 +37,7 @@ TEST(quadratic_roots, are_those_of_a_nearby_quadratic) {
         }
         const double m = std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])});
         if (c[1] * c[1] / m / m < 4 * (c[0] / m) * (c[2] / m) * (1 + 1e-12)) continue;  // complex
-        const auto roots = errbound::quadratic_roots(c[0], c[1], c[2]);
+        const auto roots = errbound::roots::quadratic_roots(c[0], c[1], c[2]);
         for (const double t : {roots[0], roots[1]}) {
             if (!(std::abs(t) < 1e150)) continue;
             const mpq_rational x(t);

@@ -15,8 +15,8 @@
 
 namespace {
 
-using errbound::fixed_integer;
 using errbound::sign_of;
+using errbound::integers::fixed_integer;
 using integer =
     boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 
@@ -158,8 +158,8 @@ TEST(FixedInteger, PolynomialsGrowByTheirFactorsWidths) {
 }
 
 /// A double's worth of bits anywhere, or sums of up to three.
-errbound::long_integer<20> any_long(std::mt19937_64& random) {
-    using number = errbound::long_integer<20>;
+errbound::integers::long_integer<20> any_long(std::mt19937_64& random) {
+    using number = errbound::integers::long_integer<20>;
     const auto one = [&] {
         return number(random() >> random() % 64, static_cast<int>(random() % 1100),
                       random() % 2 == 0);
@@ -177,7 +177,7 @@ errbound::long_integer<20> any_long(std::mt19937_64& random) {
     }
 }
 template <int Words>
-integer big(const errbound::long_integer<Words>& x) {
+integer big(const errbound::integers::long_integer<Words>& x) {
     integer sum = 0;
     for (int i = x.size() - 1; i >= 0; --i) sum = (sum << 64) + integer(x[i]);
     return x.negative() ? integer(sum - (integer(1) << (64 * x.size()))) : sum;
@@ -188,10 +188,10 @@ TEST(LongIntegers, AgreeWithGmp) {
     for (int k = 0; k < 100'000; ++k) {
         const auto a = any_long(random), b = any_long(random);
         const integer x = big(a), y = big(b);
-        using product = errbound::long_integer<40>;
+        using product = errbound::integers::long_integer<40>;
         const auto ab = product::product(a, b);
         ASSERT_EQ(big(ab), x * y);
-        using result = errbound::long_integer<60>;
+        using result = errbound::integers::long_integer<60>;
         const auto more = result::product(product::sum(ab, a), b);
         ASSERT_EQ(big(more), (x * y + x) * y);
         ASSERT_EQ(big(result::difference(more, ab)), (x * y + x) * y - x * y);

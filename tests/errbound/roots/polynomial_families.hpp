@@ -114,7 +114,7 @@ class generator {
                         c = product(c, factor);
                     if (c.size() + 2 > n + 1) break;
                 }
-                errbound::trim(c);
+                errbound::roots::trim(c);
                 return c.empty() ? sample{{1, 2, 1}} : sample{c};
             }
             case family::bernstein: {

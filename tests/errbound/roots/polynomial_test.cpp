@@ -15,6 +15,7 @@
 namespace {
 
 using namespace errbound;
+using namespace errbound::roots;
 using integer =
     boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,

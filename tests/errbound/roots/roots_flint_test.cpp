@@ -14,6 +14,7 @@
 namespace {
 
 using namespace errbound;
+using namespace errbound::roots;
 using polynomial_families::degree_of_sample;
 using polynomial_families::family;
 using polynomial_families::generator;
@@ -54,9 +55,9 @@ TEST_P(Flint, SignsAtRootsAgree) {
         const auto s = make.make(GetParam(), degree_of_sample(GetParam(), k, 30));
         auto g = make.make(polynomial_families::all[static_cast<std::size_t>(k) % 9], 1 + k % 4);
         // Roots in common now and then, and values near 0 at others.
-        if (k % 4 == 0) g.whole = generator::product(g.whole, errbound::derivative(s.whole));
+        if (k % 4 == 0) g.whole = generator::product(g.whole, errbound::roots::derivative(s.whole));
         if (k % 8 == 1) g.whole = generator::product(g.whole, s.whole);
-        errbound::trim(g.whole);
+        errbound::roots::trim(g.whole);
         auto roots =
             s.doubles.empty()
                 ? isolate_roots(polynomial<integer>(s.whole), -infinity, infinity)

@@ -18,6 +18,7 @@
 namespace {
 
 using namespace errbound;
+using namespace errbound::roots;
 using polynomial_families::degree_of_sample;
 using polynomial_families::family;
 using polynomial_families::generator;

@@ -21,11 +21,11 @@ class tarski {
     using point = errbound::dyadic<integer>;
 
     tarski(form p, const form& g) {
-        errbound::trim(p);
-        form second = p.size() > 1
-                          ? polynomial_families::generator::product(errbound::derivative(p), g)
-                          : form{};
-        errbound::trim(second);
+        errbound::roots::trim(p);
+        form second = p.size() > 1 ? polynomial_families::generator::product(
+                                         errbound::roots::derivative(p), g)
+                                   : form{};
+        errbound::roots::trim(second);
         chain_.push_back(std::move(p));
         while (!second.empty()) {
             form rest = negative_remainder(chain_.back(), second);
@@ -33,8 +33,8 @@ class tarski {
             second = std::move(rest);
         }
         form last = chain_.back();
-        errbound::make_primitive(last);
-        for (form& f : chain_) f = errbound::divided(f, last);
+        errbound::roots::make_primitive(last);
+        for (form& f : chain_) f = errbound::roots::divided(f, last);
     }
     int between(const point& low, const point& high) const {
         return variations_at(low) - variations_at(high);
@@ -85,9 +85,9 @@ class tarski {
             const std::size_t shift = a.size() - b.size();
             for (integer& c : a) c *= lead;
             for (std::size_t i = 0; i < b.size(); ++i) a[i + shift] -= factor * b[i];
-            errbound::trim(a);
+            errbound::roots::trim(a);
         }
-        errbound::make_primitive(a);
+        errbound::roots::make_primitive(a);
         for (integer& c : a) c = -c;
         return a;
     }

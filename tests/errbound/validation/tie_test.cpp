@@ -483,7 +483,7 @@ TEST(Tie, Double) {
 /// Integers of words, and what their operations make of them.
 template <int Words>
 class integer_cases {
-    using integer = errbound::fixed_integer<Words>;
+    using integer = errbound::integers::fixed_integer<Words>;
 
   public:
     explicit integer_cases(const table& expected) : expected_(expected) {
@@ -502,8 +502,8 @@ class integer_cases {
             if (y == integer()) return;
             std::array<std::uint64_t, 2 * Words> r{};
             const auto a = words_of(x), b = words_of(y);
-            errbound::words::multiply_sparse(r.data(), a.data(), Words, b.data(), Words);
-            put(h, errbound::fixed_integer<2 * Words>::from_words(r));
+            errbound::integers::words::multiply_sparse(r.data(), a.data(), Words, b.data(), Words);
+            put(h, errbound::integers::fixed_integer<2 * Words>::from_words(r));
         });
         of_two("compare", [](hash& h, const integer& x, const integer& y) {
             h.put(x < y ? 0 : x == y ? 1 : 2);
@@ -546,7 +546,7 @@ class integer_cases {
         return all;
     }
     template <int N>
-    static void put(hash& h, const errbound::fixed_integer<N>& x) {
+    static void put(hash& h, const errbound::integers::fixed_integer<N>& x) {
         for (int i = 0; i < N; ++i) {
             h.put(static_cast<std::uint32_t>(x[i] >> 32));
             h.put(static_cast<std::uint32_t>(x[i]));
