@@ -2,13 +2,16 @@
 #include "ccd/io/mesh_file.hpp"
 
 #include <algorithm>
+#include <errbound/support/error.hpp>
 
 #include "ccd/io/face_check.hpp"
 #include "ccd/io/text.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::io {
+
+using errbound::support::file_error;
+using errbound::support::read_whole;
 
 std::string text_of(const face& f) {
     return std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]);

@@ -2,6 +2,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <errbound/support/error.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -9,10 +10,11 @@
 #include "ccd/io/face_check.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/text.hpp"
-#include "errbound/support/error.hpp"
 
 namespace ccd::io {
 namespace {
+
+using errbound::support::file_error;
 
 class obj_parser {
   public:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <errbound/support/error.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,10 +15,11 @@
 #include "ccd/io/face_check.hpp"
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/text.hpp"
-#include "errbound/support/error.hpp"
 
 namespace ccd::io {
 namespace {
+
+using errbound::support::file_error;
 
 std::optional<std::uint64_t> parse_count(std::string_view token) {
     std::uint64_t value = 0;

@@ -3,15 +3,18 @@
 
 #include <array>
 #include <cctype>
+#include <errbound/support/error.hpp>
 #include <nlohmann/json.hpp>
 
 #include "ccd/io/text.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::io {
 namespace fs = std::filesystem;
 namespace {
+
+using errbound::support::file_error;
+using errbound::support::read_whole;
 
 constexpr std::size_t rows_per_query = 8;
 constexpr std::size_t max_columns = 7;

@@ -7,13 +7,21 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ccd/program/commands.hpp"
+#include "ccd/io/query_file.hpp"
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
+#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
 namespace {
+
+using errbound::support::progress_line;
+using errbound::support::table;
+using errbound::support::text_of;
+using errbound::support::write_whole;
 
 using std::chrono::steady_clock;
 
@@ -44,7 +52,7 @@ void decide_all(const std::vector<Query>& queries, const device_choice& device, 
     do {
         const steady_clock::time_point pass = steady_clock::now();
         if (device.cuda)
-            decide_on_device(queries, outcomes, out.method, device.precision);
+            decide_on_device<Query>(queries, outcomes, out.method, device.precision);
         else
             for (std::size_t i = 0; i < queries.size(); ++i)
                 outcomes[i] = decide(out.method, queries[i]).outcome;
@@ -112,29 +120,85 @@ std::string json_of(const std::vector<result>& results) {
     return array.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
+class query final : public command {
+  public:
+    explicit query(CLI::App& program) : command(program, "query", "Decide stored queries") {
+        line_
+            .add_option(
+                "FILE", files_,
+                "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
+                "is\n"
+                "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1")
+            ->required();
+        line_
+            .add_option("--kind", kind_,
+                        "Kind of query; else the path tells (vertex-face or vf, edge-edge or ee)")
+            ->check(CLI::IsMember(io::kind_names()));
+        line_.add_flag(
+            "--round", round_,
+            "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
+            "them (decimals always mean the nearest double)");
+        line_.add_option("--verdicts", verdicts_, "Write 0 or 1 per query (one method, one file)")
+            ->type_name("OUT");
+        line_.add_option("--json", json_, "Write the table as JSON")->type_name("OUT");
+    }
+
+    exit_status run() override {
+        const device_choice device = device_.chosen();
+        const std::vector<ccd::method> methods = methods_on(device);
+        if (verdicts_ && (files_.size() != 1 || methods.size() != 1))
+            throw errbound::support::usage_error(
+                "--verdicts: found " + std::to_string(files_.size()) + " files and " +
+                std::to_string(methods.size()) + " methods, expected one FILE and one --method");
+        errbound::support::require_separate({verdicts_, json_}, files_);
+
+        // Nothing is printed or written unless all files are good.
+        const std::vector<result> results = decide_files(methods, device);
+        if (verdicts_) {
+            std::string lines;
+            for (const bool verdict : results.front().verdicts) lines += verdict ? "1\n" : "0\n";
+            write_whole(*verdicts_, lines);
+        }
+        if (json_) write_whole(*json_, json_of(results));
+        std::cout << text_of_results(results);
+        return done;
+    }
+
+  private:
+    std::vector<ccd::method> methods_on(const device_choice& device) const {
+        if (device.cuda && !methods_.was_given()) return methods_on_device();
+        std::vector<ccd::method> methods = methods_.methods();
+        if (device.cuda)
+            for (const ccd::method m : methods) require_on_device(m);
+        return methods;
+    }
+
+    std::vector<result> decide_files(const std::vector<ccd::method>& methods,
+                                     const device_choice& device) const {
+        std::vector<result> results;
+        progress_line progress;
+        for (std::size_t i = 0; i < files_.size(); ++i) {
+            const std::string file = files_[i].string();
+            progress.show(i, files_.size(), file);
+            const io::query_file queries = io::read_queries(files_[i], find_kind(kind_), round_);
+            for (const ccd::method m : methods)
+                results.push_back(decide_file(queries, file, m, device));
+        }
+        return results;
+    }
+
+    std::vector<std::filesystem::path> files_;
+    std::string kind_;  ///< empty: from each path
+    bool round_ = false;
+    std::optional<std::filesystem::path> verdicts_, json_;
+    methods_option methods_{line_};
+    device_options device_{line_};
+};
+
 }  // namespace
 
-void run_query(const query_arguments& arguments) {
-    std::vector<result> results;
-    {
-        progress_line progress;
-        for (std::size_t i = 0; i < arguments.files.size(); ++i) {
-            const std::string file = arguments.files[i].string();
-            progress.show(i, arguments.files.size(), file);
-            const io::query_file queries =
-                io::read_queries(arguments.files[i], arguments.kind, arguments.round);
-            for (const ccd::method method : arguments.methods) {
-                results.push_back(decide_file(queries, file, method, arguments.device));
-            }
-        }
-    }
-    if (arguments.verdicts) {
-        std::string lines;
-        for (const bool verdict : results.front().verdicts) lines += verdict ? "1\n" : "0\n";
-        io::write_whole(*arguments.verdicts, lines);
-    }
-    if (arguments.json) io::write_whole(*arguments.json, json_of(results));
-    std::cout << text_of_results(results);
+std::unique_ptr<command> query_command(CLI::App& program) {
+    return std::make_unique<query>(program);
 }
 
 }  // namespace ccd::program

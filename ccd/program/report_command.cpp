@@ -3,14 +3,18 @@
 #include <iostream>
 #include <system_error>
 
-#include "ccd/program/commands.hpp"
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
 #include "ccd/report/report.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
 namespace {
+
+using errbound::support::progress_line;
+using errbound::support::table;
+using errbound::support::text_of;
 
 namespace fs = std::filesystem;
 
@@ -29,46 +33,85 @@ std::string fixed(double x) {
     return text;
 }
 
-}  // namespace
-
-bool run_report(const report_arguments& arguments) {
-    report::options settings;
-    settings.data = arguments.data;
-    settings.out = arguments.out;
-    settings.sections = arguments.sections;
-    settings.quick = arguments.quick;
-    settings.threads = arguments.threads;
-    settings.commit = arguments.commit.value_or(report::configured_commit());
-    if (settings.data.empty()) {
-        settings.data.push_back(bundled_scenes());
-        settings.made = true;
-    }
-    for (const ccd::method method : arguments.methods) {
-        if (std::ranges::find(settings.methods, info(method).name) != settings.methods.end())
-            continue;
-        settings.methods.emplace_back(info(method).name);
-        if (method == method::exact) settings.methods.emplace_back(report::batch_name);
-    }
-
-    progress_line progress;
-    const report::summary result = report::make(
-        settings, [&](double share, const std::string& what) { progress.show(share, what); },
-        [&](const std::string& line) {
-            progress.clear();
-            std::cout << line << std::endl;
-        });
-    progress.clear();
-
+std::string text_of_totals(const report::summary& result) {
     table lines = {{"method", "queries", "FP", "FN", "uncertain", "ns/query"}};
     for (const report::method_total& m :
-         report::totals(result.methods, [](const report::row&) { return true; })) {
+         report::totals(result.methods, [](const report::row&) { return true; }))
         lines.push_back({m.method, std::to_string(m.queries), std::to_string(m.false_positives),
                          std::to_string(m.false_negatives), std::to_string(m.uncertain),
                          fixed(m.ns)});
+    return text_of(lines, 1);
+}
+
+class report_run final : public command {
+  public:
+    explicit report_run(CLI::App& program)
+        : command(program, "report",
+                  "Error against run time: tables and pictures of all methods and bound rules.\n"
+                  "A stopped report goes on where it was") {
+        settings_.out = "out/report";
+        settings_.commit = report::configured_commit();
+        line_.add_option(
+            "DATA", settings_.data,
+            "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
+            "meshes), looked through with all they hold; else the bundled scene and queries that\n"
+            "the program makes itself");
+        line_.add_option("--out", settings_.out, "The report's folder, else out/report")
+            ->type_name("DIR");
+        line_.add_flag("--quick", settings_.quick, "Fewer queries are timed");
+        line_
+            .add_option("--sections", settings_.sections,
+                        "Only these: methods, times, bounds, tightness (needs a build with\n"
+                        "MPFR), stress")
+            ->type_name("S[,S...]")
+            ->delimiter(',')
+            ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),
+                                                           std::end(report::section_names))));
+        add_threads_option(line_, settings_.threads,
+                           "Threads that count errors; 0: one per core (times are taken on one)");
+        line_
+            .add_option("--commit", settings_.commit,
+                        "To be named in the report, else that of the configured build")
+            ->type_name("TEXT");
     }
-    std::cout << text_of(lines, 1) << "report: " << (arguments.out / "report.md").string() << '\n';
-    for (const std::string& failure : result.failures) std::cout << "FAILED: " << failure << '\n';
-    return result.failures.empty();
+
+    exit_status run() override {
+        if (settings_.data.empty()) {
+            settings_.data.push_back(bundled_scenes());
+            settings_.made = true;
+        }
+        for (const ccd::method method : methods_.methods()) {
+            if (std::ranges::find(settings_.methods, info(method).name) != settings_.methods.end())
+                continue;
+            settings_.methods.emplace_back(info(method).name);
+            if (method == method::exact) settings_.methods.emplace_back(report::batch_name);
+        }
+
+        progress_line progress;
+        const report::summary result = report::make(
+            settings_, [&](double share, const std::string& what) { progress.show(share, what); },
+            [&](const std::string& line) {
+                progress.clear();
+                std::cout << line << std::endl;
+            });
+        progress.clear();
+
+        std::cout << text_of_totals(result) << "report: " << (settings_.out / "report.md").string()
+                  << '\n';
+        for (const std::string& failure : result.failures)
+            std::cout << "FAILED: " << failure << '\n';
+        return result.failures.empty() ? done : broken_promise;
+    }
+
+  private:
+    report::options settings_;
+    methods_option methods_{line_};
+};
+
+}  // namespace
+
+std::unique_ptr<command> report_command(CLI::App& program) {
+    return std::make_unique<report_run>(program);
 }
 
 }  // namespace ccd::program

@@ -10,12 +10,20 @@
 #include <string>
 
 #include "ccd/io/mesh_file.hpp"
-#include "ccd/program/commands.hpp"
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
+#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
 namespace {
+
+using errbound::support::entry_named;
+using errbound::support::table;
+using errbound::support::text_of;
+using errbound::support::usage_error;
+using errbound::support::write_whole;
 
 std::size_t peak_memory_bytes() {
     rusage usage{};
@@ -26,6 +34,16 @@ std::size_t peak_memory_bytes() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux and the BSDs count KiB
 #endif
 }
+
+/// What is asked of a step.
+struct step_question {
+    std::filesystem::path before, after;
+    ccd::method method = ccd::method::exact;
+    device_choice device;
+    int threads = 0;
+    std::optional<instruction_set> set;
+    bool explain = false;
+};
 
 std::string lines_of_pairs(const step_result& result) {
     std::string lines;
@@ -41,10 +59,10 @@ std::string lines_of_pairs(const step_result& result) {
     return lines;
 }
 
-std::string json_of(const step_arguments& arguments, const step_result& result, double read,
+std::string json_of(const step_question& asked, const step_result& result, double read,
                     std::size_t memory) {
     nlohmann::ordered_json document = {
-        {"method", info(arguments.method).name},
+        {"method", info(asked.method).name},
         {"candidates",
          {{"vertex_face", result.vertex_face_candidates},
           {"edge_edge", result.edge_edge_candidates}}},
@@ -59,7 +77,7 @@ std::string json_of(const step_arguments& arguments, const step_result& result, 
           {"total", result.total_seconds}}},
         {"threads", result.threads},
         {"peak_memory_bytes", memory}};
-    if (arguments.explain) {
+    if (asked.explain) {
         document["stages"] = nlohmann::ordered_json::array();
         for (std::size_t i = 0; i < stage_count; ++i) {
             const stage_report::entry& entry = result.stages.stages[i];
@@ -128,9 +146,9 @@ std::string text_of_stages(const step_result& result) {
            notes;
 }
 
-std::string text_of_step(const step_arguments& arguments, const mesh& before,
-                         const step_result& result, double read, std::size_t memory) {
-    const table pairs = {{std::string(info(arguments.method).name), "candidates", "collisions"},
+std::string text_of_step(const step_question& asked, const mesh& before, const step_result& result,
+                         double read, std::size_t memory) {
+    const table pairs = {{std::string(info(asked.method).name), "candidates", "collisions"},
                          {"vertex-face", std::to_string(result.vertex_face_candidates),
                           std::to_string(result.vertex_face.size())},
                          {"edge-edge", std::to_string(result.edge_edge_candidates),
@@ -143,37 +161,89 @@ std::string text_of_step(const step_arguments& arguments, const mesh& before,
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
-           (arguments.explain ? '\n' +
-                                    text_of_boxes(before.vertices.size(), before.faces.size(),
-                                                  unique_edges(before.faces).size(), result) +
-                                    '\n' + text_of_stages(result)
-                              : "");
+           (asked.explain ? '\n' +
+                                text_of_boxes(before.vertices.size(), before.faces.size(),
+                                              unique_edges(before.faces).size(), result) +
+                                '\n' + text_of_stages(result)
+                          : "");
 }
+
+class step final : public command {
+  public:
+    explicit step(CLI::App& program)
+        : command(program, "step", "One step of a mesh: the colliding pairs") {
+        line_.add_option("FRAME0", asked_.before, "PLY or OBJ")->required();
+        line_.add_option("FRAME1", asked_.after, "PLY or OBJ, same topology")->required();
+        line_.add_option("--method", method_, "The method, else exact")->type_name("M");
+        line_
+            .add_option("--pairs", pairs_,
+                        "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1, vertex indices")
+            ->type_name("OUT");
+        add_threads_option(line_, asked_.threads, "Threads; 0: one per core");
+        line_
+            .add_option("--instruction-set", set_,
+                        "For exact: baseline, avx2 or avx512, else the strongest that runs here")
+            ->type_name("SET");
+        line_.add_flag("--explain", asked_.explain,
+                       "Say what each stage of exact decided, at what cost, and what was left out");
+        line_.add_option("--json", json_, "Write counts and seconds as JSON")->type_name("OUT");
+    }
+
+    exit_status run() override {
+        check_options();
+        const auto start = std::chrono::steady_clock::now();
+        const mesh before = io::read_mesh(asked_.before);
+        const mesh after = io::read_mesh(asked_.after);
+        io::require_same_topology(before, asked_.before.string(), after, asked_.after.string());
+        const double read =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+        const step_result result = asked_.device.cuda ? step_on_device(before, after, asked_.method,
+                                                                       asked_.device.precision)
+                                                      : ccd::step(before, after,
+                                                                  {.method = asked_.method,
+                                                                   .threads = asked_.threads,
+                                                                   .set = asked_.set,
+                                                                   .explain = asked_.explain});
+        const std::size_t memory = peak_memory_bytes();
+        if (pairs_) write_whole(*pairs_, lines_of_pairs(result));
+        if (json_) write_whole(*json_, json_of(asked_, result, read, memory));
+        std::cout << text_of_step(asked_, before, result, read, memory);
+        return done;
+    }
+
+  private:
+    void check_options() {
+        asked_.method = method_named(method_);
+        if (line_.count("--instruction-set") > 0)
+            asked_.set = entry_named(
+                "--instruction-set", set_, instruction_sets(),
+                [](instruction_set known) { return std::string(name(known)); },
+                " (what this build holds and this machine runs)");
+        if (asked_.method != method::exact && (asked_.explain || asked_.set))
+            throw usage_error("--explain and --instruction-set: found --method " + method_ +
+                              ", expected exact, which alone has stages");
+        asked_.device = device_.chosen();
+        if (asked_.device.cuda) {
+            require_on_device(asked_.method);
+            if (asked_.explain || asked_.set || line_.count("--threads") > 0)
+                throw usage_error(
+                    "--explain, --instruction-set and --threads: found --device cuda, expected "
+                    "--device cpu");
+        }
+        errbound::support::require_separate({pairs_, json_}, {asked_.before, asked_.after});
+    }
+
+    step_question asked_;
+    std::string method_ = "exact", set_;
+    std::optional<std::filesystem::path> pairs_, json_;
+    device_options device_{line_};
+};
 
 }  // namespace
 
-void run_step(const step_arguments& arguments) {
-    const auto start = std::chrono::steady_clock::now();
-    const mesh before = io::read_mesh(arguments.before);
-    const mesh after = io::read_mesh(arguments.after);
-    io::require_same_topology(before, arguments.before.string(), after, arguments.after.string());
-    const double read =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-    const step_result result =
-        arguments.device.cuda
-            ? step_on_device(before, after, arguments.method, arguments.device.precision)
-            : step(before, after,
-                   {.method = arguments.method,
-                    .threads = arguments.threads,
-                    .set = arguments.set,
-                    .explain = arguments.explain});
-    const std::size_t memory = peak_memory_bytes();
-    if (arguments.pairs) io::write_whole(*arguments.pairs, lines_of_pairs(result));
-    if (arguments.json) {
-        io::write_whole(*arguments.json, json_of(arguments, result, read, memory));
-    }
-    std::cout << text_of_step(arguments, before, result, read, memory);
+std::unique_ptr<command> step_command(CLI::App& program) {
+    return std::make_unique<step>(program);
 }
 
 }  // namespace ccd::program

@@ -1,261 +1,78 @@
 // `ccd stress`: every method on stiff and extreme queries, beside the exact answer.
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdio>
+#include <ccd/method.hpp>
 #include <iostream>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
-#include <system_error>
-#include <utility>
 
-#include "ccd/program/commands.hpp"
-#include "ccd/stress/stress.hpp"
-#include "errbound/support/error.hpp"
-#include "errbound/support/output_file.hpp"
-#include "errbound/support/progress_line.hpp"
-#include "errbound/support/table.hpp"
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
+#include "ccd/stress/output.hpp"
+#include "errbound/support/command_line.hpp"
 
 namespace ccd::program {
 namespace {
 
-namespace fs = std::filesystem;
-using stress::cell;
-
-std::string formatted(const char* pattern, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, pattern, value);
-    return text;
+const stress::family* family_named(const std::string& name) {
+    return &errbound::support::entry_named("--family", name, stress::families(),
+                                           &stress::family::name);
 }
 
-std::string knob_of(const cell& c) {
-    return formatted("%g", c.knob);
-}
-
-/// The cells of one method and family, summed over knob and kind.
-struct summary {
-    cell sum;
-    const cell* worst = nullptr;
-
-    void add(const cell& c) {
-        if (worst == nullptr) {
-            sum.family = c.family;
-            sum.subject = c.subject;
-            worst = &c;
-        } else if (badness(c) > badness(*worst)) {
-            worst = &c;
-        }
-        const auto before = static_cast<double>(sum.queries), here = static_cast<double>(c.queries);
-        sum.ns_per_query = (sum.ns_per_query * before + c.ns_per_query * here) / (before + here);
-        sum.queries += c.queries;
-        sum.collisions += c.collisions;
-        sum.false_positives += c.false_positives;
-        sum.false_negatives += c.false_negatives;
-        sum.uncertain += c.uncertain;
-        sum.wrong_certain += c.wrong_certain;
-        sum.from_not_finite += c.from_not_finite;
+class stress_run final : public command {
+  public:
+    explicit stress_run(CLI::App& program)
+        : command(program, "stress",
+                  "Every method on stiff and extreme queries, family by family, each with a knob "
+                  "that is\n"
+                  "swept over its whole range; truth by unbounded integers") {
+        line_.add_flag("--quick", quick_, "About a minute instead of ten");
+        line_.add_option("--family", families_, "Families F[,F...], else all")
+            ->type_name("F[,F...]");
+        line_
+            .add_option(
+                "--queries", queries_,
+                "So many of each family, kind and value of the knob; fewer where the truth\n"
+                "takes tenths of a second")
+            ->check(CLI::Range(1, 1000000));
+        line_.add_option("--seed", plan_.seed, "Same seed, same queries")->capture_default_str();
+        add_threads_option(
+            line_, plan_.threads,
+            "Threads that find the truth; 0: one per core. Methods are timed on one");
+        line_
+            .add_option("--out", out_.folder,
+                        "Write DIR/stress.csv, a row per cell, and DIR/stress.md, the table")
+            ->type_name("DIR");
+        line_
+            .add_option("--json", out_.json,
+                        "Write the cells as JSON; a knob of null is exactly zero (CSV: -inf)")
+            ->type_name("OUT");
     }
 
-    /// Shares of false negatives count first, then those of false positives, then time.
-    static std::array<double, 4> badness(const cell& c) {
-        const auto share = [&c](std::size_t count) {
-            return static_cast<double>(count) / static_cast<double>(c.queries);
-        };
-        return {share(c.from_not_finite), share(c.false_negatives), share(c.false_positives),
-                c.ns_per_query};
+    exit_status run() override {
+        for (const ccd::method m : methods_.methods())
+            plan_.subjects.push_back(stress::subject_of(info(m)));
+        if (line_.count("--family") > 0)
+            plan_.families = errbound::support::all_named(families_, family_named);
+        else
+            for (const stress::family& entry : stress::families()) plan_.families.push_back(&entry);
+        plan_.queries = quick_ && line_.count("--queries") == 0 ? 100 : queries_;
+        plan_.seconds = quick_ ? 0.002 : 0.02;
+        if (out_.json && out_.folder)
+            errbound::support::require_separate(
+                {out_.json}, {*out_.folder / "stress.csv", *out_.folder / "stress.md"});
+        return stress::run_and_write(plan_, out_, std::cout) ? done : broken_promise;
     }
 
-    std::string text_of_worst() const {
-        const cell& c = *worst;
-        const auto [what, count] = c.from_not_finite > 0 ? std::pair("answered", c.from_not_finite)
-                                   : c.false_negatives > 0 ? std::pair("FN", c.false_negatives)
-                                   : c.false_positives > 0 ? std::pair("FP", c.false_positives)
-                                                           : std::pair("", std::size_t{0});
-        const std::string where = " at " + knob_of(c) + ", " + std::string(short_name(c.kind));
-        if (count == 0) return formatted("%.0f ns", c.ns_per_query) + where;
-        return what + std::string(" ") + std::to_string(count) + "/" + std::to_string(c.queries) +
-               where;
-    }
+  private:
+    stress::plan plan_;
+    stress::outputs out_;
+    std::string families_;
+    bool quick_ = false;
+    std::size_t queries_ = 1000;
+    methods_option methods_{line_};
 };
-
-/// By family, then method.
-std::vector<summary> summaries_of(const std::vector<cell>& cells, std::size_t subjects) {
-    std::vector<summary> all;
-    for (const cell& c : cells) {
-        if (all.empty() || all[all.size() - subjects].sum.family != c.family)
-            all.resize(all.size() + subjects);
-        all[all.size() - subjects + c.subject].add(c);
-    }
-    return all;
-}
-
-table rows_of(const std::vector<summary>& summaries, const stress::plan& plan) {
-    table rows = {{"family", "method", "queries", "collisions", "FP", "FN", "uncertain", "wrong",
-                   "ns/query", "worst at knob"}};
-    for (const summary& s : summaries) {
-        rows.push_back({std::string(s.sum.family->name), plan.subjects[s.sum.subject].name,
-                        std::to_string(s.sum.queries), std::to_string(s.sum.collisions),
-                        std::to_string(s.sum.false_positives),
-                        std::to_string(s.sum.false_negatives), std::to_string(s.sum.uncertain),
-                        std::to_string(s.sum.wrong_certain + s.sum.from_not_finite),
-                        formatted("%.0f", s.sum.ns_per_query), s.text_of_worst()});
-    }
-    return rows;
-}
-
-constexpr std::string_view legend =
-    "FP, FN: false positives and negatives against the exact answer; uncertain counts as a "
-    "collision.\n"
-    "wrong: `collides` or `separate` said where the contrary is true, or of coordinates that are "
-    "not finite.\n";
-
-/// What was promised, by which methods.
-std::string promises_of(const stress::plan& plan) {
-    std::string without_lost, without_false;
-    for (const stress::subject& who : plan.subjects) {
-        const auto add = [&who](std::string& list) {
-            list += (list.empty() ? "" : ", ") + who.name;
-        };
-        if (!who.may_lose_collisions) add(without_lost);
-        if (!who.may_report_false_collisions) add(without_false);
-    }
-    const auto or_none = [](const std::string& list) { return list.empty() ? "none" : list; };
-    return "promised: no false negative by " + or_none(without_lost) + "; no false positive by " +
-           or_none(without_false) + "; no answer from NaN or infinity by all";
-}
-
-/// The first broken promise of each method and family.
-std::vector<const cell*> broken_of(const std::vector<cell>& cells) {
-    std::vector<const cell*> first;
-    for (const cell& c : cells) {
-        const bool known = std::ranges::any_of(first, [&c](const cell* other) {
-            return other->family == c.family && other->subject == c.subject;
-        });
-        if (c.broken && !known) first.push_back(&c);
-    }
-    return first;
-}
-
-/// Writes the query of each broken promise and tells of it, a line each.
-std::string report_broken(const std::vector<const cell*>& broken, const stress::plan& plan,
-                          const fs::path& folder) {
-    std::string lines;
-    for (const cell* c : broken) {
-        const std::string& method = plan.subjects[c->subject].name;
-        lines += "broken by " + method + ": " + std::string(c->broken->what) + "; family " +
-                 std::string(c->family->name) + ", knob " + knob_of(*c) + ", " +
-                 std::string(short_name(c->kind)) + ", query " + std::to_string(c->broken->index);
-        if (c->family->finite) {
-            const fs::path path =
-                folder / ("stress-" + method + "-" + std::string(c->family->name) + "-" +
-                          std::string(short_name(c->kind)) + ".csv");
-            const stress::points p =
-                stress::make(*c->family, c->knob, c->kind, plan.seed, c->broken->index);
-            io::write_whole(path, query_families::csv(p, c->broken->collides ? ",1" : ",0"));
-            lines += "; replay: ccd query " + path.string() + " --method " + method;
-        }
-        lines += '\n';
-    }
-    return lines;
-}
-
-std::string csv_of(const std::vector<cell>& cells, const stress::plan& plan) {
-    std::string text =
-        "family,knob_name,knob,kind,method,queries,collisions,false_positives,false_negatives,"
-        "uncertain,ns_per_query\n";
-    for (const cell& c : cells) {
-        text += std::string(c.family->name) + ',' + std::string(c.family->knob_name) + ',' +
-                knob_of(c) + ',' + std::string(short_name(c.kind)) + ',' +
-                plan.subjects[c.subject].name;
-        for (const std::size_t count :
-             {c.queries, c.collisions, c.false_positives, c.false_negatives, c.uncertain})
-            text += ',' + std::to_string(count);
-        text += ',' + formatted("%.1f", c.ns_per_query) + '\n';
-    }
-    return text;
-}
-
-std::string json_of(const std::vector<cell>& cells, const stress::plan& plan) {
-    auto array = nlohmann::ordered_json::array();
-    for (const cell& c : cells) {
-        array.push_back({{"family", c.family->name},
-                         {"knob_name", c.family->knob_name},
-                         {"knob", c.knob},  // JSON has no infinity: null
-                         {"kind", std::string(short_name(c.kind))},
-                         {"method", plan.subjects[c.subject].name},
-                         {"queries", c.queries},
-                         {"collisions", c.collisions},
-                         {"false_positives", c.false_positives},
-                         {"false_negatives", c.false_negatives},
-                         {"uncertain", c.uncertain},
-                         {"wrong_certain", c.wrong_certain},
-                         {"from_not_finite", c.from_not_finite},
-                         {"ns_per_query", c.ns_per_query}});
-    }
-    return array.dump(2) + '\n';
-}
-
-std::string markdown_table(const table& rows) {
-    std::string text;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (const std::string& entry : rows[i]) text += "| " + entry + ' ';
-        text += "|\n";
-        if (i > 0) continue;
-        for (std::size_t k = 0; k < rows[i].size(); ++k) text += "|---";
-        text += "|\n";
-    }
-    return text;
-}
-
-std::string markdown_of(const table& rows, const stress::plan& plan, const std::string& verdict) {
-    table families = {{"family", "what it is", "knob"}};
-    for (const stress::family* f : plan.families)
-        families.push_back(
-            {std::string(f->name), std::string(f->description), std::string(f->knob_name)});
-    return "# Stiff and extreme queries\n\nSeed " + std::to_string(plan.seed) + ", " +
-           std::to_string(plan.queries) +
-           " queries of each family, kind and value of the knob (fewer where the exact answer "
-           "takes "
-           "tenths of a second).\n\n" +
-           markdown_table(rows) + '\n' + std::string(legend) + '\n' + verdict + '\n' +
-           markdown_table(families);
-}
-
-/// The folder for outputs, there and writable: known now, not after the run.
-void prepare(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw io::file_error(folder.string() + ": cannot be made (" + error.message() + ")");
-    if (access(folder.c_str(), W_OK) != 0)
-        throw io::file_error(folder.string() + ": cannot be written to");
-}
 
 }  // namespace
 
-bool run_stress(const stress_arguments& arguments) {
-    if (arguments.out) prepare(*arguments.out);
-    const stress::plan& plan = arguments.plan;
-    std::vector<cell> cells;
-    {
-        progress_line progress;
-        cells = stress::run(plan, [&](std::size_t done, std::size_t all, const auto& next) {
-            progress.show(done, all, std::string(next.name));
-        });
-    }
-    const table rows = rows_of(summaries_of(cells, plan.subjects.size()), plan);
-    const std::vector<const cell*> broken = broken_of(cells);
-    const std::string verdict = report_broken(broken, plan, arguments.out.value_or(fs::path())) +
-                                promises_of(plan) +
-                                (broken.empty() ? ": kept\n" : ": BROKEN, as said above\n");
-    if (arguments.out) {
-        io::write_whole(*arguments.out / "stress.csv", csv_of(cells, plan));
-        io::write_whole(*arguments.out / "stress.md", markdown_of(rows, plan, verdict));
-    }
-    if (arguments.json) io::write_whole(*arguments.json, json_of(cells, plan));
-    std::cout << text_of(rows, 2) << '\n' << legend << verdict;
-    return broken.empty();
+std::unique_ptr<command> stress_command(CLI::App& program) {
+    return std::make_unique<stress_run>(program);
 }
 
 }  // namespace ccd::program

@@ -1,6 +1,7 @@
 #include "ccd/report/data_set.hpp"
 
 #include <algorithm>
+#include <errbound/support/error.hpp>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -14,11 +15,13 @@
 #include "ccd/report/machine.hpp"
 #include "ccd/step/broad_phase.hpp"
 #include "ccd/step/step_frames.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
 namespace {
+
+using errbound::support::file_error;
+using errbound::support::read_whole;
 
 namespace fs = std::filesystem;
 
@@ -53,7 +56,7 @@ void add(data_source source, const fs::path& folder, found_data& found) {
 /// Adds all regular files below the folder, by absolute path.
 void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
     if (!fs::is_directory(folder))
-        throw io::file_error(folder.string() + ": found no such folder, expected one of data");
+        throw file_error(folder.string() + ": found no such folder, expected one of data");
     const auto options = fs::directory_options::skip_permission_denied;
     for (auto entry = fs::recursive_directory_iterator(fs::canonical(folder), options);
          entry != fs::recursive_directory_iterator(); ++entry) {
@@ -156,8 +159,8 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (!entry.path().filename().string().ends_with(ending)) continue;
         if (found)
-            throw io::file_error(folder.string() + ": found several files *" + ending +
-                                 ", expected the one of the frames beside it");
+            throw file_error(folder.string() + ": found several files *" + ending +
+                             ", expected the one of the frames beside it");
         found = entry.path();
     }
     return found;
@@ -167,11 +170,11 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
 /// order of their greater, then lesser vertex, then faces.
 std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     try {
-        return nlohmann::json::parse(io::read_whole(path))
+        return nlohmann::json::parse(read_whole(path))
             .get<std::vector<std::array<std::size_t, 2>>>();
     } catch (const nlohmann::json::exception& error) {
-        throw io::file_error(path.string() + ": found " + error.what() +
-                             ", expected a JSON array of pairs of elements");
+        throw file_error(path.string() + ": found " + error.what() +
+                         ", expected a JSON array of pairs of elements");
     }
 }
 
@@ -185,20 +188,19 @@ void compare_stored(const fs::path& frame, const std::string& ending, const Pair
     const fs::path truth_path =
         path->parent_path().parent_path() / "mma_bool" / (path->stem().string() + "_mma_bool.json");
     const auto pairs = read_pairs(*path);
-    const std::vector<bool> truth =
-        io::parse_truth(io::read_whole(truth_path), truth_path.string());
+    const std::vector<bool> truth = io::parse_truth(read_whole(truth_path), truth_path.string());
     if (truth.size() != pairs.size())
-        throw io::file_error(truth_path.string() + ": found " + std::to_string(truth.size()) +
-                             " truth values, expected " + std::to_string(pairs.size()) +
-                             ", one per pair of " + path->string());
-    contents += io::read_whole(*path) + io::read_whole(truth_path);
+        throw file_error(truth_path.string() + ": found " + std::to_string(truth.size()) +
+                         " truth values, expected " + std::to_string(pairs.size()) +
+                         ", one per pair of " + path->string());
+    contents += read_whole(*path) + read_whole(truth_path);
 
     std::map<std::array<index, 4>, bool> stored;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto pair = pair_of(pairs[i][0], pairs[i][1]);
         if (!pair)
-            throw io::file_error(path->string() + ": element " + std::to_string(i) +
-                                 ": found a number out of range, expected one of the frames'");
+            throw file_error(path->string() + ": element " + std::to_string(i) +
+                             ": found a number out of range, expected one of the frames'");
         stored[key(*pair)] = truth[i];
     }
     judged.stored_truths = pairs.size();
@@ -300,7 +302,7 @@ std::unique_ptr<data_set> load(const data_source& source, int threads) {
         data->after = io::read_mesh(source.frames[1]);
         io::require_same_topology(data->before, source.frames[0].string(), data->after,
                                   source.frames[1].string());
-        for (const fs::path& path : source.frames) contents += io::read_whole(path);
+        for (const fs::path& path : source.frames) contents += read_whole(path);
         find_candidates(*data, threads);
         decide_truth(*data, threads);
         compare_stored(source.frames[0], *data, contents);
@@ -308,7 +310,7 @@ std::unique_ptr<data_set> load(const data_source& source, int threads) {
         std::vector<signed char> vertex_face_truths, edge_edge_truths;
         for (const fs::path& path : source.queries) {
             const io::query_file file = io::read_queries(path, std::nullopt, false);
-            contents += io::read_whole(path);
+            contents += read_whole(path);
             if (file.kind == kind::vertex_face) {
                 append(file.vertex_face_queries, file.truth, data->vertex_face_queries,
                        vertex_face_truths);

@@ -36,7 +36,7 @@ struct found_data {
 /// Stored queries are CSV files whose path names their kind; those of one folder, and of its
 /// folders edge-edge, vertex-face, ee and vf, are one data set. A folder with exactly two meshes
 /// (PLY or OBJ) is a scene, the one with the shorter, then lesser name its first frame. Throws
-/// io::file_error if a folder is not there.
+/// errbound::support::file_error if a folder is not there.
 found_data find_data(const std::vector<std::filesystem::path>& folders);
 
 /// Queries of one kind with their truth.
@@ -79,7 +79,7 @@ struct data_set {
 /// stored beside it, as the scalable benchmark does (../boxes/*vf.json and *ee.json name pairs of
 /// elements, ../mma_bool/NAME_mma_bool.json which of them collide, and all others do not), is
 /// compared with it. Memory: some 20 bytes a query of a scene, 200 of a stored one.
-/// Throws io::file_error.
+/// Throws errbound::support::file_error.
 std::unique_ptr<data_set> load(const data_source& source, int threads);
 
 /// Queries that the program makes itself, the same everywhere: contacts, and their neighbours

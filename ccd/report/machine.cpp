@@ -6,14 +6,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <errbound/support/error.hpp>
 #include <fstream>
 #include <thread>
 
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
 namespace {
+
+using errbound::support::file_error;
+using errbound::support::read_whole;
 
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
@@ -42,8 +45,8 @@ machine this_machine() {
 
 std::string program_fingerprint() {
     try {
-        return fingerprint_of(io::read_whole("/proc/self/exe"));
-    } catch (const io::file_error&) {
+        return fingerprint_of(read_whole("/proc/self/exe"));
+    } catch (const file_error&) {
         return "0";
     }
 }

@@ -2,15 +2,19 @@
 
 #include <cctype>
 #include <cstdio>
+#include <errbound/support/error.hpp>
 #include <system_error>
 #include <utility>
 
 #include "ccd/report/machine.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
 namespace {
+
+using errbound::support::file_error;
+using errbound::support::read_whole;
+using errbound::support::write_whole;
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
@@ -36,8 +40,8 @@ part_store::part_store(fs::path folder) : folder_(std::move(folder)) {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_))
-        throw io::file_error(folder_.string() + ": cannot be made a folder" +
-                             (error ? " (" + error.message() + ")" : std::string()));
+        throw file_error(folder_.string() + ": cannot be made a folder" +
+                         (error ? " (" + error.message() + ")" : std::string()));
 }
 
 fs::path part_store::path_of(const part_key& key) const {
@@ -53,7 +57,7 @@ bool part_store::find(const part_key& key, rows& into) const {
     const fs::path path = path_of(key);
     std::error_code error;
     if (!fs::is_regular_file(path, error)) return false;
-    const ordered_json document = ordered_json::parse(io::read_whole(path), nullptr, false);
+    const ordered_json document = ordered_json::parse(read_whole(path), nullptr, false);
     if (!document.is_object() || !document.contains("rows") || !document["rows"].is_array() ||
         document.value("depends_on", ordered_json()) != key.depends_on ||
         document.value("check", ordered_json()) != fingerprint_of(dumped(document["rows"])))
@@ -68,7 +72,7 @@ void part_store::keep(const part_key& key, const rows& of_part) const {
                                    {"depends_on", key.depends_on},
                                    {"check", fingerprint_of(dumped(values))},
                                    {"rows", values}};
-    io::write_whole(path_of(key), document.dump(1, ' ', false, replace) + '\n');
+    write_whole(path_of(key), document.dump(1, ' ', false, replace) + '\n');
 }
 
 std::string csv_of(const std::vector<std::string>& columns, const rows& of_table) {

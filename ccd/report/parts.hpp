@@ -21,12 +21,12 @@ struct part_key {
 /// Parts in a folder, a file each. A file of another key, or one that is damaged, counts as none.
 class part_store {
   public:
-    /// Makes the folder if it is not there. Throws io::file_error.
+    /// Makes the folder if it is not there. Throws errbound::support::file_error.
     explicit part_store(std::filesystem::path folder);
 
     /// Whether the part is there; if so, its rows.
     bool find(const part_key& key, rows& into) const;
-    /// Writes the part, whole or not at all. Throws io::file_error.
+    /// Writes the part, whole or not at all. Throws errbound::support::file_error.
     void keep(const part_key& key, const rows& of_part) const;
     std::filesystem::path path_of(const part_key& key) const;
 

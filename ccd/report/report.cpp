@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <ctime>
+#include <errbound/support/error.hpp>
 #include <system_error>
 
 #include "ccd/report/tasks.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
@@ -15,6 +15,9 @@ namespace ccd::report {
 extern const std::string_view plot_script;  // ccd/report/plot.py, by the build
 
 namespace {
+
+using errbound::support::file_error;
+using errbound::support::write_whole;
 
 namespace fs = std::filesystem;
 
@@ -159,7 +162,7 @@ std::vector<std::unique_ptr<data_set>> collect_data(const options& settings, sum
         show(0, "reading " + source.name);
         try {
             all.push_back(load(source, settings.threads));
-        } catch (const io::file_error& error) {
+        } catch (const file_error& error) {
             report.left_out.push_back({source.name, error.what()});
             continue;
         }
@@ -176,8 +179,8 @@ std::vector<std::unique_ptr<data_set>> collect_data(const options& settings, sum
         std::string why;
         for (const omission& without : report.left_out)
             why.append("; left out: ").append(without.path.string() + ": " + without.why);
-        throw io::file_error("found no stored queries and no scene in" + folders +
-                             ", expected a data set" + why);
+        throw file_error("found no stored queries and no scene in" + folders +
+                         ", expected a data set" + why);
     }
     if (settings.made) {
         for (auto& data : made_data(settings.threads)) all.push_back(std::move(data));
@@ -236,14 +239,14 @@ void write_tables(const summary& report) {
         const fs::path path = report.settings.out / (std::string(t.section) + ".csv");
         std::error_code ignored;
         fs::remove(path, ignored);
-        if (!t.table.empty()) io::write_whole(path, csv_of(t.columns, t.table));
+        if (!t.table.empty()) write_whole(path, csv_of(t.columns, t.table));
     }
 }
 
 /// Writes plot.py and runs it. Pictures that it could not make are left out, and that is told.
 void draw_pictures(summary& report, const say_line& say) {
     const fs::path& folder = report.settings.out;
-    io::write_whole(folder / "plot.py", plot_script);
+    write_whole(folder / "plot.py", plot_script);
     for (const picture& p : possible_pictures()) {  // of earlier data
         std::error_code ignored;
         fs::remove(folder / p.file, ignored);
@@ -312,7 +315,7 @@ summary make(const options& settings, const std::function<void(double, const std
     write_tables(report);
     show(1, "pictures");
     draw_pictures(report, say);
-    io::write_whole(settings.out / "report.md", markdown_of(report));
+    write_whole(settings.out / "report.md", markdown_of(report));
     return report;
 }
 

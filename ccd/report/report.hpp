@@ -76,7 +76,7 @@ std::vector<method_total> totals(const rows& methods,
 
 /// Measures what the folder does not hold yet and writes the CSV files, plot.py and what it draws,
 /// and report.md. `show` is told the share that is done and what comes next; `say` gets lines for a
-/// person. Throws io::file_error: no data, a folder that cannot be read or written.
+/// person. Throws errbound::support::file_error: no data, a folder that cannot be read or written.
 summary make(const options& settings, const std::function<void(double, const std::string&)>& show,
              const std::function<void(const std::string&)>& say);
 

@@ -1,26 +1,27 @@
 // The program `errbound`: reads the command line. Exit status 0 done, 1 bad input or violations
 // found, 2 bad usage.
 #include <CLI/CLI.hpp>
+#include <errbound/support/error.hpp>
 #include <exception>
 #include <iostream>
 #include <string>
 
 #include "errbound/program/validate_command.hpp"
 #include "errbound/support/command_line.hpp"
-#include "errbound/support/error.hpp"
 
 namespace errbound::validation {
 namespace {
 
+using errbound::support::all_named;
+using errbound::support::entry_named;
+using errbound::support::file_error;
+using errbound::support::require_separate;
+using errbound::support::usage_error;
+
 enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2 };
 
 rule rule_named(const std::string& name) {
-    std::string known;
-    for (const rule& r : rules()) {
-        if (r.name == name) return r;
-        known += (known.empty() ? "" : ", ") + std::string(r.name);
-    }
-    throw ccd::program::usage_error("--rules: found '" + name + "', expected one of " + known);
+    return entry_named("--rules", name, rules(), &rule::name);
 }
 
 struct command_line {
@@ -75,11 +76,11 @@ struct command_line {
         if (validate->count("--rules") == 0)
             arguments.rules.assign(rules().begin(), rules().end());
         else
-            arguments.rules = ccd::program::all_named(rule_list, rule_named);
+            arguments.rules = all_named(rule_list, rule_named);
         arguments.kind = ccd::find_kind(kind);
         arguments.expressions =
             validate->count("--expressions") > 0 || (!arguments.tiny && arguments.queries.empty());
-        ccd::program::require_separate({arguments.json, arguments.csv}, arguments.queries);
+        require_separate({arguments.json, arguments.csv}, arguments.queries);
         return run_validate(arguments) ? done : violations_found;
     }
 };
@@ -92,10 +93,10 @@ int main_with_status(int argc, char** argv) {
         status = line.run();
     } catch (const CLI::ParseError& error) {
         if (line.app.exit(error) != 0) return bad_usage;
-    } catch (const ccd::program::usage_error& error) {
+    } catch (const usage_error& error) {
         std::cerr << "errbound: " << error.what() << '\n';
         return bad_usage;
-    } catch (const ccd::io::file_error& error) {
+    } catch (const file_error& error) {
         std::cerr << "errbound: " << error.what() << '\n';
         return bad_input;
     } catch (const std::bad_alloc&) {

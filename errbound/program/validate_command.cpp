@@ -13,7 +13,11 @@
 namespace errbound::validation {
 namespace {
 
-using ccd::program::table;
+using errbound::support::progress_line;
+using errbound::support::table;
+using errbound::support::text_of;
+using errbound::support::write_whole;
+
 using nlohmann::ordered_json;
 
 /// What was found by one part of the run.
@@ -37,7 +41,7 @@ std::string text_of_counts(const std::vector<part>& parts) {
             rows.push_back({p.name, c.rule, c.number, std::to_string(c.cases),
                             std::to_string(c.values), std::to_string(c.violations),
                             std::to_string(c.undetermined)});
-    return ccd::program::text_of(rows, 3);
+    return text_of(rows, 3);
 }
 
 std::string text_of_tightness(const std::vector<part>& parts) {
@@ -55,7 +59,7 @@ std::string text_of_tightness(const std::vector<part>& parts) {
                 rows.back().push_back(text);
             }
         }
-    return rows.size() > 1 ? ccd::program::text_of(rows, 5) : std::string();
+    return rows.size() > 1 ? text_of(rows, 5) : std::string();
 }
 
 std::string text_of_violations(const std::vector<part>& parts) {
@@ -137,7 +141,7 @@ std::string csv_of(const std::vector<part>& parts) {
 bool run_validate(const validate_arguments& arguments) {
     std::vector<part> parts;
     const auto run = [&parts](const std::string& name, const auto& validate) {
-        ccd::program::progress_line progress;
+        progress_line progress;
         parts.push_back({name, validate([&](std::uint64_t done, std::uint64_t all) {
                              progress.show(done, all, "parts: " + name);
                          })});
@@ -163,8 +167,8 @@ bool run_validate(const validate_arguments& arguments) {
             return validate_expressions(arguments.rules, arguments.options, show);
         });
 
-    if (arguments.json) ccd::io::write_whole(*arguments.json, json_of(parts));
-    if (arguments.csv) ccd::io::write_whole(*arguments.csv, csv_of(parts));
+    if (arguments.json) write_whole(*arguments.json, json_of(parts));
+    if (arguments.csv) write_whole(*arguments.csv, csv_of(parts));
     std::cout << text_of_counts(parts);
     if (const std::string text = text_of_tightness(parts); !text.empty())
         std::cout << "\nlog10 of the measure:\n" << text;

@@ -21,7 +21,7 @@ struct validate_arguments {
 };
 
 /// Prints what was found; writes nothing unless all files are good. Returns whether every promise
-/// was kept. Throws ccd::io::file_error on bad input.
+/// was kept. Throws errbound::support::file_error on bad input.
 bool run_validate(const validate_arguments& arguments);
 
 }  // namespace errbound::validation

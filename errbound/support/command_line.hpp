@@ -3,13 +3,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
 
-namespace ccd::program {
+namespace errbound::support {
 
 /// A command line that CLI11 lets through but that makes no sense.
 struct usage_error : std::runtime_error {
@@ -26,6 +27,26 @@ auto all_named(const std::string& list, const Named& named) {
         result.push_back(named(list.substr(begin, comma - begin)));
     }
     return result;
+}
+
+/// The names of the entries, for "expected one of ...".
+template <class Entries, class Name>
+std::string listed(const Entries& entries, const Name& name) {
+    std::string list;
+    for (const auto& entry : entries)
+        list.append(list.empty() ? "" : ", ").append(std::invoke(name, entry));
+    return list;
+}
+
+/// The entry of that name, a reference into `entries`. Throws usage_error, which names the option.
+/// `remark` ends its message.
+template <class Entries, class Name>
+const auto& entry_named(const std::string& option, const std::string& wanted,
+                        const Entries& entries, const Name& name, const std::string& remark = "") {
+    for (const auto& entry : entries)
+        if (std::invoke(name, entry) == wanted) return entry;
+    throw usage_error(option + ": found '" + wanted + "', expected one of " +
+                      listed(entries, name) + remark);
 }
 
 /// An output must be neither an input nor another output: nothing is lost.
@@ -46,4 +67,4 @@ inline void require_separate(const std::vector<std::optional<std::filesystem::pa
     }
 }
 
-}  // namespace ccd::program
+}  // namespace errbound::support

@@ -5,12 +5,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <errbound/support/error.hpp>
 #include <fstream>
 #include <system_error>
 
-#include "errbound/support/error.hpp"
-
-namespace ccd::io {
+namespace errbound::support {
 namespace fs = std::filesystem;
 namespace {
 
@@ -90,4 +89,4 @@ std::string read_whole(const fs::path& path) {
     return text;
 }
 
-}  // namespace ccd::io
+}  // namespace errbound::support

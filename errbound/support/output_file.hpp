@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace ccd::io {
+namespace errbound::support {
 
 /// Writes `text` to a temporary file beside `path` and renames it. Throws file_error.
 void write_whole(const std::filesystem::path& path, std::string_view text);
@@ -13,4 +13,4 @@ void write_whole(const std::filesystem::path& path, std::string_view text);
 /// The whole file. Throws file_error (missing, a directory, unreadable).
 std::string read_whole(const std::filesystem::path& path);
 
-}  // namespace ccd::io
+}  // namespace errbound::support

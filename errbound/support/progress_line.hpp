@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <string>
 
-namespace ccd::program {
+namespace errbound::support {
 
 /// A bar on a terminal's standard error, once the work takes a second; gone at the end.
 class progress_line {
@@ -50,4 +50,4 @@ class progress_line {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace ccd::program
+}  // namespace errbound::support

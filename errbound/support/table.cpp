@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace ccd::program {
+namespace errbound::support {
 
 std::string text_of(const table& rows, std::size_t left) {
     std::vector<std::size_t> widths(rows.empty() ? 0 : rows.front().size());
@@ -26,4 +26,4 @@ std::string text_of(const table& rows, std::size_t left) {
     return result;
 }
 
-}  // namespace ccd::program
+}  // namespace errbound::support

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ccd::program {
+namespace errbound::support {
 
 /// Rows of cells, the first row the heading; all rows of one length.
 using table = std::vector<std::vector<std::string>>;
@@ -13,4 +13,4 @@ using table = std::vector<std::vector<std::string>>;
 /// The table as text, a line per row: the first `left` columns aligned left, the others right.
 std::string text_of(const table& rows, std::size_t left);
 
-}  // namespace ccd::program
+}  // namespace errbound::support

@@ -283,7 +283,7 @@ int main(int argc, char** argv) try {
                                      {"float_operations", peaks.float_operations},
                                      {"double_operations", peaks.double_operations},
                                      {"commit", commit}};
-        ccd::io::write_whole(
+        errbound::support::write_whole(
             json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");
     }
     return 0;

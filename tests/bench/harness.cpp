@@ -39,7 +39,7 @@ cell none() {
 
 void report::table(std::string_view section, const nlohmann::json& about, const std::string& title,
                    const std::vector<column>& columns, const std::vector<std::vector<cell>>& rows) {
-    ccd::program::table text(1);
+    errbound::support::table text(1);
     for (const column& c : columns) text[0].push_back(c.heading);
     nlohmann::json values = nlohmann::json::array();
     for (const auto& row : rows) {
@@ -53,7 +53,7 @@ void report::table(std::string_view section, const nlohmann::json& about, const 
         values.push_back(std::move(entry));
     }
     const auto left = static_cast<std::size_t>(std::ranges::count(columns, true, &column::left));
-    std::printf("\n%s\n\n%s", title.c_str(), ccd::program::text_of(text, left).c_str());
+    std::printf("\n%s\n\n%s", title.c_str(), errbound::support::text_of(text, left).c_str());
     std::fflush(stdout);
     tables_.push_back({{"section", section}, {"title", title}, {"rows", std::move(values)}});
 }

@@ -91,7 +91,7 @@ int main(int argc, char** argv) try {
     if (o.wants("growth") && o.scene.empty()) bench::growth_with_mesh(o, out);
     if (o.wants("predicates") && o.scene.empty()) bench::predicates(o, out);
     if (!json.empty()) {
-        ccd::io::write_whole(
+        errbound::support::write_whole(
             json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");
     }
     return 0;

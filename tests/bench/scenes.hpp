@@ -26,7 +26,8 @@ struct scene {
 /// All names, in the order of tables.
 std::vector<std::string> scene_names();
 
-/// Fills in the scene of that name; false if its data is not here. Throws ccd::io::file_error.
+/// Fills in the scene of that name; false if its data is not here. Throws
+/// errbound::support::file_error.
 bool load(const std::string& name, scene& into);
 
 /// A cloth of n x n vertices, draped over a sphere of as fine a mesh, that sinks by half a cell and

@@ -149,10 +149,10 @@ void save(const state& s, const fs::path& folder) {
         if (queries.empty()) {
             fs::remove(differences_path(folder, which));
         } else {
-            ccd::io::write_whole(differences_path(folder, which), queries);
+            errbound::support::write_whole(differences_path(folder, which), queries);
         }
     }
-    ccd::io::write_whole(state_path(folder), to_json(s));
+    errbound::support::write_whole(state_path(folder), to_json(s));
 }
 
 state run(state from, const run_options& options, const decider& truth,

@@ -32,7 +32,7 @@ std::filesystem::path differences_path(const std::filesystem::path& folder,
                                        query_families::kind which);
 
 /// Writes the state, whole or not at all, and the files of differing queries if there are any;
-/// removes those of an earlier run. Throws ccd::io::file_error.
+/// removes those of an earlier run. Throws errbound::support::file_error.
 void save(const state& s, const std::filesystem::path& folder);
 
 struct run_options {

@@ -91,7 +91,7 @@ class progress_display {
 };
 
 void report(const soak::state& s, const fs::path& folder) {
-    ccd::program::table families{
+    errbound::support::table families{
         {"family", "vf queries", "vf collisions", "ee queries", "ee collisions"}};
     soak::kind_counts sum[2];
     const auto row = [&](std::string title, const soak::kind_counts& vf,
@@ -110,14 +110,14 @@ void report(const soak::state& s, const fs::path& folder) {
             s.found.families[0][f], s.found.families[1][f]);
     }
     row("all", sum[0], sum[1]);
-    ccd::program::table deciders{{"against the reference", "compared", "differences"}};
+    errbound::support::table deciders{{"against the reference", "compared", "differences"}};
     for (const auto& d : s.found.deciders) {
         deciders.push_back({d.name, grouped(d.compared), grouped(d.differences)});
     }
     std::puts(
         "\nfamilies: tests/support/query_families.hpp; 1 in N: a query takes tenths of a second");
-    std::printf("\n%s\n%s\n", ccd::program::text_of(families, 1).c_str(),
-                ccd::program::text_of(deciders, 1).c_str());
+    std::printf("\n%s\n%s\n", errbound::support::text_of(families, 1).c_str(),
+                errbound::support::text_of(deciders, 1).c_str());
     std::printf("seed %ju: %s queries in %s, %s differ\n", std::uintmax_t{s.seed},
                 grouped(sum[0].queries + sum[1].queries).c_str(), duration(s.seconds).c_str(),
                 grouped(s.found.differing_queries).c_str());
@@ -147,7 +147,7 @@ soak::state begin(std::uint64_t seed, bool seed_given, bool resume, const fs::pa
         return {.seed = seed};
     }
     soak::state s;
-    const std::string text = ccd::io::read_whole(path);
+    const std::string text = errbound::support::read_whole(path);
     try {
         s = soak::from_json(text);
     } catch (const std::runtime_error& error) {

@@ -33,7 +33,7 @@ void say(const char* part, const Findings& f, std::uint64_t wrong) {
 
 /// Whether all signs are right.
 bool signs(const soak::predicate_run& run) {
-    ccd::program::table rows{{"predicate", "type", "inputs", "zero", "wrong", "uncertain"}};
+    errbound::support::table rows{{"predicate", "type", "inputs", "zero", "wrong", "uncertain"}};
     for (const char* name : stage_names) rows[0].emplace_back(name);
     rows[0].emplace_back("seconds");
     bool right = true;
@@ -49,14 +49,14 @@ bool signs(const soak::predicate_run& run) {
         row.push_back(number(f.seconds, 1));
     });
     std::printf("signs against an oracle in whole numbers, and the stages that decided\n%s\n",
-                ccd::program::text_of(rows, 2).c_str());
+                errbound::support::text_of(rows, 2).c_str());
     return right;
 }
 
 /// Whether all bounds hold.
 bool bounds(const soak::predicate_run& run) {
-    ccd::program::table rows{{"predicate", "type", "constant", "Shewchuk's", "attempts",
-                              "violations", "bound used up", "seconds"}};
+    errbound::support::table rows{{"predicate", "type", "constant", "Shewchuk's", "attempts",
+                                   "violations", "bound used up", "seconds"}};
     bool hold = true;
     soak::attack_bounds(run, [&](const soak::bound_findings& f) {
         say("bounds", f, f.violations);
@@ -69,7 +69,7 @@ bool bounds(const soak::predicate_run& run) {
     std::printf(
         "constants of static filters, in units of the roundoff u, and attempts to violate "
         "their bounds\n%s\n",
-        ccd::program::text_of(rows, 2).c_str());
+        errbound::support::text_of(rows, 2).c_str());
     return hold;
 }
 

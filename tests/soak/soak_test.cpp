@@ -125,13 +125,13 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
             decide(queries, answers);
         };
         run(s, folder / "parts", {stopping, deciders[1]}, stop);
-        s = soak::from_json(ccd::io::read_whole(soak::state_path(folder / "parts")));
+        s = soak::from_json(errbound::support::read_whole(soak::state_path(folder / "parts")));
     }
     EXPECT_GT(sittings, 1);
     EXPECT_EQ(s.found, whole.found);
     for (const kind which : soak::kinds) {
-        EXPECT_EQ(ccd::io::read_whole(soak::differences_path(folder / "parts", which)),
-                  ccd::io::read_whole(soak::differences_path(folder / "whole", which)));
+        EXPECT_EQ(errbound::support::read_whole(soak::differences_path(folder / "parts", which)),
+                  errbound::support::read_whole(soak::differences_path(folder / "whole", which)));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <errbound/support/error.hpp>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -20,13 +21,13 @@
 #include "ccd/io/mesh_file.hpp"
 #include "ccd/io/query_file.hpp"
 #include "ccd/io/text.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace {
 
 using namespace ccd;
 using namespace ccd::io;
+using namespace errbound::support;
 namespace fs = std::filesystem;
 
 /// A directory that goes away with the test.

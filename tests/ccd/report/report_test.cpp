@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <errbound/support/error.hpp>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -12,7 +13,6 @@
 
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
-#include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace {
@@ -29,7 +29,7 @@ class Report : public testing::Test {
 
     fs::path write(const fs::path& name, const std::string& text) const {
         fs::create_directories((folder_ / name).parent_path());
-        ccd::io::write_whole(folder_ / name, text);
+        errbound::support::write_whole(folder_ / name, text);
         return folder_ / name;
     }
 
@@ -71,21 +71,21 @@ TEST_F(Report, PartsAreFoundOnlyUndamagedAndUnderTheirKey) {
     EXPECT_FALSE(store.find({key.name, {{"program", "p"}, {"data", "e"}}}, found));
 
     const fs::path path = store.path_of(key);
-    const std::string text = ccd::io::read_whole(path);
+    const std::string text = errbound::support::read_whole(path);
     std::string changed = text;
     changed.replace(text.find("0.1"), 3, "0.2");
     for (const std::string& damaged :
          {changed, text.substr(0, text.size() / 2), std::string(), std::string("[]"),
           std::string("{\"rows\":[]}"), std::string("{\"rows\":[],\"depends_on\":1}")}) {
-        ccd::io::write_whole(path, damaged);
+        errbound::support::write_whole(path, damaged);
         EXPECT_FALSE(store.find(key, found)) << damaged;
     }
-    ccd::io::write_whole(path, text);
+    errbound::support::write_whole(path, text);
     EXPECT_TRUE(store.find(key, found));
 }
 
 TEST_F(Report, PartsNeedAFolder) {
-    EXPECT_THROW(report::part_store(write("file", "") / "parts"), ccd::io::file_error);
+    EXPECT_THROW(report::part_store(write("file", "") / "parts"), errbound::support::file_error);
 }
 
 // A vertex that falls through a triangle, and one that stays above it.
@@ -122,7 +122,7 @@ TEST_F(Report, FindsQueriesByFolderAndScenesOfTwoFrames) {
     ASSERT_EQ(found.left_out.size(), 2U);
     EXPECT_EQ(found.left_out[0].path.filename(), "table.csv");
     EXPECT_EQ(found.left_out[1].path.filename(), "c");
-    EXPECT_THROW(report::find_data({folder_ / "none"}), ccd::io::file_error);
+    EXPECT_THROW(report::find_data({folder_ / "none"}), errbound::support::file_error);
 }
 
 TEST_F(Report, TruthIsTheFilesElseExact) {
@@ -171,9 +171,9 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     EXPECT_NE(data->fingerprint, before);
 
     write("s/boxes/0vf.json", "[[3,14],[0,13]]");
-    EXPECT_THROW(load(), ccd::io::file_error);
+    EXPECT_THROW(load(), errbound::support::file_error);
     write("s/boxes/0vf.json", "[[3,12]]");
-    EXPECT_THROW(load(), ccd::io::file_error);
+    EXPECT_THROW(load(), errbound::support::file_error);
 }
 
 TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {

@@ -14,6 +14,7 @@
 #include <ccd/reference.hpp>
 #include <cmath>
 #include <cstdint>
+#include <errbound/support/error.hpp>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -27,8 +28,7 @@
 
 #include "ccd/exact/features.hpp"
 #include "ccd/io/query_file.hpp"
-#include "ccd/program/commands.hpp"
-#include "errbound/support/error.hpp"
+#include "ccd/stress/output.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace {
@@ -387,35 +387,29 @@ TEST(stress_run, no_promise_is_broken) {
     EXPECT_GT(by_float, 0u);  // so hard are they
 }
 
-// ---- The command ----
+// ---- What is printed and written ----
 
-class stress_command : public testing::Test {
+class stress_output : public testing::Test {
   protected:
-    stress_command() { std::cout.rdbuf(printed.rdbuf()); }
-    ~stress_command() override {
-        std::cout.rdbuf(standard);
-        fs::remove_all(folder);
-    }
+    ~stress_output() override { fs::remove_all(folder); }
 
     const fs::path folder =
         fs::temp_directory_path() / ("errbound_stress_test." + std::to_string(getpid()));
     std::ostringstream printed;
-    std::streambuf* const standard = std::cout.rdbuf();
 };
 
-TEST_F(stress_command, names_and_keeps_what_breaks_a_promise) {
-    const ccd::program::stress_arguments arguments{
+TEST_F(stress_output, names_and_keeps_what_breaks_a_promise) {
+    const stress::plan plan =
         plan_of({"touch-end", "not-finite"},
-                {always(separate, false, true), stress::subject_of(ccd::methods().back())}),
-        folder, folder / "cells.json"};
-    EXPECT_FALSE(ccd::program::run_stress(arguments));
+                {always(separate, false, true), stress::subject_of(ccd::methods().back())});
+    EXPECT_FALSE(run_and_write(plan, {folder, folder / "cells.json"}, printed));
     const std::string text = printed.str();
     EXPECT_NE(text.find("broken by always: it lost a collision; family touch-end, knob 0, vf"),
               text.npos)
         << text;
     EXPECT_NE(text.find("broken by always: it answered for coordinates that are not finite"),
               text.npos);
-    EXPECT_EQ(text.find("broken by " + arguments.plan.subjects[1].name), text.npos);
+    EXPECT_EQ(text.find("broken by " + plan.subjects[1].name), text.npos);
     EXPECT_TRUE(text.ends_with(": BROKEN, as said above\n"));
 
     const auto kept = ccd::io::read_queries(folder / "stress-always-touch-end-vf.csv", {}, false);
@@ -423,20 +417,21 @@ TEST_F(stress_command, names_and_keeps_what_breaks_a_promise) {
     EXPECT_EQ(ccd::decide_reference(kept.vertex_face_queries[0]).outcome, ccd::outcome::collides);
     EXPECT_EQ(kept.truth, std::vector<bool>{true});
 
-    const std::string csv = ccd::io::read_whole(folder / "stress.csv");
+    const std::string csv = errbound::support::read_whole(folder / "stress.csv");
     EXPECT_TRUE(csv.starts_with(
         "family,knob_name,knob,kind,method,queries,collisions,false_positives,false_negatives,"
         "uncertain,ns_per_query\n"
         "touch-end,ulps inside: sign(k) 2^(abs(k)-1),-21,vf,always,20,0,0,0,0,"))
         << csv;
-    EXPECT_NE(ccd::io::read_whole(folder / "stress.md").find("broken by always"), csv.npos);
+    EXPECT_NE(errbound::support::read_whole(folder / "stress.md").find("broken by always"),
+              csv.npos);
 }
 
-TEST_F(stress_command, a_folder_that_cannot_be_made_is_refused_at_once) {
+TEST_F(stress_output, a_folder_that_cannot_be_made_is_refused_at_once) {
     fs::create_directories(folder);
-    ccd::io::write_whole(folder / "file", "");
-    stress::plan plan = plan_of({"touch-end"}, {});
-    EXPECT_THROW(ccd::program::run_stress({plan, folder / "file", {}}), ccd::io::file_error);
+    errbound::support::write_whole(folder / "file", "");
+    EXPECT_THROW(run_and_write(plan_of({"touch-end"}, {}), {folder / "file", {}}, printed),
+                 errbound::support::file_error);
     EXPECT_EQ(printed.str(), "");
 }
 

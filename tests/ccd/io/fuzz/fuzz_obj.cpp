@@ -1,10 +1,10 @@
 // Fuzzes the OBJ reader: any bytes are a sound mesh or a file_error, never a crash; what is read
 // survives being written in shortest decimals.
 #include <charconv>
+#include <errbound/support/error.hpp>
 #include <string>
 
 #include "ccd/io/mesh_file.hpp"
-#include "errbound/support/error.hpp"
 #include "tests/ccd/io/fuzz/same_mesh.hpp"
 
 namespace {
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ccd::mesh m;
     try {
         m = ccd::io::parse_mesh_obj({reinterpret_cast<const char*>(data), size}, "fuzz");
-    } catch (const ccd::io::file_error&) {
+    } catch (const errbound::support::file_error&) {
         return 0;
     }
     ccd::fuzz::require_sound(m);

@@ -2,10 +2,10 @@
 // survives being written as binary doubles.
 #include <array>
 #include <bit>
+#include <errbound/support/error.hpp>
 #include <string>
 
 #include "ccd/io/mesh_file.hpp"
-#include "errbound/support/error.hpp"
 #include "tests/ccd/io/fuzz/same_mesh.hpp"
 
 namespace {
@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ccd::mesh m;
     try {
         m = ccd::io::parse_mesh_ply({reinterpret_cast<const char*>(data), size}, "fuzz");
-    } catch (const ccd::io::file_error&) {
+    } catch (const errbound::support::file_error&) {
         return 0;
     }
     ccd::fuzz::require_sound(m);

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <errbound/support/error.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
-#include "errbound/support/error.hpp"
 
 namespace {
 
@@ -64,13 +64,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     query_file rounded;
     try {
         rounded = ccd::io::parse_queries(text, "fuzz", kind, true);
-    } catch (const ccd::io::file_error&) {
+    } catch (const errbound::support::file_error&) {
     }
     try {
         const query_file exact = ccd::io::parse_queries(text, "fuzz", kind, false);
         require_same(exact, rounded);
         require_same(exact, ccd::io::parse_queries(hexadecimal_rows(exact), "again", kind, false));
-    } catch (const ccd::io::file_error&) {
+    } catch (const errbound::support::file_error&) {
         if (rounded.size() == 0) return 0;
         // Refused only for not being exact; then what was rounded to is exact, and must be read.
         require_same(rounded,

@@ -1,18 +1,18 @@
 // Fuzzes the reader of truth files: any bytes are booleans or a file_error, never a crash.
 #include <cstdint>
 #include <cstdlib>
+#include <errbound/support/error.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ccd/io/query_file.hpp"
-#include "errbound/support/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<bool> truth;
     try {
         truth = ccd::io::parse_truth({reinterpret_cast<const char*>(data), size}, "fuzz");
-    } catch (const ccd::io::file_error&) {
+    } catch (const errbound::support::file_error&) {
         return 0;
     }
     std::string text = "[";

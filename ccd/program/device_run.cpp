@@ -1,4 +1,4 @@
-#include "ccd/program/on_device.hpp"
+#include "ccd/program/device_run.hpp"
 
 #include "errbound/support/command_line.hpp"
 
@@ -22,12 +22,9 @@ std::vector<method> methods_on_device() {
     return {all.begin(), all.end()};
 }
 
-void decide_on_device(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
-                      method m, cuda::precision precision) {
-    require(cuda::decide(queries, answers, {m, precision, nullptr}));
-}
-void decide_on_device(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
-                      method m, cuda::precision precision) {
+template <class Query>
+void decide_on_device(std::span<const Query> queries, std::span<outcome> answers, method m,
+                      cuda::precision precision) {
     require(cuda::decide(queries, answers, {m, precision, nullptr}));
 }
 step_result step_on_device(const mesh& before, const mesh& after, method m,
@@ -40,7 +37,7 @@ step_result step_on_device(const mesh& before, const mesh& after, method m,
 #else
 
 void require_device() {
-    throw usage_error(
+    throw errbound::support::usage_error(
         "--device: found cuda, expected cpu: this build has no CUDA (it needs nvcc 12 or later)");
 }
 
@@ -49,12 +46,8 @@ std::vector<method> methods_on_device() {
 }
 
 // Never reached: require_device() comes first.
-void decide_on_device(std::span<const vertex_face<double>>, std::span<outcome>, method,
-                      cuda::precision) {
-    require_device();
-}
-void decide_on_device(std::span<const edge_edge<double>>, std::span<outcome>, method,
-                      cuda::precision) {
+template <class Query>
+void decide_on_device(std::span<const Query>, std::span<outcome>, method, cuda::precision) {
     require_device();
 }
 step_result step_on_device(const mesh&, const mesh&, method, cuda::precision) {
@@ -63,5 +56,10 @@ step_result step_on_device(const mesh&, const mesh&, method, cuda::precision) {
 }
 
 #endif
+
+template void decide_on_device(std::span<const vertex_face<double>>, std::span<outcome>, method,
+                               cuda::precision);
+template void decide_on_device(std::span<const edge_edge<double>>, std::span<outcome>, method,
+                               cuda::precision);
 
 }  // namespace ccd::program

@@ -27,11 +27,10 @@ void require_device();
 /// The methods that devices run.
 std::vector<method> methods_on_device();
 
-/// Throw device_error.
-void decide_on_device(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
-                      method m, cuda::precision precision);
-void decide_on_device(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
-                      method m, cuda::precision precision);
+/// Of the stored kinds. Throw device_error.
+template <class Query>
+void decide_on_device(std::span<const Query> queries, std::span<outcome> answers, method m,
+                      cuda::precision precision);
 step_result step_on_device(const mesh& before, const mesh& after, method m,
                            cuda::precision precision);
 

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace ccd::io {
+namespace errbound::support {
 
 /// Bad input or output. what() is a full sentence for a person: file, line or element, what was
 /// found, what was expected. The program prints it and exits with status 1.
@@ -11,4 +11,4 @@ struct file_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace ccd::io
+}  // namespace errbound::support

@@ -1,0 +1,38 @@
+// What a command of the program is: its options, and what it does once they are read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+namespace ccd::program {
+
+enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2 };
+
+/// A command, registered with the program's command line. What it asks for lies in members, which
+/// the line is read into.
+class command {
+  public:
+    command(CLI::App& program, const std::string& name, const std::string& description)
+        : line_(*program.add_subcommand(name, description)) {}
+    virtual ~command() = default;
+    command(const command&) = delete;
+    command& operator=(const command&) = delete;
+
+    bool was_given() const { return line_.parsed(); }
+
+    /// Prints to standard output and writes files. Throws errbound::support::usage_error (options
+    /// that make no sense together), errbound::support::file_error, device_error.
+    virtual exit_status run() = 0;
+
+  protected:
+    CLI::App& line_;
+};
+
+std::unique_ptr<command> query_command(CLI::App& program);
+std::unique_ptr<command> step_command(CLI::App& program);
+std::unique_ptr<command> stress_command(CLI::App& program);
+std::unique_ptr<command> report_command(CLI::App& program);
+std::unique_ptr<command> methods_command(CLI::App& program);
+
+}  // namespace ccd::program

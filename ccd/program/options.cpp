@@ -1,0 +1,60 @@
+#include "ccd/program/options.hpp"
+
+#include <algorithm>
+
+#include "errbound/support/command_line.hpp"
+
+namespace ccd::program {
+
+using errbound::support::entry_named;
+using errbound::support::usage_error;
+
+ccd::method method_named(const std::string& name) {
+    return entry_named("--method", name, ccd::methods(), &method_info::name).method;
+}
+
+methods_option::methods_option(CLI::App& line)
+    : option_(
+          line.add_option("--method", list_, "Methods M[,M...], else all")->type_name("M[,M...]")) {
+}
+
+std::vector<ccd::method> methods_option::methods() const {
+    if (was_given()) return errbound::support::all_named(list_, method_named);
+    std::vector<ccd::method> all;
+    for (const method_info& entry : ccd::methods()) all.push_back(entry.method);
+    return all;
+}
+
+device_options::device_options(CLI::App& line) {
+    line.add_option("--device", device_, "Where to decide: cpu, else cuda")
+        ->check(CLI::IsMember({"cpu", "cuda"}))
+        ->capture_default_str();
+    line.add_option("--precision", precision_,
+                    "With --device cuda: what methods compute in first, float64 (the default)\n"
+                    "or float32; what floats cannot tell is decided in doubles")
+        ->check(CLI::IsMember({"float64", "float32"}));
+}
+
+device_choice device_options::chosen() const {
+    if (device_ == "cpu") {
+        if (!precision_.empty())
+            throw usage_error("--precision: found --device cpu, expected --device cuda");
+        return {};
+    }
+    require_device();
+    return {true, precision_ == "float32" ? cuda::precision::float32 : cuda::precision::float64};
+}
+
+void require_on_device(ccd::method m) {
+    const std::vector<ccd::method> possible = methods_on_device();
+    if (std::ranges::find(possible, m) != possible.end()) return;
+    const auto name = [](ccd::method known) { return std::string(info(known).name); };
+    throw usage_error("--method: found '" + name(m) + "' with --device cuda, expected one of " +
+                      errbound::support::listed(possible, name));
+}
+
+void add_threads_option(CLI::App& line, int& threads, const std::string& description) {
+    line.add_option("--threads", threads, description)->check(CLI::Range(0, 4096));
+}
+
+}  // namespace ccd::program
