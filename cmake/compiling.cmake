@@ -1,14 +1,30 @@
-# How everything here is compiled: build type, sanitizers, warnings.
+# How everything here is compiled: build type, compiler cache, sanitizers, warnings.
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
+if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(ERRBOUND_CCACHE ccache)
+  mark_as_advanced(ERRBOUND_CCACHE)
+  if(ERRBOUND_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${ERRBOUND_CCACHE})
+    set(CMAKE_CUDA_COMPILER_LAUNCHER ${ERRBOUND_CCACHE})
+  endif()
+endif()
+
 if(ERRBOUND_SANITIZE)
   add_compile_options(-fsanitize=${ERRBOUND_SANITIZE} -fno-sanitize-recover=all
-                      -fno-omit-frame-pointer -g)
+                      -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${ERRBOUND_SANITIZE})
   set(ERRBOUND_WITH_CUDA OFF)  # of which sanitizers see nothing
 endif()
 
 # Warnings are for the project's own targets; users get none of them.
 add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wconversion>")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12")
+  # False alarms for "text" + std::string: GCC bug 105651.
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>")
+endif()
+if(ERRBOUND_WERROR)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Werror>")
+endif()
