@@ -14,6 +14,7 @@
 #include "ccd/exact/finite.hpp"
 
 namespace ccd {
+namespace detail {
 namespace {
 
 /// Queries that a thread takes at a time: enough to make the call cheap, few enough for the second
@@ -66,6 +67,21 @@ void check_indices(std::span<const Pair> queries, std::size_t first, std::size_t
                                             std::to_string(v) + " of " + std::to_string(vertices));
 }
 
+/// Calls decide(first, count) for the runs of finite queries; the others are uncertain.
+template <class IsFinite, class Decide>
+void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
+                   const IsFinite& is_finite, const Decide& decide) {
+    if (all_are_finite) {
+        decide(std::size_t(0), count);
+        return;
+    }
+    for (std::size_t first = 0, end = 0; first < count; first = end) {
+        while (end < count && is_finite(end)) ++end;
+        if (end > first) decide(first, end - first);
+        if (end < count) answers[end++] = outcome::uncertain;
+    }
+}
+
 template <class Pair>
 void decide_indexed(const vertex_rows& rows, std::span<const Pair> queries,
                     std::span<outcome> answers, const batch_options& options) {
@@ -73,22 +89,27 @@ void decide_indexed(const vertex_rows& rows, std::span<const Pair> queries,
     // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
     // and saves some 10 ns a query.
     const bool many = 2 * queries.size() > rows.vertices;
-    const bool finite = many && all_finite(rows.before, 3 * rows.vertices) &&
-                        all_finite(rows.after, 3 * rows.vertices);
+    const bool all_are_finite = many && all_finite(rows.before, 3 * rows.vertices) &&
+                                all_finite(rows.after, 3 * rows.vertices);
     std::optional<rounded_positions> rounded;
-    if (finite) rounded.emplace(rows);
+    if (all_are_finite) rounded.emplace(rows);
     const batch_positions positions{rows, rounded ? rounded->data() : nullptr};
+    const auto finite_vertex = [&](index v) {
+        return all_finite(rows.before + 3 * std::size_t(v), 3) &&
+               all_finite(rows.after + 3 * std::size_t(v), 3);
+    };
     for_each_chunk(queries.size(), options,
                    [&](batch_worker& worker, std::size_t first, std::size_t count) {
                        const auto part = queries.subspan(first, count);
                        check_indices(part, first, rows.vertices);
-                       worker.decide(positions, part, &answers[first]);
-                       if (finite) return;
-                       for (std::size_t i = 0; i < count; ++i)
-                           for (const index v : vertices_of(part[i]))
-                               if (!all_finite(rows.before + 3 * std::size_t(v), 3) ||
-                                   !all_finite(rows.after + 3 * std::size_t(v), 3))
-                                   answers[first + i] = outcome::uncertain;
+                       decide_finite(
+                           count, &answers[first], all_are_finite,
+                           [&](std::size_t i) {
+                               return std::ranges::all_of(vertices_of(part[i]), finite_vertex);
+                           },
+                           [&](std::size_t i, std::size_t n) {
+                               worker.decide(positions, part.subspan(i, n), &answers[first + i]);
+                           });
                    });
 }
 
@@ -100,32 +121,34 @@ void decide_stored(std::span<const Query> queries, std::span<outcome> answers,
     for_each_chunk(queries.size(), options,
                    [&](batch_worker& worker, std::size_t first, std::size_t count) {
                        const auto part = queries.subspan(first, count);
-                       worker.decide(part, &answers[first]);
                        const auto* at = reinterpret_cast<const double*>(part.data());
-                       if (all_finite(at, numbers * count)) return;
-                       for (std::size_t i = 0; i < count; ++i)
-                           if (!all_finite(at + numbers * i, numbers))
-                               answers[first + i] = outcome::uncertain;
+                       decide_finite(
+                           count, &answers[first], all_finite(at, numbers * count),
+                           [&](std::size_t i) { return all_finite(at + numbers * i, numbers); },
+                           [&](std::size_t i, std::size_t n) {
+                               worker.decide(part.subspan(i, n), &answers[first + i]);
+                           });
                    });
 }
 
 }  // namespace
+}  // namespace detail
 
 void decide_batch(const vertex_rows& positions, std::span<const vertex_face_pair> queries,
                   std::span<outcome> answers, const batch_options& options) {
-    decide_indexed(positions, queries, answers, options);
+    detail::decide_indexed(positions, queries, answers, options);
 }
 void decide_batch(const vertex_rows& positions, std::span<const edge_edge_pair> queries,
                   std::span<outcome> answers, const batch_options& options) {
-    decide_indexed(positions, queries, answers, options);
+    detail::decide_indexed(positions, queries, answers, options);
 }
 void decide_batch(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
                   const batch_options& options) {
-    decide_stored(queries, answers, options);
+    detail::decide_stored(queries, answers, options);
 }
 void decide_batch(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
                   const batch_options& options) {
-    decide_stored(queries, answers, options);
+    detail::decide_stored(queries, answers, options);
 }
 
 }  // namespace ccd

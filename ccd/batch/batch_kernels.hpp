@@ -2,28 +2,28 @@
 //
 // Internal. ccd/batch/batch_kernels.cpp is compiled several times, each time with other flags and
 // another value of ERRBOUND_INSTRUCTION_SET, the namespace of its results. So that nothing compiled
-// for a newer machine is ever called on an older one, that file may define no function that another
-// could share: tests/ccd/batch/instruction_sets_test.sh looks at its symbols.
+// for a newer machine is ever called on an older one, what it includes may define no function that
+// another file could share: tests/ccd/batch/instruction_sets_test.sh looks at its symbols.
 #pragma once
 
 #include <ccd/batch.hpp>
 #include <ccd/explain.hpp>
-#include <ccd/query.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/verdict.hpp>
 #include <cstddef>
 
-namespace ccd {
+namespace ccd::detail {
 
-/// How a cull fares in a stream of queries: where it does not pay it pauses.
-struct cull_state {
-    std::size_t poor_blocks = 0;     ///< of which it settled too few, in a row
-    std::size_t blocks_to_pass = 0;  ///< before it is tried again
+/// How a stage fares in a stream of queries: where it does not pay it pauses.
+struct stage_pause {
+    std::size_t poor_blocks = 0;     ///< of which it decided too few, in a row
+    std::size_t blocks_to_pass = 0;  ///< before it is asked again
 };
 
-/// The cull by fixed axes: in single precision where there are such positions, else, or where that
-/// settles too little, in double.
-struct axes_state {
-    cull_state in_float, in_double;
+/// Axes are asked in floats where there are rounded positions, else, or where they decide too
+/// little, in doubles.
+struct axes_pauses {
+    stage_pause in_floats, in_doubles;
 };
 
 /// Positions of a batch; `rounded` are those of ccd/batch/rounded_positions.hpp, or null.
@@ -32,19 +32,21 @@ struct batch_positions {
     const float* rounded = nullptr;
 };
 
-/// Decides `count` queries in floating point: `uncertain` in answers[i] leaves the query to exact
-/// arithmetic. `report` may be null. No allocation; some 300 KB of stack.
+/// Decide `count` queries of finite coordinates in floating point: `uncertain` in answers[i] leaves
+/// the query to exact arithmetic. `report` may be null. No allocation; some 300 KB of stack.
+template <kind K>
+struct kernels_of_kind {
+    using pair = typename kind_traits<K>::pair;
+    using query = typename kind_traits<K>::template query<double>;
+
+    void (*indexed)(const batch_positions& positions, const pair* queries, std::size_t count,
+                    outcome* answers, axes_pauses& pauses, stage_report* report);
+    void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
+                   stage_report* report);
+};
 struct batch_kernels {
-    void (*indexed_vertex_face)(const batch_positions& positions, const vertex_face_pair* queries,
-                                std::size_t count, outcome* answers, axes_state& axes,
-                                stage_report* report);
-    void (*indexed_edge_edge)(const batch_positions& positions, const edge_edge_pair* queries,
-                              std::size_t count, outcome* answers, axes_state& axes,
-                              stage_report* report);
-    void (*stored_vertex_face)(const vertex_face<double>* queries, std::size_t count,
-                               outcome* answers, axes_state& axes, stage_report* report);
-    void (*stored_edge_edge)(const edge_edge<double>* queries, std::size_t count, outcome* answers,
-                             axes_state& axes, stage_report* report);
+    kernels_of_kind<kind::vertex_face> vertex_face;
+    kernels_of_kind<kind::edge_edge> edge_edge;
 };
 
 // Which of them there are is up to the build: ERRBOUND_HAVE_X86_KERNELS.
@@ -58,4 +60,4 @@ namespace avx512 {
 extern const batch_kernels kernels;
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -8,6 +8,7 @@
 #include "ccd/exact/cascade.hpp"
 
 namespace ccd {
+namespace detail {
 namespace {
 
 struct instruction_set_entry {
@@ -42,9 +43,10 @@ struct available_sets {
 };
 
 }  // namespace
+}  // namespace detail
 
 std::span<const instruction_set> instruction_sets() {
-    static const available_sets available;
+    static const detail::available_sets available;
     return {available.sets.data(), available.size};
 }
 
@@ -61,6 +63,8 @@ std::optional<instruction_set> find_instruction_set(std::string_view wanted) {
     return std::nullopt;
 }
 
+namespace detail {
+
 const batch_kernels& kernels_for(std::optional<instruction_set> set) {
     const auto available = instruction_sets();
     const instruction_set wanted = set.value_or(available.back());
@@ -70,34 +74,49 @@ const batch_kernels& kernels_for(std::optional<instruction_set> set) {
     return *std::ranges::find(entries, wanted, &instruction_set_entry::set)->kernels;
 }
 
+namespace {
+
+/// What the kernels left uncertain, by the exact stages.
 template <class At>
-void batch_worker::settle_uncertain(std::size_t count, outcome* answers, const At& query_at) {
+void decide_uncertain(std::size_t count, outcome* answers, stage_report* report,
+                      const At& query_at) {
     for (std::size_t i = 0; i < count; ++i)
-        if (answers[i] == outcome::uncertain) answers[i] = settle(query_at(i), counts()).outcome;
+        if (answers[i] == outcome::uncertain) answers[i] = settle(query_at(i), report).outcome;
 }
+
+template <kind K, class Pair>
+void decide_indexed(const kernels_of_kind<K>& kernels, const batch_positions& positions,
+                    std::span<const Pair> queries, outcome* answers, axes_pauses& pauses,
+                    stage_report* report) {
+    kernels.indexed(positions, queries.data(), queries.size(), answers, pauses, report);
+    decide_uncertain(queries.size(), answers, report,
+                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
+}
+
+template <kind K, class Query>
+void decide_stored(const kernels_of_kind<K>& kernels, std::span<const Query> queries,
+                   outcome* answers, axes_pauses& pauses, stage_report* report) {
+    kernels.stored(queries.data(), queries.size(), answers, pauses, report);
+    decide_uncertain(queries.size(), answers, report, [&](std::size_t i) { return queries[i]; });
+}
+
+}  // namespace
 
 void batch_worker::decide(const batch_positions& positions,
                           std::span<const vertex_face_pair> queries, outcome* answers) {
-    kernels_->indexed_vertex_face(positions, queries.data(), queries.size(), answers,
-                                  axes_vertex_face_, counts());
-    settle_uncertain(queries.size(), answers,
-                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
+    decide_indexed(kernels_->vertex_face, positions, queries, answers, vertex_face_pauses_,
+                   counts());
 }
 void batch_worker::decide(const batch_positions& positions, std::span<const edge_edge_pair> queries,
                           outcome* answers) {
-    kernels_->indexed_edge_edge(positions, queries.data(), queries.size(), answers, axes_edge_edge_,
-                                counts());
-    settle_uncertain(queries.size(), answers,
-                     [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
+    decide_indexed(kernels_->edge_edge, positions, queries, answers, edge_edge_pauses_, counts());
 }
 void batch_worker::decide(std::span<const vertex_face<double>> queries, outcome* answers) {
-    kernels_->stored_vertex_face(queries.data(), queries.size(), answers, axes_vertex_face_,
-                                 counts());
-    settle_uncertain(queries.size(), answers, [&](std::size_t i) { return queries[i]; });
+    decide_stored(kernels_->vertex_face, queries, answers, vertex_face_pauses_, counts());
 }
 void batch_worker::decide(std::span<const edge_edge<double>> queries, outcome* answers) {
-    kernels_->stored_edge_edge(queries.data(), queries.size(), answers, axes_edge_edge_, counts());
-    settle_uncertain(queries.size(), answers, [&](std::size_t i) { return queries[i]; });
+    decide_stored(kernels_->edge_edge, queries, answers, edge_edge_pauses_, counts());
 }
 
+}  // namespace detail
 }  // namespace ccd

@@ -3,12 +3,13 @@
 
 #include <ccd/batch.hpp>
 #include <ccd/explain.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/verdict.hpp>
 #include <span>
 
 #include "ccd/batch/batch_kernels.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 
 /// The kernels for `set`, which must be one of instruction_sets(); by default the strongest.
 /// Throws std::invalid_argument otherwise.
@@ -31,14 +32,12 @@ class batch_worker {
     const stage_report& report() const { return report_; }
 
   private:
-    template <class At>
-    void settle_uncertain(std::size_t count, outcome* answers, const At& query_at);
     stage_report* counts() { return counted_ ? &report_ : nullptr; }
 
     const batch_kernels* kernels_;
-    axes_state axes_vertex_face_, axes_edge_edge_;
+    axes_pauses vertex_face_pauses_, edge_edge_pauses_;
     stage_report report_;
     bool counted_;
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -1,4 +1,4 @@
-// The cull by axes in single precision: positions rounded once for all queries, compared in sums
+// Separating axes in single precision: positions rounded once for all queries, compared in sums
 // and differences of their coordinates. Internal; host, SIMD and device code share it.
 //
 // All coordinates are mapped to about [−1, 1] by one translation per axis and one scale for all,
@@ -8,14 +8,13 @@
 #pragma once
 
 #include <algorithm>
-#include <ccd/batch.hpp>
+#include <ccd/kind.hpp>
 #include <cstddef>
 #include <limits>
-#include <type_traits>
 
 #include "ccd/exact/static_filter.hpp"
 
-namespace ccd::rounded_axes {
+namespace ccd::detail::rounded_axes {
 
 /// Two projections x ± y that differ by more than this, as computed in float, differ in exact
 /// arithmetic and have the same order. In units of ε = 2^-23, for sizes up to 1.01: a
@@ -61,9 +60,7 @@ class frame {
     double middle_[3], scale_;
 };
 
-namespace detail {
-
-/// By how much an axis parts the features at one end of the step, if it does.
+/// By how much an axis separates the features at one end of the step, if it does.
 template <class S>
 struct gap {
     S above, below;
@@ -71,7 +68,7 @@ struct gap {
 template <class Pair, class S>
 constexpr gap<S> gap_between(const S (&x)[4]) {
     using std::max, std::min;
-    if constexpr (std::is_same_v<Pair, vertex_face_pair>)
+    if constexpr (kind_traits<ccd::kind_of<Pair>>::first_vertices == 1)
         return {x[0] - max(max(x[1], x[2]), x[3]), min(min(x[1], x[2]), x[3]) - x[0]};
     else
         return {min(x[2], x[3]) - max(x[0], x[1]), min(x[0], x[1]) - max(x[2], x[3])};
@@ -83,17 +80,14 @@ constexpr S separated_by(const S (&start)[4], const S (&end)[4]) {
     return max(min(g0.above, g1.above), min(g0.below, g1.below));
 }
 
-}  // namespace detail
-
-/// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly parts the features throughout the step:
-/// static_filter::separated in single precision. x[axis][end of the step][point], the points in the
-/// order of the indices; S is float or a pack of floats.
+/// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly separates the features throughout the
+/// step: static_filter::separated in single precision. x[axis][end of the step][point], the points
+/// in the order of the indices; S is float or a pack of floats.
 template <class Pair, class S>
 constexpr static_filter::mask<S> separated(const S (&x)[3][2][4]) {
     using std::max;
     S along(-1.0f), across(-1.0f);
-    for (std::size_t k = 0; k < 3; ++k)
-        along = max(along, detail::separated_by<Pair>(x[k][0], x[k][1]));
+    for (std::size_t k = 0; k < 3; ++k) along = max(along, separated_by<Pair>(x[k][0], x[k][1]));
     for (std::size_t k = 0; k < 3; ++k) {
         const auto &u = x[k], &v = x[(k + 1) % 3];
         S sum[2][4], difference[2][4];
@@ -102,12 +96,12 @@ constexpr static_filter::mask<S> separated(const S (&x)[3][2][4]) {
                 sum[end][p] = u[end][p] + v[end][p];
                 difference[end][p] = u[end][p] - v[end][p];
             }
-        across = max(across, detail::separated_by<Pair>(sum[0], sum[1]));
-        across = max(across, detail::separated_by<Pair>(difference[0], difference[1]));
+        across = max(across, separated_by<Pair>(sum[0], sum[1]));
+        across = max(across, separated_by<Pair>(difference[0], difference[1]));
     }
     const static_filter::mask<S> by_coordinates = along > S(0.0f),
                                  by_diagonals = across > S(margin);
     return by_coordinates | by_diagonals;
 }
 
-}  // namespace ccd::rounded_axes
+}  // namespace ccd::detail::rounded_axes

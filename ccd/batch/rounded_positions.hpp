@@ -7,7 +7,7 @@
 
 #include "ccd/batch/rounded_axes.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 
 class rounded_positions {
   public:
@@ -35,4 +35,4 @@ class rounded_positions {
     std::vector<float> floats_;
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

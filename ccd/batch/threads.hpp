@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace ccd {
+namespace ccd::detail {
 
 /// Runs `work` where parallel loops use at most `threads` threads: 0, or more than the machine has
 /// cores, one per core. Returns that number.
@@ -18,4 +18,4 @@ int on_threads(int threads, const Work& work) {
     return arena.max_concurrency();
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -32,7 +32,7 @@ struct alignas(16) rounded_position {
 
 /// The box around all positions, and whether every coordinate is finite.
 struct scene_extent {
-    rounded_axes::extent box;
+    detail::rounded_axes::extent box;
     bool finite;
 
     /// A power of two, times which no difference of coordinates exceeds 4 in size.
@@ -47,7 +47,9 @@ struct scene_extent {
         return traits::scale(1.0, -std::clamp(e, -1000, 1000));
     }
 
-    static constexpr scene_extent nothing() { return {rounded_axes::extent::nothing(), true}; }
+    static constexpr scene_extent nothing() {
+        return {detail::rounded_axes::extent::nothing(), true};
+    }
 };
 
 /// For launcher.reduce.
@@ -83,7 +85,7 @@ struct round_vertex {
     rounded_position* rows;
 
     constexpr void operator()(std::uint32_t v) const {
-        const rounded_axes::frame rounded(scene->box);
+        const detail::rounded_axes::frame rounded(scene->box);
         const auto row = [&](const positions::frame& frame) {
             const auto x = [&](std::size_t k) {
                 return rounded(k, coordinate_at(at, frame, k, v));
@@ -132,7 +134,7 @@ struct axes_stage : exact_stage<Pair> {
                 const rounded_position r = load_aligned(rows + 2 * std::size_t(vertices[p]) + end);
                 x[0][end][p] = r.x, x[1][end][p] = r.y, x[2][end][p] = r.z;
             }
-        return rounded_axes::separated<Pair>(x);
+        return detail::rounded_axes::separated<Pair>(x);
     }
 };
 

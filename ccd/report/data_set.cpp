@@ -137,7 +137,7 @@ std::vector<Pair> collected(const Find& find) {
 void find_candidates(data_set& data, int threads) {
     const step_frames frames(data.before, data.after);
     const std::vector<face>& faces = data.before.faces;
-    on_threads(threads, [&] {
+    detail::on_threads(threads, [&] {
         data.vertex_face_queries.queries.by_index =
             collected<vertex_face_pair>([&](const auto& consume) {
                 vertex_face_candidates(frames, faces, data.before.vertices.size(), consume);

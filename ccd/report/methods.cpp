@@ -57,7 +57,7 @@ rows count_errors(const judged_queries<Query>& data, std::string_view method, in
         for (std::size_t i = 0; i < n; ++i) counts.add(answers[i], data.collides[i] != 0);
     } else {
         constexpr std::size_t block = 1 << 14;  // small enough for progress to be seen
-        on_threads(threads, [&] {
+        detail::on_threads(threads, [&] {
             for (std::size_t first = 0; first < n; first += block) {
                 counts = counts +
                          count_block(data, *find_method(method), first, std::min(first + block, n));

@@ -24,10 +24,12 @@ namespace {
 template <class Pair>
 class narrow_phase {
   public:
-    narrow_phase(const batch_positions& positions, const step_options& options)
+    narrow_phase(const detail::batch_positions& positions, const step_options& options)
         : positions_(positions),
           method_(options.method),
-          parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
+          parts_(part{
+              {}, detail::batch_worker(detail::kernels_for(options.set), options.explain), {}, 0}) {
+    }
 
     /// From any thread.
     template <class Candidate>
@@ -79,12 +81,12 @@ class narrow_phase {
   private:
     struct part {
         std::vector<Pair> pairs;
-        batch_worker worker;
+        detail::batch_worker worker;
         std::vector<outcome> answers;
         double seconds = 0;
     };
 
-    batch_positions positions_;
+    detail::batch_positions positions_;
     method method_;
     mutable tbb::enumerable_thread_specific<part> parts_;
 };
@@ -95,7 +97,7 @@ step_result run_step(const mesh& before, const mesh& after, const step_options& 
     check_step(before, after);
     std::vector<edge> edges = unique_edges(before.faces);
     const vertex_rows rows(before, after);
-    const rounded_positions rounded(rows);
+    const detail::rounded_positions rounded(rows);
     result.prepare_seconds = watch.lap();
 
     const step_frames frames(before, after);
@@ -122,7 +124,7 @@ step_result run_step(const mesh& before, const mesh& after, const step_options& 
 step_result step(const mesh& before, const mesh& after, const step_options& options) {
     step_result result;
     const int threads =
-        on_threads(options.threads, [&] { result = run_step(before, after, options); });
+        detail::on_threads(options.threads, [&] { result = run_step(before, after, options); });
     result.threads = threads;
     return result;
 }

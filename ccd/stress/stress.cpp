@@ -134,7 +134,7 @@ std::vector<cell> run(const plan& what, const progress& tell) {
     std::size_t all = 0, done = 0;
     for (const family* f : what.families) all += f->knobs.size();
     std::vector<cell> cells;
-    on_threads(what.threads, [&] {
+    detail::on_threads(what.threads, [&] {
         for (const family* f : what.families) {
             for (const double knob : f->knobs) {
                 tell(done++, all, *f);

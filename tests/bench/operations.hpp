@@ -49,7 +49,7 @@ stage_operations operations_of_stages() {
     stage_operations all{};
     all.axes_in_floats = counted_by(single::operations, [] {
         const single x[3][2][4] = {};
-        (void)ccd::rounded_axes::separated<Pair>(x);
+        (void)ccd::detail::rounded_axes::separated<Pair>(x);
     });
     const typename kind::template query<scalar> query{};
     const auto filtered = [&](const auto& test) {

@@ -129,14 +129,14 @@ using linear_edge_edge_forms = edge_edge_forms<S>;
 namespace detail {
 
 template <kind K>
-struct linear_forms;
+struct forms_of_kind;
 template <>
-struct linear_forms<kind::vertex_face> {
+struct forms_of_kind<kind::vertex_face> {
     template <class S>
     using type = linear_vertex_face_forms<S>;
 };
 template <>
-struct linear_forms<kind::edge_edge> {
+struct forms_of_kind<kind::edge_edge> {
     template <class S>
     using type = linear_edge_edge_forms<S>;
 };
@@ -145,7 +145,7 @@ struct linear_forms<kind::edge_edge> {
 
 /// The forms of a kind that has them.
 template <kind K, class S>
-using linear_forms = typename detail::linear_forms<K>::template type<S>;
+using linear_forms = typename detail::forms_of_kind<K>::template type<S>;
 
 template <class S>
 constexpr vertex_face_forms<S> forms_of(const vertex_face<S>& q) {

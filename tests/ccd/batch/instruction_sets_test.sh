@@ -13,4 +13,4 @@ if [[ -n $shared ]]; then
     exit 1
 fi
 # The kernels themselves are there, so that an empty listing cannot pass for a good one.
-nm --demangle --defined-only --extern-only "$object" | grep -q -F "ccd::$set::kernels"
+nm --demangle --defined-only --extern-only "$object" | grep -q -F "ccd::detail::$set::kernels"

@@ -282,7 +282,7 @@ TEST(batch, refuses_what_it_cannot_do) {
 TEST(rounded_axes, a_scene_becomes_the_unit_box_however_small_it_is) {
     for (const int ulps : {0, 1, 2, 3, 5, 1000}) {
         const double low = 3.0, high = low + ulps * 0x1p-51;
-        const ccd::rounded_axes::frame frame({{low, low, low}, {high, low, high}});
+        const ccd::detail::rounded_axes::frame frame({{low, low, low}, {high, low, high}});
         for (const double x : {low, high})
             EXPECT_LE(std::abs(frame(0, x)), 1.001f) << ulps << " ulps";
         EXPECT_EQ(frame(1, low), 0.0f);

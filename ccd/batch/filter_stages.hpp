@@ -1,0 +1,129 @@
+// The stages of `exact` that look at the whole step, over packs of doubles. Internal.
+//
+// Each decides what it can and pushes the other queries to the next one's queue.
+#pragma once
+
+#include <ccd/explain.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/forms.hpp>
+#include <cstddef>
+#include <cstdint>
+
+#include "ccd/batch/batch_kernels.hpp"
+#include "ccd/batch/pack_subdivision.hpp"
+#include "ccd/batch/query_queue.hpp"
+#include "ccd/exact/stage_timer.hpp"
+#include "ccd/exact/static_filter.hpp"
+
+namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
+namespace {
+
+/// Whether a stage is to be asked now; counts down its pause.
+inline bool is_due(stage_pause& pause) {
+    if (pause.blocks_to_pass == 0) return true;
+    --pause.blocks_to_pass;
+    return false;
+}
+
+/// Axes cost about as much as the next stage. Where they decide fewer than a quarter of several
+/// blocks in a row, they are left out of the next ones.
+inline void update_pause(stage_pause& pause, std::size_t decided, std::size_t of) {
+    constexpr std::size_t patience = 4, length = 124;
+    pause.poor_blocks = 4 * decided < of ? pause.poor_blocks + 1 : 0;
+    if (pause.poor_blocks >= patience) pause = {0, length};
+}
+
+/// The coordinates of a block of queries, in columns: by point, end of the step, axis.
+struct coordinate_columns {
+    static constexpr std::size_t stride = block + 8;
+    alignas(64) double at[24][stride];
+
+    /// Makes the last pack a whole one.
+    void pad(std::size_t size) {
+        for (std::size_t i = size; i % width != 0; ++i)
+            for (auto& column : at) column[i] = 0;
+    }
+    template <kind K>
+    linear_forms<K, pack> forms_at(std::size_t first) const {
+        const auto point_at = [&](std::size_t c) {
+            return point<pack>{pack::load_aligned(&at[c][first]),
+                               pack::load_aligned(&at[c + 1][first]),
+                               pack::load_aligned(&at[c + 2][first])};
+        };
+        const auto moving = [&](std::size_t c) {
+            return moving_point<pack>{point_at(c), point_at(c + 3)};
+        };
+        using query = typename kind_traits<K>::template query<pack>;
+        return linear_forms<K, pack>(query{moving(0), moving(6), moving(12), moving(18)});
+    }
+};
+
+/// All nine axes at once. Where `pause` is null or the stage pauses, nothing is decided.
+template <kind K>
+[[gnu::flatten]] void test_axes(const coordinate_columns& coordinates, const std::uint32_t* ids,
+                                std::size_t size, stage_pause* pause, const decisions& decided,
+                                difference_queue<K>& open) {
+    stage_timer timer(pause != nullptr ? decided.report : nullptr, stage::axes);
+    const bool asked = pause != nullptr && is_due(*pause);
+    std::size_t separate = 0;
+    for (std::size_t at = 0; at < size; at += width) {
+        const auto forms = coordinates.forms_at<K>(at);
+        lanes left = first_lanes(lesser(size - at, width));
+        if (asked) {
+            const static_filter::sizes<pack> sizes(forms);
+            const lanes separated =
+                left &
+                lanes_of<double>(static_filter::separated<pack>(forms, sizes) & sizes.usable);
+            decided.write(ids + at, separated, outcome::separate);
+            separate += count_of(separated);
+            left &= ~separated;
+        }
+        if (left != 0) open.push(forms, ids + at, left);
+    }
+    if (asked) {
+        timer.count(size, separate, 0);
+        update_pause(*pause, separate, size);
+    } else {
+        timer.leave_out(size);
+    }
+}
+
+/// The coefficients of Y.
+template <kind K>
+[[gnu::flatten]] void test_coplanarity(difference_queue<K>& waiting, const decisions& decided,
+                                       difference_queue<K>& open) {
+    stage_timer timer(decided.report, stage::coplanarity);
+    waiting.pop_packs(block, [&](std::size_t at, std::size_t count) {
+        const auto forms = waiting.forms_at(at);
+        const static_filter::sizes<pack> sizes(forms);
+        const auto y = errbound::roots::control_values_of(forms.y());
+        const pack error = sizes.template error_of_y<forms_of_kind<K>::template type>();
+        const pack_mask rootless = static_filter::above(y, error) | static_filter::below(y, error);
+        const lanes separate = first_lanes(count) & lanes_of<double>(sizes.usable & rootless);
+        const lanes left = first_lanes(count) & ~separate;
+        decided.write(&waiting.ids[at], separate, outcome::separate);
+        timer.count(count, count_of(separate), 0);
+        if (left != 0) open.push(forms, &waiting.ids[at], left);
+    });
+}
+
+/// The coefficients of the G_i. Queries whose differences are too large stay uncertain.
+template <kind K>
+[[gnu::flatten]] void test_inside(difference_queue<K>& waiting, const decisions& decided,
+                                  pack_subdivision<K>& open) {
+    stage_timer timer(decided.report, stage::inside);
+    waiting.pop_packs(block, [&](std::size_t at, std::size_t count) {
+        const auto forms = waiting.forms_at(at);
+        const static_filter::sizes<pack> sizes(forms);
+        const lanes usable = first_lanes(count) & lanes_of<double>(sizes.usable);
+        const static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(forms, sizes);
+        const lanes separate = usable & lanes_of<double>(whole.outside());
+        const lanes left = usable & ~separate;
+        decided.write(&waiting.ids[at], separate, outcome::separate);
+        timer.count(count, count_of(separate), 0);
+        if (left != 0) open.push(whole, &waiting.ids[at], left);
+    });
+}
+
+}  // namespace
+}  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

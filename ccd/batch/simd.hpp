@@ -1,0 +1,100 @@
+// Packs of doubles and of floats for the batch kernels, and what xsimd 8 lacks of them. Internal:
+// see ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
+namespace {
+
+template <class T>
+using pack_of = xsimd::batch<T, xsimd::default_arch>;
+template <class T>
+using mask_of = xsimd::batch_bool<T, xsimd::default_arch>;
+
+using pack = pack_of<double>;
+using pack_mask = mask_of<double>;
+constexpr std::size_t width = pack::size;
+
+/// Some lanes of a pack: lane i is bit i.
+using lanes = std::uint32_t;
+
+inline std::size_t count_of(lanes some) {
+    return static_cast<std::size_t>(__builtin_popcount(some));
+}
+inline lanes first_lanes(std::size_t count) {
+    return (lanes(1) << count) - 1;
+}
+
+/// Calls visit(lane) for all of them, in ascending order.
+template <class Visit>
+inline void for_each_lane(lanes some, const Visit& visit) {
+    for (; some != 0; some &= some - 1) visit(static_cast<std::uint32_t>(__builtin_ctz(some)));
+}
+
+/// The lanes that are set.
+template <class T>
+lanes lanes_of(const mask_of<T>& m) {
+#if defined __AVX512F__
+    return m.data;
+#elif defined __AVX__
+    if constexpr (sizeof(T) == sizeof(double))
+        return static_cast<lanes>(_mm256_movemask_pd(m));
+    else
+        return static_cast<lanes>(_mm256_movemask_ps(m));
+#elif defined __SSE2__
+    if constexpr (sizeof(T) == sizeof(double))
+        return static_cast<lanes>(_mm_movemask_pd(m));
+    else
+        return static_cast<lanes>(_mm_movemask_ps(m));
+#else
+    bool set[mask_of<T>::size];
+    m.store_unaligned(set);
+    lanes some = 0;
+    for (std::size_t i = 0; i < std::size(set); ++i) some |= lanes(set[i]) << i;
+    return some;
+#endif
+}
+
+#if defined __AVX2__ && !defined __AVX512F__
+/// For every set of four lanes, the halves of those lanes in order.
+struct lane_orders {
+    alignas(32) std::int32_t halves[16][8];
+
+    constexpr lane_orders() : halves() {
+        for (int some = 0; some < 16; ++some) {
+            int k = 0;
+            for (int lane = 0; lane < 4; ++lane) {
+                if ((some >> lane & 1) == 0) continue;
+                halves[some][k++] = 2 * lane;
+                halves[some][k++] = 2 * lane + 1;
+            }
+        }
+    }
+};
+constexpr lane_orders orders;
+#endif
+
+/// Writes some lanes one after the other; may write up to a pack's width.
+inline void compress(const pack& values, lanes some, double* to) {
+#if defined __AVX512F__
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(static_cast<__mmask8>(some), values));
+#elif defined __AVX2__
+    const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(orders.halves[some]));
+    const __m256 packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(values), order);
+    _mm256_storeu_pd(to, _mm256_castps_pd(packed));
+#else
+    double all[width];
+    values.store_unaligned(all);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < width; ++i) {
+        to[k] = all[i];
+        k += some >> i & 1;
+    }
+#endif
+}
+
+}  // namespace
+}  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET
