@@ -21,21 +21,19 @@ int main() {
         {.v = 5, .f0 = 0, .f1 = 1, .f2 = 2},
     };
     std::vector<ccd::outcome> answers(candidates.size());
-    ccd::stage_report report;  // what each stage settled; leave it out and it costs nothing
+    ccd::stage_report report;  // what each stage decided; leave it out and it costs nothing
     ccd::decide_batch(positions, candidates, answers, {.threads = 0, .report = &report});
 
     const ccd::outcome expected[] = {ccd::outcome::collides, ccd::outcome::collides,
                                      ccd::outcome::separate};
     int wrong = 0;
     for (std::size_t i = 0; i < answers.size(); ++i) {
-        std::printf("vertex %u: %s\n", candidates[i].v,
-                    answers[i] == ccd::outcome::collides ? "collides" : "separate");
+        std::printf("vertex %u: %s\n", candidates[i].v, ccd::name(answers[i]).data());
         wrong += answers[i] != expected[i];
     }
-    for (std::size_t i = 0; i < ccd::stage_count; ++i) {
-        const auto& entry = report.stages[i];
-        const auto& stage = ccd::info(static_cast<ccd::stage>(i));
-        std::printf("%-12.*s settled %d\n", static_cast<int>(stage.name.size()), stage.name.data(),
+    for (const ccd::stage_info& stage : ccd::exact_stages) {
+        const auto& entry = report[stage.stage];
+        std::printf("%-12s decided %d\n", stage.name.data(),
                     static_cast<int>(entry.separate + entry.collides));
     }
     return wrong;

@@ -12,9 +12,7 @@ int main() {
                                          .f2 = {{0, 1, 0}, {0, 1, 0}}};
     for (const ccd::method_info& m : ccd::methods()) {
         const ccd::verdict v = ccd::decide(m.method, query);
-        const char* const outcomes[] = {"separate", "collides", "uncertain"};
-        std::printf("%.*s: %s\n", static_cast<int>(m.name.size()), m.name.data(),
-                    outcomes[static_cast<int>(v.outcome)]);
+        std::printf("%s: %s\n", m.name.data(), ccd::name(v.outcome).data());
     }
     std::printf("touching already at t = 0: %s\n",
                 ccd::may_collide(ccd::touches_at_start(query)) ? "yes" : "no");

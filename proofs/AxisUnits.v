@@ -1,8 +1,9 @@
 (** Queries in integers, each axis in units of its own, and what is asked of the coordinates as they are.
     Results:
         face_units, edges_units, vertex_edge_units   collisions do not depend on the axes' units
-        vertices_contact_right   `contact` of two vertices (ccd/exact/features.hpp) is true exactly if they meet
-        separated_right        where `separated` (ccd/exact/features.hpp) says so, vertex and edge do not meet *)
+        vertices_contact_right   `vertices_touch` (ccd/exact/features.hpp) is true exactly if they meet
+        separated_right   where `separated_by_coordinates` (ccd/exact/features.hpp) says so, vertex and
+                          edge do not meet *)
 
 From Coq Require Import Reals ZArith Lra List Bool.
 From Errbound Require Import Sign Bernstein Contact Decisions.
@@ -79,7 +80,7 @@ Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : P
 
 (** ** Two vertices *)
 
-(** contact(vertex_vertex) of ccd/exact/features.hpp *)
+(** vertices_touch of ccd/exact/features.hpp *)
 Definition vertices_contact (v w : @moving_point integers) : bool :=
   let d := difference v w in
   let at_end (i : nat) :=
@@ -118,7 +119,7 @@ Qed.
 
 (** ** SeparatingAxis *)
 
-(** separated (ccd/exact/features.hpp), of the coordinates as given *)
+(** separated_by_coordinates (ccd/exact/features.hpp), of the coordinates as given *)
 Definition less (a b : R) : bool := if Rlt_dec a b then true else false.
 Definition separated_along (axis : point -> R) (v e0 e1 : moving) : bool :=
   let v0 := axis (start v) in let v1 := axis (finish v) in

@@ -684,7 +684,7 @@ Qed.
 
 (** ** The decision *)
 
-(** `contact`; border: what contact_at_border returns. *)
+(** `collides`; border: what touches_at_border returns. *)
 Definition decision y gs (border : bool) : bool :=
   match root_with_nonnegative y gs with
   | no => false

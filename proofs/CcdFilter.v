@@ -1,4 +1,4 @@
-(** The bounds of the collision filter (ccd/exact/static_filter.hpp): in double, rounded in any
+(** The bounds of the collision filter (ccd/exact/static_filter/difference_extents.hpp): in double, rounded in any
     direction; constants, which the compiler computes, to nearest.
 
     Y, a cubic, and the inside forms G_i, quartics, are kept by control values times 3 and 12.

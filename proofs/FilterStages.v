@@ -1,4 +1,4 @@
-(** The floating-point stages of `exact` (ccd/exact/filter.cpp) from floats to contact, for one query: in
+(** The floating-point stages of `exact` (ccd/exact/stages.cpp) from floats to contact, for one query: in
     double, rounded in any direction; constants, which the compiler computes, to nearest.
 
     Results: halving_error_enough   `halving_error` covers what 12 halvings add to an error

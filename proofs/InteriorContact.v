@@ -974,7 +974,7 @@ End Query.
 (** ** Queries *)
 
 Notation integer_motion := (@moving_point integers).
-(** contact_of of ccd/exact/integer_decision.hpp: the points as given, m, and in integers, q. *)
+(** decide_converted of ccd/exact/integer_decision.hpp: the points as given, m, and in integers, q. *)
 Definition vertex_edge_queries {A : Type} (edges : bool) (q0 q1 q2 q3 : A) : list (A * A * A) :=
   if edges then let a0 := q0 in let a1 := q1 in let b0 := q2 in let b1 := q3 in
     [(a0, b0, b1); (a1, b0, b1); (b0, a0, a1); (b1, a0, a1)]

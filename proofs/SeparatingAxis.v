@@ -1,5 +1,5 @@
-(** `separated` of ccd/exact/static_filter.hpp: its margin covers the rounding errors of what is compared,
-    underflow included. In double, any direction; the constant, which the compiler computes, to nearest.
+(** `separated_by_axes` of ccd/exact/static_filter/separating_axes.hpp: its margin covers the rounding
+    errors of what is compared, underflow included. In double, any direction; the constant, which the compiler computes, to nearest.
 
     Results: separated_face_separate, separated_edges_separate    where an axis parts the features as
              computed, with sizes that cover the computed differences, they do not collide *)

@@ -1,5 +1,5 @@
-(** The last stage of the floating-point filter: ccd/exact/subdivision.hpp on control values, that is
-    plain Bernstein coefficients (include/errbound/roots/control_values.hpp), over any numbers that stand for
+(** The last stage of the floating-point filter: ccd/exact/static_filter/subdivision.hpp on control values,
+    that is plain Bernstein coefficients (include/errbound/roots/control_values.hpp), over any numbers that stand for
     real ones: exactly, or to within an error (Filter.v) that midpoints may increase.
 
     Results: halves_cubic, halves_quartic       halves are the parts on [0, 1/2] and [1/2, 1]

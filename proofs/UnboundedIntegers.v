@@ -6,8 +6,8 @@
     Results:
         to_integers_right       the integers are the coordinates, in units of their axes
         without_end_roots_value   p(t) is that form at t/(1 - t), but for a positive factor
-        integer_contact_right   `contact` is true exactly if vertex and edge meet in [0, 1]
-        face_border_right, edges_border_right   contact_at_border is what its name says *)
+        integer_contact_right   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1]
+        face_border_right, edges_border_right   touches_at_border is what its name says *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
 From Errbound Require Import RootIsolation Sign Bernstein Bsc Contact Decisions AxisUnits.
@@ -362,7 +362,7 @@ Qed.
 
 (** ** Contact at the border *)
 
-(** contact_at_border: the query as given, and in integers. *)
+(** touches_at_border: the query as given, and in integers. *)
 Definition edge_contact (query : list given) (v e0 e1 : given) : bool :=
   let integer := to_integers query in
   negb (separated (given_motion v) (given_motion e0) (given_motion e1)) &&

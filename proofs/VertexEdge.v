@@ -4,7 +4,7 @@
     Results:
         common_roots_right              what the common roots of quadratics inside (0, 1) are
         nonpositive_at_a_root_right     b <= 0 at some root of f in (0, 1)
-        contact_right                   `contact` is true exactly if vertex and edge meet in [0, 1] *)
+        contact_right                   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1] *)
 
 From Coq Require Import Reals ZArith Lra Psatz List Bool.
 From Errbound Require Import Sign Bernstein Contact.

@@ -15,7 +15,7 @@
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The stages of ccd/exact/filter.cpp in their order, but that all axes are asked at once: where
+/// The stages of ccd/exact/stages.cpp in their order, but that all axes are asked at once: where
 /// there are rounded positions by test_rounded_axes, before the queries come here.
 template <kind K>
 class pipeline {

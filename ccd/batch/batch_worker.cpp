@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "ccd/exact/cascade.hpp"
+#include "ccd/exact/stages.hpp"
 
 namespace ccd {
 namespace detail {
@@ -81,7 +81,8 @@ template <class At>
 void decide_uncertain(std::size_t count, outcome* answers, stage_report* report,
                       const At& query_at) {
     for (std::size_t i = 0; i < count; ++i)
-        if (answers[i] == outcome::uncertain) answers[i] = settle(query_at(i), report).outcome;
+        if (answers[i] == outcome::uncertain)
+            answers[i] = decide_exactly(query_at(i), report).outcome;
 }
 
 template <kind K, class Pair>

@@ -13,7 +13,8 @@
 #include "ccd/batch/pack_subdivision.hpp"
 #include "ccd/batch/query_queue.hpp"
 #include "ccd/exact/stage_timer.hpp"
-#include "ccd/exact/static_filter.hpp"
+#include "ccd/exact/static_filter/separating_axes.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
@@ -70,10 +71,10 @@ template <kind K>
         const auto forms = coordinates.forms_at<K>(at);
         lanes left = first_lanes(lesser(size - at, width));
         if (asked) {
-            const static_filter::sizes<pack> sizes(forms);
+            const static_filter::difference_extents<pack> extents(forms);
             const lanes separated =
-                left &
-                lanes_of<double>(static_filter::separated<pack>(forms, sizes) & sizes.usable);
+                left & lanes_of<double>(static_filter::separated_by_axes<pack>(forms, extents) &
+                                        extents.usable);
             decided.write(ids + at, separated, outcome::separate);
             separate += count_of(separated);
             left &= ~separated;
@@ -95,11 +96,11 @@ template <kind K>
     stage_timer timer(decided.report, stage::coplanarity);
     waiting.pop_packs(block, [&](std::size_t at, std::size_t count) {
         const auto forms = waiting.forms_at(at);
-        const static_filter::sizes<pack> sizes(forms);
+        const static_filter::difference_extents<pack> extents(forms);
         const auto y = errbound::roots::control_values_of(forms.y());
-        const pack error = sizes.template error_of_y<forms_of_kind<K>::template type>();
+        const pack error = extents.template error_of_y<forms_of_kind<K>::template type>();
         const pack_mask rootless = static_filter::above(y, error) | static_filter::below(y, error);
-        const lanes separate = first_lanes(count) & lanes_of<double>(sizes.usable & rootless);
+        const lanes separate = first_lanes(count) & lanes_of<double>(extents.usable & rootless);
         const lanes left = first_lanes(count) & ~separate;
         decided.write(&waiting.ids[at], separate, outcome::separate);
         timer.count(count, count_of(separate), 0);
@@ -114,9 +115,10 @@ template <kind K>
     stage_timer timer(decided.report, stage::inside);
     waiting.pop_packs(block, [&](std::size_t at, std::size_t count) {
         const auto forms = waiting.forms_at(at);
-        const static_filter::sizes<pack> sizes(forms);
-        const lanes usable = first_lanes(count) & lanes_of<double>(sizes.usable);
-        const static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(forms, sizes);
+        const static_filter::difference_extents<pack> extents(forms);
+        const lanes usable = first_lanes(count) & lanes_of<double>(extents.usable);
+        const static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(forms,
+                                                                                     extents);
         const lanes separate = usable & lanes_of<double>(whole.outside());
         const lanes left = usable & ~separate;
         decided.write(&waiting.ids[at], separate, outcome::separate);

@@ -1,5 +1,5 @@
-// The last floating-point stage of `exact` over packs: ccd/exact/subdivision.hpp, but that the
-// parts of all queries are halved together, level by level. Internal.
+// The last floating-point stage of `exact` over packs: ccd/exact/static_filter/subdivision.hpp, but
+// that the parts of all queries are halved together, level by level. Internal.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "ccd/batch/query_queue.hpp"
 #include "ccd/exact/stage_timer.hpp"
-#include "ccd/exact/static_filter.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

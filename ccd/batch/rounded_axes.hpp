@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "ccd/exact/static_filter.hpp"
+#include "ccd/exact/static_filter/difference_extents.hpp"
 
 namespace ccd::detail::rounded_axes {
 
@@ -81,8 +81,8 @@ constexpr S separated_by(const S (&start)[4], const S (&end)[4]) {
 }
 
 /// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly separates the features throughout the
-/// step: static_filter::separated in single precision. x[axis][end of the step][point], the points
-/// in the order of the indices; S is float or a pack of floats.
+/// step: static_filter::separated_by_axes in single precision. x[axis][end of the step][point], the
+/// points in the order of the indices; S is float or a pack of floats.
 template <class Pair, class S>
 constexpr static_filter::mask<S> separated(const S (&x)[3][2][4]) {
     using std::max;

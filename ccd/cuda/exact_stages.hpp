@@ -20,8 +20,8 @@
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
 #include "ccd/exact/integer_decision.hpp"
-#include "ccd/exact/static_filter.hpp"
-#include "ccd/exact/subdivision.hpp"
+#include "ccd/exact/static_filter/subdivision.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
 
 namespace ccd::cuda {
 
@@ -168,8 +168,8 @@ struct coefficient_stage : exact_stage<Pair> {
         }
     }
     /// Whether comparisons may be believed.
-    constexpr bool usable(const static_filter::sizes<Real>& sizes) const {
-        return sizes.usable && (std::is_same_v<Real, double> || scene->finite);
+    constexpr bool usable(const static_filter::difference_extents<Real>& extents) const {
+        return extents.usable && (std::is_same_v<Real, double> || scene->finite);
     }
 };
 
@@ -189,11 +189,11 @@ struct coplanarity_stage : coefficient_stage<Pair, Real> {
             return;
         }
         const auto forms = this->forms_of_query(query);
-        const static_filter::sizes<Real> sizes(forms);
+        const static_filter::difference_extents<Real> extents(forms);
         const auto y = errbound::roots::control_values_of(forms.y());
-        const Real error = sizes.template error_of_y<base::template forms>();
+        const Real error = extents.template error_of_y<base::template forms>();
         const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
-        if (!this->usable(sizes) || !rootless) this->open.push(i);
+        if (!this->usable(extents) || !rootless) this->open.push(i);
     }
 };
 
@@ -204,9 +204,9 @@ struct inside_stage : coefficient_stage<Pair, Real> {
 
     constexpr void operator()(std::uint32_t i) const {
         const auto forms = this->forms_of_query(this->query(i));
-        const static_filter::sizes<Real> sizes(forms);
-        const static_filter::whole_step<Real, base::template forms> whole(forms, sizes);
-        if (!this->usable(sizes) || !whole.outside()) this->open.push(i);
+        const static_filter::difference_extents<Real> extents(forms);
+        const static_filter::whole_step<Real, base::template forms> whole(forms, extents);
+        if (!this->usable(extents) || !whole.outside()) this->open.push(i);
     }
 };
 
@@ -217,10 +217,10 @@ struct subdivision_stage : exact_stage<Pair> {
 
     constexpr void operator()(std::uint32_t i) const {
         const typename base::template forms<double> forms(this->query(i));
-        const static_filter::sizes<double> sizes(forms);
-        if (sizes.usable) {
-            const static_filter::whole_step<double, base::template forms> whole(forms, sizes);
-            const outcome found = subdivide(whole);
+        const static_filter::difference_extents<double> extents(forms);
+        if (extents.usable) {
+            const static_filter::whole_step<double, base::template forms> whole(forms, extents);
+            const outcome found = static_filter::subdivide(whole);
             this->answers[i] = found;
             if (found != outcome::uncertain) return;
         }
@@ -237,12 +237,12 @@ struct integer_stage : exact_stage<Pair> {
 
     constexpr void operator()(std::uint32_t i) const {
         const auto query = this->query(i);
-        const integer_units units(query);
-        if (units.bits() > extent_limit(Words)) {
+        const detail::integer_units units(query);
+        if (units.bits() > detail::extent_limit(Words)) {
             this->open.push(i);
             return;
         }
-        const outcome found = decide_in_words<Words>(query, units);
+        const outcome found = detail::decide_in_words<Words>(query, units);
         this->answers[i] = found;
         if (found == outcome::uncertain) left.push(i);
     }

@@ -11,7 +11,7 @@
 #include <errbound/integers/fixed_integer.hpp>
 #include <limits>
 
-namespace ccd {
+namespace ccd::detail {
 
 /// One axis of a query: its unit, and how many units its coordinates differ by.
 struct axis_extent {
@@ -82,4 +82,4 @@ struct integer_units {
     }
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

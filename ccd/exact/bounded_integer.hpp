@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <errbound/integers/fixed_integer.hpp>
 
-namespace ccd {
+namespace ccd::detail {
 
 /// The real number that it stands for is less than 2^error_bits away from `value`, or equal to it
 /// if error_bits is below exact/2. Bounds are kept to powers of two, and rounded up: some ten
@@ -46,4 +46,4 @@ constexpr bounded_integer<A + B> operator*(const bounded_integer<A>& a,
                           a.error_bits + b.error_bits})};
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

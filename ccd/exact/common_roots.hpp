@@ -15,7 +15,7 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 
-namespace ccd {
+namespace ccd::detail {
 
 template <int Words>
 using linear_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>;
@@ -78,4 +78,4 @@ struct common_roots {
     }
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

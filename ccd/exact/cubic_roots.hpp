@@ -16,7 +16,7 @@
 #include <optional>
 #include <type_traits>
 
-namespace ccd {
+namespace ccd::detail {
 
 template <int Words>
 using cubic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 3>;
@@ -205,4 +205,4 @@ constexpr dyadic_point<T + 1> refined_place(const cubic_form<Words>& y,
             bracket.bits + more};
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -6,7 +6,7 @@
 #include <ccd/query.hpp>
 #include <cstddef>
 
-namespace ccd {
+namespace ccd::detail {
 
 /// x − x is 0, or NaN if x is not finite. Four sums side by side make vector operations of it.
 inline bool all_finite(const double* numbers, std::size_t count) {
@@ -25,4 +25,4 @@ bool is_finite(const Query<double>& query) {
     return all_finite(numbers.data(), count);
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

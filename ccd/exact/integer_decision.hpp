@@ -12,7 +12,7 @@
 #include "ccd/exact/interior_contact.hpp"
 #include "ccd/exact/vertex_edge_contact.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 
 /// The most bits that coordinates may differ by (integer_units::bits) for Words words to carry
 /// through all forms: ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp say how.
@@ -22,42 +22,42 @@ constexpr int extent_limit(int words) {
     return 64 * words - 3;
 }
 
-namespace detail {
-
 /// VF and EE: the union that the head of ccd/exact/reference.cpp states, vertex/edge contacts
 /// first. Every contact has Y = 0. Proof: proofs/InteriorContact.v, face_decision_right,
 /// edges_decision_right.
 template <int Words, template <class> class Query>
-constexpr outcome contact_of(const Query<errbound::integers::fixed_integer<Words>>& query,
-                             const Query<double>& original, const integer_units& units) {
+constexpr outcome decide_converted(const Query<errbound::integers::fixed_integer<Words>>& query,
+                                   const Query<double>& original, const integer_units& units) {
     const auto forms = forms_of(query);
     const auto y = forms.y();
     if (certainly_rootless(y)) return outcome::separate;
     const auto edges = vertex_edge_queries(query);
     const auto original_edges = vertex_edge_queries(original);
     for (std::size_t i = 0; i < edges.size(); ++i)
-        if (!separated(original_edges[i]) && contact(edges[i])) return outcome::collides;
-    return interior_contact(forms, y, units)();
+        if (!separated_by_coordinates(original_edges[i]) && vertex_touches_edge(edges[i]))
+            return outcome::collides;
+    return interior_contact(forms, y, units).decide();
 }
 /// Proof: proofs/InteriorContact.v, vertex_edge_decision_right.
 template <int Words>
-constexpr outcome contact_of(const vertex_edge<errbound::integers::fixed_integer<Words>>& query,
-                             const vertex_edge<double>& original, const integer_units&) {
-    return !separated(original) && contact(query) ? outcome::collides : outcome::separate;
+constexpr outcome decide_converted(
+    const vertex_edge<errbound::integers::fixed_integer<Words>>& query,
+    const vertex_edge<double>& original, const integer_units&) {
+    return !separated_by_coordinates(original) && vertex_touches_edge(query) ? outcome::collides
+                                                                             : outcome::separate;
 }
 template <int Words>
-constexpr outcome contact_of(const vertex_vertex<errbound::integers::fixed_integer<Words>>& query,
-                             const vertex_vertex<double>&, const integer_units&) {
-    return contact(query) ? outcome::collides : outcome::separate;
+constexpr outcome decide_converted(
+    const vertex_vertex<errbound::integers::fixed_integer<Words>>& query,
+    const vertex_vertex<double>&, const integer_units&) {
+    return vertices_touch(query) ? outcome::collides : outcome::separate;
 }
-
-}  // namespace detail
 
 /// Decides in integers of Words words. units = integer_units(query), with at most
 /// extent_limit(Words) bits; `uncertain` is rare.
 template <int Words, template <class> class Query>
 constexpr outcome decide_in_words(const Query<double>& query, const integer_units& units) {
-    return detail::contact_of<Words>(units.converted<Words>(query), query, units);
+    return decide_converted<Words>(units.converted<Words>(query), query, units);
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

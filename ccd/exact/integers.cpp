@@ -4,7 +4,7 @@
 #include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/integer_decision.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 namespace {
 
 template <template <class> class Query>
@@ -19,17 +19,17 @@ verdict decide_any(const Query<double>& query) {
 
 }  // namespace
 
-verdict decide_integers(const vertex_face<double>& q) {
+verdict decide_in_integers(const vertex_face<double>& q) {
     return decide_any(q);
 }
-verdict decide_integers(const edge_edge<double>& q) {
+verdict decide_in_integers(const edge_edge<double>& q) {
     return decide_any(q);
 }
-verdict decide_integers(const vertex_edge<double>& q) {
+verdict decide_in_integers(const vertex_edge<double>& q) {
     return decide_any(q);
 }
-verdict decide_integers(const vertex_vertex<double>& q) {
+verdict decide_in_integers(const vertex_vertex<double>& q) {
     return decide_any(q);
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -13,11 +13,11 @@
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
 
-namespace ccd {
+namespace ccd::detail {
 
-verdict decide_integers(const vertex_face<double>& query);
-verdict decide_integers(const edge_edge<double>& query);
-verdict decide_integers(const vertex_edge<double>& query);
-verdict decide_integers(const vertex_vertex<double>& query);
+verdict decide_in_integers(const vertex_face<double>& query);
+verdict decide_in_integers(const edge_edge<double>& query);
+verdict decide_in_integers(const vertex_edge<double>& query);
+verdict decide_in_integers(const vertex_vertex<double>& query);
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -38,7 +38,7 @@
 #include "ccd/exact/common_roots.hpp"
 #include "ccd/exact/cubic_roots.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 
 /// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of Words
 /// words, in which differences stay below 2^(64·Words − 3).
@@ -52,7 +52,7 @@ class interior_contact {
 
     /// Whether Y = 0 and all G_i > 0 at some t in [0, 1]; if Y ≡ 0, at t = 0 or 1.
     /// Proof: proofs/InteriorContact.v, interior_contact_right, interior_contact_ends.
-    constexpr outcome operator()() {
+    constexpr outcome decide() {
         if (y_[0] == 0 && all_positive(forms_at_end(forms_, 0))) return outcome::collides;
         if (y_[3] == 0 && all_positive(forms_at_end(forms_, 1))) return outcome::collides;
         const inner_sign_changes roots(y_);
@@ -238,4 +238,4 @@ class interior_contact {
     bool three_real_roots_ = false;  ///< Y may have a pair of roots between equal signs
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

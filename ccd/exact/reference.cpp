@@ -23,6 +23,7 @@
 #include "ccd/exact/unbounded_integers.hpp"
 
 namespace ccd {
+namespace detail {
 namespace {
 
 using errbound::sign_type;
@@ -64,36 +65,37 @@ bool regular_contact(const Query<integer>& query) {
 
 /// VF and EE: the union stated at the head of this file.
 template <template <class> class Query>
-bool contact(const Query<integer>& query, const Query<double>& original) {
-    return regular_contact(query) || contact_at_border(query, original);
+bool touches(const Query<integer>& query, const Query<double>& original) {
+    return regular_contact(query) || touches_at_border(query, original);
 }
-bool contact(const vertex_edge<integer>& query, const vertex_edge<double>& original) {
-    return !separated(original) && contact(query);
+bool touches(const vertex_edge<integer>& query, const vertex_edge<double>& original) {
+    return !separated_by_coordinates(original) && vertex_touches_edge(query);
 }
-bool contact(const vertex_vertex<integer>& query, const vertex_vertex<double>&) {
-    return contact(query);
+bool touches(const vertex_vertex<integer>& query, const vertex_vertex<double>&) {
+    return vertices_touch(query);
 }
 
 template <template <class> class Query>
 verdict decide_finite(const Query<double>& query) {
     if (!is_finite(query)) return {outcome::uncertain, cause::range};
-    return {contact(to_integers(query), query) ? outcome::collides : outcome::separate,
+    return {touches(to_integers(query), query) ? outcome::collides : outcome::separate,
             cause::none};
 }
 
 }  // namespace
+}  // namespace detail
 
 verdict decide_reference(const vertex_face<double>& q) {
-    return decide_finite(q);
+    return detail::decide_finite(q);
 }
 verdict decide_reference(const edge_edge<double>& q) {
-    return decide_finite(q);
+    return detail::decide_finite(q);
 }
 verdict decide_reference(const vertex_edge<double>& q) {
-    return decide_finite(q);
+    return detail::decide_finite(q);
 }
 verdict decide_reference(const vertex_vertex<double>& q) {
-    return decide_finite(q);
+    return detail::decide_finite(q);
 }
 
 }  // namespace ccd

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstddef>
 
-namespace ccd {
+namespace ccd::detail {
 
 /// Does nothing if there is no report.
 class stage_timer {
@@ -48,4 +48,4 @@ class stage_timer {
     double start_ = 0;
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -20,7 +20,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #endif
 
-namespace ccd {
+namespace ccd::detail {
 
 #ifdef ERRBOUND_HAVE_GMP
 using integer =
@@ -63,7 +63,7 @@ Query<integer> to_integers(const Query<double>& query) {
 /// lies between e0 and e1 exactly if W and W − E do not point the same way; this holds for E = 0
 /// too, where it says W = 0.) The times are the roots of the three quadratics' common factor.
 /// Proof: proofs/UnboundedIntegers.v, integer_contact_right.
-inline bool contact(const vertex_edge<integer>& query) {
+inline bool vertex_touches_edge(const vertex_edge<integer>& query) {
     const auto e = difference(query.e1, query.e0);
     const auto w = difference(query.v, query.e0);
     const auto off_line = cross(w, e);
@@ -98,12 +98,13 @@ inline bool contact(const vertex_edge<integer>& query) {
 /// query the other edge. `original`: the same query before its conversion.
 /// Proof: proofs/UnboundedIntegers.v, face_border_right, edges_border_right.
 template <template <class> class Query>
-bool contact_at_border(const Query<integer>& query, const Query<double>& original) {
+bool touches_at_border(const Query<integer>& query, const Query<double>& original) {
     const auto edges = vertex_edge_queries(query);
     const auto original_edges = vertex_edge_queries(original);
     for (std::size_t i = 0; i < edges.size(); ++i)
-        if (!separated(original_edges[i]) && contact(edges[i])) return true;
+        if (!separated_by_coordinates(original_edges[i]) && vertex_touches_edge(edges[i]))
+            return true;
     return false;
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -18,7 +18,7 @@
 
 #include "ccd/exact/common_roots.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 
 template <int Words>
 constexpr errbound::integers::fixed_integer<Words> magnitude(
@@ -70,7 +70,8 @@ constexpr bool nonpositive_at_a_root(const quadratic_form<Words>& f,
 /// root in [0, 1] in all three components.
 /// Proof: proofs/VertexEdge.v, contact_right.
 template <int Words>
-constexpr bool contact(const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {
+constexpr bool vertex_touches_edge(
+    const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {
     using errbound::sign_of;
     using errbound::sign_type;
     const auto e = difference(query.e1, query.e0);
@@ -109,4 +110,4 @@ constexpr bool contact(const vertex_edge<errbound::integers::fixed_integer<Words
     return b[1] < 0 && b[1] * b[1] >= (b[0] * b[2]) << 2;
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

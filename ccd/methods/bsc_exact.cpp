@@ -19,7 +19,7 @@
 //    contact would hold shortly before: a vertex/edge contact again. If it is t = 0, the same, or
 //    all G_i(0) > 0. Proof: proofs/BscExact.v, bsc_exact_root; proofs/Contact.v, face_coplanar,
 //    edges_coplanar.
-// So contact() is right. Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
+// So collides() is right. Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
 #include <algorithm>
 #include <ccd/methods/bsc.hpp>
 #include <ccd/methods/bsc_exact.hpp>
@@ -32,8 +32,8 @@ namespace ccd {
 namespace {
 
 template <template <class> class Query>
-bool contact(const Query<double>& original) {
-    const Query<integer> query = to_integers(original);
+bool collides(const Query<double>& original) {
+    const auto query = detail::to_integers(original);
     const auto forms = forms_of(query);
     switch (errbound::root_with_nonnegative(forms.y(), [&] { return forms.inside(); })) {
         case errbound::existence::no:
@@ -47,15 +47,15 @@ bool contact(const Query<double>& original) {
         case errbound::existence::maybe_inside:
             break;
     }
-    return contact_at_border(query, original);
+    return detail::touches_at_border(query, original);
 }
 
 template <class Query>
 verdict decide_any(const Query& query) {
-    if (!is_finite(query)) return {outcome::uncertain, cause::range};
+    if (!detail::is_finite(query)) return {outcome::uncertain, cause::range};
     const verdict filtered = decide_bsc<errbound::interval>(query);
     if (filtered.outcome != outcome::uncertain) return filtered;
-    return {contact(query) ? outcome::collides : outcome::separate, cause::none};
+    return {collides(query) ? outcome::collides : outcome::separate, cause::none};
 }
 
 }  // namespace

@@ -100,8 +100,10 @@ std::optional<method> find_method(std::string_view name) {
     return found->method;
 }
 
-const method_info& info(method m) {
-    return *std::ranges::find(table, m, &method_info::method);
+method_info info(method m) {
+    const auto found = std::ranges::find(table, m, &method_info::method);
+    return found != std::end(table) ? *found
+                                    : method_info{m, "unknown", true, true, "none", "none"};
 }
 
 verdict decide(method m, const vertex_face<double>& query) {

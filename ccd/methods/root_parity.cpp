@@ -236,10 +236,10 @@ crossing at_boundary(const boundary_image<S>& image, const FlatContact& flat_con
 
 template <template <class> class Query>
 crossing in_integers(const Query<double>& original) {
-    const Query<integer> query = to_integers(original);
+    const auto query = detail::to_integers(original);
     const auto edges = vertex_edge_queries(query);
     return at_boundary(image_of(query), [&edges](std::size_t i) {
-        return contact(edges[i]) ? crossing::at_origin : crossing::none;
+        return detail::vertex_touches_edge(edges[i]) ? crossing::at_origin : crossing::none;
     });
 }
 

@@ -79,9 +79,9 @@ std::string json_of(const step_question& asked, const step_result& result, doubl
         {"peak_memory_bytes", memory}};
     if (asked.explain) {
         document["stages"] = nlohmann::ordered_json::array();
-        for (std::size_t i = 0; i < stage_count; ++i) {
-            const stage_report::entry& entry = result.stages.stages[i];
-            document["stages"].push_back({{"stage", info(static_cast<stage>(i)).name},
+        for (const stage_info& stage : exact_stages) {
+            const stage_report::entry& entry = result.stages[stage.stage];
+            document["stages"].push_back({{"stage", stage.name},
                                           {"entered", entry.entered},
                                           {"left_out", entry.left_out},
                                           {"separate", entry.separate},
@@ -115,15 +115,14 @@ std::string text_of_boxes(std::size_t vertices, std::size_t faces, std::size_t e
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
 
-/// What each stage settled, at what cost, and why some queries passed it by.
+/// What each stage decided, at what cost, and why some queries passed it by.
 std::string text_of_stages(const step_result& result) {
     table rows = {{"stage", "queries", "skipped", "separate", "collide", "left open", "thread ms",
                    "ns/query"}};
     std::string notes;
     double seconds = 0;
-    for (std::size_t i = 0; i < stage_count; ++i) {
-        const stage_info& stage = info(static_cast<ccd::stage>(i));
-        const stage_report::entry& entry = result.stages.stages[i];
+    for (const stage_info& stage : exact_stages) {
+        const stage_report::entry& entry = result.stages[stage.stage];
         rows.push_back(
             {std::string(stage.name), std::to_string(entry.entered), std::to_string(entry.left_out),
              std::to_string(entry.separate), std::to_string(entry.collides),
@@ -132,9 +131,10 @@ std::string text_of_stages(const step_result& result) {
              entry.entered == 0
                  ? "-"
                  : fixed(1e9 * entry.seconds / static_cast<double>(entry.entered), "%.1f")});
-        notes += std::string(stage.name) + ": " + std::string(stage.how) + '\n';
+        notes += std::string(stage.name) + ": " + std::string(stage.question) + " In " +
+                 std::string(stage.arithmetic) + ".\n";
         if (entry.left_out > 0)
-            notes += "    skipped where it settled fewer than a quarter of the queries before\n";
+            notes += "    skipped where it decided fewer than a quarter of the queries before\n";
         seconds += entry.seconds;
     }
     const double rest = result.narrow_phase_seconds * result.threads - seconds;

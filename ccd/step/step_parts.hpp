@@ -31,8 +31,8 @@ inline void check_step(const mesh& before, const mesh& after) {
                 throw std::invalid_argument("ccd::step: a face names vertex " + std::to_string(v) +
                                             " of " + std::to_string(before.vertices.size()));
     for (const mesh* frame : {&before, &after})
-        if (!all_finite(reinterpret_cast<const double*>(frame->vertices.data()),
-                        3 * frame->vertices.size()))
+        if (!detail::all_finite(reinterpret_cast<const double*>(frame->vertices.data()),
+                                3 * frame->vertices.size()))
             throw std::invalid_argument("ccd::step: a coordinate is not finite");
 }
 

@@ -1,4 +1,4 @@
-// The stages of `exact`: what each settled, and at what cost.
+// The stages of `exact`: what each asks, what it decided, and at what cost.
 #pragma once
 
 #include <array>
@@ -9,27 +9,48 @@
 namespace ccd {
 
 /// In the order in which a query passes them; it leaves at the first that is certain.
-enum class stage : std::uint8_t {
-    axes,         ///< a fixed axis parts the features the same way at both ends of the step
-    coplanarity,  ///< the coefficients of Y have one sign: the points are never coplanar
-    inside,       ///< the coefficients of some G_i are negative: outside throughout
-    subdivision,  ///< Y and G_i on ever smaller parts of the step, under static bounds
-    integers,     ///< integers of fixed width: exact wherever the coordinates fit
-    unbounded,    ///< integers of unbounded width: the reference
-};
+enum class stage : std::uint8_t { axes, coplanarity, inside, subdivision, integers, unbounded };
 inline constexpr std::size_t stage_count = 6;
 
 struct stage_info {
-    std::string_view name;
-    std::string_view how;  ///< one sentence
+    ccd::stage stage;
+    std::string_view name, question, arithmetic;
 };
-const stage_info& info(stage s);
+
+/// The stages in their order. Y is the cubic that vanishes where the four points are coplanar, G_i
+/// the quartics that are not negative where a contact is inside both features; coefficients are
+/// those of Bernstein forms. One query asks the axes x, y, z first, and the others after Y.
+inline constexpr std::array<stage_info, stage_count> exact_stages{{
+    {stage::axes, "axes",
+     "does x, y, z, x ± y, y ± z or z ± x separate the features the same way at both ends?",
+     "double, or float in batches, with a margin"},
+    {stage::coplanarity, "coplanarity",
+     "have the four coefficients of Y one sign, so that the points are never coplanar?",
+     "double, one error bound a query"},
+    {stage::inside, "inside",
+     "are the five coefficients of some G_i negative, so that no contact is ever inside?",
+     "double, one error bound a query"},
+    {stage::subdivision, "subdivision",
+     "on ever smaller parts of the step, the same; or does Y change its sign, all G_i positive?",
+     "double, the same bounds, up to 12 halvings"},
+    {stage::integers, "integers",
+     "which signs have the G_i at the roots of Y, and does a vertex touch an edge?",
+     "integers of fixed width, one unit an axis"},
+    {stage::unbounded, "unbounded", "the same, with roots isolated by Descartes' rule of signs",
+     "integers of unbounded width"},
+}};
+
+/// The entry of exact_stages; one of the name "unknown" for any other value.
+constexpr stage_info info(stage s) {
+    const auto i = static_cast<std::size_t>(s);
+    return i < stage_count ? exact_stages[i] : stage_info{s, "unknown", "", ""};
+}
 
 /// What the stages did. Counters only grow, so one report can serve many calls.
 struct stage_report {
     struct entry {
         std::uint64_t entered = 0;   ///< queries that the stage was asked
-        std::uint64_t left_out = 0;  ///< queries that passed it by, where it settled too few
+        std::uint64_t left_out = 0;  ///< queries that passed it by, where it decided too few
         std::uint64_t separate = 0;
         std::uint64_t collides = 0;
         double seconds = 0;  ///< of all threads together

@@ -43,8 +43,8 @@ std::span<const method_info> methods();
 /// The method of that command-line name, if there is one.
 std::optional<method> find_method(std::string_view name);
 
-/// The entry of `methods()` for m.
-const method_info& info(method m);
+/// The entry of methods(); for any other value one of the name "unknown", which promises nothing.
+method_info info(method m);
 
 /// By any method. (Programs that need `exact` alone call decide_exact of ccd/exact.hpp, which links
 /// no other method and can report its stages.)

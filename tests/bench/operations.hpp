@@ -7,7 +7,7 @@
 
 #include "ccd/batch/rounded_axes.hpp"
 #include "ccd/cuda/queries.hpp"
-#include "ccd/exact/static_filter.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
 
 namespace bench {
 
@@ -55,18 +55,18 @@ stage_operations operations_of_stages() {
     const auto filtered = [&](const auto& test) {
         return counted_by(scalar::operations, [&] {
             const typename kind::template forms<scalar> forms(query);
-            const ccd::static_filter::sizes<scalar> sizes(forms);
-            test(forms, sizes);
+            const ccd::static_filter::difference_extents<scalar> extents(forms);
+            test(forms, extents);
         });
     };
-    all.coplanarity = filtered([](const auto& forms, const auto& sizes) {
+    all.coplanarity = filtered([](const auto& forms, const auto& extents) {
         const auto y = errbound::roots::control_values_of(forms.y());
-        const scalar error = sizes.template error_of_y<kind::template forms>();
+        const scalar error = extents.template error_of_y<kind::template forms>();
         (void)ccd::static_filter::above(y, error);
         (void)ccd::static_filter::below(y, error);
     });
-    all.inside = filtered([](const auto& forms, const auto& sizes) {
-        const ccd::static_filter::whole_step<scalar, kind::template forms> whole(forms, sizes);
+    all.inside = filtered([](const auto& forms, const auto& extents) {
+        const ccd::static_filter::whole_step<scalar, kind::template forms> whole(forms, extents);
         (void)whole.outside();
     });
     return all;

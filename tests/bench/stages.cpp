@@ -32,13 +32,12 @@ void add_stage_rows(const query_set<Query>& set, const options& o,
     if (set.size() == 0) return;
     const ccd::stage_report r = quickest_report(set, o.repeats());
     const auto all = static_cast<double>(set.size());
-    for (std::size_t i = 0; i < ccd::stage_count; ++i) {
-        const auto stage = static_cast<ccd::stage>(i);
-        const auto& e = r[stage];
+    for (const ccd::stage_info& stage : ccd::exact_stages) {
+        const auto& e = r[stage.stage];
         const auto entered = static_cast<double>(e.entered);
-        rows.push_back({word(short_name(ccd::kind_of<Query>)), word(ccd::info(stage).name),
-                        count(e.entered), count(e.left_out), percent(entered / all),
-                        count(e.separate), count(e.collides), percent(e.seconds / total_seconds(r)),
+        rows.push_back({word(short_name(ccd::kind_of<Query>)), word(stage.name), count(e.entered),
+                        count(e.left_out), percent(entered / all), count(e.separate),
+                        count(e.collides), percent(e.seconds / total_seconds(r)),
                         e.entered > 0 ? number(1e9 * e.seconds / entered, 1) : none(),
                         number(1e9 * e.seconds / all, 2)});
     }

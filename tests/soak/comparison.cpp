@@ -144,7 +144,7 @@ std::vector<decider> exact_deciders() {
         one_by_one("one by one", [](const auto& q) { return ccd::decide(ccd::method::exact, q); }));
     // The last stages alone: they see what filters settle before them in `exact`.
     all.push_back(one_by_one("integers, unfiltered", [](const auto& q) {
-        const ccd::verdict by_integers = ccd::decide_integers(q);
+        const ccd::verdict by_integers = ccd::detail::decide_in_integers(q);
         return by_integers.outcome == ccd::outcome::uncertain ? ccd::decide_reference(q)
                                                               : by_integers;
     }));

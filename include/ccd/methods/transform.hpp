@@ -24,30 +24,30 @@ constexpr std::array<moving_point<T>, 2> points_of(const vertex_vertex<T>& q) {
     return {q.v, q.w};
 }
 
+/// The query with `f` applied to the motion of every point.
+template <class T, class F>
+constexpr auto transformed_motions(const vertex_face<T>& q, const F& f) {
+    return vertex_face<decltype(f(q.v).t0.x)>{f(q.v), f(q.f0), f(q.f1), f(q.f2)};
+}
+template <class T, class F>
+constexpr auto transformed_motions(const edge_edge<T>& q, const F& f) {
+    return edge_edge<decltype(f(q.a0).t0.x)>{f(q.a0), f(q.a1), f(q.b0), f(q.b1)};
+}
+template <class T, class F>
+constexpr auto transformed_motions(const vertex_edge<T>& q, const F& f) {
+    return vertex_edge<decltype(f(q.v).t0.x)>{f(q.v), f(q.e0), f(q.e1)};
+}
+template <class T, class F>
+constexpr auto transformed_motions(const vertex_vertex<T>& q, const F& f) {
+    return vertex_vertex<decltype(f(q.v).t0.x)>{f(q.v), f(q.w)};
+}
+
 /// The query with `f` applied to every position.
-template <class T, class F>
-constexpr auto transformed_points(const moving_point<T>& p, const F& f) {
-    return moving_point<decltype(f(p.t0).x)>{f(p.t0), f(p.t1)};
-}
-template <class T, class F>
-constexpr auto transformed_points(const vertex_face<T>& q, const F& f) {
-    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
-    return vertex_face<decltype(f(q.v.t0).x)>{g(q.v), g(q.f0), g(q.f1), g(q.f2)};
-}
-template <class T, class F>
-constexpr auto transformed_points(const edge_edge<T>& q, const F& f) {
-    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
-    return edge_edge<decltype(f(q.a0.t0).x)>{g(q.a0), g(q.a1), g(q.b0), g(q.b1)};
-}
-template <class T, class F>
-constexpr auto transformed_points(const vertex_edge<T>& q, const F& f) {
-    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
-    return vertex_edge<decltype(f(q.v.t0).x)>{g(q.v), g(q.e0), g(q.e1)};
-}
-template <class T, class F>
-constexpr auto transformed_points(const vertex_vertex<T>& q, const F& f) {
-    const auto g = [&f](const moving_point<T>& p) { return transformed_points(p, f); };
-    return vertex_vertex<decltype(f(q.v.t0).x)>{g(q.v), g(q.w)};
+template <class Query, class F>
+constexpr auto transformed_points(const Query& q, const F& f) {
+    return transformed_motions(q, [&f](const auto& p) {
+        return moving_point<decltype(f(p.t0).x)>{f(p.t0), f(p.t1)};
+    });
 }
 
 /// The query with `f` applied to every coordinate.

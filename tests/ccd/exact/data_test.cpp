@@ -97,10 +97,11 @@ TEST(stored_queries, are_decided_in_integers_of_fixed_width) {
         const ccd::io::query_file file = ccd::io::read_queries(path, std::nullopt, false);
         if (!file.truth) continue;
         for (std::size_t i = 0; i < file.size(); ++i) {
-            const ccd::outcome said = (file.kind == ccd::kind::vertex_face
-                                           ? ccd::decide_integers(file.vertex_face_queries[i])
-                                           : ccd::decide_integers(file.edge_edge_queries[i]))
-                                          .outcome;
+            const ccd::outcome said =
+                (file.kind == ccd::kind::vertex_face
+                     ? ccd::detail::decide_in_integers(file.vertex_face_queries[i])
+                     : ccd::detail::decide_in_integers(file.edge_edge_queries[i]))
+                    .outcome;
             ++all.queries;
             all.uncertain += said == ccd::outcome::uncertain;
             if (said == ccd::outcome::uncertain) continue;

@@ -79,8 +79,8 @@ ccd::verdict decide_exact(kind which, const points& p) {
 ccd::verdict decide_reference(kind which, const points& p) {
     return decide_by([](const auto& q) { return ccd::decide_reference(q); }, which, p);
 }
-ccd::verdict decide_integers(kind which, const points& p) {
-    return decide_by([](const auto& q) { return ccd::decide_integers(q); }, which, p);
+ccd::verdict decide_in_integers(kind which, const points& p) {
+    return decide_by([](const auto& q) { return ccd::detail::decide_in_integers(q); }, which, p);
 }
 
 bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle::shortcuts::on) {
@@ -95,12 +95,6 @@ bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle
             return oracle::collides(query_families::as_vertex_vertex(p), use);
     }
     return false;
-}
-
-std::string_view name(ccd::outcome outcome) {
-    return outcome == ccd::outcome::separate   ? "separate"
-           : outcome == ccd::outcome::collides ? "collides"
-                                               : "uncertain";
 }
 
 // Verdicts of one method that are not right; a false positive may be an uncertain one.
@@ -199,8 +193,8 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     ++count.queries;
     count.collisions += truth;
     const auto fail = [&](std::string_view who, ccd::outcome said) {
-        const std::string what = std::string(who) + " says " + std::string(name(said)) +
-                                 ", the oracle says " + std::string(name(right));
+        const std::string what = std::string(who) + " says " + std::string(ccd::name(said)) +
+                                 ", the oracle says " + std::string(ccd::name(right));
         out.failures.push_back(describe(family, which, index, p, what));
     };
     const auto require_right = [&](std::string_view who, ccd::verdict said) {
@@ -209,11 +203,11 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     // What comes last in `exact` alone too, without the filter that settles most queries before.
     require_right("decide_exact", decide_exact(which, p));
     require_right("decide_reference", decide_reference(which, p));
-    const ccd::verdict integers = decide_integers(which, p);
+    const ccd::verdict integers = decide_in_integers(which, p);
     if (integers.outcome == ccd::outcome::uncertain)
         ++(integers.cause == ccd::cause::range ? count.out_of_range : count.unsettled);
     else
-        require_right("decide_integers", integers);
+        require_right("decide_in_integers", integers);
     if (crosses_once(which, p)) {
         ++count.crossed_once;
         require_right("root-parity, of one root,", decide(ccd::method::root_parity, which, p));
@@ -310,7 +304,7 @@ TEST(promises, features_that_are_smaller_than_they_look) {
             if (decide(ccd::method::exact, kind::edge_edge, as_edges).outcome != right) {
                 out.failures.push_back(describe(family, which, index, original, "as edge-edge"));
             }
-            const ccd::verdict integers = decide_integers(which, original);
+            const ccd::verdict integers = decide_in_integers(which, original);
             if (integers.outcome == ccd::outcome::uncertain ? integers.cause != ccd::cause::range
                                                             : integers.outcome != right) {
                 out.failures.push_back(describe(family, which, index, original, "in integers"));

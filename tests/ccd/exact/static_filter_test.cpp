@@ -1,7 +1,5 @@
 // The bounds of the static filters against rationals: no computed control value, of the whole step
 // or of any part, is further from the exact one than the filter allows for.
-#include "ccd/exact/static_filter.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <random>
 #include <string>
 
+#include "ccd/exact/static_filter/whole_step.hpp"
 #include "tests/support/query_families.hpp"
 
 namespace {
@@ -46,22 +45,22 @@ void compare(const Query<double>& query, std::mt19937_64& random, const std::str
              usage& worst) {
     const Forms<double> computed(query);
     const Forms<rational> exact(transformed(query, [](double x) { return rational(x); }));
-    const filter::sizes<double> sizes(computed);
-    if (!sizes.usable) return;
-    filter::whole_step<double, Forms> whole(computed, sizes);
+    const filter::difference_extents<double> extents(computed);
+    if (!extents.usable) return;
+    filter::whole_step<double, Forms> whole(computed, extents);
     const auto use = [&](double error, double bound, double& so_far, const char* what) {
         ASSERT_LE(error, bound) << what << ", " << name;
         if (bound > 0x1p-400) so_far = std::max(so_far, error / bound);
     };
     auto y = errbound::roots::control_values_of(exact.y());
-    use(largest_error(whole.forms.y, y), sizes.template error_of_y<Forms>(), worst.y, "Y");
+    use(largest_error(whole.forms.y, y), extents.template error_of_y<Forms>(), worst.y, "Y");
     const auto exact_inside = exact.inside();
     std::array<errbound::roots::control_values<rational, 4>,
                std::tuple_size_v<decltype(exact.inside())>>
         g;
     for (std::size_t i = 0; i < g.size(); ++i) {
         g[i] = errbound::roots::control_values_of(exact_inside[i]);
-        use(largest_error(whole.forms.g[i], g[i]), sizes.template error_of_g<Forms>(), worst.g,
+        use(largest_error(whole.forms.g[i], g[i]), extents.template error_of_g<Forms>(), worst.g,
             "G");
     }
     for (std::size_t depth = 0; depth < filter::max_depth; ++depth) {

@@ -6,39 +6,35 @@
 #include <ccd/verdict.hpp>
 #include <cstddef>
 
-#include "ccd/exact/static_filter.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
 
-namespace ccd {
-namespace detail {
+namespace ccd::static_filter {
 
 /// Parts of the step that wait for their turn, the earliest last.
 template <std::size_t Constraints>
 struct waiting_parts {
     struct part {
-        static_filter::part_forms<double, Constraints> forms;
+        part_forms<double, Constraints> forms;
         std::size_t depth;
     };
     // Every halving takes one part and leaves two.
-    std::array<part, static_filter::max_depth + 2> parts;
+    std::array<part, max_depth + 2> parts;
     std::size_t size = 0;
 };
-
-}  // namespace detail
 
 /// `separate` and `collides` are certain; `uncertain` where halving further would not help.
 /// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides.
 template <template <class> class Forms>
-constexpr outcome subdivide(const static_filter::whole_step<double, Forms>& whole) {
-    using static_filter::above, static_filter::below;
-    constexpr std::size_t constraints = static_filter::whole_step<double, Forms>::constraints;
+constexpr outcome subdivide(const whole_step<double, Forms>& whole) {
+    constexpr std::size_t constraints = whole_step<double, Forms>::constraints;
     const auto& errors = whole.errors;
-    detail::waiting_parts<constraints> waiting;
+    waiting_parts<constraints> waiting;
     waiting.parts[waiting.size++] = {whole.forms, 0};
     while (waiting.size > 0) {
         auto& part = waiting.parts[waiting.size - 1];
         const auto& [y, g] = part.forms;
         bool excluded = above(y, errors.y) || below(y, errors.y);
-        bool collides = static_filter::changes_sign(y, errors.y);
+        bool collides = changes_sign(y, errors.y);
         for (std::size_t i = 0; i < constraints && !excluded; ++i) {
             excluded = below(g[i], errors.g);
             collides = collides && above(g[i], errors.g);
@@ -48,8 +44,7 @@ constexpr outcome subdivide(const static_filter::whole_step<double, Forms>& whol
             continue;
         }
         if (collides) return outcome::collides;
-        if (part.depth == static_filter::max_depth || (part.depth >= static_filter::patient_depth &&
-                                                       static_filter::within_error(y, errors.y)))
+        if (part.depth == max_depth || (part.depth >= patient_depth && within_error(y, errors.y)))
             return outcome::uncertain;
         auto& next = waiting.parts[waiting.size++];
         const auto [left, right] = errbound::roots::halves(y);
@@ -63,4 +58,4 @@ constexpr outcome subdivide(const static_filter::whole_step<double, Forms>& whol
     return outcome::separate;
 }
 
-}  // namespace ccd
+}  // namespace ccd::static_filter

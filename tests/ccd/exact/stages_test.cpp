@@ -1,6 +1,6 @@
 // The stages of `exact`, each alone and all together, on every instruction set: never a wrong
 // certain answer, and the same answers everywhere.
-#include "ccd/exact/cascade.hpp"
+#include "ccd/exact/stages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "ccd/batch/rounded_axes.hpp"
 #include "ccd/exact/integers.hpp"
-#include "ccd/exact/static_filter.hpp"
+#include "ccd/exact/static_filter/separating_axes.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
 #include "tests/support/query_families.hpp"
 #include "tests/support/scaled.hpp"
 
@@ -91,18 +91,18 @@ struct float_stages {
     template <class Query>
     static ccd::outcome axes(const Query& query) {
         const Forms<double> forms(query);
-        const ccd::static_filter::sizes<double> sizes(forms);
-        return sizes.usable && ccd::static_filter::separated<double>(forms, sizes)
+        const ccd::static_filter::difference_extents<double> extents(forms);
+        return extents.usable && ccd::static_filter::separated_by_axes<double>(forms, extents)
                    ? ccd::outcome::separate
                    : ccd::outcome::uncertain;
     }
     template <class Query>
     static ccd::outcome coplanarity(const Query& query) {
         const Forms<double> forms(query);
-        const ccd::static_filter::sizes<double> sizes(forms);
+        const ccd::static_filter::difference_extents<double> extents(forms);
         const auto y = errbound::roots::control_values_of(forms.y());
-        const double error = sizes.template error_of_y<Forms>();
-        return sizes.usable &&
+        const double error = extents.template error_of_y<Forms>();
+        return extents.usable &&
                        (ccd::static_filter::above(y, error) || ccd::static_filter::below(y, error))
                    ? ccd::outcome::separate
                    : ccd::outcome::uncertain;
@@ -110,9 +110,9 @@ struct float_stages {
     template <class Query>
     static ccd::outcome inside(const Query& query) {
         const Forms<double> forms(query);
-        const ccd::static_filter::sizes<double> sizes(forms);
-        const ccd::static_filter::whole_step<double, Forms> whole(forms, sizes);
-        return sizes.usable && whole.outside() ? ccd::outcome::separate : ccd::outcome::uncertain;
+        const ccd::static_filter::difference_extents<double> extents(forms);
+        const ccd::static_filter::whole_step<double, Forms> whole(forms, extents);
+        return extents.usable && whole.outside() ? ccd::outcome::separate : ccd::outcome::uncertain;
     }
 };
 
@@ -123,7 +123,10 @@ void expect_float_stages_never_wrong(const test_set<Query>& set) {
     EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::coplanarity(q); }), 0u);
     EXPECT_GT(expect_never_wrong(set, [](const Query& q) { return stages::inside(q); }), 0u);
     EXPECT_GT(
-        expect_never_wrong(set, [](const Query& q) { return ccd::filter(q, nullptr).outcome; }),
+        expect_never_wrong(set,
+                           [](const Query& q) {
+                               return ccd::detail::decide_in_floating_point(q, nullptr).outcome;
+                           }),
         0u);
 }
 
@@ -134,20 +137,20 @@ TEST(stages, floating_point_is_never_wrong_where_it_is_certain) {
 
 TEST(stages, integers_are_never_wrong_where_they_are_certain) {
     for_both_kinds([](const auto& set) {
-        const auto certain =
-            expect_never_wrong(set, [](const auto& q) { return ccd::decide_integers(q).outcome; });
+        const auto certain = expect_never_wrong(
+            set, [](const auto& q) { return ccd::detail::decide_in_integers(q).outcome; });
         EXPECT_GT(certain, set.queries.size() / 4);
     });
 }
 
-TEST(cascade, agrees_with_the_reference) {
+TEST(decide_exact, agrees_with_the_reference) {
     for_both_kinds([](const auto& set) {
         EXPECT_EQ(expect_never_wrong(set, [](const auto& q) { return decide_exact(q).outcome; }),
                   set.queries.size());
     });
 }
 
-TEST(cascade, report_accounts_for_every_query) {
+TEST(decide_exact, report_accounts_for_every_query) {
     for_both_kinds([](const auto& set) {
         ccd::stage_report report;
         std::size_t collisions = 0;

@@ -1,0 +1,101 @@
+// The order of the stages of `exact`, for one query; exact_stages (ccd/explain.hpp) says what each
+// asks. Each decides the query or leaves it to the next.
+#include "ccd/exact/stages.hpp"
+
+#include <ccd/methods/forms.hpp>
+#include <ccd/reference.hpp>
+#include <errbound/roots/control_values.hpp>
+
+#include "ccd/exact/finite.hpp"
+#include "ccd/exact/integers.hpp"
+#include "ccd/exact/stage_timer.hpp"
+#include "ccd/exact/static_filter/coefficient_signs.hpp"
+#include "ccd/exact/static_filter/difference_extents.hpp"
+#include "ccd/exact/static_filter/separating_axes.hpp"
+#include "ccd/exact/static_filter/subdivision.hpp"
+#include "ccd/exact/static_filter/whole_step.hpp"
+
+namespace ccd::detail {
+namespace {
+
+/// Proof: proofs/FilterStages.v, filter_face_separate, filter_face_collides, filter_edges_separate,
+/// filter_edges_collide, filter_bounded.
+template <template <class> class Forms, template <class> class Query>
+[[gnu::flatten]] verdict axes_to_subdivision(const Query<double>& query, stage_report* report) {
+    constexpr verdict separate{outcome::separate, cause::none};
+    if (!is_finite(query)) return {outcome::uncertain, cause::range};
+    const Forms<double> forms(query);
+    const static_filter::difference_extents<double> extents(forms);
+    if (!extents.usable) return {outcome::uncertain, cause::range};
+
+    {
+        stage_timer timer(report, stage::axes);
+        const bool separated = static_filter::separated_by_coordinates<double>(forms, extents);
+        timer.count(1, separated, 0);
+        if (separated) return separate;
+    }
+    {
+        stage_timer timer(report, stage::coplanarity);
+        const auto y = errbound::roots::control_values_of(forms.y());
+        const double error = extents.template error_of_y<Forms>();
+        const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
+        timer.count(1, rootless, 0);
+        if (rootless) return separate;
+    }
+    {
+        // Diagonals cost one query more than Y's four coefficients do, a pack of floats less.
+        stage_timer timer(report, stage::axes);
+        const bool separated = static_filter::separated_by_diagonals<double>(forms, extents);
+        timer.count(0, separated, 0);  // it entered above
+        if (separated) return separate;
+    }
+    stage_timer inside_timer(report, stage::inside);
+    const static_filter::whole_step<double, Forms> whole(forms, extents);
+    const bool outside = whole.outside();
+    inside_timer.count(1, outside, 0);
+    inside_timer.end();
+    if (outside) return separate;
+
+    stage_timer timer(report, stage::subdivision);
+    const outcome answer = static_filter::subdivide(whole);
+    timer.count(1, answer == outcome::separate, answer == outcome::collides);
+    return {answer, answer == outcome::uncertain ? cause::inside : cause::none};
+}
+
+template <class Query>
+verdict integers_to_unbounded(const Query& query, stage_report* report) {
+    const auto decided = [&](stage s, const auto& decide) {
+        stage_timer timer(report, s);
+        const verdict answer = decide(query);
+        timer.count(1, answer.outcome == outcome::separate, answer.outcome == outcome::collides);
+        return answer;
+    };
+    const verdict in_fixed_width =
+        decided(stage::integers, [](const Query& q) { return decide_in_integers(q); });
+    if (in_fixed_width.outcome != outcome::uncertain) return in_fixed_width;
+    return decided(stage::unbounded, [](const Query& q) { return decide_reference(q); });
+}
+
+}  // namespace
+
+verdict decide_in_floating_point(const vertex_face<double>& query, stage_report* report) {
+    return axes_to_subdivision<linear_vertex_face_forms>(query, report);
+}
+verdict decide_in_floating_point(const edge_edge<double>& query, stage_report* report) {
+    return axes_to_subdivision<linear_edge_edge_forms>(query, report);
+}
+
+verdict decide_exactly(const vertex_face<double>& query, stage_report* report) {
+    return integers_to_unbounded(query, report);
+}
+verdict decide_exactly(const edge_edge<double>& query, stage_report* report) {
+    return integers_to_unbounded(query, report);
+}
+verdict decide_exactly(const vertex_edge<double>& query, stage_report* report) {
+    return integers_to_unbounded(query, report);
+}
+verdict decide_exactly(const vertex_vertex<double>& query, stage_report* report) {
+    return integers_to_unbounded(query, report);
+}
+
+}  // namespace ccd::detail

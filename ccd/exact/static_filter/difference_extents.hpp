@@ -1,0 +1,70 @@
+// How large a query's differences are, and what errors its forms then have at most.
+//
+// One template for one query (S = double) and for a pack of queries (S a SIMD batch, masks instead
+// of bools): the pack's lanes compute what the scalar computes, bit for bit.
+#pragma once
+
+#include <algorithm>
+#include <ccd/methods/forms.hpp>
+#include <cmath>
+
+#include "ccd/exact/static_filter/constants.hpp"
+
+namespace ccd::static_filter {
+
+/// The number type whose roundings S makes: that of a pack is double.
+template <class S>
+struct real_of {
+    using type = double;
+};
+template <>
+struct real_of<float> {
+    using type = float;
+};
+
+/// What a comparison of two S gives: bool, or a SIMD mask.
+template <class S>
+using mask = decltype(S() < S());
+
+/// m_x, m_y, m_z: the sizes of a query's largest differences, by axis, after one point is
+/// subtracted from the others. Coordinates must be finite (differences that overflow are infinite;
+/// only those of infinities are NaN, which the maximum may overlook).
+template <class S>
+struct difference_extents {
+    using real = typename real_of<S>::type;
+    S x, y, z;
+    /// False if a difference is too large: then no test may be believed.
+    mask<S> usable;
+
+    explicit constexpr difference_extents(const coplanarity_forms<S>& f) {
+        using std::abs, std::max;
+        const auto largest = [](const auto& b, const auto& c, const auto& p) {
+            S m = abs(b[0]);
+            for (const S& d : {b[1], c[0], c[1], p[0], p[1]}) m = max(m, S(abs(d)));
+            return m;
+        };
+        x = largest(f.b.x, f.c.x, f.p.x);
+        y = largest(f.b.y, f.c.y, f.p.y);
+        z = largest(f.b.z, f.c.z, f.p.z);
+        usable = max(max(x, y), z) <= S(largest_difference<real>);
+    }
+
+    /// Bounds |ĥ − h| of the control values of Y, and of every G_i. Proofs are of double.
+    /// Proof: proofs/CcdFilter.v, error_of_y_sound.
+    /// Proof: proofs/CcdFilter.v, error_of_vertex_face_sound.
+    /// Proof: proofs/CcdFilter.v, error_of_edge_edge_sound.
+    template <template <class> class Forms>
+    constexpr S error_of_y() const {
+        return x * y * z * S(y_constants<Forms, real>.relative) +
+               S(y_constants<Forms, real>.absolute);
+    }
+    template <template <class> class Forms>
+    constexpr S error_of_g() const {
+        using std::max;
+        const S area = max(max(x * y, y * z), z * x);
+        return area * area * S(g_constants<Forms, real>.relative) +
+               S(g_constants<Forms, real>.absolute);
+    }
+};
+
+}  // namespace ccd::static_filter
