@@ -16,7 +16,7 @@ audit audited_at(const Entry& entry, const Points& p) {
     state = {.unit = std::min(predicate_list::unit_of(entry, p), 0)};
     std::apply(
         [&](const auto&... q) {
-            (void)errbound::detail::conclude(
+            (void)errbound::filters::conclude(
                 entry.predicate.template value<audited_coordinate<T>>(q...));
         },
         p);

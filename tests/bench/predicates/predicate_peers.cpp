@@ -335,7 +335,7 @@ void add_other_row(const Entry& entry, const run_options& o, std::vector<std::ve
             race({[&] {
                       for (std::size_t i = 0; i < set.size(); ++i)
                           plain[i] = set.with(i, [&](const auto&... p) {
-                              return errbound::detail::conclude(
+                              return errbound::filters::conclude(
                                   entry.predicate.template value<plain_double>(p...));
                           });
                       keep(plain);

@@ -1,0 +1,135 @@
+// A predicate's expression over the scalars of its stages: what the expression sees as its
+// arguments, and what its result says of the sign.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <errbound/detail/rounded.hpp>
+#include <errbound/filters/coordinates.hpp>
+#include <errbound/filters/expression_count.hpp>
+#include <errbound/filters/semi_static_filter.hpp>
+#include <errbound/filters/static_filter.hpp>
+#include <errbound/number_traits.hpp>
+#include <errbound/sign.hpp>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace errbound::filters {
+
+/// The argument of a predicate that an expression sees: coordinates become scalars when asked for.
+template <class Scalars, std::size_t Argument>
+struct point_view {
+    const Scalars& scalars;
+    constexpr decltype(auto) operator[](int i) const { return scalars.template at<Argument>(i); }
+};
+template <class Shape, std::size_t Argument, class Scalars>
+constexpr auto view(const Scalars& scalars) {
+    if constexpr (Shape::dimensions[Argument] == 0)
+        return scalars.template at<Argument>(0);
+    else
+        return point_view<Scalars, Argument>{scalars};
+}
+
+/// Coordinate i of a point, as a filter may use it: where it is not stored but computed, a product
+/// in it must not be fused with the difference that uses it, since all stages must see one number.
+template <class T, bool Stored, class Point>
+constexpr T unfused_coordinate(const Point& p, int i) {
+    const T x = coordinate_of(p, i);
+    if constexpr (Stored)
+        return x;
+    else
+        return detail::rounded(x);
+}
+/// Coordinates, where they are, for the static filter.
+template <class T, bool Stored, class... Points>
+struct filtered_scalars {
+    std::tuple<const Points&...> points;
+    template <std::size_t Argument>
+    constexpr filtered_coordinate<T> at(int i) const {
+        return {unfused_coordinate<T, Stored>(std::get<Argument>(points), i)};
+    }
+};
+/// The same for the semi-static one.
+template <class T, bool Stored, class... Points>
+struct semi_static_scalars {
+    std::tuple<const Points&...> points;
+    T* largest;
+    template <std::size_t Argument>
+    constexpr semi_static_coordinate<T> at(int i) const {
+        return {unfused_coordinate<T, Stored>(std::get<Argument>(points), i), largest};
+    }
+};
+/// Coordinates one after the other, made into scalars by a function, which may refer to them.
+template <class Shape, class List, class Make>
+struct listed_scalars {
+    const List& list;
+    Make make;
+    template <std::size_t Argument>
+    constexpr decltype(auto) at(int i) const {
+        constexpr std::size_t first = Shape::offset(Argument);
+        return make(list[first + static_cast<std::size_t>(i)]);
+    }
+};
+/// Not for constant expressions: an expression that gets here does not compile.
+inline void coordinate_that_the_point_lacks() {}
+/// Coordinates that only count.
+template <class Shape>
+struct counted_scalars {
+    counting_run& run;
+    template <std::size_t Argument>
+    constexpr expression_count at(int i) const {
+        if (i < 0 || (i > 0 && i >= Shape::dimensions[Argument])) coordinate_that_the_point_lacks();
+        return expression_count(run);
+    }
+};
+
+/// A value whose sign is certain where its size exceeds the bound.
+template <class T>
+struct sign_estimate {
+    T value, bound;
+
+    friend constexpr sign_type sign_of(const sign_estimate& x) {
+        bool decided = number_traits<T>::abs(x.value) > x.bound;
+        if constexpr (detail::may_contract)  // see errbound/filters/static_filter.hpp
+            decided = decided && number_traits<T>::is_finite(x.value);
+        if (decided) [[likely]]
+            return x.value > 0 ? sign_type::positive : sign_type::negative;
+        return sign_type::uncertain;
+    }
+};
+/// A result's sign, if it is not one.
+template <class X>
+constexpr sign_type conclude(const X& x) {
+    if constexpr (std::is_same_v<X, sign_type>)
+        return x;
+    else
+        return sign_of(x);
+}
+
+template <class Shape, class F, class Scalars>
+constexpr auto evaluate(const F& f, const Scalars& scalars) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+        return f(view<Shape, I>(scalars)...);
+    }
+    (std::make_index_sequence<Shape::count>());
+}
+template <class Shape, class F, class List, class Make>
+constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
+    return conclude(evaluate<Shape>(f, listed_scalars<Shape, List, Make>{list, make}));
+}
+
+/// Not for constant expressions either: such an expression could not pass on `uncertain`.
+inline void expression_that_asks_for_signs_must_return_one() {}
+/// What the expression asks for coordinates of this many bits.
+template <class Shape, class F>
+constexpr expression_counts counts_of(int coordinate_bits) {
+    return count_expression(coordinate_bits, [](counting_run& run) {
+        const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run});
+        if (!std::is_same_v<decltype(x), const sign_type> && run.asked > 0)
+            expression_that_asks_for_signs_must_return_one();
+        (void)conclude(x);
+    });
+}
+
+}  // namespace errbound::filters

@@ -1,0 +1,214 @@
+// The stages of a predicate after its first filter, and what decides which of them there are.
+//
+// Apart from predicate_type so that a predicate that is declared and not asked costs nothing: what
+// its expression asks of the stages is found when the first of them is compiled.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/filters/predicate_report.hpp>
+#include <errbound/filters/predicate_scalars.hpp>
+#include <errbound/integers/common_exponent.hpp>
+#include <errbound/integers/sized_integer.hpp>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace errbound::filters {
+
+template <class Shape, class F, class Options>
+class predicate_stages {
+  public:
+    /// Of coordinates that fit a word.
+    static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
+    /// What the expression asks for coordinates of one word.
+    static constexpr expression_counts counts = counts_of<Shape, F>(word_bits);
+    /// Whether there is a semi-static filter: what it saves grows with the degree.
+    static constexpr bool has_semi_static_filter =
+        !counts.mixed && counts.degree >= 5 &&
+        !std::is_same_v<sign_type, decltype(evaluate<Shape>(
+                                       F(), std::declval<const counted_scalars<Shape>&>()))>;
+    /// So many bits may coordinates have for no result to take more than `bits`.
+    /// Proof: proofs/Widths.v, coordinate_bits_enough.
+    static constexpr int coordinate_bits(int bits) {
+        int least = word_bits;
+        for (int degree = 0; degree <= expression_counts::max_degree; ++degree) {
+            const int excess = counts.bits[static_cast<std::size_t>(degree)] - bits;
+            if (excess <= 0) continue;
+            least = std::min(least, degree == 0 ? 0 : word_bits - (excess + degree - 1) / degree);
+        }
+        return least;
+    }
+
+    static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
+    /// Where terms of different degree are added, 1 is one more coordinate.
+    static constexpr std::size_t listed_size = Shape::size + mixed;
+    using coordinate_list = std::array<double, listed_size>;
+
+    template <class... Points>
+    static constexpr coordinate_list listed(const Points&... p) {
+        coordinate_list list{};
+        // A copy: device code does not see static members.
+        constexpr auto dimensions = Shape::dimensions;
+        std::size_t i = 0, argument = 0;
+        const auto add = [&](const auto& point) {
+            const int dimension = dimensions[argument++];
+            for (int k = 0; k < (dimension == 0 ? 1 : dimension); ++k)
+                list[i++] = coordinate_of(point, k);
+        };
+        (add(p), ...);
+        if (mixed) list[i] = 1;
+        return list;
+    }
+
+    /// By the first stage that is certain; counted in the report, if there is one.
+    template <class T>
+    [[gnu::noinline]] static constexpr sign_type decide(const coordinate_list& list,
+                                                        predicate_report* report) {
+        using enum predicate_stage;
+        const auto counted = [&](sign_type s, predicate_stage stage) {
+            if (report != nullptr) report->count(stage);
+            return s;
+        };
+        const std::uint64_t largest = integers::largest_size(list);
+        if (!integers::is_finite_size(largest)) {
+            if (report != nullptr) ++report->undecided;
+            return sign_type::uncertain;
+        }
+        if constexpr (has_semi_static_filter) {
+            // Products of smaller coordinates are all subnormal: slow, and nothing is decided.
+            const int exponent = static_cast<int>(largest >> 52) - 1021;
+            const bool in_range = exponent * counts.degree > std::numeric_limits<T>::min_exponent;
+            if (!std::is_constant_evaluated() && in_range) {
+                const sign_type s = by_filter<T>(list);
+                if (certain(s)) return counted(s, static_filter);
+            }
+        }
+        if constexpr (!std::is_void_v<typename Options::tracked_rule>) {
+            if (!std::is_constant_evaluated()) {
+                const sign_type s = by_tracked<T>(list);
+                if (certain(s)) return counted(s, tracked);
+            }
+        }
+        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
+        if constexpr (short_bits < word_bits) {
+            const sign_type s = by_doubles(list, largest);
+            if (certain(s)) return counted(s, exact_doubles);
+        }
+        integers::word_coordinates<listed_size> words(list, largest);
+        if (words.fit) {
+            if constexpr (short_bits >= 1) {
+                if (words.least_bits() <= short_bits)
+                    return counted(by_short(words), short_integers);
+            }
+            return counted(by_words(words), word_integers);
+        }
+        const sign_type s = by_two_words(list);
+        if (certain(s)) return counted(s, two_word_integers);
+        return counted(by_any(list), long_integers);
+    }
+
+    /// The sign that one of them alone finds.
+    template <class T>
+    static constexpr sign_type by(predicate_stage stage, const coordinate_list& list) {
+        using enum predicate_stage;
+        const std::uint64_t largest = integers::largest_size(list);
+        if (!integers::is_finite_size(largest)) return sign_type::uncertain;
+        if (stage == tracked) return by_tracked<T>(list);
+        if (stage == exact_doubles) return by_doubles(list, largest);
+        if (stage == two_word_integers) return by_two_words(list);
+        if (stage == long_integers) return by_any(list);
+        integers::word_coordinates<listed_size> words(list, largest);
+        if (!words.fit) return sign_type::uncertain;
+        if (stage == word_integers) return by_words(words);
+        if constexpr (short_bits >= 1) return by_short(words);
+        return sign_type::uncertain;
+    }
+
+  private:
+    template <class T>
+    [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_filter(
+        const coordinate_list& list) {
+        return sign_over<Shape>(F(), list,
+                                [](double x) { return filtered_coordinate<T>{static_cast<T>(x)}; });
+    }
+    template <class T>
+    [[gnu::noinline]] static constexpr sign_type by_tracked(const coordinate_list& list) {
+        using rule = std::conditional_t<std::is_void_v<typename Options::tracked_rule>, tight,
+                                        typename Options::tracked_rule>;
+        return sign_over<Shape>(
+            F(), list, [](double x) { return errbound::tracked<T, rule>(static_cast<T>(x)); });
+    }
+
+    static constexpr sign_type by_doubles(const coordinate_list& list, std::uint64_t largest) {
+        constexpr int bits = coordinate_bits(53);
+        if constexpr (bits < 1) {
+            return sign_type::uncertain;
+        } else {
+            const integers::short_coordinates<listed_size, bits> c(list, largest);
+            return c.fit ? by_short_doubles<bits>(c) : sign_type::uncertain;
+        }
+    }
+    template <int Bits>
+    [[gnu::noinline]] static constexpr sign_type by_short_doubles(
+        const integers::short_coordinates<listed_size, Bits>& c) {
+        using scalar = integers::sized_integer<
+            integers::integer_level<integers::integer_kind::floating, Bits, mixed>, Bits, 1>;
+        return sign_over<Shape>(F(), c.value, [&](double v) { return scalar{v, c.unit}; });
+    }
+
+    /// Words that are short when brought to the largest common unit.
+    static constexpr sign_type by_short(const integers::word_coordinates<listed_size>& words) {
+        if (words.least_bits() > short_bits) return sign_type::uncertain;
+        if constexpr (short_bits == word_bits) return by_words(words);
+        return by_values<short_bits>(words, word_bits - words.least_bits());
+    }
+    static constexpr sign_type by_words(const integers::word_coordinates<listed_size>& words) {
+        return by_values<word_bits>(words, 0);
+    }
+    /// Inlined: passing the values on would cost as much as a small expression.
+    template <int Bits>
+    [[gnu::always_inline]] static constexpr sign_type by_values(
+        const integers::word_coordinates<listed_size>& words, int shift) {
+        using scalar = integers::sized_integer<
+            integers::integer_level<integers::integer_kind::words, Bits, mixed>, Bits, 1>;
+        return sign_over<Shape>(F(), words.value, [&](std::int64_t v) {
+            return scalar{v >> shift, words.unit + shift};
+        });
+    }
+
+    static constexpr int short_bits = coordinate_bits(127);
+    /// Coordinates of two words: their differences' products end before a word's end.
+    static constexpr int two_word_bits = 124;
+    [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
+        const integers::common_unit unit(list);
+        if (unit.bits > two_word_bits) return sign_type::uncertain;
+        return sign_over<Shape>(F(), list, [&](double x) {
+            return unit.template converted<
+                integers::integer_level<integers::integer_kind::words, two_word_bits, mixed>>(x);
+        });
+    }
+
+    [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {
+        if constexpr (std::is_void_v<typename Options::exact_type>) {
+            // Long ones are made once.
+            using level = integers::integer_level<integers::integer_kind::any_length,
+                                                  integers::full_range_bits, mixed>;
+            using scalar = integers::sized_integer<level, integers::full_range_bits, 1>;
+            const integers::common_unit unit(list);
+            const auto longs = [&]<std::size_t... I>(std::index_sequence<I...>) {
+                return std::array{unit.template converted<level>(list[I])...};
+            }
+            (std::make_index_sequence<listed_size>());
+            return sign_over<Shape>(F(), longs, [](const scalar& x) -> const scalar& { return x; });
+        } else {
+            return sign_over<Shape>(F(), list,
+                                    [](double x) { return typename Options::exact_type(x); });
+        }
+    }
+};
+
+}  // namespace errbound::filters
