@@ -32,7 +32,7 @@ struct running {
         return b.units * traits::unit_roundoff() + traits::underflow_unit();
     }
     template <class T>
-    using operand = errbound::operand<T, running>;
+    using operand = errbound::rule_operand<T, running>;
 
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {

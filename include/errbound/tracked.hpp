@@ -17,6 +17,7 @@
 #include <errbound/rules/interval.hpp>
 #include <errbound/rules/none.hpp>
 #include <errbound/rules/residual.hpp>
+#include <errbound/rules/rule.hpp>
 #include <errbound/rules/safe.hpp>
 #include <errbound/rules/sharp.hpp>
 #include <errbound/rules/tight.hpp>
@@ -26,9 +27,12 @@
 namespace errbound {
 
 /// T: float, double, long double or any type with the same operations and a number_traits.
-/// Rule: how bounds propagate (rules/operand.hpp says what a rule is).
+/// Rule: how bounds propagate, a bound_rule (errbound/rules/rule.hpp says what that is).
 template <class T = double, class Rule = tight>
 class tracked {
+    static_assert(bound_rule<Rule, T> || sizeof(detail::rule_check<Rule, T>) == 0,
+                  "errbound: the second argument of tracked is a bound rule");
+
   public:
     using value_type = T;
     using rule_type = Rule;
@@ -68,6 +72,8 @@ class tracked {
     }
     /// Does not compile for a rule without division. Unknown where b may be zero.
     friend constexpr tracked operator/(const tracked& a, const tracked& b) {
+        static_assert(detail::rule_has_divide<Rule, T>,
+                      "errbound: this bound rule has no divide(result, a, b)");
         const T v = a.value_ / b.value_;
         return {v, Rule::template divide<T>(v, a.as_operand(), b.as_operand())};
     }
@@ -93,8 +99,7 @@ class tracked {
     /// The certain sign; the rule's own where it has one. Strict: a value that equals its bound may
     /// belong to zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
-        if constexpr (requires { Rule::sign(x.value_, x.bound_); })
-            return Rule::sign(x.value_, x.bound_);
+        if constexpr (detail::rule_has_sign<Rule, T>) return Rule::sign(x.value_, x.bound_);
         const T e = x.error();
         if (x.value_ > e) return sign_type::positive;
         if (x.value_ < -e) return sign_type::negative;
@@ -116,7 +121,7 @@ class tracked {
     }
 
     constexpr tracked(const T& value, const bound_type& bound) : value_(value), bound_(bound) {}
-    constexpr operand<T, Rule> as_operand() const { return {value_, bound_}; }
+    constexpr rule_operand<T, Rule> as_operand() const { return {value_, bound_}; }
 
     T value_;
     [[no_unique_address]] bound_type bound_;

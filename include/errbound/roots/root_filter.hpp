@@ -17,6 +17,7 @@
 #include <errbound/error_free.hpp>
 #include <errbound/number_traits.hpp>
 #include <errbound/roots/sign_variations.hpp>
+#include <errbound/rules/rule.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
 #include <optional>
@@ -28,7 +29,7 @@ namespace errbound::roots {
 
 /// A rule that stores the absolute error and nothing else.
 template <class Rule>
-concept absolute_rule = requires(typename Rule::template bound<double> b) {
+concept absolute_rule = bound_rule<Rule> && requires(typename Rule::template bound<double> b) {
     requires sizeof(b) == sizeof(double);
     b.error;
 };

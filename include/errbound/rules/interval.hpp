@@ -70,19 +70,22 @@ struct interval {
 
     /// Proof: proofs/IeeeInterval.v, interval_add_known.
     template <class T>
-    static constexpr bound<T> add(const T& v, operand<T, interval> a, operand<T, interval> b) {
+    static constexpr bound<T> add(const T& v, rule_operand<T, interval> a,
+                                  rule_operand<T, interval> b) {
         return sum<T>(v, a.bound, b.bound);
     }
     /// Proof: proofs/IeeeInterval.v, interval_subtract_known.
     template <class T>
-    static constexpr bound<T> subtract(const T& v, operand<T, interval> a, operand<T, interval> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, interval> a,
+                                       rule_operand<T, interval> b) {
         return sum<T>(v, a.bound, negate<T>(b.bound));
     }
     /// Both ends are among the four products of ends. A product 0·∞ stands for 0, which is then
     /// among the others too: NaN may be passed over.
     /// Proof: proofs/IeeeInterval.v, interval_multiply_known.
     template <class T>
-    static constexpr bound<T> multiply(const T& v, operand<T, interval> a, operand<T, interval> b) {
+    static constexpr bound<T> multiply(const T& v, rule_operand<T, interval> a,
+                                       rule_operand<T, interval> b) {
         if (is_zero(a.bound) || is_zero(b.bound)) return checked<T>(v, v, v);
         if (is_point(a.bound) && is_point(b.bound)) {
             const with_error<T> p = two_product<T>(a.value, b.value);
@@ -97,7 +100,8 @@ struct interval {
     /// Unknown where b may be zero.
     /// Proof: proofs/IeeeInterval.v, interval_divide_known.
     template <class T>
-    static constexpr bound<T> divide(const T& v, operand<T, interval> a, operand<T, interval> b) {
+    static constexpr bound<T> divide(const T& v, rule_operand<T, interval> a,
+                                     rule_operand<T, interval> b) {
         if (!(b.bound.lower > 0) && !(b.bound.upper < 0)) return unknown<T>();
         if (is_point(a.bound) && is_point(b.bound)) {
             const division_remainder<T> r = remainder_of_division<T>(a.value, b.value, v);
@@ -110,7 +114,7 @@ struct interval {
     /// Scaling by a power of two is exact unless it underflows.
     /// Proof: proofs/IeeeInterval.v, interval_scale_known.
     template <class T>
-    static constexpr bound<T> scale(const T& v, operand<T, interval> a, int e) {
+    static constexpr bound<T> scale(const T& v, rule_operand<T, interval> a, int e) {
         using traits = number_traits<T>;
         const T lower = traits::scale(a.bound.lower, e), upper = traits::scale(a.bound.upper, e);
         const bool lossless = e >= 0 || (traits::scale(lower, -e) == a.bound.lower &&

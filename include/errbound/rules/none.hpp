@@ -27,23 +27,23 @@ struct none {
         return traits::is_finite(value) ? T(0) : traits::infinity();
     }
     template <class T>
-    static constexpr bound<T> add(const T&, operand<T, none>, operand<T, none>) {
+    static constexpr bound<T> add(const T&, rule_operand<T, none>, rule_operand<T, none>) {
         return {};
     }
     template <class T>
-    static constexpr bound<T> subtract(const T&, operand<T, none>, operand<T, none>) {
+    static constexpr bound<T> subtract(const T&, rule_operand<T, none>, rule_operand<T, none>) {
         return {};
     }
     template <class T>
-    static constexpr bound<T> multiply(const T&, operand<T, none>, operand<T, none>) {
+    static constexpr bound<T> multiply(const T&, rule_operand<T, none>, rule_operand<T, none>) {
         return {};
     }
     template <class T>
-    static constexpr bound<T> divide(const T&, operand<T, none>, operand<T, none>) {
+    static constexpr bound<T> divide(const T&, rule_operand<T, none>, rule_operand<T, none>) {
         return {};
     }
     template <class T>
-    static constexpr bound<T> scale(const T&, operand<T, none>, int) {
+    static constexpr bound<T> scale(const T&, rule_operand<T, none>, int) {
         return {};
     }
 };

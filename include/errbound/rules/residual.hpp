@@ -72,19 +72,22 @@ struct residual {
     /// a + b = v + δ + (ca + cb) ± (ρa + ρb); the two sums that make c are error-free too.
     /// Proof: proofs/IeeeResidual.v, residual_add_known.
     template <class T>
-    static constexpr bound<T> add(const T& v, operand<T, residual> a, operand<T, residual> b) {
+    static constexpr bound<T> add(const T& v, rule_operand<T, residual> a,
+                                  rule_operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, b.value, b.bound);
     }
     /// Proof: proofs/IeeeResidual.v, residual_subtract_known.
     template <class T>
-    static constexpr bound<T> subtract(const T& v, operand<T, residual> a, operand<T, residual> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, residual> a,
+                                       rule_operand<T, residual> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), negate<T>(b.bound));
     }
     /// ab = v + δ + (va·cb + ca·vb) + ca·cb, and with the remainders
     /// (|va| + |ca|)ρb + (|vb| + |cb| + ρb)ρa.
     /// Proof: proofs/IeeeResidual.v, residual_multiply_known.
     template <class T>
-    static constexpr bound<T> multiply(const T& v, operand<T, residual> a, operand<T, residual> b) {
+    static constexpr bound<T> multiply(const T& v, rule_operand<T, residual> a,
+                                       rule_operand<T, residual> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return exact<T>(v);
         const with_error<T> product = two_product<T>(a.value, b.value);
@@ -112,7 +115,8 @@ struct residual {
     /// left out of c: what N/vb then lacks, r/vb, is the error of q. Unknown where b may be zero.
     /// Proof: proofs/IeeeResidual.v, residual_divide_known.
     template <class T>
-    static constexpr bound<T> divide(const T& v, operand<T, residual> a, operand<T, residual> b) {
+    static constexpr bound<T> divide(const T& v, rule_operand<T, residual> a,
+                                     rule_operand<T, residual> b) {
         using traits = number_traits<T>;
         const T off = error<T>(b.value, b.bound);
         const T distance = traits::abs(b.value) - off;  // of b from zero
@@ -141,7 +145,7 @@ struct residual {
     /// Scaling by a power of two is exact unless it underflows: then value, correction and
     /// remainder are each off by at most η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
     template <class T>
-    static constexpr bound<T> scale(const T& v, operand<T, residual> a, int e) {
+    static constexpr bound<T> scale(const T& v, rule_operand<T, residual> a, int e) {
         using traits = number_traits<T>;
         const T correction = traits::scale(a.bound.correction, e);
         const T remainder = traits::scale(a.bound.remainder, e);
@@ -188,11 +192,11 @@ struct residual {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
     }
     template <class T>
-    static constexpr bool is_exact(operand<T, residual> a) {
+    static constexpr bool is_exact(rule_operand<T, residual> a) {
         return a.bound.correction == 0 && a.bound.remainder == 0;
     }
     template <class T>
-    static constexpr bool is_zero(operand<T, residual> a) {
+    static constexpr bool is_zero(rule_operand<T, residual> a) {
         return a.value == 0 && is_exact(a);
     }
 };

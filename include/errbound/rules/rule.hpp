@@ -1,6 +1,6 @@
-// What a bound rule sees of an operand: its value and the bound that the rule itself gave it.
+// What a bound rule is: how a certified bound passes through operations.
 //
-// A bound rule is a type with
+// A type with
 //   name                                         a string, for tables and messages
 //   template <class T> struct bound              what it stores beside a value
 //   exact(value)                                 the bound of a number that is exact
@@ -9,8 +9,7 @@
 //                                                infinity or NaN: nothing is known
 //   add, subtract, multiply(result, a, b)        the bound of the rounded result of a ∘ b
 //   divide(result, a, b)                         likewise; leave it out if the rule has none
-//   scale(result, a, e)                          the bound of result = a·2^e, rounded once; asked
-//                                                for by polynomials and BSC only
+//   scale(result, a, e)                          the bound of result = a·2^e, rounded once
 // and, only where the defaults do not serve,
 //   negate(bound)                                the bound of −value; default: the same bound
 //   sign(value, bound)                           the certain sign, for a rule that knows more than
@@ -24,15 +23,108 @@
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
 #pragma once
 
+#include <concepts>
 #include <errbound/number_traits.hpp>
+#include <errbound/sign.hpp>
 
 namespace errbound {
 
+/// What a rule sees of an operand: its value and the bound that the rule itself gave it.
 /// References: valid during the rule's call only.
 template <class T, class Rule>
-struct operand {
+struct rule_operand {
     const T& value;
     const typename Rule::template bound<T>& bound;
 };
+
+namespace detail {
+
+template <class Rule, class T>
+concept rule_has_bound = requires {
+    typename Rule::template bound<T>;
+};
+template <class X, class Rule, class T>
+concept bound_of = std::same_as<X, typename Rule::template bound<T>>;
+template <class Rule, class T>
+concept rule_has_name = requires {
+    { Rule::name } -> std::convertible_to<const char*>;
+};
+template <class Rule, class T>
+concept rule_has_exact = requires(const T& value) {
+    { Rule::template exact<T>(value) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_within = requires(const T& value) {
+    { Rule::template within<T>(value, value) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_error = requires(const T& value, const typename Rule::template bound<T>& bound) {
+    { Rule::template error<T>(value, bound) } -> std::convertible_to<T>;
+};
+template <class Rule, class T>
+concept rule_has_add = requires(const T& result, rule_operand<T, Rule> a) {
+    { Rule::template add<T>(result, a, a) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_subtract = requires(const T& result, rule_operand<T, Rule> a) {
+    { Rule::template subtract<T>(result, a, a) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_multiply = requires(const T& result, rule_operand<T, Rule> a) {
+    { Rule::template multiply<T>(result, a, a) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_divide = requires(const T& result, rule_operand<T, Rule> a) {
+    { Rule::template divide<T>(result, a, a) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_scale = requires(const T& result, rule_operand<T, Rule> a) {
+    { Rule::template scale<T>(result, a, 1) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_sign = requires(const T& value, const typename Rule::template bound<T>& bound) {
+    Rule::sign(value, bound);
+};
+template <class Rule, class T>
+concept rule_sign_is_one = !rule_has_sign<Rule, T> ||
+                           requires(const T& value, const typename Rule::template bound<T>& bound) {
+    { Rule::sign(value, bound) } -> std::same_as<sign_type>;
+};
+
+/// Says in words what a type lacks that is taken for a rule.
+template <class Rule, class T>
+struct rule_check {
+    static_assert(
+        rule_has_bound<Rule, T>,
+        "errbound: a bound rule needs a template bound<T>, what it stores beside a value");
+    static_assert(rule_has_name<Rule, T>, "errbound: a bound rule needs a name, a string");
+    static_assert(rule_has_exact<Rule, T>,
+                  "errbound: a bound rule needs exact(value), which returns bound<T>");
+    static_assert(rule_has_within<Rule, T>,
+                  "errbound: a bound rule needs within(value, error), which returns bound<T>");
+    static_assert(rule_has_error<Rule, T>,
+                  "errbound: a bound rule needs error(value, bound), which returns T");
+    static_assert(rule_has_add<Rule, T>,
+                  "errbound: a bound rule needs add(result, a, b), which returns bound<T>");
+    static_assert(rule_has_subtract<Rule, T>,
+                  "errbound: a bound rule needs subtract(result, a, b), which returns bound<T>");
+    static_assert(rule_has_multiply<Rule, T>,
+                  "errbound: a bound rule needs multiply(result, a, b), which returns bound<T>");
+    static_assert(rule_has_scale<Rule, T>,
+                  "errbound: a bound rule needs scale(result, a, e), which returns bound<T>");
+    static_assert(rule_sign_is_one<Rule, T>,
+                  "errbound: a bound rule's sign(value, bound) returns a sign_type");
+};
+
+}  // namespace detail
+
+/// Whether Rule is a bound rule for numbers of type T, as the head of this file says. That its
+/// bounds hold is for a proof and for errbound/validation.
+template <class Rule, class T = double>
+concept bound_rule = detail::rule_has_bound<Rule, T> && detail::rule_has_name<Rule, T> &&
+    detail::rule_has_exact<Rule, T> && detail::rule_has_within<Rule, T> &&
+    detail::rule_has_error<Rule, T> && detail::rule_has_add<Rule, T> &&
+    detail::rule_has_subtract<Rule, T> && detail::rule_has_multiply<Rule, T> &&
+    detail::rule_has_scale<Rule, T> && detail::rule_sign_is_one<Rule, T>;
 
 }  // namespace errbound

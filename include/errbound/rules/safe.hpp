@@ -60,7 +60,7 @@ struct safe {
     /// B = Ba + Bb, k = max(ka, kb) + 1. Proof: proofs/IeeeSafe.v, safe_add_known; in any
     /// direction, proofs/Safe.v, safe_add_sound.
     template <class T>
-    static constexpr bound<T> add(const T&, operand<T, safe> a, operand<T, safe> b) {
+    static constexpr bound<T> add(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         const int k =
             a.bound.operations < b.bound.operations ? b.bound.operations : a.bound.operations;
         return {enlarged<T>(a.bound.magnitude + b.bound.magnitude), counted(k)};
@@ -68,13 +68,14 @@ struct safe {
     /// Proof: proofs/IeeeSafe.v, safe_subtract_known; in any direction, proofs/Safe.v,
     /// safe_subtract_sound.
     template <class T>
-    static constexpr bound<T> subtract(const T& v, operand<T, safe> a, operand<T, safe> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, safe> a,
+                                       rule_operand<T, safe> b) {
         return add(v, a, b);
     }
     /// B = Ba·Bb, k = ka + kb + 1. Proof: proofs/IeeeSafe.v, safe_multiply_known; in any direction,
     /// proofs/Safe.v, safe_multiply_sound.
     template <class T>
-    static constexpr bound<T> multiply(const T&, operand<T, safe> a, operand<T, safe> b) {
+    static constexpr bound<T> multiply(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {T(0), 0};
         return {traits::max(enlarged<T>(a.bound.magnitude * b.bound.magnitude),
@@ -82,7 +83,7 @@ struct safe {
                 counted(a.bound.operations + b.bound.operations)};
     }
     template <class T>
-    static constexpr bound<T> divide(const T&, operand<T, safe>, operand<T, safe>) {
+    static constexpr bound<T> divide(const T&, rule_operand<T, safe>, rule_operand<T, safe>) {
         static_assert(sizeof(T) == 0,
                       "errbound: SafeBound has no rule for division (it bounds numbers from above "
                       "only); use the rule `tight`, or rewrite the expression without division");
@@ -92,7 +93,7 @@ struct safe {
     /// one more in k pays. Proof: proofs/IeeeSafe.v, safe_scale_known; in any direction,
     /// proofs/Safe.v, safe_scale_sound.
     template <class T>
-    static constexpr bound<T> scale(const T& v, operand<T, safe> a, int e) {
+    static constexpr bound<T> scale(const T& v, rule_operand<T, safe> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.magnitude, e);
         if (e >= 0 ||
@@ -113,7 +114,7 @@ struct safe {
         return detail::rounded_product(x, T(1 + 4 * number_traits<T>::epsilon()));
     }
     template <class T>
-    static constexpr bool is_zero(operand<T, safe> a) {
+    static constexpr bool is_zero(rule_operand<T, safe> a) {
         return a.value == 0 && a.bound.operations == 0;
     }
 };

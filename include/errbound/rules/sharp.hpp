@@ -47,20 +47,22 @@ struct sharp {
 
     /// |v − (a + b)| <= u|v| + σa + σb. Proof: proofs/IeeeRules.v, sharp_add_known.
     template <class T>
-    static constexpr bound<T> add(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+    static constexpr bound<T> add(const T& v, rule_operand<T, sharp> a, rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
         return {detail::rounded_product(T(rounding(v) + (a.bound.error + b.bound.error)),
                                         T(1 + 2 * traits::epsilon()))};
     }
     /// Proof: proofs/IeeeRules.v, sharp_subtract_known.
     template <class T>
-    static constexpr bound<T> subtract(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, sharp> a,
+                                       rule_operand<T, sharp> b) {
         return add(v, a, b);
     }
     /// |v − ab| <= u|v| + η/2 + |â|σb + σa(|b̂| + σb). Proof: proofs/IeeeRules.v,
     /// sharp_multiply_known.
     template <class T>
-    static constexpr bound<T> multiply(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+    static constexpr bound<T> multiply(const T& v, rule_operand<T, sharp> a,
+                                       rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {rounding(v)};  // 0, or NaN if the other is not finite
         const T inherited =
@@ -71,7 +73,8 @@ struct sharp {
     /// Where |b̂| > σb: |v − a/b| <= u|v| + η/2 + (σa + |â/b̂|σb)/(|b̂| − σb); see `tight`. Elsewhere
     /// the result is unknown. Proof: proofs/IeeeRules.v, sharp_divide_known.
     template <class T>
-    static constexpr bound<T> divide(const T& v, operand<T, sharp> a, operand<T, sharp> b) {
+    static constexpr bound<T> divide(const T& v, rule_operand<T, sharp> a,
+                                     rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
@@ -87,7 +90,7 @@ struct sharp {
     /// Scaling by a power of two is exact unless it underflows: then value and bound are each off
     /// by at most η/2. Proof: proofs/IeeeRules.v, sharp_scale_known.
     template <class T>
-    static constexpr bound<T> scale(const T& v, operand<T, sharp> a, int e) {
+    static constexpr bound<T> scale(const T& v, rule_operand<T, sharp> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.error, e);
         const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&
@@ -105,7 +108,7 @@ struct sharp {
         return detail::rounded_product(bound, T(1 + 4 * number_traits<T>::epsilon()));
     }
     template <class T>
-    static constexpr bool is_zero(operand<T, sharp> a) {
+    static constexpr bool is_zero(rule_operand<T, sharp> a) {
         return a.value == 0 && a.bound.error == 0;
     }
 };

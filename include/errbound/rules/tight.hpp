@@ -54,20 +54,22 @@ struct tight {
     /// Proof: proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v,
     /// tight_add_sound.
     template <class T>
-    static constexpr bound<T> add(const T& v, operand<T, tight> a, operand<T, tight> b) {
+    static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
         return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error))};
     }
     /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
     /// direction, proofs/Tight.v, tight_subtract_sound.
     template <class T>
-    static constexpr bound<T> subtract(const T& v, operand<T, tight> a, operand<T, tight> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, tight> a,
+                                       rule_operand<T, tight> b) {
         return add(v, a, b);
     }
     /// |v − ab| <= |v|ε/(1 − ε) + |â|σb + σa|b̂| + σaσb. Source: Theorem 1, Multiply.
     /// Proof: proofs/IeeeRules.v, tight_multiply_known; in any direction, proofs/Tight.v,
     /// tight_multiply_sound.
     template <class T>
-    static constexpr bound<T> multiply(const T& v, operand<T, tight> a, operand<T, tight> b) {
+    static constexpr bound<T> multiply(const T& v, rule_operand<T, tight> a,
+                                       rule_operand<T, tight> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {rounding(v)};  // 0, or NaN if the other is not finite
         const T inherited =
@@ -80,7 +82,8 @@ struct tight {
     /// Elsewhere the result is unknown. Source: Theorem 1, Divide. Proof: proofs/IeeeRules.v,
     /// tight_divide_known; in any direction, proofs/Tight.v, tight_divide_sound.
     template <class T>
-    static constexpr bound<T> divide(const T& v, operand<T, tight> a, operand<T, tight> b) {
+    static constexpr bound<T> divide(const T& v, rule_operand<T, tight> a,
+                                     rule_operand<T, tight> b) {
         using traits = number_traits<T>;
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
@@ -97,7 +100,7 @@ struct tight {
     /// by less than η. Proof: proofs/IeeeRules.v, tight_scale_known; in any direction,
     /// proofs/Tight.v, tight_scale_sound.
     template <class T>
-    static constexpr bound<T> scale(const T& v, operand<T, tight> a, int e) {
+    static constexpr bound<T> scale(const T& v, rule_operand<T, tight> a, int e) {
         using traits = number_traits<T>;
         const T scaled = traits::scale(a.bound.error, e);
         const bool lossless = e >= 0 || (traits::scale(v, -e) == a.value &&
@@ -118,7 +121,7 @@ struct tight {
         return detail::rounded_product(bound, T(1 + 8 * number_traits<T>::epsilon()));
     }
     template <class T>
-    static constexpr bool is_zero(operand<T, tight> a) {
+    static constexpr bool is_zero(rule_operand<T, tight> a) {
         return a.value == 0 && a.bound.error == 0;
     }
 };

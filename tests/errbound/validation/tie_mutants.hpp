@@ -11,7 +11,7 @@
 namespace tie_mutants {
 
 using errbound::number_traits;
-using errbound::operand;
+using errbound::rule_operand;
 
 /// Everything as in Rule; Self hides what it changes.
 template <class Rule, class Self>
@@ -37,35 +37,35 @@ struct copy_of {
         return Rule::template sign<T>(v, b);
     }
     template <class T>
-    static bound<T> add(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         return Rule::template add<T>(v, original(a), original(b));
     }
     template <class T>
-    static bound<T> subtract(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> subtract(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         return Rule::template subtract<T>(v, original(a), original(b));
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         return Rule::template multiply<T>(v, original(a), original(b));
     }
     template <class T>
-    static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> divide(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         return Rule::template divide<T>(v, original(a), original(b));
     }
     template <class T>
-    static bound<T> scale(const T& v, operand<T, Self> a, int e) {
+    static bound<T> scale(const T& v, rule_operand<T, Self> a, int e) {
         return Rule::template scale<T>(v, original(a), e);
     }
 
     template <class T>
-    static operand<T, Rule> original(operand<T, Self> a) {
+    static rule_operand<T, Rule> original(rule_operand<T, Self> a) {
         return {a.value, a.bound};
     }
 };
 
 /// Of a rule whose bound is an error.
 template <class T, class Rule>
-bool is_zero(const operand<T, Rule>& a) {
+bool is_zero(const rule_operand<T, Rule>& a) {
     return a.value == 0 && a.bound.error == 0;
 }
 
@@ -86,12 +86,12 @@ struct tight : copy_of<errbound::tight, tight<Without>> {
         return errbound::tight::within(v, e);
     }
     template <class T>
-    static bound<T> add(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         const T own = Without == 3 ? T(0) : rounding(v);
         return {inflated<4>(own + (a.bound.error + (Without == 5 ? T(0) : b.bound.error)))};
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         if (Without != 6 && (is_zero(a) || is_zero(b))) return {rounding(v)};
         const T b_size = Without == 7 ? traits::abs(b.value) : traits::abs(b.value) + b.bound.error;
@@ -101,7 +101,7 @@ struct tight : copy_of<errbound::tight, tight<Without>> {
         return {inflated<0>(rounding(v) + inherited + lost)};
     }
     template <class T>
-    static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> divide(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         const T distance = traits::abs(b.value) - (Without == 10 ? T(0) : b.bound.error);
         if (!(distance > 0)) return {traits::infinity()};
@@ -113,7 +113,7 @@ struct tight : copy_of<errbound::tight, tight<Without>> {
         return {inflated<0>(rounding(v) + inflated<13>(inherited) + underflow)};
     }
     template <class T>
-    static bound<T> scale(const T& v, operand<T, Self> a, int e) {
+    static bound<T> scale(const T& v, rule_operand<T, Self> a, int e) {
         if (Without == 15) return {number_traits<T>::scale(a.bound.error, e)};
         return errbound::tight::scale<T>(v, Self::original(a), e);
     }
@@ -138,14 +138,14 @@ struct sharp : copy_of<errbound::sharp, sharp<Without>> {
     using bound = errbound::sharp::bound<T>;
 
     template <class T>
-    static bound<T> add(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         const T own = Without == 1 ? T(0) : rounding(v);
         const T factor = Without == 2 ? 1 + traits::epsilon() : 1 + 2 * traits::epsilon();
         return {(own + (a.bound.error + b.bound.error)) * factor};
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {rounding(v)};
         const T inherited = traits::abs(a.value) * b.bound.error +
@@ -154,7 +154,7 @@ struct sharp : copy_of<errbound::sharp, sharp<Without>> {
         return {inflated<T>((rounding(v) + lost) + inherited)};
     }
     template <class T>
-    static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> divide(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         const T distance = traits::abs(b.value) - b.bound.error;
         if (!(distance > 0)) return {traits::infinity()};
@@ -185,14 +185,14 @@ struct safe : copy_of<errbound::safe, safe<Without>> {
     using bound = errbound::safe::bound<T>;
 
     template <class T>
-    static bound<T> add(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         bound<T> sum = errbound::safe::add<T>(v, Self::original(a), Self::original(b));
         if (Without == 1) sum.magnitude = a.bound.magnitude + b.bound.magnitude;
         if (Without == 2) --sum.operations;
         return sum;
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         bound<T> product = errbound::safe::multiply<T>(v, Self::original(a), Self::original(b));
         if (Without == 3 && product.magnitude == traits::smallest_normal())
@@ -220,14 +220,14 @@ struct interval : copy_of<errbound::interval, interval<Without>> {
     using bound = errbound::interval::bound<T>;
 
     template <class T>
-    static bound<T> add(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         bound<T> sum = errbound::interval::add<T>(v, Self::original(a), Self::original(b));
         if (Without == 1 && number_traits<T>::is_finite(sum.lower))
             sum.lower = a.bound.lower + b.bound.lower;
         return sum;
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         bound<T> product = errbound::interval::multiply<T>(v, Self::original(a), Self::original(b));
         if (Without == 2 && product.lower == product.upper) product.upper = v;
         if (Without == 2 && number_traits<T>::is_finite(product.upper) &&
@@ -236,7 +236,7 @@ struct interval : copy_of<errbound::interval, interval<Without>> {
         return product;
     }
     template <class T>
-    static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> divide(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         if (Without == 3 && b.bound.lower == 0 && b.bound.upper > 0)
             return {a.bound.lower / b.bound.upper, a.bound.upper / b.bound.lower};
         const auto q = errbound::interval::divide<T>(v, Self::original(a), Self::original(b));
@@ -254,7 +254,7 @@ struct residual : copy_of<errbound::residual, residual<Without>> {
     using bound = errbound::residual::bound<T>;
 
     template <class T>
-    static bound<T> add(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         using traits = number_traits<T>;
         using namespace errbound;
         const T own = two_sum<T>(a.value, b.value).error;
@@ -267,13 +267,13 @@ struct residual : copy_of<errbound::residual, residual<Without>> {
                 Without == 3 ? remainder : remainder * (1 + 8 * traits::epsilon())};
     }
     template <class T>
-    static bound<T> subtract(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> subtract(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         const T value = -b.value;
         if (Without == 5) return errbound::residual::add<T>(v, Self::original(a), {value, b.bound});
         return errbound::residual::subtract<T>(v, Self::original(a), Self::original(b));
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         const bound<T> used{b.bound.correction, Without == 6 ? T(0) : b.bound.remainder};
         bound<T> product = errbound::residual::multiply<T>(v, Self::original(a), {b.value, used});
         const bool exact = a.bound.correction == 0 && a.bound.remainder == 0 &&
@@ -282,12 +282,12 @@ struct residual : copy_of<errbound::residual, residual<Without>> {
         return product;
     }
     template <class T>
-    static bound<T> divide(const T& v, operand<T, Self> a, operand<T, Self> b) {
+    static bound<T> divide(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         const bound<T> used{b.bound.correction, Without == 7 ? T(0) : b.bound.remainder};
         return errbound::residual::divide<T>(v, Self::original(a), {b.value, used});
     }
     template <class T>
-    static bound<T> scale(const T& v, operand<T, Self> a, int e) {
+    static bound<T> scale(const T& v, rule_operand<T, Self> a, int e) {
         using traits = number_traits<T>;
         if (Without == 8)
             return {traits::scale(a.bound.correction, e),

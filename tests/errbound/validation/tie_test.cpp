@@ -28,12 +28,13 @@
 namespace {
 
 using errbound::number_traits;
-using errbound::operand;
+using errbound::rule_operand;
 using errbound::sign_type;
 using errbound::validation::tiny_float;
 
 /// The error that it is told, to ask the default sign_of.
 struct given_error {
+    static constexpr const char* name = "given error";
     template <class T>
     struct bound {
         T error;
@@ -49,6 +50,23 @@ struct given_error {
     template <class T>
     static T error(const T&, const bound<T>& b) {
         return b.error;
+    }
+    // A rule has these; nothing is asked of them.
+    template <class T>
+    static bound<T> add(const T&, auto, auto) {
+        return {};
+    }
+    template <class T>
+    static bound<T> subtract(const T&, auto, auto) {
+        return {};
+    }
+    template <class T>
+    static bound<T> multiply(const T&, auto, auto) {
+        return {};
+    }
+    template <class T>
+    static bound<T> scale(const T&, auto, int) {
+        return {};
     }
 };
 
@@ -217,7 +235,7 @@ template <class T, class Rule>
 struct operand_state {
     T value;
     typename Rule::template bound<T> bound;
-    operand<T, Rule> as_operand() const { return {value, bound}; }
+    rule_operand<T, Rule> as_operand() const { return {value, bound}; }
 };
 
 /// Rules whose bound is an error.

@@ -12,7 +12,7 @@ namespace validation_test {
 
 namespace validation = errbound::validation;
 using errbound::number_traits;
-using errbound::operand;
+using errbound::rule_operand;
 
 /// TightBound as the paper prints it: no term for underflow, none for the bound's own rounding.
 struct as_printed {
@@ -34,23 +34,24 @@ struct as_printed {
         return b.error;
     }
     template <class T>
-    static constexpr bound<T> add(const T& v, operand<T, as_printed> a, operand<T, as_printed> b) {
+    static constexpr bound<T> add(const T& v, rule_operand<T, as_printed> a,
+                                  rule_operand<T, as_printed> b) {
         return {rounding(v) + a.bound.error + b.bound.error};
     }
     template <class T>
-    static constexpr bound<T> subtract(const T& v, operand<T, as_printed> a,
-                                       operand<T, as_printed> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, as_printed> a,
+                                       rule_operand<T, as_printed> b) {
         return add(v, a, b);
     }
     template <class T>
-    static constexpr bound<T> multiply(const T& v, operand<T, as_printed> a,
-                                       operand<T, as_printed> b) {
+    static constexpr bound<T> multiply(const T& v, rule_operand<T, as_printed> a,
+                                       rule_operand<T, as_printed> b) {
         using traits = number_traits<T>;
         return {rounding(v) + traits::abs(a.value) * b.bound.error +
                 a.bound.error * traits::abs(b.value) + a.bound.error * b.bound.error};
     }
     template <class T>
-    static bound<T> scale(const T&, operand<T, as_printed> a, int e) {
+    static bound<T> scale(const T&, rule_operand<T, as_printed> a, int e) {
         return {number_traits<T>::scale(a.bound.error, e)};
     }
 
@@ -68,7 +69,7 @@ struct too_small {
     template <class T>
     using bound = errbound::tight::bound<T>;
     template <class T>
-    static operand<T, errbound::tight> as_tight(operand<T, too_small> a) {
+    static rule_operand<T, errbound::tight> as_tight(rule_operand<T, too_small> a) {
         return {a.value, a.bound};
     }
     template <class T>
@@ -84,24 +85,26 @@ struct too_small {
         return b.error;
     }
     template <class T>
-    static bound<T> add(const T& v, operand<T, too_small> a, operand<T, too_small> b) {
+    static bound<T> add(const T& v, rule_operand<T, too_small> a, rule_operand<T, too_small> b) {
         using traits = number_traits<T>;
         return {traits::abs(v) * (traits::epsilon() / 8) + a.bound.error + b.bound.error};
     }
     template <class T>
-    static bound<T> subtract(const T& v, operand<T, too_small> a, operand<T, too_small> b) {
+    static bound<T> subtract(const T& v, rule_operand<T, too_small> a,
+                             rule_operand<T, too_small> b) {
         return add(v, a, b);
     }
     template <class T>
-    static bound<T> multiply(const T& v, operand<T, too_small> a, operand<T, too_small> b) {
+    static bound<T> multiply(const T& v, rule_operand<T, too_small> a,
+                             rule_operand<T, too_small> b) {
         return errbound::tight::multiply<T>(v, as_tight<T>(a), as_tight<T>(b));
     }
     template <class T>
-    static bound<T> divide(const T& v, operand<T, too_small> a, operand<T, too_small> b) {
+    static bound<T> divide(const T& v, rule_operand<T, too_small> a, rule_operand<T, too_small> b) {
         return errbound::tight::divide<T>(v, as_tight<T>(a), as_tight<T>(b));
     }
     template <class T>
-    static bound<T> scale(const T& v, operand<T, too_small> a, int e) {
+    static bound<T> scale(const T& v, rule_operand<T, too_small> a, int e) {
         return errbound::tight::scale<T>(v, as_tight<T>(a), e);
     }
 };

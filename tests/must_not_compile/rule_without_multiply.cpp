@@ -1,0 +1,39 @@
+// A bound rule without products: the message must name what is missing.
+#include <errbound/tracked.hpp>
+
+struct sums_only {
+    static constexpr const char* name = "sums_only";
+    template <class T>
+    using bound = errbound::tight::bound<T>;
+    template <class T>
+    using operand = errbound::rule_operand<T, sums_only>;
+    template <class T>
+    static constexpr bound<T> exact(const T&) {
+        return {};
+    }
+    template <class T>
+    static constexpr bound<T> within(const T&, const T& error) {
+        return {error};
+    }
+    template <class T>
+    static constexpr T error(const T&, const bound<T>& b) {
+        return b.error;
+    }
+    template <class T>
+    static constexpr bound<T> add(const T&, operand<T> a, operand<T>) {
+        return a.bound;
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T&, operand<T> a, operand<T>) {
+        return a.bound;
+    }
+    template <class T>
+    static constexpr bound<T> scale(const T&, operand<T> a, int) {
+        return a.bound;
+    }
+};
+
+int main() {
+    const errbound::tracked<double, sums_only> x = 1.0;
+    return x.value() > 0;
+}
