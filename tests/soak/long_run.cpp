@@ -76,6 +76,75 @@ class collector {
     std::map<std::uint64_t, totals> waiting_;
 };
 
+/// Threads that compare block after block, and what they have found.
+class comparing_threads {
+  public:
+    comparing_threads(const state& from, const run_options& options, const decider& truth,
+                      std::span<const decider> deciders, const std::atomic<bool>& stop)
+        : seed_(from.seed),
+          blocks_(options.blocks),
+          truth_(truth),
+          deciders_(deciders),
+          stop_(stop),
+          next_(from.found.blocks),
+          found_(from.found) {
+        const unsigned count = options.threads > 0
+                                   ? options.threads
+                                   : std::max(1u, std::thread::hardware_concurrency());
+        working_ = count;
+        for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
+    }
+    /// Waits for the blocks that are begun.
+    ~comparing_threads() { ending_ = true; }
+
+    bool finished_within(std::chrono::milliseconds time) {
+        std::unique_lock lock(mutex_);
+        return finished_.wait_for(lock, time, [&] { return working_ == 0; });
+    }
+    totals found() {
+        const std::scoped_lock lock(mutex_);
+        return found_.sum();
+    }
+    void rethrow_failure() {
+        const std::scoped_lock lock(mutex_);
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+  private:
+    // Stopping only between blocks, all that are begun are finished, so none is lost.
+    void work() {
+        while (!stop_ && !ending_) {
+            const std::uint64_t block = next_++;
+            if (block >= blocks_) break;
+            try {
+                totals part = compare_block(seed_, block, truth_, deciders_);
+                const std::scoped_lock lock(mutex_);
+                found_.add(block, std::move(part));
+            } catch (...) {
+                ending_ = true;
+                const std::scoped_lock lock(mutex_);
+                failure_ = std::current_exception();
+            }
+        }
+        const std::scoped_lock lock(mutex_);
+        --working_;
+        finished_.notify_all();
+    }
+
+    std::uint64_t seed_, blocks_;
+    const decider& truth_;
+    std::span<const decider> deciders_;
+    const std::atomic<bool>& stop_;
+    std::atomic<bool> ending_ = false;
+    std::atomic<std::uint64_t> next_;
+    std::mutex mutex_;  // of all that follows
+    std::condition_variable finished_;
+    collector found_;
+    std::exception_ptr failure_;
+    unsigned working_ = 0;
+    std::vector<std::jthread> threads_;  // joined before anything else goes
+};
+
 }  // namespace
 
 std::string to_json(const state& s) {
@@ -158,64 +227,25 @@ void save(const state& s, const fs::path& folder) {
 state run(state from, const run_options& options, const decider& truth,
           std::span<const decider> deciders, const std::atomic<bool>& stop,
           const std::function<void(const state&)>& progress) {
-    save(from,
-         options.folder);  // a folder that cannot be written to is refused now, not in an hour
+    // A folder that cannot be written to is refused now, not in an hour.
+    save(from, options.folder);
     const clock::time_point start = clock::now();
-    const std::uint64_t seed = from.seed;
-    std::mutex mutex;  // of all that follows, but `next` and `failed`
-    std::condition_variable finished;
-    collector found(from.found);
-    std::exception_ptr failure;
-    const unsigned threads =
-        options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-    unsigned working = threads;
-    std::atomic<std::uint64_t> next = from.found.blocks;
-    std::atomic<bool> failed = false;
-
-    std::vector<std::jthread> workers;
-    for (unsigned i = 0; i < threads; ++i) {
-        workers.emplace_back([&] {
-            // Stopping only between blocks, all that are begun are finished, so none is lost.
-            while (!stop && !failed) {
-                const std::uint64_t block = next++;
-                if (block >= options.blocks) break;
-                try {
-                    totals part = compare_block(seed, block, truth, deciders);
-                    const std::scoped_lock lock(mutex);
-                    found.add(block, std::move(part));
-                } catch (...) {
-                    failed = true;
-                    const std::scoped_lock lock(mutex);
-                    failure = std::current_exception();
-                }
-            }
-            const std::scoped_lock lock(mutex);
-            --working;
-            finished.notify_all();
-        });
-    }
-
-    const auto now = [&] { return state{seed, found.sum(), from.seconds + seconds_since(start)}; };
+    comparing_threads threads(from, options, truth, deciders, stop);
+    const auto now = [&] {
+        return state{from.seed, threads.found(), from.seconds + seconds_since(start)};
+    };
     clock::time_point saved = start;
-    std::unique_lock lock(mutex);
-    while (!finished.wait_for(lock, std::chrono::milliseconds(100), [&] { return working == 0; })) {
+    while (!threads.finished_within(std::chrono::milliseconds(100))) {
         const state current = now();
-        lock.unlock();
         if (seconds_since(saved) >= options.seconds_between_saves) {
-            try {
-                save(current, options.folder);
-            } catch (...) {
-                failed = true;  // the workers, which must end before this does
-                throw;
-            }
+            save(current, options.folder);
             saved = clock::now();
         }
         progress(current);
-        lock.lock();
     }
     const state last = now();
     save(last, options.folder);
-    if (failure) std::rethrow_exception(failure);
+    threads.rethrow_failure();
     return last;
 }
 
