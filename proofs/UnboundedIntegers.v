@@ -25,7 +25,7 @@ Proof. split; [now destruct n | apply sign_right]. Qed.
 
 (** ** to_integers *)
 
-(** A double's mantissa and exponent, as `decomposed` gives them; mantissa 0 for zero. *)
+(** A double's mantissa and exponent, as odd_part and last_bit of `binary_double` give them; mantissa 0 for zero. *)
 Record dyadic := Dyadic { mantissa : Z; exponent : Z }.
 Definition double (d : dyadic) : R := IZR (mantissa d) * powerRZ 2 (exponent d).
 Record doubles := Doubles { dx : dyadic; dy : dyadic; dz : dyadic }.

@@ -1,4 +1,4 @@
-// Coordinates as integers of fixed width, each axis in a unit of its own.
+// Coordinates as integers, each axis in a unit of its own.
 //
 // Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
 // by positive factors, and integers stay short when one axis is much smaller than the others.
@@ -25,17 +25,17 @@ struct axis_extent {
         double low0 = points[0].t0.*axis, high0 = low0, low1 = points[0].t1.*axis, high1 = low1;
         for (const auto& p : points) {
             const double x0 = p.t0.*axis, x1 = p.t1.*axis;
-            const errbound::binary_double d0(x0), d1(x1);
+            const errbound::integers::binary_double d0(x0), d1(x1);
             last = std::min({last, d0.last_bit(), d1.last_bit()});
-            finite = finite && d0.exponent != errbound::binary_double::not_finite &&
-                     d1.exponent != errbound::binary_double::not_finite;
+            finite = finite && d0.exponent != errbound::integers::binary_double::not_finite &&
+                     d1.exponent != errbound::integers::binary_double::not_finite;
             low0 = std::min(low0, x0), high0 = std::max(high0, x0);
             low1 = std::min(low1, x1), high1 = std::max(high1, x1);
         }
         // Rounding is monotone, so a rounded difference below a power of two was below it before;
         // one that overflows is below 2^1025, as the infinity's end_bit() says. Proof:
         // proofs/IntegerUnits.v, extent_bits_enough.
-        const errbound::binary_double extent(std::max(high0 - low0, high1 - low1));
+        const errbound::integers::binary_double extent(std::max(high0 - low0, high1 - low1));
         if (last == std::numeric_limits<int>::max()) return;  // all are zero
         unit = last;
         bits = std::max(0, extent.end_bit() - unit);
@@ -53,15 +53,19 @@ struct integer_units {
     /// Coordinates of one axis at one end of the step differ by less than 2^bits() units.
     constexpr int bits() const { return std::max({x.bits, y.bits, z.bits}); }
 
-    /// The query in integers of Words words, modulo their width: differences at one end of the step
-    /// are right if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
+    /// The query with every coordinate x converted: convert(x, unit) is x/2^unit in some integers.
+    template <class Query, class Convert>
+    constexpr auto converted(const Query& query, const Convert& convert) const {
+        return transformed_points(query, [&](const point<double>& p) {
+            return point<decltype(convert(p.x, x.unit))>{convert(p.x, x.unit), convert(p.y, y.unit),
+                                                         convert(p.z, z.unit)};
+        });
+    }
+    /// In integers of Words words, modulo their width: differences at one end of the step are right
+    /// if bits() < 64·Words. Proof: proofs/IntegerUnits.v, difference_in_units_exact.
     template <int Words, class Query>
     constexpr auto converted(const Query& query) const {
-        return transformed_points(query, [this](const point<double>& p) {
-            return point<errbound::integers::fixed_integer<Words>>{in_units<Words>(p.x, x.unit),
-                                                                   in_units<Words>(p.y, y.unit),
-                                                                   in_units<Words>(p.z, z.unit)};
-        });
+        return converted(query, [](double x, int unit) { return in_units<Words>(x, unit); });
     }
 
   private:
@@ -74,7 +78,7 @@ struct integer_units {
     template <int Words>
     static constexpr errbound::integers::fixed_integer<Words> in_units(double coordinate,
                                                                        int unit) {
-        const errbound::binary_double d(coordinate);
+        const errbound::integers::binary_double d(coordinate);
         const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
         const auto size = errbound::integers::fixed_integer<Words>::shifted(
             d.magnitude >> std::clamp(-shift, 0, 63), std::max(shift, 0));

@@ -4,15 +4,14 @@
 // `root-parity`. Allocates. Internal.
 #pragma once
 
-#include <algorithm>
 #include <ccd/methods/forms.hpp>
 #include <ccd/methods/transform.hpp>
 #include <cstddef>
-#include <errbound/integers/dyadic.hpp>
+#include <errbound/integers/binary_double.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/roots/real_roots.hpp>
-#include <limits>
 
+#include "ccd/exact/axis_units.hpp"
 #include "ccd/exact/features.hpp"
 #ifdef ERRBOUND_HAVE_GMP
 #include <boost/multiprecision/gmp.hpp>
@@ -31,31 +30,13 @@ using integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
 #endif
 
 /// The query, of finite coordinates, in integers: each axis times a power of two of its own.
-/// Contact does not depend on the axes' units: they scale all three kinds of equation at a contact
-/// by positive factors, and integers stay short when one axis is much smaller than the others.
-/// Proof: proofs/UnboundedIntegers.v, to_integers_right; proofs/AxisUnits.v, face_units,
-/// edges_units, vertex_edge_units.
+/// Proof: proofs/UnboundedIntegers.v, to_integers_right.
 template <template <class> class Query>
 Query<integer> to_integers(const Query<double>& query) {
-    constexpr int none = std::numeric_limits<int>::max();
-    point<int> lowest{none, none, none};
-    const auto lower = [](int& bound, double x) {
-        if (x != 0) bound = std::min(bound, errbound::decomposed(x).exponent);
-    };
-    for (const auto& p : points_of(query))
-        for (const auto& x : {p.t0, p.t1}) {
-            lower(lowest.x, x.x);
-            lower(lowest.y, x.y);
-            lower(lowest.z, x.z);
-        }
-    const auto to_integer = [](double x, int unit) {
+    return integer_units(query).converted(query, [](double x, int unit) {
         if (x == 0) return integer(0);
-        const errbound::decomposed d(x);
-        return integer(integer(d.mantissa) << (d.exponent - unit));
-    };
-    return transformed_points(query, [&](const point<double>& p) {
-        return point<integer>{to_integer(p.x, lowest.x), to_integer(p.y, lowest.y),
-                              to_integer(p.z, lowest.z)};
+        const errbound::integers::binary_double d(x);
+        return integer(integer(d.odd_part()) << (d.last_bit() - unit));
     });
 }
 

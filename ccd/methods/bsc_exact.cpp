@@ -1,25 +1,6 @@
-// `bsc-exact`: the BSC template over two scalars, and the contacts that settle what it leaves open.
-//
-// Over intervals BSC says "no" and "yes" only where that is certain (errbound/bsc.hpp). Over
-// integers every sign is certain, and then so is nearly every answer of root_with_nonnegative():
-//  * Curvature and slopes are known, so that no part is halved, and the cubics whose roots are
-//    asked for are strict at both ends (a root there is split off). The reductions then have
-//    factors that are not zero, and M and R of the decomposition tell the sign of each G_i at each
-//    root: an exact zero where it is one.
-//  * So "no" means that at every root of Y some G_i is negative, or that there is no root: no
-//    contact. "yes" means a root with all G_i > 0; their sum is |N|² (VF) or twice that (EE), so
-//    that N ≠ 0 there: contact.
-//  * "maybe_inside" means a root with all G_i >= 0, one of them zero. If N ≠ 0 there, that is a
-//    contact at the triangle's border, or at an end of an edge; if N = 0, then so is every contact
-//    at that time (reference.cpp). The vertex/edge contacts decide either way. Contacts with all
-//    G_i > 0 there are none, or the answer had been "yes".
-//    Proof: proofs/BscExact.v, bsc_exact_inside.
-//  * "maybe_root" means Y ≡ 0. Take a contact, and follow it back in time to the first at which it
-//    holds without a break. If that is not t = 0, then N = 0 or some G_i = 0 there, for else the
-//    contact would hold shortly before: a vertex/edge contact again. If it is t = 0, the same, or
-//    all G_i(0) > 0. Proof: proofs/BscExact.v, bsc_exact_root; proofs/Contact.v, face_coplanar,
-//    edges_coplanar.
-// So collides() is right. Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
+// `bsc-exact`: the BSC template over intervals, then over integers, and the contacts of vertices
+// and edges that decide what it leaves open. Why that is right: docs/methods.md, "bsc-exact".
+// Proof: proofs/BscExact.v, bsc_exact_face, bsc_exact_edges.
 #include <algorithm>
 #include <ccd/methods/bsc.hpp>
 #include <ccd/methods/bsc_exact.hpp>
@@ -31,6 +12,8 @@
 namespace ccd {
 namespace {
 
+/// Proof: proofs/BscExact.v, bsc_exact_inside, bsc_exact_root; proofs/Contact.v, face_coplanar,
+/// edges_coplanar.
 template <template <class> class Query>
 bool collides(const Query<double>& original) {
     const auto query = detail::to_integers(original);

@@ -1,42 +1,6 @@
-// `root-parity`: the parity of a ray's crossings with the image of the domain's boundary.
-//
-// THE MAP. VF: F(t, x) = v(t) − x(t), x a point of the triangle, from a prism; EE: F(t, a, b) =
-// a(t) − b(t), a and b points of the edges, from a cube. A contact is a root of F. The images of
-// the domain's corners are differences of the vertices at t = 0 or 1; between them F is linear
-// along each side. The boundary's image is made of triangles (the faces t = 0 and t = 1: F is
-// affine there; EE's parallelograms are two triangles each) and of bilinear patches (a vertex
-// against an edge, over the step).
-//
-// THE PARITY. If the origin does not lie on the boundary's image, the number of roots inside, with
-// multiplicities, is odd exactly if a ray from the origin crosses that image an odd number of times
-// (degree modulo 2). So an odd number proves a contact, and an even one nothing. If it does lie
-// there, that is a contact.
-//
-// A PATCH, with corners c0 c1 c2 c3 in turn. In the tetrahedron of its corners, with barycentric
-// coordinates w0..w3, the patch is the set w0·w2 = w1·w3 (at parameters (p, q) they are (1 − p)(1 −
-// q), p(1 − q), pq, (1 − p)q; conversely p = w1 + w2, q = w2 + w3). The triangles c0 c1 c2 and c0
-// c2 c3 have w3 = 0 or w1 = 0, so that w0·w2 − w1·w3 >= 0 on them; on the other pair, c1 c2 c3 and
-// c1 c3 c0, it is <= 0. Patch and pair together bound the part of the tetrahedron between them, so
-// that a ray from any other place crosses both equally often, modulo 2. Hence the second pair
-// stands for the patch where the origin lies in the closed tetrahedron and w0·w2 > w1·w3, the first
-// pair otherwise; the origin then lies on neither triangle of the pair.
-// If the tetrahedron is flat, every ray that is not in its plane crosses patch and pair equally
-// often, modulo 2. If that plane holds the origin, the exact vertex/edge contact tells whether the
-// patch does; if not, the ray does not cross it at all (its moved origin, see below, is beside the
-// plane, and the ray meets the plane next to the origin or nowhere).
-//
-// THE RAY goes along +x. Its origin is moved to (0, −ε, −ε²) with an infinitesimal ε > 0, which
-// changes no parity, the origin being off the boundary's image and off the triangles that stand for
-// it. No ray is degenerate then (Brochu et al. draw another one), and a side from p to q of the
-// triangle's projection along x passes the origin on the side +y exactly if one of p.z, q.z is >= 0
-// and the other < 0, and p.y·q.z − q.y·p.z has the sign of q.z − p.z or is zero: the moved
-// determinant is that plus ε(q.z − p.z), up to ε². The projection holds the origin if an odd number
-// of sides do so, of which the last one's rise, the sign of q.z − p.z, is that of the normal's x.
-// The plane meets the x axis where x times that is det(p, q, r), so the triangle is hit if besides
-// the two have the same sign. (If det were zero, the triangle would hold the origin itself.)
-//
-// All this is written once and done twice: over intervals, where an uncertain sign ends it,
-// and over integers.
+// `root-parity`: the parity of a ray's crossings with the image of the domain's boundary, once over
+// intervals, where an uncertain sign ends it, and once over integers. docs/methods.md, "Root
+// parity", derives the map, the patches' triangles and the ray that is never degenerate.
 #include <algorithm>
 #include <array>
 #include <ccd/methods/forms.hpp>

@@ -37,10 +37,15 @@ struct stage_operations {
 };
 
 template <class Pair>
+struct forms_of_pair {
+    template <class S>
+    using type = ccd::linear_forms<ccd::kind_of<Pair>, S>;
+};
+
+template <class Pair>
 stage_operations operations_of_stages() {
     using single = counted<float>;
     using scalar = counted<double>;
-    using kind = ccd::cuda::query_kind<Pair>;
     const auto counted_by = [](auto& counter, const auto& run) {
         counter = 0;
         run();
@@ -51,22 +56,23 @@ stage_operations operations_of_stages() {
         const single x[3][2][4] = {};
         (void)ccd::detail::rounded_axes::separated<Pair>(x);
     });
-    const typename kind::template query<scalar> query{};
+    const ccd::query_of_pair<Pair, scalar> query{};
     const auto filtered = [&](const auto& test) {
         return counted_by(scalar::operations, [&] {
-            const typename kind::template forms<scalar> forms(query);
+            const typename forms_of_pair<Pair>::template type<scalar> forms(query);
             const ccd::static_filter::difference_extents<scalar> extents(forms);
             test(forms, extents);
         });
     };
     all.coplanarity = filtered([](const auto& forms, const auto& extents) {
         const auto y = errbound::roots::control_values_of(forms.y());
-        const scalar error = extents.template error_of_y<kind::template forms>();
+        const scalar error = extents.template error_of_y<forms_of_pair<Pair>::template type>();
         (void)ccd::static_filter::above(y, error);
         (void)ccd::static_filter::below(y, error);
     });
     all.inside = filtered([](const auto& forms, const auto& extents) {
-        const ccd::static_filter::whole_step<scalar, kind::template forms> whole(forms, extents);
+        const ccd::static_filter::whole_step<scalar, forms_of_pair<Pair>::template type> whole(
+            forms, extents);
         (void)whole.outside();
     });
     return all;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace errbound {
+namespace errbound::integers {
 
 /// A double as ±magnitude·2^exponent with a whole magnitude below 2^53. Infinities and NaN get the
 /// exponent `not_finite`. (A float is a double.)
@@ -23,6 +23,11 @@ struct binary_double {
         exponent = static_cast<int>(field) + (field == 0) - 1075;
         negative = bits >> 63 != 0;
     }
+    /// For x not zero, the odd number that x is times 2^last_bit().
+    constexpr std::int64_t odd_part() const {
+        const auto odd = static_cast<std::int64_t>(magnitude >> std::countr_zero(magnitude));
+        return negative ? -odd : odd;
+    }
     /// The place of the last bit that is set; of 0 above every other's.
     constexpr int last_bit() const {
         return magnitude == 0 ? std::numeric_limits<int>::max()
@@ -32,4 +37,4 @@ struct binary_double {
     constexpr int end_bit() const { return exponent + static_cast<int>(std::bit_width(magnitude)); }
 };
 
-}  // namespace errbound
+}  // namespace errbound::integers

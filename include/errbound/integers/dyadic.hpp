@@ -2,28 +2,14 @@
 // that halving an interval between two of them reaches.
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <errbound/integers/binary_double.hpp>
 #include <errbound/sign.hpp>
 #include <utility>
 
 namespace errbound {
-
-/// x = mantissa·2^exponent with an odd mantissa, for x finite and not zero.
-struct decomposed {
-    std::int64_t mantissa;
-    int exponent;
-
-    explicit decomposed(double x) {
-        int e = 0;
-        const auto m = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &e), 53));
-        const int zeros = std::countr_zero(static_cast<std::uint64_t>(m));
-        mantissa = m >> zeros;
-        exponent = e - 53 + zeros;
-    }
-};
 
 /// ⌊log2 |x|⌋ for x not zero. Integer: what errbound/roots/integer_polynomial.hpp asks for.
 template <exact_number Integer>
@@ -63,10 +49,10 @@ class dyadic {
     /// x, which is finite.
     static dyadic from(double x) {
         if (x == 0) return {};
-        const decomposed d(x);
+        const integers::binary_double d(x);
         dyadic exact;
-        exact.numerator_ = Integer(d.mantissa);
-        exact.exponent_ = d.exponent;
+        exact.numerator_ = Integer(d.odd_part());
+        exact.exponent_ = d.last_bit();
         return exact;
     }
     static dyadic power_of_two(int exponent) { return {Integer(1), exponent}; }

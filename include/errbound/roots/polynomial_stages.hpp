@@ -116,7 +116,7 @@ class staged_polynomial {
         if (exact_.empty() && !floating_.empty()) {
             int unit = std::numeric_limits<int>::max();
             for (const number& c : floating_)
-                if (c.value() != 0) unit = std::min(unit, decomposed(c.value()).exponent);
+                unit = std::min(unit, integers::binary_double(c.value()).last_bit());
             for (const number& c : floating_)
                 exact_.push_back(dyadic<Integer>::from(c.value()).in_units(unit));
         }

@@ -65,11 +65,11 @@ void decide_by_integers(const set_of<Form>& set, std::size_t count, signs& out) 
         int unit = std::numeric_limits<int>::max();
         for (const auto& points : set.points)
             for (const double x : points[i])
-                unit = std::min(unit, errbound::binary_double(x).last_bit());
+                unit = std::min(unit, errbound::integers::binary_double(x).last_bit());
         const auto converted = [unit](const auto& point) {
             std::array<Integer, Form::dimension> q;
             for (std::size_t k = 0; k < Form::dimension; ++k) {
-                const errbound::binary_double x(point[k]);
+                const errbound::integers::binary_double x(point[k]);
                 if (x.magnitude == 0) continue;
                 const auto size =
                     static_cast<std::int64_t>(x.magnitude >> std::max(unit - x.exponent, 0));

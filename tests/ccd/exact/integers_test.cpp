@@ -136,7 +136,7 @@ TEST(CubicRoots, NoBracketDependsOnTheEstimate) {
 
 TEST(BinaryDouble, IsTheNumber) {
     for (const double x : {0.0, 1.0, -1.5, 0x1p-1074, -0x1.8p-1070, 0x1.fffffffffffffp1023, 0.1}) {
-        const errbound::binary_double d(x);
+        const errbound::integers::binary_double d(x);
         EXPECT_EQ(std::ldexp(static_cast<double>(d.magnitude), d.exponent), std::fabs(x));
         EXPECT_EQ(d.negative, x < 0);
         if (x == 0) continue;

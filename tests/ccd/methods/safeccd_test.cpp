@@ -81,8 +81,8 @@ struct encounter {
     bool found(double reach) const {
         vector end0 = w0, end_change = w_change;
         for (std::size_t k = 0; k < 3; ++k) end0[k] -= e0[k], end_change[k] -= e_change[k];
-        return ccd::proximity(power_form(e0, e_change), power_form(w0, w_change),
-                              power_form(end0, end_change), reach, 0.0);
+        return ccd::safeccd::proximity(power_form(e0, e_change), power_form(w0, w_change),
+                                       power_form(end0, end_change), reach, 0.0);
     }
 };
 

@@ -166,7 +166,7 @@ class generator {
         if (c.back() == 0) c.back() = 1;
         int unit = std::numeric_limits<int>::max();
         for (const double x : c)
-            if (x != 0) unit = std::min(unit, errbound::decomposed(x).exponent);
+            unit = std::min(unit, errbound::integers::binary_double(x).last_bit());
         std::vector<integer> whole;
         for (const double x : c) whole.push_back(errbound::dyadic<integer>::from(x).in_units(unit));
         return {whole, std::move(c)};

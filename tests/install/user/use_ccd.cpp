@@ -1,5 +1,5 @@
 // The installed library: exits with 0 if a head-on vertex/face collision is found.
-#include <ccd/method.hpp>
+#include <ccd/ccd.hpp>
 
 int main() {
     const ccd::vertex_face<double> query{.v = {{0.2, 0.2, 1}, {0.2, 0.2, -1}},
