@@ -1,7 +1,6 @@
 // Frames of either format, and what two frames of one mesh must share.
-#include "ccd/io/mesh_file.hpp"
-
 #include <algorithm>
+#include <ccd/io/mesh_file.hpp>
 #include <errbound/support/error.hpp>
 
 #include "ccd/io/face_check.hpp"

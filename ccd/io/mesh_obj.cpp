@@ -1,5 +1,6 @@
 // The OBJ reader. Our own, because the libraries at hand do not round coordinates correctly.
 #include <array>
+#include <ccd/io/mesh_file.hpp>
 #include <charconv>
 #include <cstdint>
 #include <errbound/support/error.hpp>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "ccd/io/face_check.hpp"
-#include "ccd/io/mesh_file.hpp"
 #include "ccd/io/text.hpp"
 
 namespace ccd::io {

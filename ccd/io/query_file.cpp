@@ -1,11 +1,11 @@
 // Stored queries from CSV, truth from JSON.
-#include "ccd/io/query_file.hpp"
-
 #include <array>
+#include <ccd/io/query_file.hpp>
 #include <cctype>
 #include <errbound/support/error.hpp>
 #include <nlohmann/json.hpp>
 
+#include "ccd/io/stored_kinds.hpp"
 #include "ccd/io/text.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -46,7 +46,9 @@ columns split(std::string_view line) {
 class query_parser {
   public:
     query_parser(const std::string& name, ccd::kind kind, bool round) : name_(name), round_(round) {
-        result_.kind = kind;
+        visit_stored_kind(kind, [this]<ccd::kind K>() {
+            result_.queries.emplace<std::vector<typename kind_traits<K>::template query<double>>>();
+        });
     }
 
     query_file parse(std::string_view text) {
@@ -151,11 +153,11 @@ class query_parser {
         const auto& p = points_;
         const moving_point<double> first{p[0], p[4]}, second{p[1], p[5]}, third{p[2], p[6]},
             fourth{p[3], p[7]};
-        if (result_.kind == kind::vertex_face) {
-            result_.vertex_face_queries.push_back({first, second, third, fourth});
-        } else {
-            result_.edge_edge_queries.push_back({first, second, third, fourth});
-        }
+        std::visit(
+            [&](auto& all) {
+                all.push_back({first, second, third, fourth});
+            },
+            result_.queries);
         row_ = 0;
     }
 

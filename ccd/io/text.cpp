@@ -123,7 +123,7 @@ number parse_hexadecimal(std::string_view token, bool round) {
     exponent -= 4 * fraction_digits;
 
     const cpp_int mantissa("0x" + digits);
-    // Settled here so that no shift below is longer than the digits call for.
+    // Decided here so that no shift below is longer than the digits call for.
     const long top = static_cast<long>(msb(mantissa)) + exponent;
     if (top > 1023) return fail(number_status::overflow);
     if (top < -1080) return round ? number{} : fail(number_status::inexact);
@@ -143,7 +143,7 @@ number parse_decimal(std::string_view token) {
     const auto [rest, ec] = std::from_chars(token.data(), end, value);
     if (ec == std::errc::invalid_argument || rest != end) return fail(number_status::malformed);
     if (ec == std::errc::result_out_of_range) {
-        // from_chars does not tell too large from too small; the stream does, and yields the
+        // from_chars does not say which of too large and too small; the stream does, and yields the
         // nearest (zero or subnormal) value for the latter.
         std::istringstream stream{std::string(token)};
         stream.imbue(std::locale::classic());

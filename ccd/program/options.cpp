@@ -31,7 +31,7 @@ device_options::device_options(CLI::App& line) {
         ->capture_default_str();
     line.add_option("--precision", precision_,
                     "With --device cuda: what methods compute in first, float64 (the default)\n"
-                    "or float32; what floats cannot tell is decided in doubles")
+                    "or float32; what floats cannot decide is decided in doubles")
         ->check(CLI::IsMember({"float64", "float32"}));
 }
 

@@ -1,5 +1,6 @@
 // `ccd query`: decides stored queries with some methods, compares with the truth, times them.
 #include <algorithm>
+#include <ccd/io/query_file.hpp>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ccd/io/query_file.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
 #include "errbound/support/command_line.hpp"
@@ -67,13 +67,9 @@ result decide_file(const io::query_file& queries, const std::string& file, ccd::
                    const device_choice& device) {
     result out;
     out.file = file;
-    out.kind = queries.kind;
+    out.kind = queries.kind();
     out.method = method;
-    if (queries.kind == kind::vertex_face) {
-        decide_all(queries.vertex_face_queries, device, out);
-    } else {
-        decide_all(queries.edge_edge_queries, device, out);
-    }
+    std::visit([&](const auto& all) { decide_all(all, device, out); }, queries.queries);
     if (queries.truth) {
         std::size_t positives = 0, negatives = 0;
         for (std::size_t i = 0; i < out.verdicts.size(); ++i) {
@@ -132,7 +128,7 @@ class query final : public command {
             ->required();
         line_
             .add_option("--kind", kind_,
-                        "Kind of query; else the path tells (vertex-face or vf, edge-edge or ee)")
+                        "Kind of query; else the path says (vertex-face or vf, edge-edge or ee)")
             ->check(CLI::IsMember(io::kind_names()));
         line_.add_flag(
             "--round", round_,

@@ -2,6 +2,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
 #include <chrono>
 #include <cstdio>
@@ -9,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "ccd/io/mesh_file.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
 #include "errbound/support/command_line.hpp"

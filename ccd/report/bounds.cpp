@@ -52,7 +52,7 @@ void add_quantiles(std::vector<double>& numbers, const std::string& prefix, row&
 }  // namespace
 
 template <class Query>
-rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size) {
+rows take_bounds(const queries_with_truth<Query>& data, const sample_sizes& size) {
     const std::vector<Query> queries = data.queries.at_most(size.bounds).all_stored();
     rows result;
     errbound::for_each_rule(errbound::all_rules{}, [&]<class Rule>() {
@@ -76,7 +76,7 @@ rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size) {
     return result;
 }
 
-template rows take_bounds(const judged_queries<vertex_face<double>>&, const sample_sizes&);
-template rows take_bounds(const judged_queries<edge_edge<double>>&, const sample_sizes&);
+template rows take_bounds(const queries_with_truth<vertex_face<double>>&, const sample_sizes&);
+template rows take_bounds(const queries_with_truth<edge_edge<double>>&, const sample_sizes&);
 
 }  // namespace ccd::report

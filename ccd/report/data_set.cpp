@@ -1,6 +1,8 @@
 #include "ccd/report/data_set.hpp"
 
 #include <algorithm>
+#include <ccd/io/mesh_file.hpp>
+#include <ccd/io/query_file.hpp>
 #include <errbound/support/error.hpp>
 #include <map>
 #include <mutex>
@@ -10,11 +12,10 @@
 #include <tuple>
 
 #include "ccd/batch/threads.hpp"
-#include "ccd/io/mesh_file.hpp"
-#include "ccd/io/query_file.hpp"
 #include "ccd/report/machine.hpp"
 #include "ccd/step/broad_phase.hpp"
 #include "ccd/step/step_frames.hpp"
+#include "ccd/step/step_parts.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
@@ -31,7 +32,7 @@ bool is_mesh(const fs::path& path) {
     return path.extension() == ".ply" || path.extension() == ".obj";
 }
 
-/// A folder that only tells what is in it: the one above has the name.
+/// A folder that is named for what is in it: the one above has the data set's name.
 bool is_kind_of_content(const fs::path& folder) {
     return find_kind(folder.filename().string()).has_value();
 }
@@ -67,13 +68,13 @@ void add_files_below(const fs::path& folder, std::set<fs::path>& files) {
 // ---- Truth ----
 
 template <class Query>
-void count_colliding(judged_queries<Query>& into) {
+void count_colliding(queries_with_truth<Query>& into) {
     into.colliding =
         static_cast<std::size_t>(std::count(into.collides.begin(), into.collides.end(), 1));
 }
 
 template <class Query>
-void decide_by_exact(judged_queries<Query>& into, int threads) {
+void decide_by_exact(queries_with_truth<Query>& into, int threads) {
     std::vector<outcome> answers(into.queries.size());
     into.queries.decide_batch(0, answers, {.threads = threads});
     into.collides.resize(answers.size());
@@ -83,20 +84,9 @@ void decide_by_exact(judged_queries<Query>& into, int threads) {
     count_colliding(into);
 }
 
-/// Appends a file's queries; their truth where it has one, else -1.
+/// Takes the truths that files had, of as many first queries; -1 stands for none.
 template <class Query>
-void append(const std::vector<Query>& queries, const std::optional<std::vector<bool>>& truth,
-            judged_queries<Query>& into, std::vector<signed char>& truths) {
-    into.queries.stored.insert(into.queries.stored.end(), queries.begin(), queries.end());
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        truths.push_back(truth ? static_cast<signed char>((*truth)[i]) : -1);
-    }
-}
-
-template <class Query>
-void settle_truth(const std::vector<signed char>& truths, judged_queries<Query>& into,
-                  int threads) {
-    decide_by_exact(into, threads);
+void add_stored_truth(const std::vector<signed char>& truths, queries_with_truth<Query>& into) {
     for (std::size_t i = 0; i < truths.size(); ++i) {
         if (truths[i] < 0) continue;
         into.collides[i] = static_cast<unsigned char>(truths[i]);
@@ -107,20 +97,6 @@ void settle_truth(const std::vector<signed char>& truths, judged_queries<Query>&
 
 // ---- Scenes ----
 
-/// A pair's vertices, those of one element in ascending order: the same for every way to write it.
-std::array<index, 4> key(const vertex_face_pair& q) {
-    std::array<index, 4> k{q.v, q.f0, q.f1, q.f2};
-    std::sort(k.begin() + 1, k.end());
-    return k;
-}
-std::array<index, 4> key(const edge_edge_pair& q) {
-    edge a{q.a0, q.a1}, b{q.b0, q.b1};
-    std::ranges::sort(a);
-    std::ranges::sort(b);
-    if (b < a) std::swap(a, b);
-    return {a[0], a[1], b[0], b[1]};
-}
-
 /// Collects the blocks that a broad phase hands out from its threads, sorted.
 template <class Pair, class Find>
 std::vector<Pair> collected(const Find& find) {
@@ -130,7 +106,7 @@ std::vector<Pair> collected(const Find& find) {
         const std::lock_guard lock(mutex);
         all.insert(all.end(), block.begin(), block.end());
     });
-    std::ranges::sort(all, {}, [](const Pair& q) { return vertices_of(q); });
+    std::ranges::sort(all);
     return all;
 }
 
@@ -138,17 +114,17 @@ void find_candidates(data_set& data, int threads) {
     const step_frames frames(data.before, data.after);
     const std::vector<face>& faces = data.before.faces;
     detail::on_threads(threads, [&] {
-        data.vertex_face_queries.queries.by_index =
+        data.queries.vertex_face.queries.by_index =
             collected<vertex_face_pair>([&](const auto& consume) {
                 vertex_face_candidates(frames, faces, data.before.vertices.size(), consume);
             });
-        data.edge_edge_queries.queries.by_index =
+        data.queries.edge_edge.queries.by_index =
             collected<edge_edge_pair>([&](const auto& consume) {
                 edge_edge_candidates(frames, unique_edges(faces), consume);
             });
     });
-    data.vertex_face_queries.queries.rows = data.edge_edge_queries.queries.rows =
-        vertex_rows(data.before, data.after);
+    data.queries.for_each(
+        [rows = vertex_rows(data.before, data.after)](auto& known) { known.queries.rows = rows; });
 }
 
 /// The one file of ../boxes beside a scene's frames whose name ends so, if there is one.
@@ -166,8 +142,7 @@ std::optional<fs::path> stored_pairs(const fs::path& frame, const std::string& e
     return found;
 }
 
-/// Pairs of a file, a JSON array of [i, j]: elements by number, vertices first, then edges in the
-/// order of their greater, then lesser vertex, then faces.
+/// Pairs of a file, a JSON array of [i, j]: elements by number.
 std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     try {
         return nlohmann::json::parse(read_whole(path))
@@ -178,13 +153,51 @@ std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
     }
 }
 
-/// Compares the truth that is stored beside a scene, if any, with that of `exact`. `pair_of` makes
-/// indices of two element numbers, or nothing if they are out of range.
-template <class Query, class PairOf>
-void compare_stored(const fs::path& frame, const std::string& ending, const PairOf& pair_of,
-                    judged_queries<Query>& judged, std::string& contents) {
-    const std::optional<fs::path> path = stored_pairs(frame, ending);
-    if (!path) return;
+/// The elements of a mesh by number: vertices first, then edges in the order of their greater, then
+/// lesser vertex, then faces.
+class numbered_elements {
+  public:
+    explicit numbered_elements(const mesh& m)
+        : vertices_(m.vertices.size()), edges_(unique_edges(m.faces)), faces_(m.faces) {
+        std::ranges::sort(edges_, {}, [](const edge& e) { return std::tuple(e[1], e[0]); });
+    }
+
+    /// The pair of two elements, nothing if a number is out of range.
+    template <class Pair>
+    std::optional<Pair> pair(std::size_t i, std::size_t j) const {
+        if constexpr (kind_of<Pair> == kind::vertex_face) {
+            const std::size_t first = vertices_ + edges_.size();
+            if (i >= vertices_ || j < first || j - first >= faces_.size()) return std::nullopt;
+            const face& f = faces_[j - first];
+            return Pair{static_cast<index>(i), f[0], f[1], f[2]};
+        } else {
+            if (std::min(i, j) < vertices_ || std::max(i, j) - vertices_ >= edges_.size())
+                return std::nullopt;
+            const edge &a = edges_[i - vertices_], &b = edges_[j - vertices_];
+            return Pair{a[0], a[1], b[0], b[1]};
+        }
+    }
+
+  private:
+    std::size_t vertices_;
+    std::vector<edge> edges_;
+    const std::vector<face>& faces_;
+};
+
+/// Which pairs collide, as it is stored beside a scene.
+template <class Pair>
+struct truth_of_pairs {
+    std::map<Pair, bool> collides;
+    std::size_t lines = 0;  ///< of the file; a pair may be there twice
+};
+
+/// Nothing if nothing is stored. Adds the files' contents.
+template <class Pair>
+std::optional<truth_of_pairs<Pair>> read_stored_truth(const fs::path& frame,
+                                                      const numbered_elements& elements,
+                                                      std::string& contents) {
+    const auto path = stored_pairs(frame, std::string(short_name(kind_of<Pair>)) + ".json");
+    if (!path) return std::nullopt;
     const fs::path truth_path =
         path->parent_path().parent_path() / "mma_bool" / (path->stem().string() + "_mma_bool.json");
     const auto pairs = read_pairs(*path);
@@ -195,49 +208,76 @@ void compare_stored(const fs::path& frame, const std::string& ending, const Pair
                          ", one per pair of " + path->string());
     contents += read_whole(*path) + read_whole(truth_path);
 
-    std::map<std::array<index, 4>, bool> stored;
+    truth_of_pairs<Pair> stored{{}, pairs.size()};
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const auto pair = pair_of(pairs[i][0], pairs[i][1]);
+        const auto pair = elements.pair<Pair>(pairs[i][0], pairs[i][1]);
         if (!pair)
             throw file_error(path->string() + ": element " + std::to_string(i) +
                              ": found a number out of range, expected one of the frames'");
-        stored[key(*pair)] = truth[i];
+        stored.collides[canonical(*pair)] = truth[i];
     }
-    judged.stored_truths = pairs.size();
-    for (std::size_t i = 0; i < judged.queries.by_index.size(); ++i) {
-        const auto entry = stored.find(key(judged.queries.by_index[i]));
+    return stored;
+}
+
+/// Compares the truth that is stored beside a scene, if any, with that of `exact`.
+template <class Query>
+void compare_stored(const fs::path& frame, const numbered_elements& elements,
+                    queries_with_truth<Query>& known, std::string& contents) {
+    auto read = read_stored_truth<pair_of_query<Query>>(frame, elements, contents);
+    if (!read) return;
+    known.stored_truths = read->lines;
+    auto& stored = read->collides;
+    for (std::size_t i = 0; i < known.queries.by_index.size(); ++i) {
+        const auto entry = stored.find(canonical(known.queries.by_index[i]));
         const bool expected = entry != stored.end() && entry->second;
-        judged.contradictions += expected != (judged.collides[i] != 0);
+        known.contradictions += expected != (known.collides[i] != 0);
         if (entry != stored.end()) stored.erase(entry);
     }
     // Pairs that are no candidates cannot collide: their swept boxes are apart.
-    judged.contradictions += static_cast<std::size_t>(
+    known.contradictions += static_cast<std::size_t>(
         std::ranges::count_if(stored, [](const auto& left) { return left.second; }));
 }
 
-void compare_stored(const fs::path& frame, data_set& data, std::string& contents) {
-    const std::size_t vertices = data.before.vertices.size();
-    std::vector<edge> edges = unique_edges(data.before.faces);
-    std::ranges::sort(edges, {}, [](const edge& e) { return std::tuple(e[1], e[0]); });
-    const std::vector<face>& faces = data.before.faces;
-    compare_stored(
-        frame, "vf.json",
-        [&](std::size_t i, std::size_t j) -> std::optional<vertex_face_pair> {
-            const std::size_t first = vertices + edges.size();
-            if (i >= vertices || j < first || j - first >= faces.size()) return std::nullopt;
-            const face& f = faces[j - first];
-            return vertex_face_pair{static_cast<index>(i), f[0], f[1], f[2]};
-        },
-        data.vertex_face_queries, contents);
-    compare_stored(
-        frame, "ee.json",
-        [&](std::size_t i, std::size_t j) -> std::optional<edge_edge_pair> {
-            if (std::min(i, j) < vertices || std::max(i, j) - vertices >= edges.size())
-                return std::nullopt;
-            const edge &a = edges[i - vertices], &b = edges[j - vertices];
-            return edge_edge_pair{a[0], a[1], b[0], b[1]};
-        },
-        data.edge_edge_queries, contents);
+void load_scene(const data_source& source, int threads, data_set& into, std::string& contents) {
+    into.origin = origin::scene;
+    into.before = io::read_mesh(source.frames[0]);
+    into.after = io::read_mesh(source.frames[1]);
+    io::require_same_topology(into.before, source.frames[0].string(), into.after,
+                              source.frames[1].string());
+    for (const fs::path& path : source.frames) contents += read_whole(path);
+    find_candidates(into, threads);
+    decide_truth(into, threads);
+    const numbered_elements elements(into.before);
+    into.queries.for_each(
+        [&](auto& known) { compare_stored(source.frames[0], elements, known, contents); });
+}
+
+// ---- Stored queries ----
+
+template <class Query>
+using stored_truths = std::vector<signed char>;
+
+void load_queries(const data_source& source, int threads, data_set& into, std::string& contents) {
+    by_stored_kind<stored_truths> truths;
+    for (const fs::path& path : source.queries) {
+        const io::query_file file = io::read_queries(path, std::nullopt, false);
+        contents += read_whole(path);
+        std::visit(
+            [&]<class Query>(const std::vector<Query>& queries) {
+                auto& all = into.queries.of<kind_of<Query>>().queries.stored;
+                all.insert(all.end(), queries.begin(), queries.end());
+                for (std::size_t i = 0; i < queries.size(); ++i)
+                    truths.of<kind_of<Query>>().push_back(
+                        file.truth ? static_cast<signed char>((*file.truth)[i]) : -1);
+            },
+            file.queries);
+    }
+    decide_truth(into, threads);
+    into.queries.for_each([&]<class Query>(queries_with_truth<Query>& known) {
+        add_stored_truth(truths.of<kind_of<Query>>(), known);
+        // Truth that lies beside a file counts as its content.
+        contents.append(known.collides.begin(), known.collides.end());
+    });
 }
 
 }  // namespace
@@ -255,8 +295,7 @@ std::string_view name(origin from) {
 }
 
 void decide_truth(data_set& data, int threads) {
-    decide_by_exact(data.vertex_face_queries, threads);
-    decide_by_exact(data.edge_edge_queries, threads);
+    data.queries.for_each([threads](auto& known) { decide_by_exact(known, threads); });
 }
 
 found_data find_data(const std::vector<fs::path>& folders) {
@@ -296,37 +335,10 @@ std::unique_ptr<data_set> load(const data_source& source, int threads) {
     auto data = std::make_unique<data_set>();
     data->name = source.name;
     std::string contents;
-    if (!source.frames.empty()) {
-        data->origin = origin::scene;
-        data->before = io::read_mesh(source.frames[0]);
-        data->after = io::read_mesh(source.frames[1]);
-        io::require_same_topology(data->before, source.frames[0].string(), data->after,
-                                  source.frames[1].string());
-        for (const fs::path& path : source.frames) contents += read_whole(path);
-        find_candidates(*data, threads);
-        decide_truth(*data, threads);
-        compare_stored(source.frames[0], *data, contents);
-    } else {
-        std::vector<signed char> vertex_face_truths, edge_edge_truths;
-        for (const fs::path& path : source.queries) {
-            const io::query_file file = io::read_queries(path, std::nullopt, false);
-            contents += read_whole(path);
-            if (file.kind == kind::vertex_face) {
-                append(file.vertex_face_queries, file.truth, data->vertex_face_queries,
-                       vertex_face_truths);
-            } else {
-                append(file.edge_edge_queries, file.truth, data->edge_edge_queries,
-                       edge_edge_truths);
-            }
-        }
-        settle_truth(vertex_face_truths, data->vertex_face_queries, threads);
-        settle_truth(edge_edge_truths, data->edge_edge_queries, threads);
-        // Truth that lies beside a file counts as its content.
-        contents.append(data->vertex_face_queries.collides.begin(),
-                        data->vertex_face_queries.collides.end());
-        contents.append(data->edge_edge_queries.collides.begin(),
-                        data->edge_edge_queries.collides.end());
-    }
+    if (source.frames.empty())
+        load_queries(source, threads, *data, contents);
+    else
+        load_scene(source, threads, *data, contents);
     data->fingerprint = fingerprint_of(contents);
     return data;
 }

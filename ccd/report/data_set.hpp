@@ -41,7 +41,7 @@ found_data find_data(const std::vector<std::filesystem::path>& folders);
 
 /// Queries of one kind with their truth.
 template <class Query>
-struct judged_queries {
+struct queries_with_truth {
     query_set<Query> queries;
     std::vector<unsigned char> collides;  ///< the truth of each, 0 or 1
     std::size_t colliding = 0;
@@ -64,8 +64,7 @@ struct data_set {
     std::string fingerprint;  ///< of its files' contents
     report::origin origin = origin::stored;
     mesh before, after;
-    judged_queries<vertex_face<double>> vertex_face_queries;
-    judged_queries<edge_edge<double>> edge_edge_queries;
+    by_stored_kind<queries_with_truth> queries;
 
     data_set() = default;
     data_set(const data_set&) = delete;

@@ -6,7 +6,7 @@
 namespace ccd::report {
 
 struct machine {
-    std::string processor;  ///< "unknown" where the system does not tell
+    std::string processor;  ///< "unknown" where the system does not say
     unsigned cores = 0;
     double load = 0;               ///< processes that wanted to run, mean of the last minute
     double memory_gib = 0;         ///< of the whole machine
@@ -22,7 +22,7 @@ std::string program_fingerprint();
 /// The commit that the source tree was at when the build was configured, "unknown" if it was none.
 std::string configured_commit();
 
-/// 64-bit FNV-1a, as 16 hexadecimal digits: tells changed data from unchanged, not friend from foe.
+/// 64-bit FNV-1a, as 16 hexadecimal digits: shows accidental changes, not malicious ones.
 std::string fingerprint_of(std::string_view bytes);
 
 }  // namespace ccd::report

@@ -1,15 +1,15 @@
 // Queries that the program makes itself: what a bundled scene lacks.
 #include "ccd/report/data_set.hpp"
 #include "ccd/report/machine.hpp"
-#include "ccd/stress/query_generators.hpp"
+#include "ccd/stress/generators/contacts.hpp"
+#include "ccd/stress/generators/coordinates.hpp"
 
 namespace ccd::report {
 namespace {
 
-namespace generators = query_families::generators;
-using query_families::kind;
-using query_families::points;
-using query_families::source;
+namespace generators = stress::generators;
+using stress::points;
+using stress::source;
 
 struct recipe {
     std::string_view name;
@@ -33,16 +33,13 @@ std::vector<std::unique_ptr<data_set>> made_data(int threads) {
         data->name = r.name;
         data->origin = origin::made;
         data->fingerprint = fingerprint_of(r.name);  // the program's own stands for the rest
-        const auto made = [&r](kind which, std::uint64_t i) {
-            source random = query_families::source_of(r.name, {std::uint64_t(which), i});
-            return r.make(random, which);
-        };
-        for (std::uint64_t i = 0; i < of_each_kind; ++i) {
-            data->vertex_face_queries.queries.stored.push_back(
-                query_families::as_vertex_face(made(kind::vertex_face, i)));
-            data->edge_edge_queries.queries.stored.push_back(
-                query_families::as_edge_edge(made(kind::edge_edge, i)));
-        }
+        data->queries.for_each([&r]<class Query>(queries_with_truth<Query>& into) {
+            constexpr kind which = kind_of<Query>;
+            for (std::uint64_t i = 0; i < of_each_kind; ++i) {
+                source random = stress::source_of(r.name, {std::uint64_t(which), i});
+                into.queries.stored.push_back(stress::as_query<Query>(r.make(random, which)));
+            }
+        });
         decide_truth(*data, threads);
         all.push_back(std::move(data));
     }

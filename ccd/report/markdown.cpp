@@ -102,8 +102,8 @@ std::string failures(const summary& report) {
 std::string data(const summary& report) {
     std::vector<std::vector<std::string>> lines;
     for (const data_summary& set : report.data) {
-        const auto add = [&](std::string_view kind, const data_summary::kind& k) {
-            if (k.queries == 0) return;
+        for (const data_summary::counts& k : set.kinds) {
+            if (k.queries == 0) continue;
             std::string truth = "exact, in batches";
             if (k.stored_truths > 0 && set.origin != origin::scene)
                 truth = grouped(k.stored_truths) + " stored" +
@@ -112,11 +112,10 @@ std::string data(const summary& report) {
                 truth +=
                     "; of " + grouped(k.stored_truths) + " stored ones " +
                     (k.contradictions == 0 ? "all agree" : grouped(k.contradictions) + " differ");
-            lines.push_back({set.name, std::string(kind), std::string(name(set.origin)),
-                             grouped(k.queries), grouped(k.colliding), truth});
-        };
-        add(short_name(ccd::kind::vertex_face), set.vertex_face);
-        add(short_name(ccd::kind::edge_edge), set.edge_edge);
+            lines.push_back({set.name, std::string(short_name(k.kind)),
+                             std::string(name(set.origin)), grouped(k.queries),
+                             grouped(k.colliding), truth});
+        }
     }
     std::string text =
         "## Data\n\n" +
@@ -203,7 +202,7 @@ std::string figure_11(const summary& report) {
     for (const data_summary& set : report.data) {
         const auto all =
             totals(report.methods, [&](const row& r) { return r["data_set"] == set.name; });
-        lines.push_back({set.name, grouped(set.vertex_face.queries + set.edge_edge.queries)});
+        lines.push_back({set.name, grouped(set.queries())});
         for (const column& c : columns) {
             const method_total& m = *std::ranges::find(all, c.method, &method_total::method);
             lines.back().push_back(digits(1e-3 * m.ns) + " / " + grouped(m.false_positives) +

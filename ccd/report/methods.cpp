@@ -31,8 +31,8 @@ struct error_counts {
 
 /// Of the queries from `first` to `last`, on the threads of the arena that this runs in.
 template <class Query>
-error_counts count_block(const judged_queries<Query>& data, ccd::method method, std::size_t first,
-                         std::size_t last) {
+error_counts count_block(const queries_with_truth<Query>& data, ccd::method method,
+                         std::size_t first, std::size_t last) {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(first, last, 256), error_counts(),
         [&](const tbb::blocked_range<std::size_t>& range, error_counts counts) {
@@ -47,7 +47,7 @@ error_counts count_block(const judged_queries<Query>& data, ccd::method method, 
 }  // namespace
 
 template <class Query>
-rows count_errors(const judged_queries<Query>& data, std::string_view method, int threads,
+rows count_errors(const queries_with_truth<Query>& data, std::string_view method, int threads,
                   const progress& show) {
     error_counts counts;
     const std::size_t n = data.queries.size();
@@ -75,7 +75,7 @@ rows count_errors(const judged_queries<Query>& data, std::string_view method, in
 }
 
 template <class Query>
-rows race_methods(const judged_queries<Query>& data, const std::vector<std::string>& methods,
+rows race_methods(const queries_with_truth<Query>& data, const std::vector<std::string>& methods,
                   const sample_sizes& size, const progress& show) {
     const query_set<Query> sample = data.queries.at_most(size.speed);
     const std::vector<Query> queries = sample.all_stored();
@@ -105,7 +105,7 @@ rows race_methods(const judged_queries<Query>& data, const std::vector<std::stri
 }
 
 template <class Query>
-rows time_queries(const judged_queries<Query>& data, const std::vector<std::string>& methods,
+rows time_queries(const queries_with_truth<Query>& data, const std::vector<std::string>& methods,
                   const sample_sizes& size, const progress& show) {
     const std::vector<Query> queries = data.queries.at_most(size.times).all_stored();
     // Of several timings of a query the least: an interrupt does not pose as a slow query.
@@ -142,17 +142,17 @@ rows time_queries(const judged_queries<Query>& data, const std::vector<std::stri
     return result;
 }
 
-template rows count_errors(const judged_queries<vertex_face<double>>&, std::string_view, int,
+template rows count_errors(const queries_with_truth<vertex_face<double>>&, std::string_view, int,
                            const progress&);
-template rows count_errors(const judged_queries<edge_edge<double>>&, std::string_view, int,
+template rows count_errors(const queries_with_truth<edge_edge<double>>&, std::string_view, int,
                            const progress&);
-template rows race_methods(const judged_queries<vertex_face<double>>&,
+template rows race_methods(const queries_with_truth<vertex_face<double>>&,
                            const std::vector<std::string>&, const sample_sizes&, const progress&);
-template rows race_methods(const judged_queries<edge_edge<double>>&,
+template rows race_methods(const queries_with_truth<edge_edge<double>>&,
                            const std::vector<std::string>&, const sample_sizes&, const progress&);
-template rows time_queries(const judged_queries<vertex_face<double>>&,
+template rows time_queries(const queries_with_truth<vertex_face<double>>&,
                            const std::vector<std::string>&, const sample_sizes&, const progress&);
-template rows time_queries(const judged_queries<edge_edge<double>>&,
+template rows time_queries(const queries_with_truth<edge_edge<double>>&,
                            const std::vector<std::string>&, const sample_sizes&, const progress&);
 
 }  // namespace ccd::report

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ccd/io/stored_kinds.hpp"
+
 namespace ccd::report {
 
 /// Queries of one kind, in the order in which they are decided. Either `by_index` into `rows`,
@@ -56,9 +58,6 @@ struct query_set {
     }
 };
 
-struct query_sets {
-    query_set<ccd::vertex_face<double>> vertex_face;
-    query_set<ccd::edge_edge<double>> edge_edge;
-};
+using query_sets = by_stored_kind<query_set>;
 
 }  // namespace ccd::report

@@ -28,7 +28,7 @@ std::string now() {
     return text;
 }
 
-/// The rows of `errors`, each with what `speeds` tells of the same data set, kind and method.
+/// The rows of `errors`, each with what `speeds` has on the same data set, kind and method.
 rows joined(rows errors, const rows& speeds) {
     for (row& r : errors) {
         for (const row& s : speeds) {
@@ -41,11 +41,12 @@ rows joined(rows errors, const rows& speeds) {
 }
 
 data_summary summary_of(const data_set& data) {
-    const auto of = [](const auto& judged) {
-        return data_summary::kind{judged.queries.size(), judged.colliding, judged.stored_truths,
-                                  judged.contradictions};
-    };
-    return {data.name, data.origin, of(data.vertex_face_queries), of(data.edge_edge_queries)};
+    data_summary result{data.name, data.origin, {}};
+    data.queries.for_each([&result]<class Query>(const queries_with_truth<Query>& known) {
+        result.kinds.push_back({kind_of<Query>, known.queries.size(), known.colliding,
+                                known.stored_truths, known.contradictions});
+    });
+    return result;
 }
 
 std::vector<std::string> failures_of(const summary& report) {
@@ -80,11 +81,11 @@ std::vector<std::string> failures_of(const summary& report) {
                            r["query"].dump());
     }
     for (const data_summary& data : report.data) {
-        for (const auto* kind : {&data.vertex_face, &data.edge_edge}) {
-            if (kind->contradictions > 0)
+        for (const data_summary::counts& of : data.kinds) {
+            if (of.contradictions > 0)
                 failures.push_back(data.name + ": exact contradicts " +
-                                   std::to_string(kind->contradictions) + " of " +
-                                   std::to_string(kind->stored_truths) + " stored truths");
+                                   std::to_string(of.contradictions) + " of " +
+                                   std::to_string(of.stored_truths) + " stored truths");
         }
     }
     return failures;
@@ -152,7 +153,7 @@ const std::vector<std::string> bound_columns{
 using show_progress = std::function<void(double, const std::string&)>;
 using say_line = std::function<void(const std::string&)>;
 
-/// Reads the data; what cannot be read is left out and told.
+/// Reads the data; what cannot be read is left out and reported.
 std::vector<std::unique_ptr<data_set>> collect_data(const options& settings, summary& report,
                                                     const show_progress& show) {
     const found_data found = find_data(settings.data);
@@ -166,9 +167,7 @@ std::vector<std::unique_ptr<data_set>> collect_data(const options& settings, sum
             report.left_out.push_back({source.name, error.what()});
             continue;
         }
-        if (all.back()->vertex_face_queries.queries.size() +
-                all.back()->edge_edge_queries.queries.size() ==
-            0) {
+        if (summary_of(*all.back()).queries() == 0) {
             report.left_out.push_back({source.name, "it holds no queries"});
             all.pop_back();
         }
@@ -243,7 +242,7 @@ void write_tables(const summary& report) {
     }
 }
 
-/// Writes plot.py and runs it. Pictures that it could not make are left out, and that is told.
+/// Writes plot.py and runs it. Pictures that it could not make are left out, which is reported.
 void draw_pictures(summary& report, const say_line& say) {
     const fs::path& folder = report.settings.out;
     write_whole(folder / "plot.py", plot_script);

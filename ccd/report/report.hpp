@@ -40,9 +40,17 @@ struct options {
 struct data_summary {
     std::string name;
     report::origin origin = origin::stored;
-    struct kind {
+    struct counts {
+        ccd::kind kind{};
         std::size_t queries = 0, colliding = 0, stored_truths = 0, contradictions = 0;
-    } vertex_face, edge_edge;
+    };
+    std::vector<counts> kinds;
+
+    std::size_t queries() const {
+        std::size_t all = 0;
+        for (const counts& of : kinds) all += of.queries;
+        return all;
+    }
 };
 
 struct picture {
@@ -50,7 +58,7 @@ struct picture {
     std::string caption;  ///< what it shows, and how to read it
 };
 
-/// All that report.md tells.
+/// All that report.md reports.
 struct summary {
     options settings;
     machine here;  ///< at the start
@@ -75,7 +83,7 @@ std::vector<method_total> totals(const rows& methods,
                                  const std::function<bool(const row&)>& counts);
 
 /// Measures what the folder does not hold yet and writes the CSV files, plot.py and what it draws,
-/// and report.md. `show` is told the share that is done and what comes next; `say` gets lines for a
+/// and report.md. `show` gets the share that is done and what comes next; `say` gets lines for a
 /// person. Throws errbound::support::file_error: no data, a folder that cannot be read or written.
 summary make(const options& settings, const std::function<void(double, const std::string&)>& show,
              const std::function<void(const std::string&)>& say);

@@ -41,32 +41,32 @@ using progress = std::function<void(double)>;
 
 /// What a method said of all queries, against their truth: one row.
 template <class Query>
-rows count_errors(const judged_queries<Query>& data, std::string_view method, int threads,
+rows count_errors(const queries_with_truth<Query>& data, std::string_view method, int threads,
                   const progress& show);
 
 /// ns per query of the methods in turn, on one thread: a row for each.
 template <class Query>
-rows race_methods(const judged_queries<Query>& data, const std::vector<std::string>& methods,
+rows race_methods(const queries_with_truth<Query>& data, const std::vector<std::string>& methods,
                   const sample_sizes& size, const progress& show);
 
 /// How the times of single queries are distributed, on one thread: a row for each method.
 template <class Query>
-rows time_queries(const judged_queries<Query>& data, const std::vector<std::string>& methods,
+rows time_queries(const queries_with_truth<Query>& data, const std::vector<std::string>& methods,
                   const sample_sizes& size, const progress& show);
 
 /// Bounds of Y, Y' and Y'' at t = 0 and 1 under every rule, as BSC meets them: a row for each rule
 /// and variable.
 template <class Query>
-rows take_bounds(const judged_queries<Query>& data, const sample_sizes& size);
+rows take_bounds(const queries_with_truth<Query>& data, const sample_sizes& size);
 
 /// Methods on one family of stiff and extreme queries: a row for each value of the knob, kind and
-/// method. A broken promise is told in the columns `broken` (how) and `query` (which).
+/// method. A broken promise is reported in the columns `broken` (how) and `query` (which).
 rows stress_methods(const stress::family& family, const std::vector<std::string>& methods,
                     const sample_sizes& size, int threads, const progress& show);
 
 /// Bounds against true errors by MPFR, in random expressions and on queries of all data sets: rows
-/// by rule, number type and quantity, quantiles of log10 of the ratio. A broken promise is told in
-/// the column `broken`. Only in a build with MPFR.
+/// by rule, number type and quantity, quantiles of log10 of the ratio. A broken promise is reported
+/// in the column `broken`. Only in a build with MPFR.
 rows measure_expressions(const sample_sizes& size, int threads, const progress& show);
 rows measure_tightness(const std::vector<const data_set*>& data, const sample_sizes& size,
                        int threads, const progress& show);

@@ -22,8 +22,7 @@ stress::subject batch_subject() {
             return verdict{answer, answer == outcome::uncertain ? cause::range : cause::none};
         });
     };
-    batch.vertex_face = in_batches;
-    batch.edge_edge = in_batches;
+    batch.decide = {in_batches, in_batches};
     return batch;
 }
 
@@ -46,21 +45,19 @@ rows stress_methods(const stress::family& family, const std::vector<std::string>
                                                    : stress::subject_of(info(*find_method(name))));
     }
     rows result;
-    const auto tell = [&show](std::size_t done, std::size_t all, const stress::family&) {
+    const auto show_cells = [&show](std::size_t done, std::size_t all, const stress::family&) {
         show(static_cast<double>(done) / static_cast<double>(all));
     };
-    for (const stress::cell& c : stress::run(plan, tell)) {
-        result.push_back(
-            {{"knob", number_or_text(c.knob)},
-             {"kind", c.kind == stress::kind::vertex_face ? short_name(kind_of<vertex_face<double>>)
-                                                          : short_name(kind_of<edge_edge<double>>)},
-             {"method", plan.subjects[c.subject].name},
-             {"queries", c.queries},
-             {"collisions", c.collisions},
-             {"false_positives", c.false_positives},
-             {"false_negatives", c.false_negatives},
-             {"uncertain", c.uncertain},
-             {"ns_per_query", c.ns_per_query}});
+    for (const stress::cell& c : stress::run(plan, show_cells)) {
+        result.push_back({{"knob", number_or_text(c.knob)},
+                          {"kind", short_name(c.kind)},
+                          {"method", plan.subjects[c.subject].name},
+                          {"queries", c.queries},
+                          {"collisions", c.collisions},
+                          {"false_positives", c.false_positives},
+                          {"false_negatives", c.false_negatives},
+                          {"uncertain", c.uncertain},
+                          {"ns_per_query", c.ns_per_query}});
         if (c.broken) {
             result.back()["broken"] = c.broken->what;
             result.back()["query"] = c.broken->index;

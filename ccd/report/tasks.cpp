@@ -25,13 +25,12 @@ void task_list::add(std::string name, row depends_on, double cost, row about,
 
 void task_list::add(const data_set& data) {
     data_.push_back(&data);
-    add(data, data.vertex_face_queries);
-    add(data, data.edge_edge_queries);
+    data.queries.for_each([&](const auto& known) { add(data, known); });
 }
 
 template <class Query>
-void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
-    const std::size_t n = judged.queries.size();
+void task_list::add(const data_set& data, const queries_with_truth<Query>& known) {
+    const std::size_t n = known.queries.size();
     if (n == 0) return;
     const row about = {{"data_set", data.name},
                        {"origin", name(data.origin)},
@@ -42,15 +41,15 @@ void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
         depends_on["data"] = data.fingerprint;
         add(prefix + what, std::move(depends_on), cost, about, std::move(measure), into);
     };
-    const auto drawn = [n](std::size_t most) { return static_cast<double>(std::min(n, most)); };
+    const auto drawn = [n](std::size_t limit) { return static_cast<double>(std::min(n, limit)); };
     const auto methods = static_cast<double>(settings_.methods.size());
 
     if (settings_.wants("methods")) {
         for (const std::string& method : settings_.methods) {
             add_part(
                 "errors of " + method, {{"method", method}}, static_cast<double>(n) / 2,
-                [&judged, method, this](const progress& show) {
-                    return count_errors(judged, method, settings_.threads, show);
+                [&known, method, this](const progress& show) {
+                    return count_errors(known, method, settings_.threads, show);
                 },
                 errors);
         }
@@ -58,8 +57,8 @@ void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
             "ns per query",
             {{"methods", settings_.methods}, {"at_most", size_.speed}, {"repeats", size_.repeats}},
             drawn(size_.speed) * methods * (1 + size_.repeats),
-            [&judged, this](const progress& show) {
-                return race_methods(judged, settings_.methods, size_, show);
+            [&known, this](const progress& show) {
+                return race_methods(known, settings_.methods, size_, show);
             },
             speeds);
     }
@@ -68,15 +67,15 @@ void task_list::add(const data_set& data, const judged_queries<Query>& judged) {
             "times of single queries",
             {{"methods", singly_}, {"at_most", size_.times}, {"repeats", size_.repeats}},
             drawn(size_.times) * methods * size_.repeats,
-            [&judged, this](const progress& show) {
-                return time_queries(judged, singly_, size_, show);
+            [&known, this](const progress& show) {
+                return time_queries(known, singly_, size_, show);
             },
             times);
     }
     if (settings_.wants("bounds")) {
         add_part(
             "bounds", {{"at_most", size_.bounds}}, drawn(size_.bounds),
-            [&judged, this](const progress&) { return take_bounds(judged, size_); }, bounds);
+            [&known, this](const progress&) { return take_bounds(known, size_); }, bounds);
     }
 }
 

@@ -39,7 +39,7 @@ class task_list {
 
   private:
     template <class Query>
-    void add(const data_set& data, const judged_queries<Query>& judged);
+    void add(const data_set& data, const queries_with_truth<Query>& known);
     void add(std::string name, row depends_on, double cost, row about,
              std::function<rows(const progress&)> measure, rows& into);
 

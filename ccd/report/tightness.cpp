@@ -24,7 +24,7 @@ void merge(std::vector<validation::tightness>& all, const validation::tightness&
     }
 }
 
-/// A row for each distribution; broken promises are told in the column `broken`.
+/// A row for each distribution; broken promises are in the column `broken`.
 rows rows_of(const validation::report& found) {
     std::vector<validation::tightness> all;
     for (const validation::tightness& one : found.distributions) merge(all, one);
@@ -65,13 +65,11 @@ rows measure_tightness(const std::vector<const data_set*>& data, const sample_si
     validation::report found;
     for (std::size_t i = 0; i < data.size(); ++i) {
         show(static_cast<double>(i) / static_cast<double>(data.size()));
-        const auto add = [&](const auto& judged) {
-            const auto queries = judged.queries.at_most(size.tightness).all_stored();
+        data[i]->queries.for_each([&](const auto& known) {
+            const auto queries = known.queries.at_most(size.tightness).all_stored();
             found.add(
                 validation::validate_queries(validation::rules(), std::span(queries), threads));
-        };
-        add(data[i]->vertex_face_queries);
-        add(data[i]->edge_edge_queries);
+        });
     }
     return rows_of(found);
 }

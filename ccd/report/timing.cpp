@@ -15,7 +15,7 @@ std::vector<timing> race(const std::vector<std::function<void()>>& passes, int r
             pass();
             return seconds_since(start);
         };
-        // The first meets cold caches and new pages; where that is nothing, it tells the time too.
+        // The first meets cold caches and new pages; where that is nothing, it counts too.
         double one = seconds_of_one();
         if (one < 10 * least_seconds) one = seconds_of_one();
         runs.push_back(1 + static_cast<int>(least_seconds / std::max(one, 1e-7)));

@@ -26,7 +26,7 @@ struct timing {
 };
 
 /// Times `passes` in turn: a warm-up, then `repeats` rounds, back and forth. A pass shorter than
-/// 2 ms is repeated until it takes as long. Between timings, `show` is told the share that is done.
+/// 2 ms is repeated until it takes as long. Between timings, `show` gets the share that is done.
 std::vector<timing> race(
     const std::vector<std::function<void()>>& passes, int repeats,
     const std::function<void(double)>& show = [](double) {});

@@ -8,16 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/stress/query_generators.hpp"
+#include "ccd/stress/generators/query_points.hpp"
 
 namespace ccd::stress {
-
-using query_families::kind;
-using query_families::points;
-using query_families::source;
-
-/// The kinds that every family makes, in the order in which tables show them.
-inline constexpr kind kinds[] = {kind::vertex_face, kind::edge_edge};
 
 /// The value of a logarithmic knob that stands for exactly zero.
 inline constexpr double exact_zero = -std::numeric_limits<double>::infinity();

@@ -142,7 +142,7 @@ std::vector<const cell*> broken_of(const std::vector<cell>& cells) {
     return first;
 }
 
-/// Writes the query of each broken promise and tells of it, a line each.
+/// Writes the query of each broken promise and reports it, a line each.
 std::string report_broken(const std::vector<const cell*>& broken, const plan& what,
                           const fs::path& folder) {
     std::string lines;
@@ -156,7 +156,7 @@ std::string report_broken(const std::vector<const cell*>& broken, const plan& wh
                 folder / ("stress-" + method + "-" + std::string(c->family->name) + "-" +
                           std::string(short_name(c->kind)) + ".csv");
             const points p = make(*c->family, c->knob, c->kind, what.seed, c->broken->index);
-            write_whole(path, query_families::csv(p, c->broken->collides ? ",1" : ",0"));
+            write_whole(path, csv(p, c->broken->collides ? ",1" : ",0"));
             lines += "; replay: ccd query " + path.string() + " --method " + method;
         }
         lines += '\n';

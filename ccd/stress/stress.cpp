@@ -20,24 +20,17 @@ double seconds_since(steady_clock::time_point start) {
     return std::chrono::duration<double>(steady_clock::now() - start).count();
 }
 
-vertex_face<double> as_query(const points& p, vertex_face<double>*) {
-    return query_families::as_vertex_face(p);
-}
-edge_edge<double> as_query(const points& p, edge_edge<double>*) {
-    return query_families::as_edge_edge(p);
-}
-
 /// The queries of a cell and their truth.
 template <class Query>
 struct question {
     std::vector<Query> queries;
     std::vector<outcome> truth;  ///< uncertain where coordinates are not finite
 
-    question(const plan& what, const family& f, double knob, kind which) {
+    question(const plan& what, const family& f, double knob) {
         const std::size_t count = std::max<std::size_t>(1, what.queries / f.thinning(knob));
         for (std::uint64_t i = 0; i < count; ++i) {
-            const points p = make(f, knob, which, what.seed, i);
-            queries.push_back(as_query(p, static_cast<Query*>(nullptr)));
+            const points p = make(f, knob, kind_of<Query>, what.seed, i);
+            queries.push_back(as_query<Query>(p));
         }
         truth.resize(count);
         tbb::parallel_for(std::size_t{0}, count, [this](std::size_t i) {
@@ -85,15 +78,14 @@ cell asked(const plan& what, const subject& who, const decider<Query>& decide,
     return out;
 }
 
-template <class Query>
-void add_cells(const plan& what, const family& f, double knob, kind which,
-               decider<Query> subject::*decide, std::vector<cell>& cells) {
-    const question<Query> about(what, f, knob, which);
+template <kind K>
+void add_cells(const plan& what, const family& f, double knob, std::vector<cell>& cells) {
+    const question<typename kind_traits<K>::template query<double>> about(what, f, knob);
     for (std::size_t s = 0; s < what.subjects.size(); ++s) {
-        cell c = asked(what, what.subjects[s], what.subjects[s].*decide, about);
+        cell c = asked(what, what.subjects[s], what.subjects[s].decide.of<K>(), about);
         c.family = &f;
         c.knob = knob;
-        c.kind = which;
+        c.kind = K;
         c.subject = s;
         cells.push_back(c);
     }
@@ -105,8 +97,10 @@ subject subject_of(const method_info& method) {
     const auto one_by_one = [m = method.method](auto queries, std::span<verdict> verdicts) {
         for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(m, queries[i]);
     };
-    return {std::string(method.name), method.may_lose_collisions,
-            method.may_report_false_collisions, one_by_one, one_by_one};
+    return {std::string(method.name),
+            method.may_lose_collisions,
+            method.may_report_false_collisions,
+            {one_by_one, one_by_one}};
 }
 
 std::optional<std::string_view> broken_by(const subject& who, verdict said, outcome truth) {
@@ -130,16 +124,17 @@ std::optional<std::string_view> broken_by(const subject& who, verdict said, outc
                                    : std::optional<std::string_view>("it gave no answer");
 }
 
-std::vector<cell> run(const plan& what, const progress& tell) {
+std::vector<cell> run(const plan& what, const progress& show) {
     std::size_t all = 0, done = 0;
     for (const family* f : what.families) all += f->knobs.size();
     std::vector<cell> cells;
     detail::on_threads(what.threads, [&] {
         for (const family* f : what.families) {
             for (const double knob : f->knobs) {
-                tell(done++, all, *f);
-                add_cells(what, *f, knob, kind::vertex_face, &subject::vertex_face, cells);
-                add_cells(what, *f, knob, kind::edge_edge, &subject::edge_edge, cells);
+                show(done++, all, *f);
+                for (const kind which : stored_kinds)
+                    visit_stored_kind(which,
+                                      [&]<kind K>() { add_cells<K>(what, *f, knob, cells); });
             }
         }
     });

@@ -1,6 +1,7 @@
 // The stress run: every method on every family at every value of its knob, beside the exact answer.
 #pragma once
 
+#include <ccd/kind.hpp>
 #include <ccd/method.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
@@ -13,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ccd/io/stored_kinds.hpp"
 #include "ccd/stress/families.hpp"
 
 namespace ccd::stress {
@@ -26,8 +28,7 @@ struct subject {
     std::string name;
     bool may_lose_collisions = false;
     bool may_report_false_collisions = false;
-    decider<ccd::vertex_face<double>> vertex_face;
-    decider<ccd::edge_edge<double>> edge_edge;
+    by_stored_kind<decider> decide;
 };
 
 subject subject_of(const method_info& method);
@@ -43,7 +44,7 @@ struct broken_promise {
 struct cell {
     const stress::family* family = nullptr;
     double knob = 0;
-    stress::kind kind{};
+    ccd::kind kind{};
     std::size_t subject = 0;  ///< which of the plan's
     std::size_t queries = 0;
     std::size_t collisions = 0;                            ///< by ccd::decide_reference
@@ -71,7 +72,7 @@ using progress = std::function<void(std::size_t done, std::size_t all, const fam
 
 /// All cells, by family, knob, kind and subject. The truth is found on several threads; methods are
 /// timed on this one while nothing else runs. Deterministic but for the times.
-std::vector<cell> run(const plan& what, const progress& tell);
+std::vector<cell> run(const plan& what, const progress& show);
 
 /// How `said` breaks what `who` promises, if it does. `truth` is uncertain if coordinates are not
 /// finite. Promised are: no collision lost and none reported falsely, as far as the method says so;

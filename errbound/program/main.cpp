@@ -39,7 +39,7 @@ struct command_line {
 
         validate = app.add_subcommand(
             "validate",
-            "Hold every bound rule's bounds and certain signs against MPFR, and tell how tight "
+            "Hold every bound rule's bounds and certain signs against MPFR, and report how tight "
             "they\nare. Random expressions, unless --tiny or --queries asks for those.");
         validate
             ->add_option("--expressions", arguments.options.expressions,
@@ -55,9 +55,9 @@ struct command_line {
             ->capture_default_str();
         validate
             ->add_option("--queries", arguments.queries,
-                         "Stored queries (ccd query --help tells their form): their forms and BSC")
+                         "Stored queries (ccd query --help says their form): their forms and BSC")
             ->type_name("FILE...");
-        validate->add_option("--kind", kind, "Kind of queries; else the path tells")
+        validate->add_option("--kind", kind, "Kind of queries; else the path says")
             ->check(CLI::IsMember(ccd::io::kind_names()));
         validate->add_flag("--round", arguments.round,
                            "Round rationals that no double equals, instead of refusing them");

@@ -1,4 +1,4 @@
-// `errbound validate`: runs what was asked for, and tells it as tables, JSON and CSV.
+// `errbound validate`: runs what was asked for, and reports it as tables, JSON and CSV.
 #include "errbound/program/validate_command.hpp"
 
 #include <cmath>
@@ -156,11 +156,11 @@ bool run_validate(const validate_arguments& arguments) {
             [&](const progress& show) { return validate_tiny(arguments.rules, threads, show); });
     for (std::size_t i = 0; i < files.size(); ++i)
         run(arguments.queries[i].string(), [&](const progress& show) {
-            return files[i].kind == ccd::kind::vertex_face
-                       ? validate_queries(arguments.rules, files[i].vertex_face_queries, threads,
-                                          show)
-                       : validate_queries(arguments.rules, files[i].edge_edge_queries, threads,
-                                          show);
+            return std::visit(
+                [&](const auto& queries) {
+                    return validate_queries(arguments.rules, std::span(queries), threads, show);
+                },
+                files[i].queries);
         });
     if (arguments.expressions)
         run("expressions", [&](const progress& show) {

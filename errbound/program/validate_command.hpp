@@ -1,11 +1,11 @@
 // `errbound validate`, once its arguments are read.
 #pragma once
 
+#include <ccd/io/query_file.hpp>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "ccd/io/query_file.hpp"
 #include "errbound/validation/validation.hpp"
 
 namespace errbound::validation {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <ccd/io/mesh_file.hpp>
+#include <ccd/io/query_file.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,8 +13,6 @@
 #include <optional>
 #include <utility>
 
-#include "ccd/io/mesh_file.hpp"
-#include "ccd/io/query_file.hpp"
 #include "tests/support/query_families.hpp"
 
 namespace bench {
@@ -143,10 +143,12 @@ bool read_stored(const fs::path& folder, query_sets& queries) {
     std::ranges::sort(paths);
     for (const fs::path& path : paths) {
         const auto file = ccd::io::read_queries(path, std::nullopt, false);
-        auto& vf = queries.vertex_face.stored;
-        auto& ee = queries.edge_edge.stored;
-        vf.insert(vf.end(), file.vertex_face_queries.begin(), file.vertex_face_queries.end());
-        ee.insert(ee.end(), file.edge_edge_queries.begin(), file.edge_edge_queries.end());
+        std::visit(
+            [&queries]<class Query>(const std::vector<Query>& read) {
+                auto& all = queries.of<ccd::kind_of<Query>>().stored;
+                all.insert(all.end(), read.begin(), read.end());
+            },
+            file.queries);
     }
     return !paths.empty();
 }
@@ -154,18 +156,16 @@ bool read_stored(const fs::path& folder, query_sets& queries) {
 /// Queries on small integer grids, most of them degenerate.
 void make_degenerate(query_sets& queries) {
     constexpr std::uint64_t of_each_family = 2000, seed = 1;
-    using query_families::kind;
     for (const auto& family : query_families::families) {
         if (family.name.find("grid") == std::string_view::npos ||
             family.name.find('^') != std::string_view::npos) {
             continue;
         }
-        for (std::uint64_t i = 0; i < of_each_family; ++i) {
-            queries.vertex_face.stored.push_back(query_families::as_vertex_face(
-                query_families::make(family, kind::vertex_face, seed, i)));
-            queries.edge_edge.stored.push_back(query_families::as_edge_edge(
-                query_families::make(family, kind::edge_edge, seed, i)));
-        }
+        queries.for_each([&family]<class Query>(ccd::report::query_set<Query>& into) {
+            for (std::uint64_t i = 0; i < of_each_family; ++i)
+                into.stored.push_back(query_families::as_query<Query>(
+                    query_families::make(family, ccd::kind_of<Query>, seed, i)));
+        });
     }
 }
 

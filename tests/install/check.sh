@@ -11,8 +11,11 @@ cmake -G "$generator" -S "$source/tests/install/user" -B "$work/build" -DCMAKE_P
 cmake --build "$work/build" >/dev/null
 "$work/build/use_headers"
 "$work/build/use_ccd"
+scene=$work/prefix/share/errbound/scenes/cloth-over-ball
+"$work/build/use_ccd_io" "$scene"/frame{0,1}.ply
+! "$work/build/use_ccd_io" "$scene"/frame0.ply missing.ply 2>"$work/said"
+grep -q "missing.ply: found no such file" "$work/said"
 if [[ -f $work/prefix/lib/liberrbound_ccd_cuda.a ]]; then "$work/build/use_ccd_cuda"; fi
 "$work/prefix/bin/ccd" methods | grep -q exact
-test -f "$work/prefix/share/errbound/scenes/cloth-over-ball/frame0.ply"
 test -f "$work/prefix/share/doc/errbound/CITATION.cff"
 echo "installed package found, built against and run"

@@ -22,7 +22,7 @@ constexpr std::uint64_t queries_per_block = 24;  // of a family and kind
 /// A decider of both kinds from one generic function (queries, answers).
 template <class Decide>
 decider both_kinds(std::string name, Decide decide) {
-    return {std::move(name), decide, decide};
+    return {std::move(name), {decide, decide}};
 }
 
 template <class Decide>
@@ -37,9 +37,7 @@ decider one_by_one(std::string name, Decide decide) {
 template <class Query>
 struct indexed {
     std::vector<ccd::point<double>> before, after;
-    using indices = std::conditional_t<std::is_same_v<Query, ccd::vertex_face<double>>,
-                                       ccd::vertex_face_pair, ccd::edge_edge_pair>;
-    std::vector<indices> queries;
+    std::vector<ccd::pair_of_query<Query>> queries;
 
     explicit indexed(std::span<const Query> stored) {
         for (const Query& q : stored) {
@@ -87,29 +85,22 @@ block_queries queries_of(std::uint64_t seed, std::uint64_t block, kind which) {
     return all;
 }
 
-ccd::vertex_face<double> as_query(const points& p, ccd::vertex_face<double>*) {
-    return query_families::as_vertex_face(p);
-}
-ccd::edge_edge<double> as_query(const points& p, ccd::edge_edge<double>*) {
-    return query_families::as_edge_edge(p);
-}
-
-template <class Query>
-void compare(std::uint64_t seed, std::uint64_t block, kind which,
-             batch_decider<Query> decider::*decide, const decider& truth,
+template <kind K>
+void compare(std::uint64_t seed, std::uint64_t block, const decider& truth,
              std::span<const decider> deciders, totals& out) {
-    const block_queries all = queries_of(seed, block, which);
-    std::vector<Query> queries;
-    for (const points& p : all.at) queries.push_back(as_query(p, static_cast<Query*>(nullptr)));
+    using query = typename ccd::kind_traits<K>::template query<double>;
+    const block_queries all = queries_of(seed, block, K);
+    std::vector<query> queries;
+    for (const points& p : all.at) queries.push_back(query_families::as_query<query>(p));
 
     const auto answers_of = [&](const decider& d) {
         // Made invalid first, so that a query left out is seen.
         std::vector<ccd::outcome> answers(queries.size(), static_cast<ccd::outcome>(255));
-        (d.*decide)(queries, answers);
+        d.decide.of<K>()(queries, answers);
         return answers;
     };
     const std::vector<ccd::outcome> right = answers_of(truth);
-    auto& counts = out.families[which == kind::vertex_face ? 0 : 1];
+    auto& counts = out.families[K == kind::vertex_face ? 0 : 1];
     for (std::size_t i = 0; i < queries.size(); ++i) {
         ++counts[all.family[i]].queries;
         counts[all.family[i]].collisions += right[i] == ccd::outcome::collides;
@@ -127,7 +118,7 @@ void compare(std::uint64_t seed, std::uint64_t block, kind which,
     for (std::size_t i = 0; i < queries.size(); ++i) {
         if (wrong[i].empty()) continue;
         ++out.differing_queries;
-        out.differences.push_back({all.family[i], which, all.index[i],
+        out.differences.push_back({all.family[i], K, all.index[i],
                                    right[i] == ccd::outcome::collides, std::move(wrong[i])});
     }
 }
@@ -176,7 +167,8 @@ std::uint64_t family_end(const query_families::family& family, std::uint64_t blo
 
 std::uint64_t query_count(std::uint64_t blocks) {
     std::uint64_t count = 0;
-    for (const auto& family : families) count += std::size(kinds) * family_end(family, blocks);
+    for (const auto& family : families)
+        count += ccd::stored_kinds.size() * family_end(family, blocks);
     return count;
 }
 
@@ -196,7 +188,7 @@ std::uint64_t blocks_for(std::uint64_t queries) {
 
 void totals::add(const totals& other) {
     blocks += other.blocks;
-    for (std::size_t k = 0; k < std::size(kinds); ++k) {
+    for (std::size_t k = 0; k < ccd::stored_kinds.size(); ++k) {
         for (std::size_t f = 0; f < family_count; ++f) {
             families[k][f].queries += other.families[k][f].queries;
             families[k][f].collisions += other.families[k][f].collisions;
@@ -222,8 +214,8 @@ totals compare_block(std::uint64_t seed, std::uint64_t block, const decider& tru
     totals out;
     out.blocks = 1;
     for (const decider& d : deciders) out.deciders.push_back({.name = d.name});
-    compare(seed, block, kind::vertex_face, &decider::vertex_face, truth, deciders, out);
-    compare(seed, block, kind::edge_edge, &decider::edge_edge, truth, deciders, out);
+    compare<kind::vertex_face>(seed, block, truth, deciders, out);
+    compare<kind::edge_edge>(seed, block, truth, deciders, out);
     return out;
 }
 

@@ -21,18 +21,13 @@ namespace soak {
 
 inline constexpr std::size_t family_count = std::size(query_families::families);
 
-/// The two kinds that batches decide, in the order in which tables show them.
-inline constexpr query_families::kind kinds[] = {query_families::kind::vertex_face,
-                                                 query_families::kind::edge_edge};
-
 /// Decides queries[i] into answers[i], by whatever means. Called from several threads at once.
 template <class Query>
 using batch_decider = std::function<void(std::span<const Query>, std::span<ccd::outcome>)>;
 
 struct decider {
     std::string name;
-    batch_decider<ccd::vertex_face<double>> vertex_face;
-    batch_decider<ccd::edge_edge<double>> edge_edge;
+    ccd::by_stored_kind<batch_decider> decide;
 };
 
 /// ccd::decide_reference.
@@ -82,8 +77,8 @@ struct totals {
     static constexpr std::size_t max_kept = 10000;
 
     std::uint64_t blocks = 0;
-    std::vector<kind_counts> families[std::size(kinds)] = {std::vector<kind_counts>(family_count),
-                                                           std::vector<kind_counts>(family_count)};
+    std::vector<kind_counts> families[ccd::stored_kinds.size()] = {
+        std::vector<kind_counts>(family_count), std::vector<kind_counts>(family_count)};
     std::vector<decider_counts> deciders;
     std::uint64_t differing_queries = 0;
     std::vector<difference> differences;

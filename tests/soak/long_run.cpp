@@ -157,8 +157,8 @@ std::string to_json(const state& s) {
              {"differences", json::array()}};
     for (std::size_t f = 0; f < family_count; ++f) {
         json entry{{"name", families[f].name}, {"thinning", families[f].thinning}};
-        for (std::size_t k = 0; k < std::size(kinds); ++k) {
-            entry[std::string(short_name(kinds[k]))] = {
+        for (std::size_t k = 0; k < ccd::stored_kinds.size(); ++k) {
+            entry[std::string(short_name(ccd::stored_kinds[k]))] = {
                 {"queries", s.found.families[k][f].queries},
                 {"collisions", s.found.families[k][f].collisions}};
         }
@@ -186,8 +186,8 @@ state from_json(const std::string& text) {
                 listed.at(f).at("thinning") != families[f].thinning) {
                 throw std::runtime_error("the run was of other families than this program has");
             }
-            for (std::size_t k = 0; k < std::size(kinds); ++k) {
-                const json& counts = listed.at(f).at(std::string(short_name(kinds[k])));
+            for (std::size_t k = 0; k < ccd::stored_kinds.size(); ++k) {
+                const json& counts = listed.at(f).at(std::string(short_name(ccd::stored_kinds[k])));
                 s.found.families[k][f] = {whole(counts.at("queries")),
                                           whole(counts.at("collisions"))};
             }
@@ -213,7 +213,7 @@ fs::path differences_path(const fs::path& folder, kind which) {
 
 void save(const state& s, const fs::path& folder) {
     fs::create_directories(folder);
-    for (const kind which : kinds) {
+    for (const kind which : ccd::stored_kinds) {
         const std::string queries = differing_queries_csv(s.found, s.seed, which);
         if (queries.empty()) {
             fs::remove(differences_path(folder, which));

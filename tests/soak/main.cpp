@@ -121,7 +121,7 @@ void report(const soak::state& s, const fs::path& folder) {
     std::printf("seed %ju: %s queries in %s, %s differ\n", std::uintmax_t{s.seed},
                 grouped(sum[0].queries + sum[1].queries).c_str(), duration(s.seconds).c_str(),
                 grouped(s.found.differing_queries).c_str());
-    for (const auto which : soak::kinds) {
+    for (const auto which : ccd::stored_kinds) {
         const fs::path path = soak::differences_path(folder, which);
         if (fs::exists(path)) {
             std::printf("differing queries, the reference's answer as truth: ccd query %s\n",

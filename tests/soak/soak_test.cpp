@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <ccd/io/query_file.hpp>
 #include <ccd/method.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "ccd/io/query_file.hpp"
 #include "errbound/support/output_file.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/long_run.hpp"
@@ -38,7 +38,7 @@ soak::decider by_method(ccd::method method) {
             answers[i] = ccd::decide(method, queries[i]).outcome;
         }
     };
-    return {std::string(ccd::info(method).name), decide, decide};
+    return {std::string(ccd::info(method).name), {decide, decide}};
 }
 
 /// One that leaves the last query of each batch undecided.
@@ -49,7 +49,8 @@ soak::decider forgetful() {
             decide(queries.first(queries.size() - 1), answers.first(answers.size() - 1));
         };
     };
-    return {"forgetful", all_but_last(right.vertex_face), all_but_last(right.edge_edge)};
+    return {"forgetful",
+            {all_but_last(right.decide.vertex_face), all_but_last(right.decide.edge_edge)}};
 }
 
 constexpr std::uint64_t few_blocks = 3;
@@ -91,16 +92,16 @@ TEST_F(soak_test, wrong_deciders_are_found_out) {
 TEST_F(soak_test, differing_queries_are_written_to_be_replayed) {
     const soak::state s = run({.seed = 7}, folder, {by_method(ccd::method::float_)});
     std::size_t read = 0;
-    for (const kind which : soak::kinds) {
+    for (const kind which : ccd::stored_kinds) {
         const auto file = ccd::io::read_queries(soak::differences_path(folder, which), {}, false);
         ASSERT_TRUE(file.truth.has_value());
         for (std::size_t i = 0; i < file.size(); ++i, ++read) {
-            const auto [exact, wrong] =
-                which == kind::vertex_face
-                    ? std::pair(ccd::decide(ccd::method::exact, file.vertex_face_queries[i]),
-                                ccd::decide(ccd::method::float_, file.vertex_face_queries[i]))
-                    : std::pair(ccd::decide(ccd::method::exact, file.edge_edge_queries[i]),
-                                ccd::decide(ccd::method::float_, file.edge_edge_queries[i]));
+            const auto [exact, wrong] = std::visit(
+                [i](const auto& queries) {
+                    return std::pair(ccd::decide(ccd::method::exact, queries[i]),
+                                     ccd::decide(ccd::method::float_, queries[i]));
+                },
+                file.queries);
             EXPECT_NE(wrong.outcome, exact.outcome);
             EXPECT_EQ((*file.truth)[i], exact.outcome == ccd::outcome::collides);
         }
@@ -120,7 +121,8 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
     for (; s.found.blocks < few_blocks; ++sittings) {
         std::atomic<bool> stop = false;
         soak::decider stopping = deciders[0];
-        stopping.edge_edge = [&stop, decide = deciders[0].edge_edge](auto queries, auto answers) {
+        stopping.decide.edge_edge = [&stop, decide = deciders[0].decide.edge_edge](auto queries,
+                                                                                   auto answers) {
             stop = true;
             decide(queries, answers);
         };
@@ -129,7 +131,7 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
     }
     EXPECT_GT(sittings, 1);
     EXPECT_EQ(s.found, whole.found);
-    for (const kind which : soak::kinds) {
+    for (const kind which : ccd::stored_kinds) {
         EXPECT_EQ(errbound::support::read_whole(soak::differences_path(folder / "parts", which)),
                   errbound::support::read_whole(soak::differences_path(folder / "whole", which)));
     }
@@ -137,7 +139,7 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
 
 TEST_F(soak_test, a_throwing_decider_ends_the_run) {
     soak::decider throwing = soak::reference();
-    throwing.vertex_face = [](auto, auto) { throw std::runtime_error("as asked"); };
+    throwing.decide.vertex_face = [](auto, auto) { throw std::runtime_error("as asked"); };
     EXPECT_THROW(run({.seed = 1}, folder, {throwing}), std::runtime_error);
 }
 

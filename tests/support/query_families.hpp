@@ -5,9 +5,16 @@
 #include <cstdint>
 #include <string_view>
 
-#include "ccd/stress/query_generators.hpp"
+#include "ccd/stress/generators/contacts.hpp"
+#include "ccd/stress/generators/coordinates.hpp"
+#include "ccd/stress/generators/degenerate.hpp"
+#include "ccd/stress/generators/roots.hpp"
+#include "ccd/stress/generators/sheets.hpp"
 
 namespace query_families {
+
+using ccd::kind;
+using namespace ccd::stress;  // points, their source, and what makes queries of them
 
 struct family {
     std::string_view name;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <ccd/exact.hpp>
+#include <ccd/io/mesh_file.hpp>
 #include <ccd/method.hpp>
 #include <ccd/methods/bsc.hpp>
 #include <ccd/methods/single_precision.hpp>
@@ -22,7 +23,6 @@
 #include "ccd/cuda/exact_stages.hpp"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/step.hpp"
-#include "ccd/io/mesh_file.hpp"
 #include "ccd/step/step_parts.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"

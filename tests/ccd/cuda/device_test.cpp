@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ccd/cuda.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/io/mesh_file.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
@@ -13,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "ccd/io/mesh_file.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
 #include "tests/support/scaled.hpp"

@@ -53,21 +53,13 @@ struct batch {
     }
 };
 
-template <class Pair>
-typename batch<Pair>::query query_of(const query_families::points& p) {
-    if constexpr (batch<Pair>::of_faces)
-        return query_families::as_vertex_face(p);
-    else
-        return query_families::as_edge_edge(p);
-}
-
 /// `count` queries of a family, fewer of one whose truth is slow.
 template <class Pair>
 batch<Pair> of_family(const query_families::family& family, std::uint64_t count, std::uint64_t seed,
                       batch<Pair> all = {}) {
     using query_families::kind;
     for (std::uint64_t i = 0; i * family.thinning < count; ++i)
-        all.add(query_of<Pair>(query_families::make(
+        all.add(query_families::as_query<ccd::query_of_pair<Pair>>(query_families::make(
             family, batch<Pair>::of_faces ? kind::vertex_face : kind::edge_edge, seed, i)));
     return all;
 }
@@ -88,10 +80,8 @@ batch<Pair> stored(const std::filesystem::path& folder) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".csv") continue;
         const auto file = ccd::io::read_queries(entry.path(), std::nullopt, false);
-        if constexpr (batch<Pair>::of_faces)
-            for (const auto& q : file.vertex_face_queries) all.add(q);
-        else
-            for (const auto& q : file.edge_edge_queries) all.add(q);
+        if (const auto* queries = std::get_if<std::vector<ccd::query_of_pair<Pair>>>(&file.queries))
+            for (const auto& q : *queries) all.add(q);
     }
     return all;
 }

@@ -39,8 +39,8 @@ std::vector<fs::path> query_paths(const fs::path& folder) {
 }
 
 ccd::verdict decide(ccd::method method, const ccd::io::query_file& file, std::size_t i) {
-    return file.kind == ccd::kind::vertex_face ? ccd::decide(method, file.vertex_face_queries[i])
-                                               : ccd::decide(method, file.edge_edge_queries[i]);
+    return std::visit([=](const auto& queries) { return ccd::decide(method, queries[i]); },
+                      file.queries);
 }
 
 struct errors {
@@ -97,11 +97,11 @@ TEST(stored_queries, are_decided_in_integers_of_fixed_width) {
         const ccd::io::query_file file = ccd::io::read_queries(path, std::nullopt, false);
         if (!file.truth) continue;
         for (std::size_t i = 0; i < file.size(); ++i) {
-            const ccd::outcome said =
-                (file.kind == ccd::kind::vertex_face
-                     ? ccd::detail::decide_in_integers(file.vertex_face_queries[i])
-                     : ccd::detail::decide_in_integers(file.edge_edge_queries[i]))
-                    .outcome;
+            const ccd::outcome said = std::visit(
+                [i](const auto& queries) {
+                    return ccd::detail::decide_in_integers(queries[i]).outcome;
+                },
+                file.queries);
             ++all.queries;
             all.uncertain += said == ccd::outcome::uncertain;
             if (said == ccd::outcome::uncertain) continue;

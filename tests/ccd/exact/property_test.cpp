@@ -53,24 +53,14 @@ std::string format(const char* pattern, Values... values) {
 }
 
 ccd::verdict decide(ccd::method method, kind which, const points& p) {
-    return which == kind::vertex_face ? ccd::decide(method, query_families::as_vertex_face(p))
-                                      : ccd::decide(method, query_families::as_edge_edge(p));
+    return query_families::visit_stored_query(
+        which, p, [method](const auto& q) { return ccd::decide(method, q); });
 }
 
 // decide(query) of the points as a query of that kind, for a decide() that takes all kinds.
 template <class Decide>
 ccd::verdict decide_by(const Decide& decide, kind which, const points& p) {
-    switch (which) {
-        case kind::vertex_face:
-            return decide(query_families::as_vertex_face(p));
-        case kind::edge_edge:
-            return decide(query_families::as_edge_edge(p));
-        case kind::vertex_edge:
-            return decide(query_families::as_vertex_edge(p));
-        case kind::vertex_vertex:
-            return decide(query_families::as_vertex_vertex(p));
-    }
-    return {};
+    return query_families::visit_query(which, p, decide);
 }
 
 ccd::verdict decide_exact(kind which, const points& p) {
@@ -84,17 +74,8 @@ ccd::verdict decide_in_integers(kind which, const points& p) {
 }
 
 bool oracle_collides(kind which, const points& p, oracle::shortcuts use = oracle::shortcuts::on) {
-    switch (which) {
-        case kind::vertex_face:
-            return oracle::collides(query_families::as_vertex_face(p), use);
-        case kind::edge_edge:
-            return oracle::collides(query_families::as_edge_edge(p), use);
-        case kind::vertex_edge:
-            return oracle::collides(query_families::as_vertex_edge(p), use);
-        case kind::vertex_vertex:
-            return oracle::collides(query_families::as_vertex_vertex(p), use);
-    }
-    return false;
+    return query_families::visit_query(which, p,
+                                       [use](const auto& q) { return oracle::collides(q, use); });
 }
 
 // Verdicts of one method that are not right; a false positive may be an uncertain one.
@@ -181,8 +162,8 @@ bool crosses_once(const Query& query) {
            sign_of(y[0]) * sign_of(y[3]) == errbound::sign_type::negative;
 }
 bool crosses_once(kind which, const points& p) {
-    return which == kind::vertex_face ? crosses_once(query_families::as_vertex_face(p))
-                                      : crosses_once(query_families::as_edge_edge(p));
+    return query_families::visit_stored_query(which, p,
+                                              [](const auto& q) { return crosses_once(q); });
 }
 
 void check_methods(kind which, std::size_t family, std::uint64_t index, report& out) {

@@ -55,13 +55,13 @@ test_set<Query> make_set(kind which, const As& as) {
 }
 
 const test_set<ccd::vertex_face<double>>& vertex_face_set() {
-    static const auto set =
-        make_set<ccd::vertex_face<double>>(kind::vertex_face, query_families::as_vertex_face);
+    static const auto set = make_set<ccd::vertex_face<double>>(
+        kind::vertex_face, query_families::as_query<ccd::vertex_face<double>>);
     return set;
 }
 const test_set<ccd::edge_edge<double>>& edge_edge_set() {
-    static const auto set =
-        make_set<ccd::edge_edge<double>>(kind::edge_edge, query_families::as_edge_edge);
+    static const auto set = make_set<ccd::edge_edge<double>>(
+        kind::edge_edge, query_families::as_query<ccd::edge_edge<double>>);
     return set;
 }
 

@@ -97,11 +97,13 @@ void compare_all(kind which, const As& as) {
 }
 
 TEST(bounds, hold_for_vertex_face) {
-    compare_all<ccd::linear_vertex_face_forms>(kind::vertex_face, query_families::as_vertex_face);
+    compare_all<ccd::linear_vertex_face_forms>(kind::vertex_face,
+                                               query_families::as_query<ccd::vertex_face<double>>);
 }
 
 TEST(bounds, hold_for_edge_edge) {
-    compare_all<ccd::linear_edge_edge_forms>(kind::edge_edge, query_families::as_edge_edge);
+    compare_all<ccd::linear_edge_edge_forms>(kind::edge_edge,
+                                             query_families::as_query<ccd::edge_edge<double>>);
 }
 
 /// Any sequence of halves, on values that are all as large as they may be and of random sign.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <ccd/io/mesh_file.hpp>
+#include <ccd/io/query_file.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -18,8 +20,6 @@
 #include <string>
 #include <vector>
 
-#include "ccd/io/mesh_file.hpp"
-#include "ccd/io/query_file.hpp"
 #include "ccd/io/text.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -70,6 +70,10 @@ std::string repeated(const std::string& text, int times) {
 
 query_file queries(const std::string& text, bool round = false) {
     return parse_queries(text, "q.csv", kind::vertex_face, round);
+}
+
+const std::vector<vertex_face<double>>& vertex_faces(const query_file& file) {
+    return std::get<std::vector<vertex_face<double>>>(file.queries);
 }
 
 std::string query_error(const std::string& text) {
@@ -188,19 +192,20 @@ TEST(Queries, RowsBecomePoints) {
     std::string text;
     for (int row = 0; row < 8; ++row) text += std::to_string(row) + ",2,1,1,0,1\n";
     const query_file vf = queries(text);
-    ASSERT_EQ(vf.vertex_face_queries.size(), 1U);
-    EXPECT_TRUE(vf.edge_edge_queries.empty());
+    EXPECT_EQ(vf.kind(), kind::vertex_face);
+    ASSERT_EQ(vf.size(), 1U);
     EXPECT_FALSE(vf.truth.has_value());
-    const auto& q = vf.vertex_face_queries[0];
+    const auto& q = vertex_faces(vf)[0];
     EXPECT_EQ(q.v, (moving_point<double>{{0, 1, 0}, {2, 1, 0}}));
     EXPECT_EQ(q.f0, (moving_point<double>{{0.5, 1, 0}, {2.5, 1, 0}}));
     EXPECT_EQ(q.f1, (moving_point<double>{{1, 1, 0}, {3, 1, 0}}));
     EXPECT_EQ(q.f2, (moving_point<double>{{1.5, 1, 0}, {3.5, 1, 0}}));
 
     const query_file ee = parse_queries(text, "q", kind::edge_edge, false);
-    ASSERT_EQ(ee.edge_edge_queries.size(), 1U);
-    EXPECT_EQ(ee.edge_edge_queries[0].a1, q.f0);
-    EXPECT_EQ(ee.edge_edge_queries[0].b1, q.f2);
+    const auto& edges = std::get<std::vector<edge_edge<double>>>(ee.queries);
+    ASSERT_EQ(edges.size(), 1U);
+    EXPECT_EQ(edges[0].a1, q.f0);
+    EXPECT_EQ(edges[0].b1, q.f2);
 }
 
 TEST(Queries, FormsAndLineEnds) {
@@ -210,9 +215,9 @@ TEST(Queries, FormsAndLineEnds) {
     EXPECT_EQ(truth.size(), 2U);
     const query_file decimal = queries(repeated("0.1, 0x1.8p1 ,-3e2,1\n", 7) + "0.1,3,-300,1");
     EXPECT_EQ(decimal.truth, std::vector<bool>{true});
-    EXPECT_EQ(decimal.vertex_face_queries[0].f2.t1, (point<double>{0.1, 3, -300}));
-    EXPECT_EQ(decimal.vertex_face_queries[0].v.t0, (point<double>{0.1, 3, -300}));
-    EXPECT_EQ(queries(repeated("1,3,0,1,0,1\n", 8), true).vertex_face_queries[0].v.t0.x, 1.0 / 3);
+    EXPECT_EQ(vertex_faces(decimal)[0].f2.t1, (point<double>{0.1, 3, -300}));
+    EXPECT_EQ(vertex_faces(decimal)[0].v.t0, (point<double>{0.1, 3, -300}));
+    EXPECT_EQ(vertex_faces(queries(repeated("1,3,0,1,0,1\n", 8), true))[0].v.t0.x, 1.0 / 3);
 }
 
 TEST(Queries, BadInput) {
@@ -281,7 +286,7 @@ TEST(Queries, Files) {
     const fs::path file = directory.path / "queries" / "7vf.csv";
     write(file, repeated("1,1,1,1,1,1\n", 16));
     EXPECT_FALSE(read_queries(file, std::nullopt, false).truth.has_value());
-    EXPECT_EQ(read_queries(file, kind::edge_edge, false).kind, kind::edge_edge);
+    EXPECT_EQ(read_queries(file, kind::edge_edge, false).kind(), kind::edge_edge);
 
     const fs::path truth = directory.path / "mma_bool" / "7vf_mma_bool.json";
     write(truth, "[true, false]");

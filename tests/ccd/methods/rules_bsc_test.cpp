@@ -32,8 +32,12 @@ TYPED_TEST(BscBy, CertainAnswersAreRight) {
     for (const auto& family : query_families::families) {
         for (std::uint64_t i = 0; i < queries_per_family / family.thinning; ++i) {
             using query_families::kind;
-            check(query_families::as_vertex_face(make(family, kind::vertex_face, 1, i)), family, i);
-            check(query_families::as_edge_edge(make(family, kind::edge_edge, 1, i)), family, i);
+            check(query_families::as_query<ccd::vertex_face<double>>(
+                      make(family, kind::vertex_face, 1, i)),
+                  family, i);
+            check(query_families::as_query<ccd::edge_edge<double>>(
+                      make(family, kind::edge_edge, 1, i)),
+                  family, i);
         }
     }
     EXPECT_GT(certain, queries / 5) << TypeParam::name;

@@ -140,7 +140,7 @@ TEST(safeccd, sees_a_dip_that_rounding_hides) {
 TEST(safeccd, loses_nothing_in_single_precision) {
     for (const auto& family : query_families::families) {
         int lost = 0;
-        for (const kind which : {kind::vertex_face, kind::edge_edge}) {
+        for (const kind which : ccd::stored_kinds) {
             for (std::uint64_t i = 0; i * family.thinning < 60; ++i) {
                 const points p = query_families::detail::map(
                     query_families::make(family, which, 1, i), [](double x, auto...) {
@@ -159,10 +159,7 @@ TEST(safeccd, loses_nothing_in_single_precision) {
                                 said.outcome != ccd::outcome::uncertain && said.outcome != truth;
                     }
                 };
-                if (which == kind::vertex_face)
-                    check(query_families::as_vertex_face(p));
-                else
-                    check(query_families::as_edge_edge(p));
+                query_families::visit_stored_query(which, p, check);
             }
         }
         EXPECT_EQ(lost, 0) << family.name;

@@ -133,13 +133,13 @@ TEST_F(Report, TruthIsTheFilesElseExact) {
     write("a/vf/1.csv", lines);
     write("a/vf/2.csv", with_truth);
     const auto data = report::load(report::find_data({folder_}).sources.at(0), 1);
-    const auto& judged = data->vertex_face_queries;
-    EXPECT_EQ(judged.collides, (std::vector<unsigned char>{1, 0, 1, 1}));
-    EXPECT_EQ(judged.colliding, 3U);
-    EXPECT_EQ(judged.stored_truths, 2U);
+    const auto& known = data->queries.vertex_face;
+    EXPECT_EQ(known.collides, (std::vector<unsigned char>{1, 0, 1, 1}));
+    EXPECT_EQ(known.colliding, 3U);
+    EXPECT_EQ(known.stored_truths, 2U);
 
     for (const char* method : {"exact", "exact, batch"}) {
-        const rows counted = report::count_errors(judged, method, 1, [](double) {});
+        const rows counted = report::count_errors(known, method, 1, [](double) {});
         ASSERT_EQ(counted.size(), 1U);
         EXPECT_EQ(counted[0]["queries"], 4);
         EXPECT_EQ(counted[0]["collisions"], 2);
@@ -159,15 +159,15 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     write("s/mma_bool/0vf_mma_bool.json", "[true,true,true,false]");
     auto data = load();
     EXPECT_EQ(data->origin, report::origin::scene);
-    EXPECT_EQ(data->vertex_face_queries.colliding, 3U);
-    EXPECT_EQ(data->vertex_face_queries.stored_truths, 4U);
-    EXPECT_EQ(data->vertex_face_queries.contradictions, 0U);
+    EXPECT_EQ(data->queries.vertex_face.colliding, 3U);
+    EXPECT_EQ(data->queries.vertex_face.stored_truths, 4U);
+    EXPECT_EQ(data->queries.vertex_face.contradictions, 0U);
     const std::string before = data->fingerprint;
 
     write("s/boxes/0vf.json", "[[3,12],[0,13]]");  // one is wrong, two are not listed
     write("s/mma_bool/0vf_mma_bool.json", "[false,true]");
     data = load();
-    EXPECT_EQ(data->vertex_face_queries.contradictions, 4U);
+    EXPECT_EQ(data->queries.vertex_face.contradictions, 4U);
     EXPECT_NE(data->fingerprint, before);
 
     write("s/boxes/0vf.json", "[[3,14],[0,13]]");
@@ -179,7 +179,7 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
 TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
     write("vf/1.csv", std::string(hit) + miss);
     const auto data = report::load(report::find_data({folder_}).sources.at(0), 1);
-    const rows bounds = report::take_bounds(data->vertex_face_queries, report::sizes(true));
+    const rows bounds = report::take_bounds(data->queries.vertex_face, report::sizes(true));
     ASSERT_FALSE(bounds.empty());
     EXPECT_EQ(bounds.size() % 6, 0U);
     for (const row& r : bounds) {
@@ -193,10 +193,10 @@ TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {
 
 TEST_F(Report, MadeQueriesCollideAndDoNot) {
     for (const auto& data : report::made_data(1)) {
-        EXPECT_EQ(data->vertex_face_queries.queries.size(), data->edge_edge_queries.queries.size());
-        EXPECT_GT(data->vertex_face_queries.colliding, 100U);
-        EXPECT_GT(data->edge_edge_queries.colliding, 100U);
-        EXPECT_LT(data->edge_edge_queries.colliding + 100, data->edge_edge_queries.queries.size());
+        EXPECT_EQ(data->queries.vertex_face.queries.size(), data->queries.edge_edge.queries.size());
+        EXPECT_GT(data->queries.vertex_face.colliding, 100U);
+        EXPECT_GT(data->queries.edge_edge.colliding, 100U);
+        EXPECT_LT(data->queries.edge_edge.colliding + 100, data->queries.edge_edge.queries.size());
     }
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ccd/io/mesh_file.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
 #include <cfenv>
@@ -12,8 +13,6 @@
 #include <set>
 #include <utility>
 #include <vector>
-
-#include "ccd/io/mesh_file.hpp"
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include <bit>
 #include <boost/multiprecision/gmp.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/io/query_file.hpp>
 #include <ccd/methods/forms.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/reference.hpp>
@@ -27,7 +28,6 @@
 #include <vector>
 
 #include "ccd/exact/features.hpp"
-#include "ccd/io/query_file.hpp"
 #include "ccd/stress/output.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 namespace stress = ccd::stress;
 using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
                                                boost::multiprecision::et_off>;
-using stress::kind;
+using ccd::kind;
 using stress::points;
 
 constexpr std::uint64_t few = 60;
@@ -46,14 +46,8 @@ const stress::family& family_named(std::string_view name) {
     return *std::ranges::find(stress::families(), name, &stress::family::name);
 }
 
-template <class Visit>
-auto as_query(kind which, const points& p, const Visit& visit) {
-    return which == kind::vertex_face ? visit(query_families::as_vertex_face(p))
-                                      : visit(query_families::as_edge_edge(p));
-}
-
 bool collides(kind which, const points& p) {
-    return as_query(which, p, [](const auto& q) {
+    return ccd::stress::visit_stored_query(which, p, [](const auto& q) {
         return ccd::decide_reference(q).outcome == ccd::outcome::collides;
     });
 }
@@ -61,7 +55,7 @@ bool collides(kind which, const points& p) {
 /// test(kind, points) for some queries of both kinds.
 template <class Test>
 void for_queries(std::string_view family, double knob, const Test& test) {
-    for (const kind which : stress::kinds) {
+    for (const kind which : ccd::stored_kinds) {
         for (std::uint64_t i = 0; i < few; ++i)
             test(which, stress::make(family_named(family), knob, which, 5, i));
     }
@@ -90,7 +84,7 @@ TEST(families, are_well_formed) {
 TEST(families, are_finite_where_they_say_so) {
     for (const stress::family& f : stress::families()) {
         for (const double knob : f.knobs) {
-            for (const kind which : stress::kinds) {
+            for (const kind which : ccd::stored_kinds) {
                 for (std::uint64_t i = 0; i < 5; ++i) {
                     double not_finite = 0;
                     for_coordinates(stress::make(f, knob, which, 2, i),
@@ -109,7 +103,7 @@ TEST(families, hold_collisions_and_misses) {
         std::size_t hits = 0, all = 0;
         for (const double knob : f.knobs) {
             if (f.thinning(knob) > 1) continue;
-            for (const kind which : stress::kinds) {
+            for (const kind which : ccd::stored_kinds) {
                 for (std::uint64_t i = 0; i < 6; ++i, ++all)
                     hits += collides(which, stress::make(f, knob, which, 3, i));
             }
@@ -124,7 +118,7 @@ TEST(families, are_the_same_everywhere) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const stress::family& f : stress::families()) {
         for (const double knob : f.knobs) {
-            for (const kind which : stress::kinds) {
+            for (const kind which : ccd::stored_kinds) {
                 for_coordinates(stress::make(f, knob, which, 1, 0), [&hash](double x) {
                     hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
                 });
@@ -176,12 +170,13 @@ rational thinness(kind which, const points& p) {
         return ccd::point<rational>{rational(x.x), rational(x.y), rational(x.z)};
     };
     if (which == kind::vertex_face) {
-        const auto n =
-            ccd::forms_of(ccd::transformed_points(query_families::as_vertex_face(p), exact)).n;
+        const auto n = ccd::forms_of(ccd::transformed_points(
+                                         ccd::stress::as_query<ccd::vertex_face<double>>(p), exact))
+                           .n;
         return n.x[0] * n.x[0] + n.y[0] * n.y[0] + n.z[0] * n.z[0];
     }
-    const auto forms =
-        ccd::forms_of(ccd::transformed_points(query_families::as_edge_edge(p), exact));
+    const auto forms = ccd::forms_of(
+        ccd::transformed_points(ccd::stress::as_query<ccd::edge_edge<double>>(p), exact));
     return std::min(dot(forms.b, forms.b)[0], dot(forms.c, forms.c)[0]);
 }
 
@@ -213,14 +208,14 @@ TEST(families, touches_are_where_they_say) {
         return ccd::touches_at_start(q).outcome == ccd::outcome::collides;
     };
     for_queries("touch-start", 0, [&](kind which, const points& p) {
-        EXPECT_TRUE(as_query(which, p, touches_at_start));
+        EXPECT_TRUE(ccd::stress::visit_stored_query(which, p, touches_at_start));
     });
     for_queries("touch-start", 1, [&](kind which, const points& p) {
-        EXPECT_FALSE(as_query(which, p, touches_at_start));
+        EXPECT_FALSE(ccd::stress::visit_stored_query(which, p, touches_at_start));
     });
     for_queries("touch-end", 0, [&](kind which, points p) {
         for (auto& m : p) std::swap(m.t0, m.t1);
-        EXPECT_TRUE(as_query(which, p, touches_at_start));
+        EXPECT_TRUE(ccd::stress::visit_stored_query(which, p, touches_at_start));
     });
 }
 
@@ -236,7 +231,7 @@ TEST(families, touches_on_borders_are_there) {
     };
     for (const double knob : {0., 1.}) {
         for_queries("touch-edge", knob, [&](kind which, const points& p) {
-            EXPECT_EQ(as_query(which, p, edge_contact), knob == 0);
+            EXPECT_EQ(ccd::stress::visit_stored_query(which, p, edge_contact), knob == 0);
         });
         for_queries("touch-vertex", knob, [&](kind which, const points& p) {
             bool touch = false;
@@ -254,7 +249,7 @@ rational coplanarity(kind which, const points& p, const rational& t) {
     const auto exact = [](const ccd::point<double>& x) {
         return ccd::point<rational>{rational(x.x), rational(x.y), rational(x.z)};
     };
-    return as_query(which, p, [&](const auto& q) -> rational {
+    return ccd::stress::visit_stored_query(which, p, [&](const auto& q) -> rational {
         return value_at(ccd::forms_of(ccd::transformed_points(q, exact)).y(), t);
     });
 }
@@ -413,8 +408,9 @@ TEST_F(stress_output, names_and_keeps_what_breaks_a_promise) {
     EXPECT_TRUE(text.ends_with(": BROKEN, as said above\n"));
 
     const auto kept = ccd::io::read_queries(folder / "stress-always-touch-end-vf.csv", {}, false);
-    ASSERT_EQ(kept.vertex_face_queries.size(), 1u);
-    EXPECT_EQ(ccd::decide_reference(kept.vertex_face_queries[0]).outcome, ccd::outcome::collides);
+    const auto& queries = std::get<std::vector<ccd::vertex_face<double>>>(kept.queries);
+    ASSERT_EQ(queries.size(), 1u);
+    EXPECT_EQ(ccd::decide_reference(queries[0]).outcome, ccd::outcome::collides);
     EXPECT_EQ(kept.truth, std::vector<bool>{true});
 
     const std::string csv = errbound::support::read_whole(folder / "stress.csv");

@@ -62,10 +62,10 @@ TEST(Validate, EveryRuleKeepsItsPromisesOnQueries) {
     using query_families::kind;
     for (const auto& family : query_families::families)
         for (std::uint64_t i = 0; i < 4; ++i) {
-            vertex_face.push_back(query_families::as_vertex_face(
+            vertex_face.push_back(query_families::as_query<ccd::vertex_face<double>>(
                 query_families::make(family, kind::vertex_face, 1, i)));
-            edge_edge.push_back(
-                query_families::as_edge_edge(query_families::make(family, kind::edge_edge, 1, i)));
+            edge_edge.push_back(query_families::as_query<ccd::edge_edge<double>>(
+                query_families::make(family, kind::edge_edge, 1, i)));
         }
     const validation::report vf = validation::validate_queries(validation::rules(), vertex_face, 0);
     const validation::report ee = validation::validate_queries(validation::rules(), edge_edge, 0);

@@ -1,10 +1,10 @@
 // Fuzzes the OBJ reader: any bytes are a sound mesh or a file_error, never a crash; what is read
 // survives being written in shortest decimals.
+#include <ccd/io/mesh_file.hpp>
 #include <charconv>
 #include <errbound/support/error.hpp>
 #include <string>
 
-#include "ccd/io/mesh_file.hpp"
 #include "tests/ccd/io/fuzz/same_mesh.hpp"
 
 namespace {

@@ -2,10 +2,10 @@
 // survives being written as binary doubles.
 #include <array>
 #include <bit>
+#include <ccd/io/mesh_file.hpp>
 #include <errbound/support/error.hpp>
 #include <string>
 
-#include "ccd/io/mesh_file.hpp"
 #include "tests/ccd/io/fuzz/same_mesh.hpp"
 
 namespace {

@@ -2,6 +2,7 @@
 // is read survives being written as hexadecimal floats.
 #include <array>
 #include <bit>
+#include <ccd/io/query_file.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -9,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "ccd/io/query_file.hpp"
 
 namespace {
 
@@ -25,8 +24,11 @@ std::vector<row> rows_of(const query_file& file) {
         for (const auto* p : {&a, &b, &c, &d}) rows.push_back({p->t0.x, p->t0.y, p->t0.z});
         for (const auto* p : {&a, &b, &c, &d}) rows.push_back({p->t1.x, p->t1.y, p->t1.z});
     };
-    for (const auto& q : file.vertex_face_queries) add(q.v, q.f0, q.f1, q.f2);
-    for (const auto& q : file.edge_edge_queries) add(q.a0, q.a1, q.b0, q.b1);
+    std::visit(
+        [&add](const auto& queries) {
+            for (const auto& [a, b, c, d] : queries) add(a, b, c, d);
+        },
+        file.queries);
     return rows;
 }
 

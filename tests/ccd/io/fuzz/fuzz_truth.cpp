@@ -1,12 +1,11 @@
 // Fuzzes the reader of truth files: any bytes are booleans or a file_error, never a crash.
+#include <ccd/io/query_file.hpp>
 #include <cstdint>
 #include <cstdlib>
 #include <errbound/support/error.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "ccd/io/query_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::vector<bool> truth;

@@ -1,27 +1,29 @@
-// Stored queries: the public CCD benchmark's CSV form, decimal and hexadecimal-float rows, and
-// truth beside a file.
+// Readers of stored queries (target errbound::ccd_io): the public CCD benchmark's CSV form, decimal
+// and hexadecimal-float rows, and truth beside a file.
 #pragma once
 
 #include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <cstddef>
 #include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace ccd::io {
 
-/// Queries of one kind in file order. Exactly one of the two vectors is filled.
+/// Queries of one kind in file order.
 struct query_file {
-    ccd::kind kind{};
-    std::vector<vertex_face<double>> vertex_face_queries;
-    std::vector<edge_edge<double>> edge_edge_queries;
+    /// An alternative for each of stored_kinds, in that order.
+    std::variant<std::vector<vertex_face<double>>, std::vector<edge_edge<double>>> queries;
     std::optional<std::vector<bool>> truth;  ///< one per query
 
-    std::size_t size() const { return vertex_face_queries.size() + edge_edge_queries.size(); }
+    ccd::kind kind() const { return stored_kinds[queries.index()]; }
+    std::size_t size() const {
+        return std::visit([](const auto& all) { return all.size(); }, queries);
+    }
 };
 
 /// What --kind takes: "vf", "ee".
@@ -30,17 +32,20 @@ std::vector<std::string> kind_names();
 /// The kind that a path names (`vertex-face`, `edge-edge`, `vf`, `ee`), if it names one.
 std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 
-/// Reads queries from text. `name` is used in messages. Throws file_error.
+/// Reads queries of a stored kind from text. `name` is used in messages.
 /// With `round`, a rational that no double equals is rounded to nearest instead of refused.
+/// Throws errbound::support::file_error: rows of another form, numbers that are not finite or that
+/// no double equals, a truncated query.
 query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round);
 
 /// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` beside it.
-/// The kind is `kind` if given, else from the path. Throws file_error.
+/// The kind is `kind` if given, else from the path. Throws errbound::support::file_error.
 query_file read_queries(const std::filesystem::path& path, std::optional<ccd::kind> kind,
                         bool round);
 
-/// Reads a JSON array of booleans. `name` is used in messages. Throws file_error.
+/// Reads a JSON array of booleans. `name` is used in messages. Throws
+/// errbound::support::file_error.
 std::vector<bool> parse_truth(std::string_view text, const std::string& name);
 
 }  // namespace ccd::io
