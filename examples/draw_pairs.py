@@ -41,18 +41,11 @@ class BadInput(Exception):
     """The message is for the user."""
 
 
-def read_ply(path):
-    """(vertices as an n x 3 array, faces as lists of vertex indices) of an ascii or binary PLY."""
-    data = Path(path).read_bytes()
-    head, marker, body = data.partition(b"end_header")
-    lines = head.decode("ascii", "replace").split("\n")
-    if lines[0].strip() != "ply" or not marker:
-        raise BadInput(f"{path}: not a PLY file")
-    body = body[body.index(b"\n") + 1 :]
-
+def ply_header(path, lines):
+    """(byte order, "" for ascii; [(element, count, [(property, type or (count type, item type))])])."""
     order = None
-    elements = []  # (name, count, [(property name, type or (count type, item type))])
-    for line in lines[1:]:
+    elements = []
+    for line in lines:
         words = line.split()
         if not words or words[0] in ("comment", "obj_info"):
             continue
@@ -66,21 +59,34 @@ def read_ply(path):
             elements[-1][2].append((words[2], PLY_TYPES[words[1]]))
         else:
             raise BadInput(f"{path}: header line not understood: {line.strip()}")
+    return order, elements
 
+
+def ply_values(order, body):
+    """A function that reads the body's next value, of the type that it gets."""
     if order == "":
         words = iter(body.split())
+        return lambda kind: (float if kind in "fd" else int)(next(words))
+    position = 0
 
-        def read(kind):
-            word = next(words)
-            return float(word) if kind in "fd" else int(word)
-    else:
-        position = 0
+    def read(kind):
+        nonlocal position
+        (value,) = struct.unpack_from(order + kind, body, position)
+        position += struct.calcsize(order + kind)
+        return value
 
-        def read(kind):
-            nonlocal position
-            (value,) = struct.unpack_from(order + kind, body, position)
-            position += struct.calcsize(order + kind)
-            return value
+    return read
+
+
+def read_ply(path):
+    """(vertices as an n x 3 array, faces as lists of vertex indices) of an ascii or binary PLY."""
+    data = Path(path).read_bytes()
+    head, marker, body = data.partition(b"end_header")
+    lines = head.decode("ascii", "replace").split("\n")
+    if lines[0].strip() != "ply" or not marker:
+        raise BadInput(f"{path}: not a PLY file")
+    order, elements = ply_header(path, lines[1:])
+    read = ply_values(order, body[body.index(b"\n") + 1 :])
 
     vertices, faces = [], []
     for name, count, properties in elements:

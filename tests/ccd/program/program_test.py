@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["CCD_PROGRAM"]
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
 # A vertex that falls through a triangle, and one that stays above it.
 HIT = "1,4,1,4,1,1\n0,1,0,1,0,1\n1,1,0,1,0,1\n0,1,1,1,0,1\n" \
@@ -346,6 +347,31 @@ class Step(ProgramTest):
         for option in (["--explain"], ["--instruction-set", "baseline"]):
             self.assertIn("expected exact",
                           self.bad_usage("step", frame, frame, "--method", "tight", *option))
+
+
+class Quoted(ProgramTest):
+    """docs/measured.md quotes what the program says of the bundled scene (all but times)."""
+
+    def pairs(self, method):
+        """(candidates by kind, reported pairs) of the scene's step."""
+        frames = [SOURCE / "examples/scenes/cloth-over-ball" / f"frame{i}.ply" for i in (0, 1)]
+        out, lines = self.directory / "step.json", self.directory / "pairs.csv"
+        self.good("step", *frames, "--method", method, "--json", out, "--pairs", lines)
+        return json.loads(out.read_text())["candidates"], set(lines.read_text().split())
+
+    def test_bundled_scene(self):
+        text = (SOURCE / "docs/measured.md").read_text().split("## The bundled scene")[1]
+        block = text.split("```")[1]
+        _, truth = self.pairs("exact")
+        rows = [line.split() for line in block.splitlines() if line and not line.startswith((" ", "m"))]
+        self.assertEqual([row[0] for row in rows], ["float", "safe", "tight", "exact"])
+        for method, *counts, _ in rows:
+            candidates, found = self.pairs(method)
+            of_kind = {kind: sum(pair.startswith(kind) for pair in found) for kind in ("vf", "ee")}
+            self.assertEqual([int(count) for count in counts],
+                             [candidates["vertex_face"], of_kind["vf"],
+                              candidates["edge_edge"], of_kind["ee"],
+                              len(found - truth), len(truth - found)], method)
 
 
 class Device(ProgramTest):

@@ -1,0 +1,327 @@
+// The readers of meshes: what they read, bit for bit, and what they say about bad input.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <ccd/io/mesh_file.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/support/files.hpp"
+
+namespace {
+
+using namespace ccd;
+using namespace ccd::io;
+using test_files::message_of;
+using test_files::temporary_directory;
+using test_files::write;
+namespace fs = std::filesystem;
+
+std::uint64_t bits(double value) {
+    return std::bit_cast<std::uint64_t>(value);
+}
+
+mesh some_mesh() {
+    // All coordinates are floats, so that every form can hold them.
+    return {{{0, 0.5, -0.0},
+             {static_cast<double>(0.1F), 1, 0x1p-149},
+             {-3, static_cast<double>(std::numeric_limits<float>::max()), 7},
+             {1e10, 2, 3}},
+            {{0, 1, 2}, {3, 2, 1}}};
+}
+
+template <class T>
+void append(std::string& bytes, T value, bool big) {
+    auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    if (big != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
+    bytes.append(raw.data(), raw.size());
+}
+
+template <class Coordinate, class Index>
+std::string ply(const mesh& m, const std::string& format, const std::string& coordinate_type,
+                const std::string& index_type, const std::string& list = "vertex_indices") {
+    const bool ascii = format == "ascii", big = format == "binary_big_endian";
+    std::string text = "ply\nformat " + format + " 1.0\ncomment made by a test\nelement vertex " +
+                       std::to_string(m.vertices.size());
+    for (const char* axis : {"x", "y", "z"}) {
+        text += "\nproperty " + coordinate_type + " " + axis;
+    }
+    text += "\nelement face " + std::to_string(m.faces.size()) + "\nproperty list uchar " +
+            index_type + " " + list + "\nend_header\n";
+    for (const point<double>& p : m.vertices) {
+        for (const double value : {p.x, p.y, p.z}) {
+            if (ascii) {
+                char digits[64];
+                std::snprintf(digits, sizeof digits, "%.17g ", value);
+                text += digits;
+            } else {
+                append(text, static_cast<Coordinate>(value), big);
+            }
+        }
+        if (ascii) text += '\n';
+    }
+    for (const face& f : m.faces) {
+        text += ascii ? '3' : '\3';
+        for (const ccd::index i : f) {
+            if (ascii) {
+                text += ' ' + std::to_string(i);
+            } else {
+                append(text, static_cast<Index>(i), big);
+            }
+        }
+        if (ascii) text += '\n';
+    }
+    return text;
+}
+
+void expect_same(const mesh& a, const mesh& b) {
+    EXPECT_EQ(a.faces, b.faces);
+    ASSERT_EQ(a.vertices.size(), b.vertices.size());
+    for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+        EXPECT_EQ(bits(a.vertices[i].x), bits(b.vertices[i].x)) << i;
+        EXPECT_EQ(bits(a.vertices[i].y), bits(b.vertices[i].y)) << i;
+        EXPECT_EQ(bits(a.vertices[i].z), bits(b.vertices[i].z)) << i;
+    }
+}
+
+std::string ply_error(const std::string& text) {
+    return message_of([&] { parse_mesh_ply(text, "m.ply"); });
+}
+
+std::string obj_error(const std::string& text) {
+    return message_of([&] { parse_mesh_obj(text, "m.obj"); });
+}
+
+TEST(Ply, EveryFormGivesTheSameMeshBitForBit) {
+    const mesh m = some_mesh();
+    for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        SCOPED_TRACE(format);
+        expect_same(parse_mesh_ply(ply<float, std::int32_t>(m, format, "float", "int"), "m"), m);
+        expect_same(parse_mesh_ply(ply<double, std::uint32_t>(m, format, "double", "uint"), "m"),
+                    m);
+        expect_same(
+            parse_mesh_ply(ply<double, std::int8_t>(m, format, "float64", "char", "vertex_index"),
+                           "m"),
+            m);
+        expect_same(parse_mesh_ply(ply<float, std::uint16_t>(m, format, "float32", "ushort"), "m"),
+                    m);
+    }
+}
+
+TEST(Ply, DoublesAreNotRoundedToFloats) {
+    mesh m = some_mesh();
+    m.vertices[0] = {0.1, 0x1p-1074, 0x1.fffffffffffffp1023};
+    for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        expect_same(parse_mesh_ply(ply<double, std::int32_t>(m, format, "double", "int"), "m"), m);
+    }
+}
+
+const std::string ascii_header =
+    "ply\r\nformat ascii 1.0\r\nobj_info none\r\nelement face 1\r\nproperty uchar colour\r\n"
+    "property list uchar int vertex_indices\r\nproperty list int float extra\r\n"
+    "element camera 1\r\nproperty double view\r\nelement vertex 3\r\nproperty short x\r\n"
+    "property list uchar uchar more\r\nproperty double y\r\nproperty float z\r\n"
+    "end_header\r\n";
+
+TEST(Ply, UnknownElementsAndPropertiesAreSkipped) {
+    expect_same(parse_mesh_ply(ascii_header + "9 3 2 1 0 2 1.5 2.5\r\n0.5\r\n-7 2 1 1 0.1 0.5\r\n"
+                                              "1 0 0 0\r\n2 0 0 0\r\n\r\n",
+                               "m"),
+                {{{-7, 0.1, 0.5}, {1, 0, 0}, {2, 0, 0}}, {{2, 1, 0}}});
+}
+
+std::string ascii_ply(const std::string& vertices, const std::string& faces,
+                      const std::string& body) {
+    return "ply\nformat ascii 1.0\nelement vertex " + vertices +
+           "\nproperty double x\nproperty double y\nproperty double z\nelement face " + faces +
+           "\nproperty list uchar int vertex_indices\nend_header\n" + body;
+}
+
+TEST(Ply, BadInput) {
+    const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 0 1 2\n")), "no error");
+    EXPECT_EQ(ply_error(""), "m.ply: found an empty file, expected a PLY mesh");
+    EXPECT_EQ(ply_error("\x7f"
+                        "ELF\n"),
+              "m.ply:1: found '\\x7fELF', expected 'ply'");
+    EXPECT_EQ(ply_error("ply\nformat ascii 1.0\n"),
+              "m.ply:3: found the end of the file in the header, expected end_header");
+    // Wrong counts, ascii: too many and too few vertices, too many and too few faces.
+    EXPECT_EQ(ply_error(ascii_ply("4", "1", three + "3 0 1 2\n")),
+              "m.ply:13: found '2' after the last property, expected the end of the line");
+    EXPECT_EQ(ply_error(ascii_ply("2", "1", three + "3 0 1 2\n")),
+              "m.ply:12: found a face with 0 vertices, expected a triangle");
+    EXPECT_EQ(ply_error(ascii_ply("3", "2", three + "3 0 1 2\n")),
+              "m.ply:14: found the end of the file, expected face 1 (truncated, or a wrong count)");
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 0 1 2\n3 0 1 2\n")),
+              "m.ply:14: found '3 0 1 2' after the last element, expected the end of the file");
+    EXPECT_EQ(ply_error(ascii_ply("18446744073709551615", "1", "")),
+              "m.ply: found 18446744073709551615 vertices, expected fewer than 2^32");
+    EXPECT_EQ(
+        ply_error(ascii_ply("4000000000", "1", "")),
+        "m.ply:10: found the end of the file, expected vertex 0 (truncated, or a wrong count)");
+    EXPECT_EQ(ply_error(ascii_ply("-1", "1", "")),
+              "m.ply:3: found 'element vertex -1', expected element NAME COUNT");
+    // Faces.
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 0 1 3\n")),
+              "m.ply: face 0: found vertex index 3, expected less than 3");
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 0 -1 2\n")),
+              "m.ply:13: found vertex index -1, expected 0 or more");
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "2 0 1\n")),
+              "m.ply:13: found a face with 2 vertices, expected a triangle");
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "4 0 1 2 0\n")),
+              "m.ply:13: found a face with 4 vertices, expected a triangle");
+    EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 1 1 2\n")),
+              "m.ply: face 0: found a repeated vertex (1 1 2), expected three different ones");
+    EXPECT_EQ(ply_error(ascii_ply("3", "0", three)),
+              "m.ply: found no faces, expected at least one");
+    // Coordinates.
+    EXPECT_EQ(ply_error(ascii_ply("1", "1", "0 nan 0\n")),
+              "m.ply:10: found 'nan', expected a finite number");
+    EXPECT_EQ(ply_error(ascii_ply("1", "1", "0 1e999 0\n")),
+              "m.ply:10: found '1e999', which overflows, expected a finite number");
+    EXPECT_EQ(ply_error(ascii_ply("1", "1", "0 zero 0\n")),
+              "m.ply:10: found 'zero', expected a number");
+    EXPECT_EQ(ply_error(ascii_ply("1", "1", "0 0\n")),
+              "m.ply:10: found too few values, expected one per property");
+    EXPECT_EQ(ply_error(ascii_header + "9 3 2 1 0 0\n0.5\n40000 0 0 0\n"),
+              "m.ply:18: found '40000', expected an integer of the declared type");
+}
+
+TEST(Ply, BadHeaders) {
+    const auto header = [](const std::string& lines) {
+        return ply_error("ply\nformat ascii 1.0\n" + lines + "end_header\n");
+    };
+    EXPECT_EQ(ply_error("ply\nend_header\n"),
+              "m.ply:2: found no format line before end_header, expected one");
+    EXPECT_NE(ply_error("ply\nformat utf8 1.0\n").find("found 'format utf8 1.0'"),
+              std::string::npos);
+    EXPECT_NE(ply_error("ply\nformat ascii 2.0\n").find("expected version 1.0"), std::string::npos);
+    EXPECT_NE(header("").find("found no element 'vertex'"), std::string::npos);
+    EXPECT_NE(header("element vertex 1\nelement vertex 1\n").find("twice"), std::string::npos);
+    EXPECT_NE(header("element vertex 1\n").find("found no properties in element 'vertex'"),
+              std::string::npos);
+    EXPECT_NE(header("property float x\n").find("before any element"), std::string::npos);
+    EXPECT_NE(header("element a 1\nproperty quad x\n").find("found type 'quad'"),
+              std::string::npos);
+    EXPECT_NE(header("element a 1\nproperty list float int x\n").find("an integer type"),
+              std::string::npos);
+    EXPECT_NE(header("element vertex 0\nelement face 1\nproperty list uchar int vertex_index\n")
+                  .find("found no property 'x' of vertex"),
+              std::string::npos);
+    EXPECT_NE(header("element vertex 0\nproperty int x\nproperty int y\nproperty int z\n"
+                     "element face 1\nproperty list uchar float vertex_indices\n")
+                  .find("found no list of vertex indices in face"),
+              std::string::npos);
+}
+
+TEST(Ply, BadBinary) {
+    const std::string good =
+        ply<double, std::int32_t>(some_mesh(), "binary_little_endian", "double", "int");
+    const std::size_t header = good.find("end_header\n") + 11;
+    EXPECT_EQ(
+        ply_error(good.substr(0, header + 30)),
+        "m.ply: vertex 1: found the end of the file, expected more data (truncated, or a wrong "
+        "count)");
+    for (std::size_t size = 0; size < good.size(); ++size) {
+        EXPECT_NE(ply_error(good.substr(0, size)), "no error") << size;
+    }
+    EXPECT_EQ(ply_error(good + "x"),
+              "m.ply: found 1 bytes after the last element, expected the end of the file");
+    mesh m = some_mesh();
+    m.vertices[2].y = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(ply_error(ply<float, std::int32_t>(m, "binary_big_endian", "float", "int")),
+              "m.ply: vertex 2: found an infinity as y, expected a finite number");
+    m.vertices[2].y = std::nan("");
+    EXPECT_EQ(ply_error(ply<double, std::int32_t>(m, "binary_big_endian", "double", "int")),
+              "m.ply: vertex 2: found NaN as y, expected a finite number");
+    // A list that claims 4 GiB.
+    EXPECT_EQ(
+        ply_error("ply\nformat binary_little_endian 1.0\nelement a 1\nproperty list uint "
+                  "double b\nelement vertex 0\nproperty int x\nproperty int y\nproperty int z\n"
+                  "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                  "\xff\xff\xff\xff"),
+        "m.ply: a 0: found the end of the file, expected more data (truncated, or a wrong "
+        "count)");
+}
+
+TEST(Obj, Reads) {
+    const mesh m = parse_mesh_obj(
+        "# comment\r\nmtllib a.mtl\no thing\nv 0 0 0\nv 0.1\t1e-310 -2 1.0 # with w\n"
+        "v 1 2 3 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\ns off\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 3//1 2//1\n"
+        "f -3/1/1 -2/-1/-1 -1/1/1\nv 5 5 5\nf -1 1 2",
+        "m");
+    expect_same(m, {{{0, 0, 0}, {0.1, 1e-310, -2}, {1, 2, 3}, {5, 5, 5}},
+                    {{0, 1, 2}, {0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {3, 0, 1}}});
+}
+
+TEST(Obj, BadInput) {
+    const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    EXPECT_EQ(obj_error(""), "m.obj: found an empty file, expected an OBJ mesh");
+    EXPECT_EQ(obj_error("\x7f"
+                        "ELF\1\2"),
+              "m.obj: found no vertices, expected lines 'v x y z' and 'f i j k'");
+    EXPECT_EQ(obj_error(three), "m.obj: found no faces, expected lines 'v x y z' and 'f i j k'");
+    EXPECT_EQ(obj_error("v 0 0\n"), "m.obj:1: found 2 values of a vertex, expected 3 (x y z)");
+    EXPECT_EQ(obj_error("v 0 0 0 2\n"), "m.obj:1: found a vertex with weight, expected none or 1");
+    EXPECT_EQ(obj_error("v 0 nan 0\n"), "m.obj:1: found 'nan', expected a finite number");
+    EXPECT_EQ(obj_error("v 0 -inf 0\n"), "m.obj:1: found '-inf', expected a finite number");
+    EXPECT_EQ(obj_error("v 0 1,5 0\n"), "m.obj:1: found '1,5', expected a number");
+    EXPECT_EQ(obj_error(three + "f 1 2\n"),
+              "m.obj:4: found a face with 2 vertices, expected a triangle");
+    EXPECT_EQ(obj_error(three + "f 1 2 3 1\n"),
+              "m.obj:4: found a face with 4 vertices, expected a triangle");
+    EXPECT_EQ(obj_error(three + "f 1 2 4\n"),
+              "m.obj:4: face 0 (indices from 0): found vertex index 3, expected less than 3");
+    EXPECT_EQ(obj_error(three + "f 1 2 2\n"),
+              "m.obj:4: face 0 (indices from 0): found a repeated vertex (0 1 1), expected three "
+              "different ones");
+    for (const char* bad : {"0", "-4", "99999999999"}) {
+        EXPECT_NE(obj_error(three + "f 1 2 " + bad + "\n"), "no error") << bad;
+    }
+    for (const char* bad : {"x", "1/", "1/x", "1//", "1/2/3/4", "/1", "1.5"}) {
+        EXPECT_TRUE(obj_error(three + "f 1 2 " + bad + "\n").starts_with("m.obj:4: found '"))
+            << bad;
+    }
+}
+
+TEST(Meshes, Topology) {
+    const mesh a = some_mesh();
+    const auto error = [&](const mesh& b) {
+        return message_of([&] { require_same_topology(a, "a.ply", b, "b.ply"); });
+    };
+    mesh b = a;
+    b.vertices[0].x = 17;
+    EXPECT_EQ(error(b), "no error");
+    b.faces[1] = {3, 1, 2};
+    EXPECT_EQ(error(b), "b.ply: face 1: found vertices 3 1 2, expected 3 2 1 as in a.ply");
+    b.faces.pop_back();
+    EXPECT_EQ(error(b), "b.ply: found 1 faces, expected 2 as in a.ply");
+    b.vertices.emplace_back();
+    EXPECT_EQ(error(b), "b.ply: found 5 vertices, expected 4 as in a.ply");
+}
+
+TEST(Meshes, Files) {
+    const temporary_directory directory;
+    const std::string text = ply<float, std::int32_t>(some_mesh(), "ascii", "float", "int");
+    write(directory.path / "m.PLY", text);
+    expect_same(read_mesh(directory.path / "m.PLY"), some_mesh());
+    write(directory.path / "m.stl", text);
+    EXPECT_TRUE(message_of([&] {
+                    read_mesh(directory.path / "m.stl");
+                }).ends_with("found extension '.stl', expected .ply or .obj"));
+    EXPECT_NE(message_of([&] { read_mesh(directory.path / "none.ply"); }).find("no such file"),
+              std::string::npos);
+    fs::create_directory(directory.path / "d.ply");
+    EXPECT_NE(message_of([&] { read_mesh(directory.path / "d.ply"); }).find("found a directory"),
+              std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,53 @@
+// Files of a test, their text, and what is said of bad ones.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <errbound/support/error.hpp>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace test_files {
+
+/// A directory that goes away with the test.
+class temporary_directory {
+  public:
+    temporary_directory() {
+        const std::string name = std::string("errbound-") +
+                                 ::testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                 "-" + std::to_string(getpid());
+        path = std::filesystem::temp_directory_path() / name;
+        std::filesystem::create_directories(path);
+    }
+    temporary_directory(const temporary_directory&) = delete;
+    temporary_directory& operator=(const temporary_directory&) = delete;
+    ~temporary_directory() { std::filesystem::remove_all(path); }
+
+    std::filesystem::path path;
+};
+
+inline void write(const std::filesystem::path& path, const std::string& text) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+/// The message of the file_error that `call` throws.
+inline std::string message_of(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const errbound::support::file_error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+inline std::string repeated(const std::string& text, int times) {
+    std::string result;
+    for (int i = 0; i < times; ++i) result += text;
+    return result;
+}
+
+}  // namespace test_files
