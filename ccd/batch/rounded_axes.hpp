@@ -44,7 +44,7 @@ class frame {
     explicit constexpr frame(const extent& e) {
         // Halved before they are added, so that nothing overflows. Distances are taken from the
         // middle as rounded, which lies well off the centre of a scene of a few ulps. The scale is
-        // at most 2^1000, so that it is finite: of smaller scenes little or nothing is culled here.
+        // at most 2^1000, so that it is finite: smaller scenes are hardly separated here.
         double radius = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             middle_[k] = e.low[k] / 2 + e.high[k] / 2;
@@ -68,7 +68,7 @@ struct gap {
 template <class Pair, class S>
 constexpr gap<S> gap_between(const S (&x)[4]) {
     using std::max, std::min;
-    if constexpr (kind_traits<ccd::kind_of<Pair>>::first_vertices == 1)
+    if constexpr (kind_traits<kind_of<Pair>>::first_vertices == 1)
         return {x[0] - max(max(x[1], x[2]), x[3]), min(min(x[1], x[2]), x[3]) - x[0]};
     else
         return {min(x[2], x[3]) - max(x[0], x[1]), min(x[0], x[1]) - max(x[2], x[3])};

@@ -1,4 +1,4 @@
-// Positions in single precision, for the first cull of the batch kernels. Internal.
+// Positions in single precision, for the first stage of the batch kernels. Internal.
 #pragma once
 
 #include <ccd/batch.hpp>

@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "ccd/cuda/batch.cuh"
@@ -16,6 +15,7 @@
 #include "ccd/cuda/pairs.hpp"
 
 namespace ccd::cuda {
+namespace detail {
 namespace {
 
 struct entry {
@@ -152,10 +152,8 @@ void queue_float_method(device_launcher& launcher, const positions& at,
                         const batch_options& options) {
     const device_method& m = *std::ranges::find(table, options.method, &entry::method)->functions;
     const auto& functions = options.precision == precision::float32 ? m.float32 : m.float64;
-    if constexpr (std::is_same_v<Pair, vertex_face_pair>)
-        functions.vertex_face(launcher, at, candidates, answers, memory);
-    else
-        functions.edge_edge(launcher, at, candidates, answers, memory);
+    static_cast<const queue_function<Pair>&>(functions).queue(launcher, at, candidates, answers,
+                                                              memory);
 }
 template void queue_float_method(device_launcher&, const positions&,
                                  const candidates<vertex_face_pair>&, outcome*, arena,
@@ -164,10 +162,12 @@ template void queue_float_method(device_launcher&, const positions&,
                                  const candidates<edge_edge_pair>&, outcome*, arena,
                                  const batch_options&);
 
+}  // namespace detail
+
 std::span<const method> device_methods() {
     static constexpr auto all = [] {
-        std::array<method, std::size(table)> methods{};
-        std::ranges::transform(table, methods.begin(), &entry::method);
+        std::array<method, std::size(detail::table)> methods{};
+        std::ranges::transform(detail::table, methods.begin(), &detail::entry::method);
         return methods;
     }();
     return all;
@@ -175,52 +175,52 @@ std::span<const method> device_methods() {
 
 status device_status() {
     int count = 0;
-    device_launcher launcher(nullptr);
+    detail::device_launcher launcher(nullptr);
     if (launcher.check(cudaGetDeviceCount(&count)) && count == 0) launcher.fail("CUDA: no device");
     return launcher.result();
 }
 
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates) {
-    arena temporary, exact, other, place;
-    temporary.take<std::byte>(temporary_bytes(candidates));
-    (void)exact_memory(exact, vertices, candidates);
-    (void)method_memory(other, candidates);
+    detail::arena temporary, exact, other, place;
+    temporary.take<std::byte>(detail::temporary_bytes(candidates));
+    (void)detail::exact_memory(exact, vertices, candidates);
+    (void)detail::method_memory(other, candidates);
     place.take<std::uint32_t>(candidates + 1);
     return temporary.used() + std::max({exact.used(), other.used(), place.used()});
 }
 
 status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options) {
-    return decide_any(positions, candidates, answers, memory, options);
+    return detail::decide_any(positions, candidates, answers, memory, options);
 }
 status decide_batch(const positions& positions, const candidates<edge_edge_pair>& candidates,
                     outcome* answers, scratch memory, const batch_options& options) {
-    return decide_any(positions, candidates, answers, memory, options);
+    return detail::decide_any(positions, candidates, answers, memory, options);
 }
 status finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts) {
-    return finish_any(positions, candidates, answers, memory, options, counts);
+    return detail::finish_any(positions, candidates, answers, memory, options, counts);
 }
 status finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
               outcome* answers, scratch memory, const batch_options& options,
               stage_counts* counts) {
-    return finish_any(positions, candidates, answers, memory, options, counts);
+    return detail::finish_any(positions, candidates, answers, memory, options, counts);
 }
 
 status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
                         std::size_t room, index* count, scratch memory, stream stream) {
-    if (answer_count > max_candidates)
-        return {found_of("answers", answer_count, max_candidates) + " at most"};
+    if (answer_count > detail::max_candidates)
+        return {detail::found_of("answers", answer_count, detail::max_candidates) + " at most"};
     if ((answer_count > 0 && answers == nullptr) || (room > 0 && found == nullptr) ||
         count == nullptr)
         return {"ccd::cuda: found a null pointer, expected device memory"};
-    if (std::string fault = fault_of_scratch(memory, 0, answer_count); !fault.empty())
+    if (std::string fault = detail::fault_of_scratch(memory, 0, answer_count); !fault.empty())
         return {std::move(fault)};
-    shares parts(memory, answer_count);
-    device_launcher launcher(stream, parts.temporary);
-    run_select(launcher, answers, answer_count, found, room, count,
-               parts.rest.take<std::uint32_t>(answer_count + 1));
+    detail::shares parts(memory, answer_count);
+    detail::device_launcher launcher(stream, parts.temporary);
+    detail::run_select(launcher, answers, answer_count, found, room, count,
+                       parts.rest.take<std::uint32_t>(answer_count + 1));
     return launcher.result();
 }
 

@@ -5,7 +5,7 @@
 
 #include "ccd/cuda/launch.cuh"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 /// What is wrong with asking a device for that method, as status tells it; empty if nothing.
 std::string fault_of_method(method m);
@@ -19,4 +19,4 @@ void queue_float_method(device_launcher& launcher, const positions& at,
                         const candidates<Pair>& candidates, outcome* answers, arena memory,
                         const batch_options& options);
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -6,17 +6,16 @@
 #include "ccd/cuda/exact_stages.hpp"
 #include "ccd/cuda/launch.cuh"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
-/// Queues one method but `exact`.
+/// Queues one method but `exact`, for pairs of one kind.
+template <class Pair>
+struct queue_function {
+    void (*queue)(device_launcher& launcher, const positions& at,
+                  const candidates<Pair>& candidates, outcome* answers, arena memory);
+};
 struct device_method {
-    template <class Pair>
-    using function = void (*)(device_launcher& launcher, const positions& at,
-                              const candidates<Pair>& candidates, outcome* answers, arena memory);
-    struct functions {
-        function<vertex_face_pair> vertex_face;
-        function<edge_edge_pair> edge_edge;
-    };
+    struct functions : queue_function<vertex_face_pair>, queue_function<edge_edge_pair> {};
     functions float64, float32;
 };
 
@@ -32,4 +31,4 @@ void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<edge_edge_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -1,7 +1,7 @@
 // `exact` for the device, compiled once for each kind (ERRBOUND_PAIR).
 #include "ccd/cuda/device_methods.cuh"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<ERRBOUND_PAIR>& candidates, outcome* answers,
@@ -9,4 +9,4 @@ void queue_exact(device_launcher& launcher, const positions& at,
     run_exact_stages(launcher, at, candidates, answers, memory, p);
 }
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -1,12 +1,12 @@
 // `exact` on the device: its stages as kernel bodies, and their order. Internal.
 //
-// Each stage reads the numbers of its candidates from one queue and pushes those that it cannot
-// settle to the next: so the threads of a warp do the same work, and one hard candidate holds up
-// none of the easy ones. The first stage reads only floats; later ones read the few that are left
+// Each stage reads the numbers of its candidates from one queue, writes the answers that it is
+// certain of and pushes the other candidates to the next queue: so the threads of a warp do the
+// same work, and one hard candidate holds up none of the easy ones. An answer is `uncertain` until
+// a stage decides it. The first stage reads only floats; later ones read the few that are left
 // again, which is less than handing their differences on.
 #pragma once
 
-#include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/verdict.hpp>
@@ -16,86 +16,14 @@
 #include <errbound/roots/control_values.hpp>
 #include <type_traits>
 
-#include "ccd/batch/rounded_axes.hpp"
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
+#include "ccd/cuda/rounding.hpp"
 #include "ccd/exact/integer_decision.hpp"
 #include "ccd/exact/static_filter/subdivision.hpp"
 #include "ccd/exact/static_filter/whole_step.hpp"
 
-namespace ccd::cuda {
-
-/// Four floats of a vertex: x y z at one end of the step, and nothing.
-struct alignas(16) rounded_position {
-    float x, y, z, unused;
-};
-
-/// The box around all positions, and whether every coordinate is finite.
-struct scene_extent {
-    detail::rounded_axes::extent box;
-    bool finite;
-
-    /// A power of two, times which no difference of coordinates exceeds 4 in size.
-    constexpr double power_of_two() const {
-        using traits = errbound::number_traits<double>;
-        double half_extent = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            half_extent = traits::max(half_extent, box.high[k] / 2 - box.low[k] / 2);
-        // Bounded so that it is neither zero nor infinite: then floats settle little or nothing.
-        const int e =
-            half_extent > 0 && traits::is_finite(half_extent) ? traits::exponent(half_extent) : 0;
-        return traits::scale(1.0, -std::clamp(e, -1000, 1000));
-    }
-
-    static constexpr scene_extent nothing() {
-        return {detail::rounded_axes::extent::nothing(), true};
-    }
-};
-
-/// For launcher.reduce.
-struct extent_of_vertex {
-    positions at;
-
-    constexpr scene_extent operator()(std::uint32_t v) const {
-        auto e = scene_extent::nothing();
-        for (const auto* frame : {&at.before, &at.after})
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double x = coordinate_at(at, *frame, k, v);
-                e.box.widen(k, x);
-                e.finite = e.finite && errbound::number_traits<double>::is_finite(x);
-            }
-        return e;
-    }
-};
-struct hull_of_extents {
-    constexpr scene_extent operator()(scene_extent a, const scene_extent& b) const {
-        for (std::size_t k = 0; k < 3; ++k) {
-            a.box.widen(k, b.box.low[k]);
-            a.box.widen(k, b.box.high[k]);
-        }
-        a.finite = a.finite && b.finite;
-        return a;
-    }
-};
-
-/// Rounds a vertex' positions to rows 2v (before) and 2v + 1 (after).
-struct round_vertex {
-    positions at;
-    const scene_extent* scene;
-    rounded_position* rows;
-
-    constexpr void operator()(std::uint32_t v) const {
-        const detail::rounded_axes::frame rounded(scene->box);
-        const auto row = [&](const positions::frame& frame) {
-            const auto x = [&](std::size_t k) {
-                return rounded(k, coordinate_at(at, frame, k, v));
-            };
-            return rounded_position{x(0), x(1), x(2), 0};
-        };
-        rows[2 * std::size_t(v)] = row(at.before);
-        rows[2 * std::size_t(v) + 1] = row(at.after);
-    }
-};
+namespace ccd::cuda::detail {
 
 /// What every stage knows.
 template <class Pair>
@@ -111,18 +39,25 @@ struct exact_stage {
     constexpr query_of_pair<Pair, double> query(std::uint32_t i) const {
         return query_at<double>(at, pair_at(candidates, i));
     }
+    constexpr void decide(std::uint32_t i, bool separate) const {
+        if (separate)
+            answers[i] = outcome::separate;
+        else
+            open.push(i);
+    }
 };
 
-/// All candidates: the cull by axes, in floats. Sets every answer to `separate`.
+/// All candidates: nine axes at once, in floats. Candidates whose coordinates are not finite are
+/// left out of all stages.
 template <class Pair>
 struct axes_stage : exact_stage<Pair> {
     const scene_extent* scene;
     const rounded_position* rows;
 
     constexpr void operator()(std::uint32_t i) const {
-        this->answers[i] = outcome::separate;
-        // Comparisons may overlook NaN.
-        if (!scene->finite || !separated(i)) this->open.push(i);
+        const bool separate = scene->finite && separated(i);  // comparisons may overlook NaN
+        this->answers[i] = separate ? outcome::separate : outcome::uncertain;
+        if (!separate && (scene->finite || is_finite(this->query(i)))) this->open.push(i);
     }
 
   private:
@@ -134,7 +69,14 @@ struct axes_stage : exact_stage<Pair> {
                 const rounded_position r = load_aligned(rows + 2 * std::size_t(vertices[p]) + end);
                 x[0][end][p] = r.x, x[1][end][p] = r.y, x[2][end][p] = r.z;
             }
-        return detail::rounded_axes::separated<Pair>(x);
+        return ccd::detail::rounded_axes::separated<Pair>(x);
+    }
+    static constexpr bool is_finite(const query_of_pair<Pair, double>& query) {
+        bool finite = true;
+        for_each_coordinate(query, [&](double x) {
+            finite = finite && errbound::number_traits<double>::is_finite(x);
+        });
+        return finite;
     }
 };
 
@@ -173,27 +115,18 @@ struct coefficient_stage : exact_stage<Pair> {
     }
 };
 
-/// The coefficients of Y. Candidates whose coordinates are not finite are `uncertain` and leave.
+/// The coefficients of Y.
 template <class Pair, class Real>
 struct coplanarity_stage : coefficient_stage<Pair, Real> {
     using base = coefficient_stage<Pair, Real>;
 
     constexpr void operator()(std::uint32_t i) const {
-        const auto query = this->query(i);
-        bool finite = true;
-        for_each_coordinate(query, [&](double x) {
-            finite = finite && errbound::number_traits<double>::is_finite(x);
-        });
-        if (!finite) {
-            this->answers[i] = outcome::uncertain;
-            return;
-        }
-        const auto forms = this->forms_of_query(query);
+        const auto forms = this->forms_of_query(this->query(i));
         const static_filter::difference_extents<Real> extents(forms);
         const auto y = errbound::roots::control_values_of(forms.y());
         const Real error = extents.template error_of_y<base::template forms>();
         const bool rootless = static_filter::above(y, error) || static_filter::below(y, error);
-        if (!this->usable(extents) || !rootless) this->open.push(i);
+        this->decide(i, this->usable(extents) && rootless);
     }
 };
 
@@ -206,7 +139,7 @@ struct inside_stage : coefficient_stage<Pair, Real> {
         const auto forms = this->forms_of_query(this->query(i));
         const static_filter::difference_extents<Real> extents(forms);
         const static_filter::whole_step<Real, base::template forms> whole(forms, extents);
-        if (!this->usable(extents) || !whole.outside()) this->open.push(i);
+        this->decide(i, this->usable(extents) && whole.outside());
     }
 };
 
@@ -221,11 +154,11 @@ struct subdivision_stage : exact_stage<Pair> {
         if (extents.usable) {
             const static_filter::whole_step<double, base::template forms> whole(forms, extents);
             const outcome found = static_filter::subdivide(whole);
-            this->answers[i] = found;
-            if (found != outcome::uncertain) return;
+            if (found != outcome::uncertain) {
+                this->answers[i] = found;
+                return;
+            }
         }
-        // Until exact arithmetic says otherwise: nobody may take it for separate.
-        this->answers[i] = outcome::uncertain;
         this->open.push(i);
     }
 };
@@ -237,12 +170,12 @@ struct integer_stage : exact_stage<Pair> {
 
     constexpr void operator()(std::uint32_t i) const {
         const auto query = this->query(i);
-        const detail::integer_units units(query);
-        if (units.bits() > detail::extent_limit(Words)) {
+        const ccd::detail::integer_units units(query);
+        if (units.bits() > ccd::detail::extent_limit(Words)) {
             this->open.push(i);
             return;
         }
-        const outcome found = detail::decide_in_words<Words>(query, units);
+        const outcome found = ccd::detail::decide_in_words<Words>(query, units);
         this->answers[i] = found;
         if (found == outcome::uncertain) left.push(i);
     }
@@ -280,49 +213,40 @@ struct exact_memory {
     }
 };
 
-/// Rounds all positions for the first stage.
-template <class Launcher>
-void run_rounding(Launcher& launcher, const positions& at, scene_extent* scene,
-                  rounded_position* rows) {
-    launcher.reduce(at.vertices, extent_of_vertex{at}, hull_of_extents{}, scene_extent::nothing(),
-                    scene);
-    launcher.for_each(at.vertices, round_vertex{at, scene, rows});
-}
-
-/// Queues all stages, the tests of coefficients in `p`; positions are rounded already.
+/// Queues all stages in the order of ccd/exact/stages.cpp (axes, coplanarity, inside, subdivision)
+/// and then integers, the tests of coefficients in `p`; positions are rounded already. The
+/// reference is asked on the host: ccd/cuda/pairs.hpp.
 template <class Launcher, class Pair>
 void run_exact_stages(Launcher& launcher, const positions& at, const candidates<Pair>& candidates,
                       outcome* answers, const exact_memory& memory, precision p) {
     launcher.set(memory.counters, exact_counters{});
     exact_counters& sizes = *memory.counters;  // its members' addresses alone are used
-    const queue after_axes{memory.first, &sizes.coplanarity};
-    const queue after_coplanarity{memory.second, &sizes.inside};
-    const queue after_inside{memory.first, &sizes.subdivision};
-    const queue after_subdivision{memory.second, &sizes.one_word};
-    const queue after_one_word{memory.first, &sizes.two_words};
+    const queue to_coplanarity{memory.first, &sizes.coplanarity};
+    const queue to_inside{memory.second, &sizes.inside};
+    const queue to_subdivision{memory.first, &sizes.subdivision};
+    const queue to_one_word{memory.second, &sizes.one_word};
+    const queue to_two_words{memory.first, &sizes.two_words};
     const queue left{memory.left, &sizes.left};
     const auto stage = [&](const queue& open) {
         return exact_stage<Pair>{at, candidates, answers, open};
     };
     launcher.for_each(candidates.count,
-                      axes_stage<Pair>{stage(after_axes), memory.scene, memory.rows});
-    const auto coefficients = [&](auto real) {
-        using Real = decltype(real);
+                      axes_stage<Pair>{stage(to_coplanarity), memory.scene, memory.rows});
+    const auto coefficients = [&]<class Real>(Real) {
         const auto of = [&](const queue& open) {
             return coefficient_stage<Pair, Real>{stage(open), memory.scene};
         };
-        launcher.for_each_queued(after_axes, coplanarity_stage<Pair, Real>{of(after_coplanarity)});
-        launcher.for_each_queued(after_coplanarity, inside_stage<Pair, Real>{of(after_inside)});
+        launcher.for_each_queued(to_coplanarity, coplanarity_stage<Pair, Real>{of(to_inside)});
+        launcher.for_each_queued(to_inside, inside_stage<Pair, Real>{of(to_subdivision)});
     };
     if (p == precision::float32)
         coefficients(0.0f);
     else
         coefficients(0.0);
     // In doubles in either case: it looks at the whole step again first.
-    launcher.for_each_queued(after_inside, subdivision_stage<Pair>{stage(after_subdivision)});
-    launcher.for_each_queued(after_subdivision,
-                             integer_stage<Pair, 1>{stage(after_one_word), left});
-    launcher.for_each_queued(after_one_word, integer_stage<Pair, 2>{stage(left), left});
+    launcher.for_each_queued(to_subdivision, subdivision_stage<Pair>{stage(to_one_word)});
+    launcher.for_each_queued(to_one_word, integer_stage<Pair, 1>{stage(to_two_words), left});
+    launcher.for_each_queued(to_two_words, integer_stage<Pair, 2>{stage(left), left});
 }
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -17,7 +17,7 @@
 
 #include "ccd/cuda/launch.hpp"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 inline constexpr unsigned block_threads = 128;
 
@@ -212,4 +212,4 @@ class device_launcher {
     buffer<std::uint32_t> spare_;
 };
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

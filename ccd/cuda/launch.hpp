@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 /// Numbers of candidates, in memory for as many as there may be.
 struct queue {
@@ -138,4 +138,4 @@ class host_launcher {
     }
 };
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -3,7 +3,7 @@
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/method_stages.hpp"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 namespace {
 
 template <class T, class Pair>
@@ -14,11 +14,11 @@ void queue_method(device_launcher& launcher, const positions& at,
 }
 
 template <class T>
-constexpr device_method::functions functions_in = {queue_method<T, vertex_face_pair>,
-                                                   queue_method<T, edge_edge_pair>};
+constexpr device_method::functions functions_in = {{queue_method<T, vertex_face_pair>},
+                                                   {queue_method<T, edge_edge_pair>}};
 
 }  // namespace
 
 const device_method ERRBOUND_METHOD = {functions_in<double>, functions_in<float>};
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -1,7 +1,7 @@
 // The float methods on the device: their stages as kernel bodies, and their order. Internal.
 //
 // In float32: floats first; what they leave uncertain is decided in doubles. BSC asks the
-// coefficients of Y in a stage of its own, since they settle most candidates at a small part of the
+// coefficients of Y in a stage of its own, since they decide most candidates at a small part of the
 // cost and of the registers of the rest.
 #pragma once
 
@@ -19,7 +19,7 @@
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 /// Calls f(query, finite) with a candidate's query over tracked numbers of T.
 template <class Rule, class T, class Pair, class F>
@@ -135,4 +135,4 @@ void run_method(Launcher& launcher, const positions& at, const candidates<Pair>&
         launcher.for_each_queued(after_floats, decision_stage<Method, double, Pair>{stage(none)});
 }
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -14,7 +14,7 @@
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/queries.hpp"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 /// Copies the queries of listed candidates.
 template <class Pair>
@@ -103,4 +103,4 @@ void run_select(Launcher& launcher, const outcome* answers, std::size_t answer_c
                       list_colliding{answers, place, answer_count, found, room, count});
 }
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -3,12 +3,11 @@
 
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
-#include <ccd/methods/forms.hpp>
+#include <ccd/kind.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 /// Sixteen bytes by one instruction where there is one.
 template <class T>
@@ -31,10 +30,10 @@ constexpr Pair pair_at(const candidates<Pair>& c, std::uint32_t i) {
     if (c.elements == nullptr)
         return {c.columns[0][i], c.columns[1][i], c.columns[2][i], c.columns[3][i]};
     const auto& second = c.elements[c.columns[1][i]];
-    if constexpr (std::is_same_v<Pair, vertex_face_pair>) {
+    if constexpr (kind_traits<kind_of<Pair>>::first_vertices == 1) {
         return {c.columns[0][i], second[0], second[1], second[2]};
     } else {
-        const edge& first = c.elements[c.columns[0][i]];
+        const auto& first = c.elements[c.columns[0][i]];
         return {first[0], first[1], second[0], second[1]};
     }
 }
@@ -61,4 +60,4 @@ constexpr query_of_pair<Pair, T> query_at(const positions& p, const Pair& pair) 
     return {moving(a), moving(b), moving(c), moving(d)};
 }
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

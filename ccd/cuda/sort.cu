@@ -3,7 +3,7 @@
 
 #include "ccd/cuda/launch.cuh"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 void device_launcher::sort(std::uint32_t* keys, std::uint32_t* values, std::size_t n) {
     spare_.resize(*this, 2 * n);
@@ -21,4 +21,4 @@ void device_launcher::sort(std::uint32_t* keys, std::uint32_t* values, std::size
     bring_back(values, v.Current());
 }
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

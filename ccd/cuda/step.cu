@@ -17,10 +17,10 @@ struct mesh_steps::state {
     std::vector<face> faces;
     std::vector<edge> edges;
     std::size_t vertices = 0;
-    bool on_device = false;
-    device_launcher launcher{nullptr};  // with memory of its own, which is kept
-    step_memory<device_launcher> memory;
-    device_launcher::buffer<std::byte> batch;
+    bool mesh_copied = false;
+    detail::device_launcher launcher{nullptr};  // with memory of its own, which is kept
+    detail::step_memory<detail::device_launcher> memory;
+    detail::device_launcher::buffer<std::byte> batch;
 };
 
 mesh_steps::mesh_steps(std::span<const face> faces, std::size_t vertices)
@@ -45,32 +45,32 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
         return {"ccd::cuda: found positions of " + std::to_string(positions.vertices) +
                 " vertices (0 also of frames of different strides), expected " +
                 std::to_string(state_->vertices)};
-    if (positions.vertices > 0 && !has_coordinates(positions))
+    if (positions.vertices > 0 && !detail::has_coordinates(positions))
         return {"ccd::cuda: found a null pointer, expected positions"};
-    if (std::string fault = fault_of_method(options.method); !fault.empty())
+    if (std::string fault = detail::fault_of_method(options.method); !fault.empty())
         return {std::move(fault)};
     if (positions.vertices == 0) return {};
-    device_launcher& launcher = state_->launcher;
+    detail::device_launcher& launcher = state_->launcher;
     launcher.begin(options.stream);
     auto& memory = state_->memory;
-    if (!state_->on_device) {
+    if (!state_->mesh_copied) {
         memory.set_mesh(launcher, state_->vertices, state_->faces, state_->edges);
-        state_->on_device = launcher.ok();
+        state_->mesh_copied = launcher.ok();
     }
-    const auto decide = [&](const auto& block, outcome* answers, scene_extent* scene,
-                            rounded_position* rows) -> std::size_t {
-        arena needed;
-        (void)exact_memory(needed, scene, rows, block.count);  // a method_memory needs less
+    const auto decide = [&](const auto& block, outcome* answers, detail::scene_extent* scene,
+                            detail::rounded_position* rows) -> std::size_t {
+        detail::arena needed;
+        (void)detail::exact_memory(needed, scene, rows, block.count);  // a method_memory needs less
         state_->batch.resize(launcher, needed.used());
         if (!launcher.ok()) return 0;
-        arena given(state_->batch.data(), state_->batch.size());
+        detail::arena given(state_->batch.data(), state_->batch.size());
         if (options.method != method::exact) {
-            queue_float_method(launcher, positions, block, answers, given, options);
+            detail::queue_float_method(launcher, positions, block, answers, given, options);
             return 0;
         }
-        const exact_memory all(given, scene, rows, block.count);
-        queue_exact(launcher, positions, block, answers, all, options.precision);
-        return finish_exact(launcher, positions, block, answers, all).left;
+        const detail::exact_memory all(given, scene, rows, block.count);
+        detail::queue_exact(launcher, positions, block, answers, all, options.precision);
+        return detail::finish_exact(launcher, positions, block, answers, all).left;
     };
     const auto pairs = memory.run(launcher, positions, decide);
     if (launcher.ok() && !pairs.finite) return {"ccd::cuda: a coordinate is not finite"};
@@ -86,9 +86,9 @@ namespace {
 
 /// Rows of vertices in device memory.
 struct device_frames {
-    device_launcher::buffer<double> before, after;
+    detail::device_launcher::buffer<double> before, after;
 
-    positions copy(device_launcher& launcher, const vertex_rows& host) {
+    positions copy(detail::device_launcher& launcher, const vertex_rows& host) {
         const std::size_t numbers = 3 * host.vertices;
         before.resize(launcher, numbers);
         after.resize(launcher, numbers);
@@ -107,11 +107,11 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
                                     " queries, but room for " + std::to_string(answers.size()) +
                                     " answers");
     constexpr std::size_t block = std::size_t(1) << 20;
-    device_launcher launcher(options.stream);
+    detail::device_launcher launcher(options.stream);
     device_frames frames;
-    device_launcher::buffer<Pair> rows;
-    device_launcher::buffer<outcome> found;
-    device_launcher::buffer<std::byte> memory;
+    detail::device_launcher::buffer<Pair> rows;
+    detail::device_launcher::buffer<outcome> found;
+    detail::device_launcher::buffer<std::byte> memory;
     std::vector<point<double>> before, after;
     std::vector<Pair> indices;
     for (std::size_t first = 0; first < queries.size() && launcher.ok(); first += block) {
@@ -153,7 +153,7 @@ status step(const mesh& before, const mesh& after, const step_options& options, 
     result = {};
     check_step(before, after);
     stopwatch total, watch;
-    device_launcher launcher(nullptr);
+    detail::device_launcher launcher(nullptr);
     device_frames frames;
     mesh_steps steps(before.faces, before.vertices.size());
     const positions at = frames.copy(launcher, vertex_rows(before, after));

@@ -21,7 +21,7 @@
 #include "ccd/cuda/queries.hpp"
 #include "ccd/step/elements.hpp"
 
-namespace ccd::cuda {
+namespace ccd::cuda::detail {
 
 /// A closed box of rounded coordinates (ccd/batch/rounded_axes.hpp).
 /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
@@ -433,4 +433,4 @@ class step_memory {
     buffer<edge_edge_pair> edge_edge_;
 };
 
-}  // namespace ccd::cuda
+}  // namespace ccd::cuda::detail

@@ -7,7 +7,9 @@
 // different streams and scratch memory.
 #pragma once
 
+#include <array>
 #include <ccd/batch.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
@@ -75,23 +77,12 @@ struct positions {
           vertices(at_start.stride == at_end.stride ? count : 0) {}
 };
 
-/// The elements of a pair of Pair: a vertex and a face, or two edges.
-template <class Pair>
-struct pair_elements;
-template <>
-struct pair_elements<vertex_face_pair> {
-    using second = face;
-};
-template <>
-struct pair_elements<edge_edge_pair> {
-    using second = edge;
-};
-
 /// Candidates: rows or columns of vertex indices, or pairs of elements. Pair must be in range:
 /// the device does not look.
 template <class Pair>
 struct candidates {
-    using element = typename pair_elements<Pair>::second;
+    /// The second element of a pair: a face or an edge.
+    using element = std::array<index, kind_traits<kind_of<Pair>>::second_vertices>;
 
     const Pair* of_rows = nullptr;
     const index* columns[4] = {};  ///< of vertex indices, or the first two of elements

@@ -97,37 +97,37 @@ struct kind_traits<kind::vertex_vertex> {
 namespace detail {
 
 template <class QueryOrPair>
-struct kind_of;
+struct kind_constant;
 template <class T>
-struct kind_of<vertex_face<T>> {
+struct kind_constant<vertex_face<T>> {
     static constexpr kind value = kind::vertex_face;
 };
 template <class T>
-struct kind_of<edge_edge<T>> {
+struct kind_constant<edge_edge<T>> {
     static constexpr kind value = kind::edge_edge;
 };
 template <class T>
-struct kind_of<vertex_edge<T>> {
+struct kind_constant<vertex_edge<T>> {
     static constexpr kind value = kind::vertex_edge;
 };
 template <class T>
-struct kind_of<vertex_vertex<T>> {
+struct kind_constant<vertex_vertex<T>> {
     static constexpr kind value = kind::vertex_vertex;
 };
 template <>
-struct kind_of<vertex_face_pair> : kind_of<vertex_face<double>> {};
+struct kind_constant<vertex_face_pair> : kind_constant<vertex_face<double>> {};
 template <>
-struct kind_of<edge_edge_pair> : kind_of<edge_edge<double>> {};
+struct kind_constant<edge_edge_pair> : kind_constant<edge_edge<double>> {};
 template <>
-struct kind_of<vertex_edge_pair> : kind_of<vertex_edge<double>> {};
+struct kind_constant<vertex_edge_pair> : kind_constant<vertex_edge<double>> {};
 template <>
-struct kind_of<vertex_vertex_pair> : kind_of<vertex_vertex<double>> {};
+struct kind_constant<vertex_vertex_pair> : kind_constant<vertex_vertex<double>> {};
 
 }  // namespace detail
 
 /// The kind of a query, of any number type, or of a pair.
 template <class QueryOrPair>
-inline constexpr kind kind_of = detail::kind_of<QueryOrPair>::value;
+inline constexpr kind kind_of = detail::kind_constant<QueryOrPair>::value;
 
 /// The pair type of a query, the query type of a pair.
 template <class Query>
@@ -152,15 +152,15 @@ constexpr decltype(auto) visit_kind(kind k, Visit&& visit) {
 
 /// As files, options and tables write it: "vf", "ee", "ve", "vv".
 constexpr std::string_view short_name(kind k) {
-    return visit_kind(k, []<kind K>() { return kind_traits<K>::short_name; });
+    return visit_kind(k, [&]<kind K>() { return kind_traits<K>::short_name; });
 }
 /// As directories are named that hold stored queries: "vertex-face".
 constexpr std::string_view path_name(kind k) {
-    return visit_kind(k, []<kind K>() { return kind_traits<K>::path_name; });
+    return visit_kind(k, [&]<kind K>() { return kind_traits<K>::path_name; });
 }
 /// As JSON writes it: "vertex_face".
 constexpr std::string_view name(kind k) {
-    return visit_kind(k, []<kind K>() { return kind_traits<K>::name; });
+    return visit_kind(k, [&]<kind K>() { return kind_traits<K>::name; });
 }
 
 /// The kinds that files of queries hold and that every method decides.

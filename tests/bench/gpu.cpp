@@ -31,21 +31,22 @@ void check(const ccd::cuda::status& s) {
 
 /// Device memory, with a copy of host memory if given.
 template <class T>
-class on_device {
+class device_array {
   public:
-    explicit on_device(std::size_t count) : count_(count) {
+    explicit device_array(std::size_t count) : count_(count) {
         void* memory = nullptr;
         check(cudaMalloc(&memory, std::max<std::size_t>(1, count) * sizeof(T)));
         data_ = static_cast<T*>(memory);
     }
-    on_device(const T* host, std::size_t count) : on_device(count) {
+    device_array(const T* host, std::size_t count) : device_array(count) {
         check(cudaMemcpy(data_, host, count_ * sizeof(T), cudaMemcpyHostToDevice));
     }
-    ~on_device() { (void)cudaFree(data_); }
-    on_device(const on_device&) = delete;
-    on_device& operator=(const on_device&) = delete;
+    ~device_array() { (void)cudaFree(data_); }
+    device_array(const device_array&) = delete;
+    device_array& operator=(const device_array&) = delete;
 
     T* data() const { return data_; }
+    std::size_t size() const { return count_; }
     std::vector<T> copied() const {
         std::vector<T> host(count_);
         check(cudaMemcpy(host.data(), data_, count_ * sizeof(T), cudaMemcpyDeviceToHost));
@@ -59,7 +60,7 @@ class on_device {
 
 /// A scene's positions on the device.
 struct device_scene {
-    on_device<double> before, after;
+    device_array<double> before, after;
     ccd::cuda::positions at;
 
     explicit device_scene(const ccd::vertex_rows& rows)
@@ -73,59 +74,96 @@ std::string name_of(precision p) {
     return p == precision::float32 ? "float32" : "float64";
 }
 
+/// A scene's candidates of one kind, over and over until there are at least so many, on the device,
+/// with what it takes to decide them.
 template <class Query>
-void methods(const bench::scene& s, const device_scene& device,
-             const bench::query_set<Query>& candidates, std::size_t least,
-             const bench::device_peaks& peaks, const bench::options& o, bench::report& out) {
-    using indices = typename bench::query_set<Query>::indices;
-    if (candidates.size() == 0) return;
-    const std::size_t copies = (least + candidates.size() - 1) / candidates.size();
-    std::vector<indices> rows;
-    for (std::size_t i = 0; i < copies; ++i)
-        rows.insert(rows.end(), candidates.by_index.begin(), candidates.by_index.end());
-    std::vector<ccd::outcome> truth(candidates.size());
-    candidates.decide_batch(0, truth, {.threads = 0});
+class device_batch {
+  public:
+    using pair = ccd::pair_of_query<Query>;
 
-    const on_device<indices> device_rows(rows.data(), rows.size());
-    const on_device<ccd::outcome> answers(rows.size());
-    const std::size_t bytes = ccd::cuda::scratch_bytes(device.at.vertices, rows.size());
-    const on_device<std::byte> memory(bytes);
-    const ccd::cuda::scratch scratch{memory.data(), bytes};
-    const auto all = ccd::cuda::candidates<indices>::rows(device_rows.data(), rows.size());
+    device_batch(const device_scene& scene, const bench::query_set<Query>& once, std::size_t least)
+        : scene_(scene),
+          copies_((least + once.size() - 1) / once.size()),
+          rows_(repeated(once.by_index, copies_)),
+          answers_(rows_.size()),
+          memory_(ccd::cuda::scratch_bytes(scene.at.vertices, rows_.size())) {}
 
-    struct contestant {
-        ccd::cuda::batch_options options;
-        std::size_t false_positives = 0, false_negatives = 0;
-    };
-    std::vector<contestant> contestants;
-    std::vector<std::function<void()>> passes;
+    std::size_t size() const { return rows_.size(); }
+    std::size_t copies() const { return copies_; }
+    void decide(const ccd::cuda::batch_options& options,
+                ccd::cuda::stage_counts* counts = nullptr) const {
+        const auto all = ccd::cuda::candidates<pair>::rows(rows_.data(), rows_.size());
+        const ccd::cuda::scratch scratch{memory_.data(), memory_.size()};
+        check(decide_batch(scene_.at, all, answers_.data(), scratch, options));
+        check(finish(scene_.at, all, answers_.data(), scratch, options, counts));
+    }
+    std::vector<ccd::outcome> answers() const { return answers_.copied(); }
+
+  private:
+    static device_array<pair> repeated(const std::vector<pair>& once, std::size_t copies) {
+        std::vector<pair> all;
+        for (std::size_t i = 0; i < copies; ++i) all.insert(all.end(), once.begin(), once.end());
+        return {all.data(), all.size()};
+    }
+
+    const device_scene& scene_;
+    std::size_t copies_;
+    device_array<pair> rows_;
+    device_array<ccd::outcome> answers_;
+    device_array<std::byte> memory_;
+};
+
+struct contestant {
+    ccd::cuda::batch_options options;
+    std::size_t false_positives = 0, false_negatives = 0;  ///< of one of the copies
+};
+
+/// All methods in both precisions, with their errors.
+template <class Query>
+std::vector<contestant> contestants_of(const device_batch<Query>& batch,
+                                       const bench::query_set<Query>& once) {
+    std::vector<ccd::outcome> truth(once.size());
+    once.decide_batch(0, truth, {.threads = 0});
+    std::vector<contestant> all;
     for (const ccd::method m : ccd::cuda::device_methods())
-        for (const precision p : {precision::float64, precision::float32})
-            contestants.push_back({{m, p, nullptr}});
-    for (contestant& c : contestants) {
-        check(decide_batch(device.at, all, answers.data(), scratch, c.options));
-        check(finish(device.at, all, answers.data(), scratch, c.options));
-        const auto found = answers.copied();
-        for (std::size_t i = 0; i < truth.size(); ++i) {
-            const bool said = found[i] != ccd::outcome::separate;
-            const bool is = truth[i] != ccd::outcome::separate;
-            c.false_positives += said && !is;
-            c.false_negatives += !said && is;
+        for (const precision p : {precision::float64, precision::float32}) {
+            contestant& c = all.emplace_back(contestant{{m, p, nullptr}});
+            batch.decide(c.options);
+            const auto found = batch.answers();
+            for (std::size_t i = 0; i < truth.size(); ++i) {
+                const bool said = found[i] != ccd::outcome::separate;
+                const bool is = truth[i] != ccd::outcome::separate;
+                c.false_positives += said && !is;
+                c.false_negatives += !said && is;
+            }
         }
+    return all;
+}
+
+template <class Query>
+std::vector<bench::timing> race(const device_batch<Query>& batch,
+                                const std::vector<contestant>& contestants, int repeats) {
+    std::vector<std::function<void()>> passes;
+    for (const contestant& c : contestants)
         passes.emplace_back([&] {
-            check(decide_batch(device.at, all, answers.data(), scratch, c.options));
-            check(finish(device.at, all, answers.data(), scratch, c.options));
+            batch.decide(c.options);
             check(cudaDeviceSynchronize());
         });
-    }
-    const auto times = bench::race(passes, o.repeats());
+    return bench::race(passes, repeats);
+}
 
+template <class Query>
+void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
+                       const std::vector<contestant>& contestants,
+                       const std::vector<bench::timing>& times, const bench::device_peaks& peaks,
+                       bench::report& out) {
     std::vector<std::vector<bench::cell>> table;
-    const auto count = static_cast<double>(rows.size());
+    const auto count = static_cast<double>(batch.size());
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         const contestant& c = contestants[i];
         // What has to come from memory at least: the rows, once, and an answer each.
-        const double moved = count * (sizeof(indices) + sizeof(ccd::outcome)) / times[i].minimum;
+        const double moved =
+            count * (sizeof(ccd::pair_of_query<Query>) + sizeof(ccd::outcome)) / times[i].minimum;
         table.push_back({bench::word(info(c.options.method).name),
                          bench::word(name_of(c.options.precision)),
                          bench::number(count / times[i].minimum / 1e9, 3),
@@ -135,9 +173,10 @@ void methods(const bench::scene& s, const device_scene& device,
                          bench::count(c.false_positives), bench::count(c.false_negatives)});
     }
     const std::string kind(short_name(ccd::kind_of<Query>));
-    out.table("gpu-methods", {{"scene", s.name}, {"kind", kind}, {"queries", rows.size()}},
-              "Methods on the device: " + bench::count(candidates.size()).text + ' ' + kind +
-                  " candidates, " + std::to_string(copies) + " times; errors of one of the copies",
+    out.table("gpu-methods", {{"scene", s.name}, {"kind", kind}, {"queries", batch.size()}},
+              "Methods on the device: " + bench::count(batch.size() / batch.copies()).text + ' ' +
+                  kind + " candidates, " + std::to_string(batch.copies()) +
+                  " times; errors of one of the copies",
               {{"method", "method", true},
                {"precision", "precision", true},
                {"billion_per_second", "1e9/s best"},
@@ -147,28 +186,26 @@ void methods(const bench::scene& s, const device_scene& device,
                {"false_positives", "FP"},
                {"false_negatives", "FN"}},
               table);
+}
 
-    // The stages of exact: what they were asked, and what that is beside the peaks.
-    const ccd::cuda::batch_options exact{};
+/// The stages of exact: what they were asked, and what that is beside the peaks in `seconds`.
+template <class Query>
+void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, double seconds,
+                      const bench::device_peaks& peaks, bench::report& out) {
     ccd::cuda::stage_counts counts;
-    check(decide_batch(device.at, all, answers.data(), scratch, exact));
-    check(finish(device.at, all, answers.data(), scratch, exact, &counts));
-    const bench::stage_operations operations = bench::operations_of_stages<indices>();
-    const double seconds =
-        times[static_cast<std::size_t>(
-                  std::ranges::find(contestants, ccd::method::exact,
-                                    [](const contestant& c) { return c.options.method; }) -
-                  contestants.begin())]
-            .minimum;
+    batch.decide({}, &counts);
+    const auto operations = bench::operations_of_stages<Query>();
     const auto row = [&](const char* stage, std::uint32_t entered, std::uint64_t each,
                          double peak) {
+        const double share = static_cast<double>(entered) / static_cast<double>(batch.size());
         return std::vector<bench::cell>{
-            bench::word(stage), bench::count(entered), bench::percent(entered / count),
+            bench::word(stage), bench::count(entered), bench::percent(share),
             each == 0 ? bench::none() : bench::count(each),
             each == 0 ? bench::none()
                       : bench::percent(static_cast<double>(each) * entered / seconds / peak)};
     };
-    out.table("gpu-stages", {{"scene", s.name}, {"kind", kind}},
+    out.table("gpu-stages",
+              {{"scene", s.name}, {"kind", std::string(short_name(ccd::kind_of<Query>))}},
               "Stages of exact: candidates that enter, operations of each, and those of all "
               "beside the peak rate in the time of the whole",
               {{"stage", "stage", true},
@@ -184,6 +221,21 @@ void methods(const bench::scene& s, const device_scene& device,
                row("integers, one word", counts.integers_one_word, 0, 1),
                row("integers, two words", counts.integers_two_words, 0, 1),
                row("host", counts.left_open, 0, 1)});
+}
+
+template <class Query>
+void methods(const bench::scene& s, const device_scene& device, const bench::query_set<Query>& once,
+             std::size_t least, const bench::device_peaks& peaks, const bench::options& o,
+             bench::report& out) {
+    if (once.size() == 0) return;
+    const device_batch<Query> batch(device, once, least);
+    const auto contestants = contestants_of(batch, once);
+    const auto times = race(batch, contestants, o.repeats());
+    add_methods_table(s, batch, contestants, times, peaks, out);
+    const auto exact = std::ranges::find(contestants, ccd::method::exact,
+                                         [](const contestant& c) { return c.options.method; });
+    add_stages_table(s, batch, times[static_cast<std::size_t>(exact - contestants.begin())].minimum,
+                     peaks, out);
 }
 
 void steps(const bench::scene& s, const device_scene& device, const bench::options& o,
@@ -225,20 +277,63 @@ void steps(const bench::scene& s, const device_scene& device, const bench::optio
               table);
 }
 
+struct run_options : bench::options {
+    std::string json, commit = "unknown";
+    std::size_t queries = 20'000'000;
+};
+
+void add_options(CLI::App& app, run_options& o) {
+    app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
+    app.add_option("--json", o.json, "The tables as JSON, to this file");
+    app.add_option("--scene", o.scene, "Only scenes whose name holds this");
+    app.add_option("--queries", o.queries, "Candidates are replicated to at least so many")
+        ->check(CLI::Range(std::size_t(1), std::size_t(2'000'000'000)));
+    app.add_option("--commit", o.commit, "To be printed at the head");
+}
+
+/// Prints what it runs on; returns the same for machines.
+nlohmann::json say_machine(const bench::device_peaks& peaks, const std::string& commit) {
+    cudaDeviceProp device{};
+    check(cudaGetDeviceProperties(&device, 0));
+    const ccd::report::machine host = ccd::report::this_machine();
+    std::printf(
+        "%s, %d multiprocessors; host: %s, %u cores; commit %s\n"
+        "measured: %.0f GB/s copied, %.1f and %.1f Tflop/s in floats and doubles, not "
+        "fused\n",
+        device.name, device.multiProcessorCount, host.processor.c_str(), host.cores, commit.c_str(),
+        1e-9 * peaks.bytes_per_second, 1e-12 * peaks.float_operations,
+        1e-12 * peaks.double_operations);
+    return {{"device", device.name},
+            {"processor", host.processor},
+            {"cores", host.cores},
+            {"bytes_per_second", peaks.bytes_per_second},
+            {"float_operations", peaks.float_operations},
+            {"double_operations", peaks.double_operations},
+            {"commit", commit}};
+}
+
+void measure_scene(const std::string& name, const run_options& o, const bench::device_peaks& peaks,
+                   bench::report& out) {
+    bench::scene s;
+    if (!bench::load(name, s)) {
+        bench::report::say("\n== " + name + ": left out, its data is not here");
+        return;
+    }
+    if (!s.is_step()) return;
+    const std::size_t queries = o.quick ? std::min<std::size_t>(o.queries, 1'000'000) : o.queries;
+    const device_scene device({s.before, s.after});
+    methods(s, device, s.queries.vertex_face, queries, peaks, o, out);
+    methods(s, device, s.queries.edge_edge, queries, peaks, o, out);
+    steps(s, device, o, out);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
     CLI::App app{"Times collision detection on a CUDA device; prints tables."};
     app.name("./run bench-gpu");
-    bench::options o;
-    std::string json, commit = "unknown";
-    std::size_t queries = 20'000'000;
-    app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");
-    app.add_option("--json", json, "The tables as JSON, to this file");
-    app.add_option("--scene", o.scene, "Only scenes whose name holds this");
-    app.add_option("--queries", queries, "Candidates are replicated to at least so many")
-        ->check(CLI::Range(std::size_t(1), std::size_t(2'000'000'000)));
-    app.add_option("--commit", commit, "To be printed at the head");
+    run_options o;
+    add_options(app, o);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -248,44 +343,14 @@ int main(int argc, char** argv) try {
         std::printf("No CUDA device, so nothing is measured: %s\n", s.error.c_str());
         return 77;
     }
-
-    cudaDeviceProp device{};
-    check(cudaGetDeviceProperties(&device, 0));
-    const ccd::report::machine host = ccd::report::this_machine();
     const bench::device_peaks peaks = bench::measured_peaks();
-    std::printf(
-        "%s, %d multiprocessors; host: %s, %u cores; commit %s\n"
-        "measured: %.0f GB/s copied, %.1f and %.1f Tflop/s in floats and doubles, not "
-        "fused\n",
-        device.name, device.multiProcessorCount, host.processor.c_str(), host.cores, commit.c_str(),
-        1e-9 * peaks.bytes_per_second, 1e-12 * peaks.float_operations,
-        1e-12 * peaks.double_operations);
+    const nlohmann::json machine = say_machine(peaks, o.commit);
     bench::report out;
-    if (o.quick) queries = std::min<std::size_t>(queries, 1'000'000);
-    for (const std::string& name : bench::scene_names()) {
-        if (name.find(o.scene) == std::string::npos) continue;
-        bench::scene s;
-        if (!bench::load(name, s)) {
-            bench::report::say("\n== " + name + ": left out, its data is not here");
-            continue;
-        }
-        if (!s.is_step()) continue;
-        const device_scene on_it({s.before, s.after});
-        methods(s, on_it, s.queries.vertex_face, queries, peaks, o, out);
-        methods(s, on_it, s.queries.edge_edge, queries, peaks, o, out);
-        steps(s, on_it, o, out);
-    }
-    if (!json.empty()) {
-        const nlohmann::json machine{{"device", device.name},
-                                     {"processor", host.processor},
-                                     {"cores", host.cores},
-                                     {"bytes_per_second", peaks.bytes_per_second},
-                                     {"float_operations", peaks.float_operations},
-                                     {"double_operations", peaks.double_operations},
-                                     {"commit", commit}};
+    for (const std::string& name : bench::scene_names())
+        if (name.find(o.scene) != std::string::npos) measure_scene(name, o, peaks, out);
+    if (!o.json.empty())
         errbound::support::write_whole(
-            json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");
-    }
+            o.json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "bench-gpu: %s\n", error.what());

@@ -29,74 +29,101 @@ std::size_t affordable(ccd::method method, const std::vector<Query>& sample) {
                : sample.size();
 }
 
+/// What is raced on the queries of one kind of a scene: every method one by one, and batches.
 template <class Query>
-void add_rows(const scene& s, const query_set<Query>& all, const options& o,
-              std::vector<std::vector<cell>>& rows) {
-    if (all.size() == 0) return;
-    const std::vector<Query> sample = all.at_most(o.max_queries()).all_stored();
-    const query_set<Query> batch = o.quick ? all.at_most(5 * o.max_queries()) : all;
-    std::vector<ccd::outcome> answers(batch.size());
+class methods_race {
+  public:
+    methods_race(const scene& s, const query_set<Query>& all, const options& o)
+        : scene_(s.name),
+          all_(all),
+          sample_(all.at_most(o.max_queries()).all_stored()),
+          batch_(o.quick ? all.at_most(5 * o.max_queries()) : all),
+          answers_(batch_.size()) {
+        for (const ccd::method_info& m : ccd::methods()) add_method(m);
+        for (const ccd::instruction_set set : ccd::instruction_sets())
+            add_batch(set, 1, "batch on " + std::string(ccd::name(set)));
+        // What batches answered is what the queries get one by one.
+        for (std::size_t i = 0; i < batch_.size(); i += 1 + batch_.size() / o.max_queries())
+            if (ccd::decide(ccd::method::exact, batch_[i]).outcome != answers_[i])
+                throw std::runtime_error(scene_ + ": batches and one by one differ");
+        const std::string best(ccd::name(ccd::instruction_sets().back()));
+        add_batch(ccd::instruction_sets().back(), 0, "batch on " + best + ", all threads");
+        add_stored_batch("batch on " + best + ", stored queries");
+    }
+    methods_race(const methods_race&) = delete;  // the passes refer to it
+    methods_race& operator=(const methods_race&) = delete;
 
-    std::vector<contestant> contestants;
-    std::vector<std::function<void()>> passes;
-    std::deque<std::vector<Query>> parts;  // of the sample, for slow methods
-    std::size_t tight = 0;
-    for (const ccd::method_info& m : ccd::methods()) {
-        if (m.method == ccd::method::tight) tight = contestants.size();
-        const std::size_t size = affordable(m.method, sample);
+    void run(int repeats, std::vector<std::vector<cell>>& rows) const {
+        const std::vector<timing> timings = race(passes_, repeats);
+        const auto ns = [&](std::size_t i, double seconds) {
+            return 1e9 * seconds / static_cast<double>(contestants_[i].queries);
+        };
+        for (std::size_t i = 0; i < contestants_.size(); ++i) {
+            const contestant& c = contestants_[i];
+            const double minimum = ns(i, timings[i].minimum);
+            rows.push_back({word(short_name(ccd::kind_of<Query>)), word(c.name), count(c.queries),
+                            count(c.collisions), number(minimum, 1),
+                            number(ns(i, timings[i].median), 1),
+                            number(ns(tight_, timings[tight_].minimum) / minimum, 2)});
+        }
+    }
+
+  private:
+    void add_method(const ccd::method_info& m) {
+        if (m.method == ccd::method::tight) tight_ = contestants_.size();
+        const std::size_t size = affordable(m.method, sample_);
         const std::vector<Query>& queries =
-            size == sample.size() ? sample : parts.emplace_back(all.resized(size).all_stored());
+            size == sample_.size() ? sample_ : parts_.emplace_back(all_.resized(size).all_stored());
         const auto collisions = std::ranges::count_if(
             queries, [&m](const Query& q) { return ccd::may_collide(ccd::decide(m.method, q)); });
-        contestants.push_back(
+        contestants_.push_back(
             {std::string(m.name), queries.size(), static_cast<std::size_t>(collisions)});
-        passes.push_back([&queries, method = m.method] {
+        passes_.push_back([&queries, method = m.method] {
             for (const Query& q : queries) keep(ccd::decide(method, q));
         });
     }
-    const auto add_batch = [&](ccd::instruction_set set, int threads, const std::string& how) {
-        const auto pass = [&batch, &answers, set, threads] {
-            batch.decide_batch(0, answers, {.threads = threads, .set = set});
+    void add_batch(ccd::instruction_set set, int threads, const std::string& how) {
+        const auto pass = [this, set, threads] {
+            batch_.decide_batch(0, answers_, {.threads = threads, .set = set});
         };
-        const auto previous = answers;
+        const auto previous = answers_;
         pass();
-        if (contestants.size() > std::size(ccd::methods()) && answers != previous)
-            throw std::runtime_error(s.name + ": answers differ on " + how);
-        contestants.push_back(
-            {"exact, " + how, batch.size(),
+        if (contestants_.size() > std::size(ccd::methods()) && answers_ != previous)
+            throw std::runtime_error(scene_ + ": answers differ on " + how);
+        add_exact(how, batch_.size(), answers_, pass);
+    }
+    /// The same sample as one by one, stored: 192 bytes a query.
+    void add_stored_batch(const std::string& how) {
+        answers_of_sample_.resize(sample_.size());
+        const auto pass = [this] {
+            ccd::decide_batch(std::span<const Query>(sample_), answers_of_sample_);
+        };
+        pass();
+        add_exact(how, sample_.size(), answers_of_sample_, pass);
+    }
+    void add_exact(const std::string& how, std::size_t queries,
+                   const std::vector<ccd::outcome>& answers, const std::function<void()>& pass) {
+        contestants_.push_back(
+            {"exact, " + how, queries,
              static_cast<std::size_t>(std::ranges::count(answers, ccd::outcome::collides))});
-        passes.push_back(pass);
-    };
-    for (const ccd::instruction_set set : ccd::instruction_sets()) {
-        add_batch(set, 1, "batch on " + std::string(ccd::name(set)));
+        passes_.push_back(pass);
     }
-    // What batches answered is what the queries get one by one.
-    for (std::size_t i = 0; i < batch.size(); i += 1 + batch.size() / o.max_queries()) {
-        if (ccd::decide(ccd::method::exact, batch[i]).outcome != answers[i])
-            throw std::runtime_error(s.name + ": batches and one by one differ");
-    }
-    const ccd::instruction_set best = ccd::instruction_sets().back();
-    add_batch(best, 0, "batch on " + std::string(ccd::name(best)) + ", all threads");
 
-    // The same sample as one by one, stored: 192 bytes a query.
-    std::vector<ccd::outcome> of_sample(sample.size());
-    passes.push_back(
-        [&sample, &of_sample] { ccd::decide_batch(std::span<const Query>(sample), of_sample); });
-    passes.back()();
-    contestants.push_back(
-        {"exact, batch on " + std::string(ccd::name(best)) + ", stored queries", sample.size(),
-         static_cast<std::size_t>(std::ranges::count(of_sample, ccd::outcome::collides))});
+    std::string scene_;
+    const query_set<Query>& all_;
+    std::vector<Query> sample_;
+    query_set<Query> batch_;
+    std::vector<ccd::outcome> answers_, answers_of_sample_;
+    std::deque<std::vector<Query>> parts_;  ///< of the sample, for slow methods
+    std::vector<contestant> contestants_;
+    std::vector<std::function<void()>> passes_;
+    std::size_t tight_ = 0;  ///< its place
+};
 
-    const std::vector<timing> timings = race(passes, o.repeats());
-    const auto ns = [&](std::size_t i, double seconds) {
-        return 1e9 * seconds / static_cast<double>(contestants[i].queries);
-    };
-    for (std::size_t i = 0; i < contestants.size(); ++i) {
-        rows.push_back({word(short_name(ccd::kind_of<Query>)), word(contestants[i].name),
-                        count(contestants[i].queries), count(contestants[i].collisions),
-                        number(ns(i, timings[i].minimum), 1), number(ns(i, timings[i].median), 1),
-                        number(ns(tight, timings[tight].minimum) / ns(i, timings[i].minimum), 2)});
-    }
+template <class Query>
+void add_rows(const scene& s, const query_set<Query>& all, const options& o,
+              std::vector<std::vector<cell>>& rows) {
+    if (all.size() > 0) methods_race<Query>(s, all, o).run(o.repeats(), rows);
 }
 
 }  // namespace

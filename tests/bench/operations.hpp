@@ -36,16 +36,13 @@ struct stage_operations {
     std::uint64_t axes_in_floats, coplanarity, inside;
 };
 
-template <class Pair>
-struct forms_of_pair {
-    template <class S>
-    using type = ccd::linear_forms<ccd::kind_of<Pair>, S>;
-};
-
-template <class Pair>
+template <class Query>
 stage_operations operations_of_stages() {
     using single = counted<float>;
     using scalar = counted<double>;
+    constexpr ccd::kind kind = ccd::kind_of<Query>;
+    using traits = ccd::kind_traits<kind>;
+    using forms_type = ccd::detail::forms_of_kind<kind>;
     const auto counted_by = [](auto& counter, const auto& run) {
         counter = 0;
         run();
@@ -54,25 +51,25 @@ stage_operations operations_of_stages() {
     stage_operations all{};
     all.axes_in_floats = counted_by(single::operations, [] {
         const single x[3][2][4] = {};
-        (void)ccd::detail::rounded_axes::separated<Pair>(x);
+        (void)ccd::detail::rounded_axes::separated<typename traits::pair>(x);
     });
-    const ccd::query_of_pair<Pair, scalar> query{};
+    const typename traits::template query<scalar> query{};
     const auto filtered = [&](const auto& test) {
         return counted_by(scalar::operations, [&] {
-            const typename forms_of_pair<Pair>::template type<scalar> forms(query);
+            const typename forms_type::template type<scalar> forms(query);
             const ccd::static_filter::difference_extents<scalar> extents(forms);
             test(forms, extents);
         });
     };
     all.coplanarity = filtered([](const auto& forms, const auto& extents) {
         const auto y = errbound::roots::control_values_of(forms.y());
-        const scalar error = extents.template error_of_y<forms_of_pair<Pair>::template type>();
+        const scalar error = extents.template error_of_y<forms_type::template type>();
         (void)ccd::static_filter::above(y, error);
         (void)ccd::static_filter::below(y, error);
     });
     all.inside = filtered([](const auto& forms, const auto& extents) {
-        const ccd::static_filter::whole_step<scalar, forms_of_pair<Pair>::template type> whole(
-            forms, extents);
+        const ccd::static_filter::whole_step<scalar, forms_type::template type> whole(forms,
+                                                                                      extents);
         (void)whole.outside();
     });
     return all;

@@ -10,7 +10,7 @@ namespace bench {
 /// threads. Throws std::runtime_error if batches and one by one disagree.
 void methods(const scene& s, const options& o, report& out);
 
-/// What each stage of `exact` settles and costs, its slowest single queries, and those that reach
+/// What each stage of `exact` decides and costs, its slowest single queries, and those that reach
 /// the integers.
 void stages(const scene& s, const options& o, report& out);
 

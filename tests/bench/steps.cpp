@@ -43,6 +43,30 @@ double megabytes(std::size_t bytes) {
     return static_cast<double>(bytes) / 1e6;
 }
 
+std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
+    const ccd::step_result& r = c.quickest;
+    const std::size_t heap = peak_heap(
+        [&] { keep(ccd::step(s.before, s.after, {.method = c.method, .threads = c.threads})); });
+    const std::size_t frames = bytes_of(s.before) + bytes_of(s.after);
+    const std::size_t result = r.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
+                               r.edge_edge.size() * sizeof(ccd::edge_edge_pair);
+    const std::size_t without_result = heap - std::min(heap, result);
+    return {word(ccd::info(c.method).name),
+            count(static_cast<std::uint64_t>(r.threads)),
+            number(1e3 * t.minimum, 2),
+            number(1e3 * t.median, 2),
+            number(1e3 * r.prepare_seconds, 2),
+            number(1e3 * r.broad_phase_seconds, 2),
+            number(1e3 * r.narrow_phase_seconds, 2),
+            number(1e3 * r.sort_seconds, 2),
+            count(r.vertex_face_candidates + r.edge_edge_candidates),
+            count(r.vertex_face.size() + r.edge_edge.size()),
+            number(megabytes(frames), 2),
+            number(megabytes(result), 2),
+            number(megabytes(heap), 2),
+            number(static_cast<double>(without_result) / static_cast<double>(frames), 2)};
+}
+
 }  // namespace
 
 void steps(const scene& s, const options& o, report& out) {
@@ -54,28 +78,11 @@ void steps(const scene& s, const options& o, report& out) {
     const auto timings = race_steps(s.before, s.after, contestants, o.repeats());
     std::vector<std::vector<cell>> rows;
     for (std::size_t i = 0; i < contestants.size(); ++i) {
-        const contestant& c = contestants[i];
-        const ccd::step_result& r = c.quickest;
+        const ccd::step_result& r = contestants[i].quickest;
         if (r.vertex_face_candidates != s.queries.vertex_face.size() ||
-            r.edge_edge_candidates != s.queries.edge_edge.size()) {
+            r.edge_edge_candidates != s.queries.edge_edge.size())
             throw std::runtime_error(s.name + ": the step has other candidates than found here");
-        }
-        const std::size_t heap = peak_heap([&] {
-            keep(ccd::step(s.before, s.after, {.method = c.method, .threads = c.threads}));
-        });
-        const std::size_t frames = bytes_of(s.before) + bytes_of(s.after);
-        const std::size_t result = r.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
-                                   r.edge_edge.size() * sizeof(ccd::edge_edge_pair);
-        const std::size_t without_result = heap - std::min(heap, result);
-        rows.push_back(
-            {word(ccd::info(c.method).name), count(static_cast<std::uint64_t>(r.threads)),
-             number(1e3 * timings[i].minimum, 2), number(1e3 * timings[i].median, 2),
-             number(1e3 * r.prepare_seconds, 2), number(1e3 * r.broad_phase_seconds, 2),
-             number(1e3 * r.narrow_phase_seconds, 2), number(1e3 * r.sort_seconds, 2),
-             count(r.vertex_face_candidates + r.edge_edge_candidates),
-             count(r.vertex_face.size() + r.edge_edge.size()), number(megabytes(frames), 2),
-             number(megabytes(result), 2), number(megabytes(heap), 2),
-             number(static_cast<double>(without_result) / static_cast<double>(frames), 2)});
+        rows.push_back(row_of(s, contestants[i], timings[i]));
     }
     out.table("steps", {{"scene", s.name}},
               s.name +

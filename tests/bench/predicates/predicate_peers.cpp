@@ -139,57 +139,66 @@ struct rows {
 };
 
 template <class Form>
-void add_rows(const run_options& o, rows& out) {
+signs right_signs(const set_of<Form>& set) {
     constexpr std::size_t D = Form::dimension, N = Form::count;
-    if (!o.wants(Form::name)) return;
     const auto& entry = std::get < N == 3 ? 0
                         : D == 3          ? (N == 4 ? 1 : 3)
                                           : 2 > (predicate_list::all);
+    signs right(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i)
+        right[i] = set.with(i, [&](const auto&... p) {
+            return predicate_list::right_sign(entry, std::array{p...});
+        });
+    return right;
+}
+
+/// Cells of one peer: ns a call, that over the plain expression's, wrong signs and undecided ones.
+template <class Form>
+std::array<cell, 4> cells_of(const peer<Form>& p, const set_of<Form>& set, const signs& right,
+                             double ns, double plain) {
+    const std::size_t inputs = set.size() / p.thinning;
+    signs found(set.size());
+    p.decide(set, inputs, found);
+    std::size_t wrong = 0, undecided = 0;
+    for (std::size_t i = 0; i < inputs; ++i)
+        certain(found[i]) ? wrong += found[i] != right[i] : ++undecided;
+    const auto share = [&](std::size_t n) {
+        return n == 0 ? cell{"", 0} : percent(static_cast<double>(n) / static_cast<double>(inputs));
+    };
+    return {number(ns, ns < 100 ? 1 : 0), number(ns / plain, ns < 100 * plain ? 2 : 0),
+            share(wrong), share(undecided)};
+}
+
+template <class Form>
+void add_rows(const run_options& o, rows& out) {
+    if (!o.wants(Form::name)) return;
+    const auto all = peers<Form>();
     for (const auto& kind : input_kinds) {
         const auto set = make_set<Form>(kind, o.inputs());
-        signs right(set.size());
-        for (std::size_t i = 0; i < set.size(); ++i)
-            right[i] = set.with(i, [&](const auto&... p) {
-                return predicate_list::right_sign(entry, std::array{p...});
-            });
-        std::vector<std::function<void()>> passes;
-        const auto all = peers<Form>();
+        const signs right = right_signs<Form>(set);
         signs found(set.size());
-        const auto inputs_of = [&](const auto& p) { return set.size() / p.thinning; };
+        std::vector<std::function<void()>> passes;
         for (const auto& p : all)
             if (p.decide != nullptr)
                 passes.push_back([&] {
-                    p.decide(set, inputs_of(p), found);
+                    p.decide(set, set.size() / p.thinning, found);
                     keep(found);
                 });
         const auto timings = race(passes, o.repeats());
 
-        std::vector<cell> names{word(Form::name), word(kind.name)};
-        for (auto* table : {&out.ns, &out.ratios, &out.wrong, &out.undecided})
-            table->push_back(names);
+        const std::array tables{&out.ns, &out.ratios, &out.wrong, &out.undecided};
+        for (auto* table : tables) table->push_back({word(Form::name), word(kind.name)});
         auto timing = timings.begin();
         double plain = 0;
         for (const auto& p : all) {
-            if (p.decide == nullptr) {
-                for (auto* table : {&out.ns, &out.ratios, &out.wrong, &out.undecided})
-                    table->back().push_back(none());
-                continue;
+            std::array<cell, 4> cells{none(), none(), none(), none()};
+            if (p.decide != nullptr) {
+                const double ns =
+                    1e9 * timing++->minimum / static_cast<double>(set.size() / p.thinning);
+                if (plain == 0) plain = ns;
+                cells = cells_of<Form>(p, set, right, ns, plain);
             }
-            const std::size_t inputs = inputs_of(p);
-            const double ns = 1e9 * timing++->minimum / static_cast<double>(inputs);
-            if (plain == 0) plain = ns;
-            p.decide(set, inputs, found);
-            std::size_t wrong = 0, undecided = 0;
-            for (std::size_t i = 0; i < inputs; ++i)
-                certain(found[i]) ? wrong += found[i] != right[i] : ++undecided;
-            const auto share = [&](std::size_t n) {
-                return n == 0 ? cell{"", 0}
-                              : percent(static_cast<double>(n) / static_cast<double>(inputs));
-            };
-            out.ns.back().push_back(number(ns, ns < 100 ? 1 : 0));
-            out.ratios.back().push_back(number(ns / plain, ns < 100 * plain ? 2 : 0));
-            out.wrong.back().push_back(share(wrong));
-            out.undecided.back().push_back(share(undecided));
+            for (std::size_t i = 0; i < tables.size(); ++i) tables[i]->back().push_back(cells[i]);
         }
     }
 }

@@ -38,9 +38,9 @@ namespace fs = std::filesystem;
 using ccd::outcome;
 using ccd::cuda::candidates;
 using ccd::cuda::coordinates;
-using ccd::cuda::host_launcher;
 using ccd::cuda::positions;
 using ccd::cuda::precision;
+using ccd::cuda::detail::host_launcher;
 using cuda_on_host::decide_by;
 using cuda_on_host::laid_out;
 using cuda_sets::batch;
@@ -51,11 +51,11 @@ using cuda_sets::positions_of;
 template <class Pair>
 std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& all,
                                   precision p = precision::float64,
-                                  ccd::cuda::exact_counters* counters = nullptr) {
+                                  ccd::cuda::detail::exact_counters* counters = nullptr) {
     host_launcher launcher;
     // Nothing may rely on what was there.
     std::vector<outcome> answers(all.count, outcome::collides);
-    const laid_out<ccd::cuda::exact_memory> memory(at.vertices, all.count);
+    const laid_out<ccd::cuda::detail::exact_memory> memory(at.vertices, all.count);
     run_rounding(launcher, at, memory->scene, memory->rows);
     run_exact_stages(launcher, at, all, answers.data(), *memory, p);
     // What is left to the host must not look separate to those who do not ask it.
@@ -86,7 +86,7 @@ using entered = std::array<std::size_t, 7>;
 
 template <class Pair>
 entered expect_exact(const batch<Pair>& set, const std::vector<outcome>& truth, precision p) {
-    ccd::cuda::exact_counters c{};
+    ccd::cuda::detail::exact_counters c{};
     const auto answers = decide_exact(set.positions(), set.candidates(), p, &c);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < set.size(); ++i) wrong += answers[i] != truth[i];
@@ -142,11 +142,11 @@ TYPED_TEST(device_bodies, exact_is_exact_on_stored_queries) {
 
 /// A method's answer from floats alone.
 template <class Rule, class Query>
-ccd::verdict in_single_precision(ccd::cuda::bsc_method<Rule>, const Query& query) {
+ccd::verdict in_single_precision(ccd::cuda::detail::bsc_method<Rule>, const Query& query) {
     return ccd::decide_bsc_in_single_precision<Rule>(query);
 }
 template <class Rule, class Query>
-ccd::verdict in_single_precision(ccd::cuda::safeccd_method<Rule>, const Query& query) {
+ccd::verdict in_single_precision(ccd::cuda::detail::safeccd_method<Rule>, const Query& query) {
     return ccd::decide_safeccd_in_single_precision<Rule>(query);
 }
 
@@ -209,8 +209,8 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
     }
     const auto answers = decide_exact(set.positions(), set.candidates());
     EXPECT_EQ(answers, decide_exact(set.positions(), set.candidates(), precision::float32));
-    const auto tight =
-        decide_by<ccd::cuda::bsc_method<errbound::tight>, float>(set.positions(), set.candidates());
+    const auto tight = decide_by<ccd::cuda::detail::bsc_method<errbound::tight>, float>(
+        set.positions(), set.candidates());
     for (std::size_t i = 0; i < set.size(); ++i) {
         if (poisoned(i)) {
             EXPECT_EQ(answers[i], outcome::uncertain) << i;
@@ -221,70 +221,91 @@ TYPED_TEST(device_bodies, coordinates_that_are_not_finite_are_uncertain) {
     }
 }
 
-// What the coordinates are of, how vertices are named and where they lie makes no difference.
-TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
-    // Coordinates that floats hold.
-    std::mt19937 random(3);
-    const auto coordinate = [&] { return static_cast<float>(static_cast<int>(random() % 17) - 8); };
-    const std::size_t vertices = 50;
+/// Vertices with coordinates that floats hold, in every form that device code takes.
+struct grid_positions {
+    static constexpr std::size_t vertices = 50;
     std::vector<double> rows[2];
     std::vector<float> float_rows[2], columns[2][3];
-    for (std::size_t frame = 0; frame < 2; ++frame)
-        for (std::size_t v = 0; v < vertices; ++v)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const float x = coordinate();
-                rows[frame].push_back(x);
-                float_rows[frame].push_back(x);
-                columns[frame][k].push_back(x);
-            }
-    const auto in_doubles = positions_of({rows[0].data(), rows[1].data(), vertices});
-    const positions in_floats(coordinates<float>::rows(float_rows[0].data()),
-                              coordinates<float>::rows(float_rows[1].data()), vertices);
-    const auto columns_of = [&](std::size_t frame) {
-        return coordinates<float>{columns[frame][0].data(), columns[frame][1].data(),
-                                  columns[frame][2].data(), 1};
-    };
-    const positions in_columns(columns_of(0), columns_of(1), vertices);
 
-    using element = typename candidates<TypeParam>::element;
-    const auto vertex = [&] { return static_cast<ccd::index>(random() % vertices); };
-    std::vector<element> elements(40);
-    for (element& e : elements)
-        for (ccd::index& v : e) v = vertex();
-    constexpr bool of_faces = batch<TypeParam>::of_faces;
-    std::vector<ccd::index> first, second, column[4];
-    std::vector<TypeParam> named;
-    for (std::size_t i = 0; i < 2000; ++i) {
-        first.push_back(of_faces ? vertex() : static_cast<ccd::index>(random() % 40));
-        second.push_back(static_cast<ccd::index>(random() % 40));
-        const element& b = elements[second[i]];
-        if constexpr (of_faces)
-            named.push_back({first[i], b[0], b[1], b[2]});
-        else
-            named.push_back({elements[first[i]][0], elements[first[i]][1], b[0], b[1]});
-        for (std::size_t k = 0; k < 4; ++k) column[k].push_back(vertices_of(named[i])[k]);
+    explicit grid_positions(std::mt19937& random) {
+        for (std::size_t frame = 0; frame < 2; ++frame)
+            for (std::size_t v = 0; v < vertices; ++v)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto x = static_cast<float>(static_cast<int>(random() % 17) - 8);
+                    rows[frame].push_back(x);
+                    float_rows[frame].push_back(x);
+                    columns[frame][k].push_back(x);
+                }
     }
-    using all = candidates<TypeParam>;
-    const auto by_rows = all::rows(named.data(), named.size());
-    const auto by_columns = all::of_columns(column[0].data(), column[1].data(), column[2].data(),
-                                            column[3].data(), named.size());
-    const auto by_pairs = all::pairs(first.data(), second.data(), elements.data(), named.size());
+    positions in_doubles() const {
+        return positions_of({rows[0].data(), rows[1].data(), vertices});
+    }
+    positions in_floats() const {
+        return {coordinates<float>::rows(float_rows[0].data()),
+                coordinates<float>::rows(float_rows[1].data()), vertices};
+    }
+    positions in_columns() const {
+        const auto of = [](const std::vector<float>(&axes)[3]) {
+            return coordinates<float>{axes[0].data(), axes[1].data(), axes[2].data(), 1};
+        };
+        return {of(columns[0]), of(columns[1]), vertices};
+    }
+};
 
-    const auto expected = decide_exact(in_doubles, by_rows);
-    for (std::size_t i = 0; i < named.size(); ++i)
-        ASSERT_EQ(expected[i],
-                  ccd::decide_exact(ccd::cuda::query_at<double>(in_doubles, named[i])).outcome);
+/// Pairs of vertices among so many, in every form that device code takes.
+template <class Pair>
+struct named_pairs {
+    using all = candidates<Pair>;
+    std::vector<typename all::element> elements{40};
+    std::vector<ccd::index> first, second, column[4];
+    std::vector<Pair> named;
+
+    named_pairs(std::mt19937& random, std::size_t vertices, std::size_t count) {
+        const auto below = [&](std::size_t n) { return static_cast<ccd::index>(random() % n); };
+        for (auto& e : elements)
+            for (ccd::index& v : e) v = below(vertices);
+        for (std::size_t i = 0; i < count; ++i) {
+            first.push_back(below(batch<Pair>::of_faces ? vertices : elements.size()));
+            second.push_back(below(elements.size()));
+            const auto& b = elements[second[i]];
+            if constexpr (batch<Pair>::of_faces)
+                named.push_back({first[i], b[0], b[1], b[2]});
+            else
+                named.push_back({elements[first[i]][0], elements[first[i]][1], b[0], b[1]});
+            for (std::size_t k = 0; k < 4; ++k) column[k].push_back(vertices_of(named[i])[k]);
+        }
+    }
+    all by_rows() const { return all::rows(named.data(), named.size()); }
+    all by_columns() const {
+        return all::of_columns(column[0].data(), column[1].data(), column[2].data(),
+                               column[3].data(), named.size());
+    }
+    all by_elements() const {
+        return all::pairs(first.data(), second.data(), elements.data(), named.size());
+    }
+};
+
+// What the coordinates are of, how vertices are named and where they lie makes no difference.
+TYPED_TEST(device_bodies, every_form_of_input_gives_the_same_answers) {
+    std::mt19937 random(3);
+    const grid_positions at(random);
+    const named_pairs<TypeParam> pairs(random, grid_positions::vertices, 2000);
+    const auto expected = decide_exact(at.in_doubles(), pairs.by_rows());
+    for (std::size_t i = 0; i < pairs.named.size(); ++i) {
+        const auto query = ccd::cuda::detail::query_at<double>(at.in_doubles(), pairs.named[i]);
+        ASSERT_EQ(expected[i], ccd::decide_exact(query).outcome);
+    }
     EXPECT_GT(std::ranges::count(expected, outcome::collides), 100);
-    EXPECT_EQ(decide_exact(in_doubles, by_columns), expected);
-    EXPECT_EQ(decide_exact(in_doubles, by_pairs), expected);
-    EXPECT_EQ(decide_exact(in_floats, by_rows), expected);
-    EXPECT_EQ(decide_exact(in_columns, by_pairs), expected);
-    EXPECT_EQ(decide_exact(in_columns, by_columns, precision::float32), expected);
+    EXPECT_EQ(decide_exact(at.in_doubles(), pairs.by_columns()), expected);
+    EXPECT_EQ(decide_exact(at.in_doubles(), pairs.by_elements()), expected);
+    EXPECT_EQ(decide_exact(at.in_floats(), pairs.by_rows()), expected);
+    EXPECT_EQ(decide_exact(at.in_columns(), pairs.by_elements()), expected);
+    EXPECT_EQ(decide_exact(at.in_columns(), pairs.by_columns(), precision::float32), expected);
 }
 
 // Their differences are floats' own, which leave other queries open than rounded differences do.
 TYPED_TEST(device_bodies, float_methods_take_positions_in_floats_as_they_are) {
-    using tight = ccd::cuda::bsc_method<errbound::tight>;
+    using tight = ccd::cuda::detail::bsc_method<errbound::tight>;
     const auto to_float = [](double x) { return static_cast<float>(std::clamp(x, -3e38, 3e38)); };
     batch<TypeParam> set;
     for (const auto& q : difficult<TypeParam>().queries)
@@ -340,15 +361,15 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
         std::vector<ccd::index> found(room + 1, 12345);
         std::vector<std::uint32_t> place(n + 1);
         ccd::index count = 0;
-        ccd::cuda::run_select(launcher, answers.data(), n, found.data(), room, &count,
-                              place.data());
+        ccd::cuda::detail::run_select(launcher, answers.data(), n, found.data(), room, &count,
+                                      place.data());
         EXPECT_EQ(count, expected) << "the number needed, whatever the room";
         for (std::size_t k = 0; k < std::min(room, expected); ++k) EXPECT_EQ(found[k], 3 * k);
         EXPECT_EQ(found[room], 12345u) << "nothing is written beyond the room";
     }
     ccd::index count = 7;
     std::uint32_t place = 0;
-    ccd::cuda::run_select(launcher, answers.data(), 0, nullptr, 0, &count, &place);
+    ccd::cuda::detail::run_select(launcher, answers.data(), 0, nullptr, 0, &count, &place);
     EXPECT_EQ(count, 0u);
 }
 
@@ -356,8 +377,8 @@ TEST(device_tree, finds_every_leaf_that_touches_once) {
     std::mt19937 random(9);
     const auto unit = [&] { return static_cast<float>(random() % 1000) / 500 - 1; };
     for (const std::size_t leaves : {0U, 1U, 2U, 7U, 8U, 9U, 63U, 64U, 65U, 512U, 513U, 1000U}) {
-        ccd::cuda::box_levels tree(leaves);
-        std::vector<ccd::cuda::rounded_box> boxes(tree.size() + 1);
+        ccd::cuda::detail::box_levels tree(leaves);
+        std::vector<ccd::cuda::detail::rounded_box> boxes(tree.size() + 1);
         for (std::size_t i = 0; i < leaves; ++i)
             for (std::size_t k = 0; k < 3; ++k) {
                 const float x = unit();
@@ -367,10 +388,11 @@ TEST(device_tree, finds_every_leaf_that_touches_once) {
         tree.boxes = boxes.data();
         for (std::size_t level = 1; level < tree.levels; ++level)
             for (std::size_t i = 0; i < tree.count[level]; ++i)
-                ccd::cuda::make_node{&boxes[tree.start[level - 1]], tree.count[level - 1],
-                                     &boxes[tree.start[level]]}(static_cast<std::uint32_t>(i));
+                ccd::cuda::detail::make_node{
+                    &boxes[tree.start[level - 1]], tree.count[level - 1],
+                    &boxes[tree.start[level]]}(static_cast<std::uint32_t>(i));
         for (std::size_t first = 0; first <= leaves; first += 1 + leaves / 5) {
-            const ccd::cuda::rounded_box b{{-0.1f, -0.2f, 0.1f}, {0.2f, 0.3f, 0.4f}};
+            const ccd::cuda::detail::rounded_box b{{-0.1f, -0.2f, 0.1f}, {0.2f, 0.3f, 0.4f}};
             std::vector<std::uint32_t> found, expected;
             tree.find(b, first, [&](std::uint32_t i) { found.push_back(i); });
             for (std::size_t i = first; i < leaves; ++i)
@@ -383,7 +405,7 @@ TEST(device_tree, finds_every_leaf_that_touches_once) {
 /// A step through the device's code: all of it but the launches.
 ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
     host_launcher launcher;
-    ccd::cuda::step_memory<host_launcher> memory(block);
+    ccd::cuda::detail::step_memory<host_launcher> memory(block);
     const positions at = positions_of({before, after});
     const auto edges = ccd::unique_edges(before.faces);
     memory.set_mesh(launcher, before.vertices.size(), before.faces, edges);
@@ -391,14 +413,14 @@ ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, st
     // Twice: the second step finds memory that the first has used.
     for (int i = 0; i < 2; ++i) {
         result = {};
-        const auto found =
-            memory.run(launcher, at,
-                       [&](const auto& part, outcome* answers, ccd::cuda::scene_extent* scene,
-                           ccd::cuda::rounded_position* rows) -> std::size_t {
-                           const laid_out<ccd::cuda::exact_memory> all(scene, rows, part.count);
-                           run_exact_stages(launcher, at, part, answers, *all, precision::float32);
-                           return finish_exact(launcher, at, part, answers, *all).left;
-                       });
+        const auto found = memory.run(
+            launcher, at,
+            [&](const auto& part, outcome* answers, ccd::cuda::detail::scene_extent* scene,
+                ccd::cuda::detail::rounded_position* rows) -> std::size_t {
+                const laid_out<ccd::cuda::detail::exact_memory> all(scene, rows, part.count);
+                run_exact_stages(launcher, at, part, answers, *all, precision::float32);
+                return finish_exact(launcher, at, part, answers, *all).left;
+            });
         result.vertex_face_candidates = found.vertex_face_candidates;
         result.edge_edge_candidates = found.edge_edge_candidates;
         for (std::size_t k = 0; k < found.vertex_face; ++k)
@@ -458,11 +480,11 @@ TEST(device_step, refuses_coordinates_that_are_not_finite) {
         ccd::mesh broken = mesh;
         broken.vertices[4].y = bad;  // a vertex of no face
         host_launcher launcher;
-        ccd::cuda::step_memory<host_launcher> memory;
+        ccd::cuda::detail::step_memory<host_launcher> memory;
         memory.set_mesh(launcher, 5, mesh.faces, ccd::unique_edges(mesh.faces));
         const positions at = positions_of({mesh, broken});
-        const auto never = [](const auto&, outcome*, ccd::cuda::scene_extent*,
-                              ccd::cuda::rounded_position*) -> std::size_t {
+        const auto never = [](const auto&, outcome*, ccd::cuda::detail::scene_extent*,
+                              ccd::cuda::detail::rounded_position*) -> std::size_t {
             ADD_FAILURE() << "nothing is to be decided";
             return 0;
         };

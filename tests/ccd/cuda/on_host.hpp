@@ -25,16 +25,16 @@ class laid_out {
   private:
     template <class... Sizes>
     static std::size_t counted(Sizes... sizes) {
-        ccd::cuda::arena count;
+        ccd::cuda::detail::arena count;
         (void)Memory(count, sizes...);
-        return count.used() + ccd::cuda::arena::alignment;
+        return count.used() + ccd::cuda::detail::arena::alignment;
     }
     template <class... Sizes>
     Memory taken(Sizes... sizes) {
         void* start = bytes_.data();
         std::size_t room = bytes_.size();
-        std::align(ccd::cuda::arena::alignment, 1, start, room);
-        ccd::cuda::arena from(start, room);
+        std::align(ccd::cuda::detail::arena::alignment, 1, start, room);
+        ccd::cuda::detail::arena from(start, room);
         return Memory(from, sizes...);
     }
 
@@ -48,11 +48,11 @@ template <class Method, class T, class Pair>
 std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
                                     const ccd::cuda::candidates<Pair>& all,
                                     std::size_t* in_doubles = nullptr) {
-    ccd::cuda::host_launcher launcher;
+    ccd::cuda::detail::host_launcher launcher;
     // Nothing may rely on what was there.
     std::vector<ccd::outcome> answers(all.count, ccd::outcome::collides);
-    const laid_out<ccd::cuda::method_memory> memory(all.count);
-    ccd::cuda::run_method<Method, T>(launcher, at, all, answers.data(), *memory);
+    const laid_out<ccd::cuda::detail::method_memory> memory(all.count);
+    ccd::cuda::detail::run_method<Method, T>(launcher, at, all, answers.data(), *memory);
     if (in_doubles != nullptr) *in_doubles = memory->counters->in_doubles;
     return answers;
 }
@@ -60,7 +60,7 @@ std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
 /// Calls visit<Method>(method) for all methods but `exact`.
 template <class Visit>
 void for_each_float_method(const Visit& visit) {
-    using ccd::method, ccd::cuda::bsc_method, ccd::cuda::safeccd_method;
+    using ccd::method, ccd::cuda::detail::bsc_method, ccd::cuda::detail::safeccd_method;
     visit.template operator()<bsc_method<errbound::none>>(method::float_);
     visit.template operator()<bsc_method<errbound::safe>>(method::safe);
     visit.template operator()<bsc_method<errbound::tight>>(method::tight);
