@@ -181,78 +181,97 @@ std::vector<std::array<integer, 2>> as_integers(const std::vector<point>& points
     return exact;
 }
 
-/// What is wrong with a triangulation: empty if it is the points' Delaunay triangulation. (Or one
-/// of them: four points on a circle have two.)
-std::string flaws(const std::vector<point>& points, const std::vector<triangle>& triangles) {
-    const std::size_t infinity = points.size();
-    const auto exact = as_integers(points);
-    const auto area = [&](std::size_t a, std::size_t b, std::size_t c) -> integer {
-        const auto &p = exact[a], &q = exact[b], &r = exact[c];
+/// Looks at a triangulation in integers: what is wrong with it, counted.
+class examination {
+  public:
+    examination(const std::vector<point>& points, const std::vector<triangle>& triangles)
+        : triangles_(triangles),
+          exact_(as_integers(points)),
+          infinity_(points.size()),
+          previous_(points.size(), points.size()) {
+        for (std::size_t k = 0; k < triangles.size(); ++k) see_triangle(k);
+        see_hull();
+    }
+
+    /// In words: empty if it is the points' Delaunay triangulation. (Or one of them: four points on
+    /// a circle have two.) Where all triangles turn left, edges match and the border runs once
+    /// around a convex polygon, each point inside is covered once. Then Euler counts the vertices.
+    std::string flaws() const {
+        std::string found;
+        const auto add = [&](const char* what, std::size_t count) {
+            if (count == 0) return;
+            found += (found.empty() ? "" : ", ") + std::to_string(count) + what;
+        };
+        add(" triangles are not counterclockwise", clockwise_);
+        add(" sides do not match", unmatched_);
+        add(" right turns of the hull", bends_);
+        if (starts_ != 1) add(" times around the hull", starts_);
+        const std::size_t used = (triangles_.size() + 2) / 2;
+        add(" points are missing", used < infinity_ ? infinity_ - used : used - infinity_);
+        add(" edges (seen from both sides) are not Delaunay", not_delaunay_);
+        return found;
+    }
+
+  private:
+    integer area(std::size_t a, std::size_t b, std::size_t c) const {
+        const auto &p = exact_[a], &q = exact_[b], &r = exact_[c];
         return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-    };
-    const auto lifted = [&](const triangle& t, std::size_t d) -> integer {
-        integer sum =
-            0;  // of areas that d sees, each times the square of the distance to the third
+    }
+    /// The sum of the areas that d sees, each times the square of the distance to the third corner.
+    integer lifted(const triangle& t, std::size_t d) const {
+        integer sum = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto& p = exact[t.vertex[i]];
-            const integer x = p[0] - exact[d][0], y = p[1] - exact[d][1];
+            const auto& p = exact_[t.vertex[i]];
+            const integer x = p[0] - exact_[d][0], y = p[1] - exact_[d][1];
             sum += (x * x + y * y) * area(d, t.vertex[after[i]], t.vertex[before[i]]);
         }
         return sum;
-    };
+    }
 
-    std::size_t unmatched = 0, clockwise = 0, not_delaunay = 0, inner = 0, bends = 0, starts = 0;
-    std::vector<std::size_t> previous(points.size(), infinity), hull;
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const triangle& t = triangles[k];
-        const std::size_t ghost = t.corner_of(infinity);
-        inner += ghost == 3;
+    void see_triangle(std::size_t k) {
+        const triangle& t = triangles_[k];
+        const std::size_t ghost = t.corner_of(infinity_);
+        inner_ += ghost == 3;
         if (ghost == 3)
-            clockwise += area(t.vertex[0], t.vertex[1], t.vertex[2]) <= 0;
+            clockwise_ += area(t.vertex[0], t.vertex[1], t.vertex[2]) <= 0;
         else  // clockwise around the hull
-            previous[t.vertex[after[ghost]]] = t.vertex[before[ghost]];
+            previous_[t.vertex[after[ghost]]] = t.vertex[before[ghost]];
         for (std::size_t i = 0; i < 3; ++i) {
-            const triangle& other = triangles[t.neighbour[i]];
+            const triangle& other = triangles_[t.neighbour[i]];
             const std::size_t j = other.across(t.vertex[before[i]], t.vertex[after[i]]);
-            if (j == 3 || other.neighbour[j] != k) {
-                ++unmatched;
-                continue;
-            }
-            if (ghost == 3 && other.vertex[j] != infinity)
-                not_delaunay += lifted(t, other.vertex[j]) > 0;
+            if (j == 3 || other.neighbour[j] != k)
+                ++unmatched_;
+            else if (ghost == 3 && other.vertex[j] != infinity_)
+                not_delaunay_ += lifted(t, other.vertex[j]) > 0;
         }
     }
-    // The hull: closed, no right turn, and once around, as it has one lowest vertex.
-    const std::size_t border = triangles.size() - inner;
-    std::size_t v = 0;
-    while (v < points.size() && previous[v] == infinity) ++v;
-    for (; v < points.size() && hull.size() <= border; v = previous[v]) {
-        hull.push_back(v);
-        if (previous[v] == hull[0]) break;
+
+    /// Closed, no right turn, and once around, as it has one lowest vertex.
+    void see_hull() {
+        const std::size_t border = triangles_.size() - inner_;
+        std::vector<std::size_t> hull;
+        std::size_t v = 0;
+        while (v < infinity_ && previous_[v] == infinity_) ++v;
+        for (; v < infinity_ && hull.size() <= border; v = previous_[v]) {
+            hull.push_back(v);
+            if (previous_[v] == hull[0]) break;
+        }
+        if (hull.size() != border) ++unmatched_;
+        for (std::size_t i = 0; i < hull.size(); ++i) {
+            const std::size_t a = hull[i], b = hull[(i + 1) % hull.size()],
+                              c = hull[(i + 2) % hull.size()];
+            bends_ += area(c, b, a) < 0;
+            starts_ += exact_[b] < exact_[a] && exact_[b] < exact_[c];
+        }
     }
-    if (hull.size() != border) ++unmatched;
-    for (std::size_t i = 0; i < hull.size(); ++i) {
-        const std::size_t a = hull[i], b = hull[(i + 1) % hull.size()],
-                          c = hull[(i + 2) % hull.size()];
-        bends += area(c, b, a) < 0;
-        starts += exact[b] < exact[a] && exact[b] < exact[c];
-    }
-    // Where all triangles turn left, edges match and the border runs once around a convex polygon,
-    // each point inside is covered once. Then Euler counts the vertices.
-    std::string found;
-    const auto add = [&](const char* what, std::size_t count) {
-        if (count == 0) return;
-        found += (found.empty() ? "" : ", ") + std::to_string(count) + what;
-    };
-    add(" triangles are not counterclockwise", clockwise);
-    add(" sides do not match", unmatched);
-    add(" right turns of the hull", bends);
-    if (starts != 1) add(" times around the hull", starts);
-    const std::size_t used = (inner + 2 + border) / 2;
-    add(" points are missing", used < points.size() ? points.size() - used : used - points.size());
-    add(" edges (seen from both sides) are not Delaunay", not_delaunay);
-    return found;
-}
+
+    const std::vector<triangle>& triangles_;
+    std::vector<std::array<integer, 2>> exact_;
+    std::size_t infinity_;               ///< the vertex of ghosts, one past the points
+    std::vector<std::size_t> previous_;  ///< by vertex of the hull
+    std::size_t unmatched_ = 0, clockwise_ = 0, not_delaunay_ = 0, inner_ = 0, bends_ = 0,
+                starts_ = 0;
+};
 
 // The points.
 
@@ -310,7 +329,7 @@ bool valid(const char* signs, const std::vector<point>& points) {
     try {
         const triangulation<Signs> result(points);
         triangles = result.triangles.size();
-        found = flaws(points, result.triangles);
+        found = examination(points, result.triangles).flaws();
     } catch (const std::runtime_error& contradiction) {
         found = contradiction.what();
     }

@@ -61,7 +61,7 @@ struct bernstein {
 };
 
 /// The product: a plain convolution of scaled coefficients. The factors' scalars may differ, where
-/// their product is a type of its own (errbound/integers/fixed_integer.hpp).
+/// their product is a type of its own, as of integers of fixed width.
 /// Proof: proofs/Bernstein.v, product_form.
 template <class S, class T, int A, int B>
 constexpr auto operator*(const bernstein<S, A>& p, const bernstein<T, B>& q) {
@@ -101,7 +101,7 @@ requires(N >= 1) constexpr bernstein<S, N - 1> derivative(const bernstein<S, N>&
 namespace detail {
 
 /// Horner's rule from term I on: sum holds the terms before it, power is t^I. The types may grow
-/// from step to step (errbound/integers/fixed_integer.hpp).
+/// from step to step, as integers of fixed width do.
 template <int I, class S, int N, class T, class Sum, class Power>
 constexpr auto value_from_term(const bernstein<S, N>& p, const T& s, const T& t, const Sum& sum,
                                const Power& power) {

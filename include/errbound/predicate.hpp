@@ -12,9 +12,9 @@
 //
 // It is run on one scalar after the other, until one is certain (`predicate_stage`):
 //  * semi_static_filter, of expressions of many terms: in floating point, with a bound from the
-//    largest coordinate difference (errbound/filters/semi_static_filter.hpp);
+//    largest coordinate difference;
 //  * static_filter: in floating point, with a bound whose constant the types count while the
-//    expression is compiled (errbound/filters/static_filter.hpp); no branch but the last;
+//    expression is compiled; no branch but the last;
 //  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
 //  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
 //    doubles hold all results, or words of 128 bits do; coordinates of one word, of two, or of up
@@ -68,7 +68,7 @@ struct predicate_options {
     using exact_type = void;
     /// Whether terms of different degree are never added, so that powers of two scale coordinates
     /// without changing a sign. It is found out for all expressions but those with too many
-    /// branches (errbound/filters/expression_count.hpp); a false claim does not compile.
+    /// branches; a false claim does not compile.
     static constexpr bool homogeneous = false;
 };
 
@@ -134,8 +134,8 @@ class predicate_type {
                 return filters::sign_estimate<T>{x.value, x.bound()};
         }
     }
-    /// What the static filter computes: a value, with its bound
-    /// (errbound/filters/static_filter.hpp), or the sign_type of an expression that branches.
+    /// What the static filter computes: a value, with its bound, or the sign_type of an expression
+    /// that branches.
     template <bool Stored = false, class... Points>
     static constexpr auto filtered(const Points&... p) {
         using scalars = filters::filtered_scalars<number_of<Points...>, Stored, Points...>;

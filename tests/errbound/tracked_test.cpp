@@ -8,6 +8,7 @@
 #include <errbound/errbound.hpp>
 #include <errbound/multiprecision.hpp>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -44,68 +45,86 @@ void check(const sample<tracked<T, Rule>>& s, const std::string& what) {
 /// Random programs: each step combines two earlier numbers; exact numbers and numbers with bounds
 /// come in at random. Division only where the rule has it.
 template <class T, class Rule, bool WithDivision>
-void run_programs(int programs, std::uint64_t seed) {
-    using number = tracked<T, Rule>;
-    std::mt19937_64 random(seed);
-    // In directed rounding overflow may end at the largest finite number, unnoticed (see
-    // rules/tight.hpp): there, inputs are smaller and programs that grow far end early.
-    const bool directed = std::fegetround() != FE_TONEAREST;
-    const T huge = std::sqrt(std::numeric_limits<T>::max());
-    const auto draw = [&] {
-        T x = special_value<T>(random);
-        while (directed && std::abs(x) > huge) x = special_value<T>(random);
-        return x;
-    };
-    for (int k = 0; k < programs; ++k) {
-        std::vector<sample<number>> pool;
-        for (int i = 0; i < 4; ++i) {
-            const T value = draw();
-            if (random() % 4 == 0) {
-                const T error = std::abs(draw()) * (random() % 2 ? T(1) : T(0));
-                const rational offset =
-                    exactly(error) * rational(static_cast<int>(random() % 9) - 4) / 4;
-                pool.push_back({number::within(value, error), exactly(value) + offset});
-            } else {
-                pool.push_back({number(value), exactly(value)});
+class random_programs {
+  public:
+    explicit random_programs(std::uint64_t seed) : seed_(seed), random_(seed) {}
+
+    void run(int programs) {
+        for (int k = 0; k < programs && !testing::Test::HasFatalFailure(); ++k) {
+            start();
+            for (int step = 0; step < 7; ++step) {
+                const auto next = combination();
+                if (!next) continue;
+                if (directed_ &&
+                    !(std::abs(next->number.value()) < huge_ && next->number.error() < huge_))
+                    break;
+                check(*next, std::string(Rule::name) + " seed " + std::to_string(seed_) +
+                                 " program " + std::to_string(k) + " step " + std::to_string(step));
+                if (testing::Test::HasFatalFailure()) return;
+                pool_.push_back(*next);
             }
-        }
-        for (int step = 0; step < 7; ++step) {
-            const auto& a = pool[random() % pool.size()];
-            const auto& b = pool[random() % pool.size()];
-            sample<number> c = a;
-            std::string what = std::string(Rule::name) + " seed " + std::to_string(seed) +
-                               " program " + std::to_string(k) + " step " + std::to_string(step);
-            switch (random() % (WithDivision ? 6 : 5)) {
-                case 0:
-                    c = {a.number + b.number, a.exact + b.exact};
-                    break;
-                case 1:
-                    c = {a.number - b.number, a.exact - b.exact};
-                    break;
-                case 2:
-                    c = {a.number * b.number, a.exact * b.exact};
-                    break;
-                case 3:
-                    c = {-a.number, -a.exact};
-                    break;
-                case 4: {
-                    const int e = static_cast<int>(random() % 200) - 100;
-                    const rational factor = exactly(std::ldexp(T(1), e));
-                    c = {scale(a.number, e), a.exact * factor};
-                    break;
-                }
-                default:
-                    if constexpr (WithDivision) {
-                        if (b.exact == 0) continue;
-                        c = {a.number / b.number, a.exact / b.exact};
-                    }
-            }
-            if (directed && !(std::abs(c.number.value()) < huge && c.number.error() < huge)) break;
-            check(c, what);
-            if (testing::Test::HasFatalFailure()) return;
-            pool.push_back(c);
         }
     }
+
+  private:
+    using number = tracked<T, Rule>;
+
+    T draw() {
+        T x = special_value<T>(random_);
+        while (directed_ && std::abs(x) > huge_) x = special_value<T>(random_);
+        return x;
+    }
+
+    void start() {
+        pool_.clear();
+        for (int i = 0; i < 4; ++i) {
+            const T value = draw();
+            if (random_() % 4 == 0) {
+                const T error = std::abs(draw()) * (random_() % 2 ? T(1) : T(0));
+                const rational offset =
+                    exactly(error) * rational(static_cast<int>(random_() % 9) - 4) / 4;
+                pool_.push_back({number::within(value, error), exactly(value) + offset});
+            } else {
+                pool_.push_back({number(value), exactly(value)});
+            }
+        }
+    }
+
+    /// Of two numbers of the pool; nothing where that would divide by zero.
+    std::optional<sample<number>> combination() {
+        const auto& a = pool_[random_() % pool_.size()];
+        const auto& b = pool_[random_() % pool_.size()];
+        switch (random_() % (WithDivision ? 6 : 5)) {
+            case 0:
+                return sample<number>{a.number + b.number, a.exact + b.exact};
+            case 1:
+                return sample<number>{a.number - b.number, a.exact - b.exact};
+            case 2:
+                return sample<number>{a.number * b.number, a.exact * b.exact};
+            case 3:
+                return sample<number>{-a.number, -a.exact};
+            case 4: {
+                const int e = static_cast<int>(random_() % 200) - 100;
+                return sample<number>{scale(a.number, e), a.exact * exactly(std::ldexp(T(1), e))};
+            }
+        }
+        if constexpr (WithDivision)
+            if (b.exact != 0) return sample<number>{a.number / b.number, a.exact / b.exact};
+        return std::nullopt;
+    }
+
+    std::uint64_t seed_;
+    std::mt19937_64 random_;
+    // In directed rounding overflow may end at the largest finite number, unnoticed (see
+    // rules/tight.hpp): there, inputs are smaller and programs that grow far end early.
+    bool directed_ = std::fegetround() != FE_TONEAREST;
+    T huge_ = std::sqrt(std::numeric_limits<T>::max());
+    std::vector<sample<number>> pool_;
+};
+
+template <class T, class Rule, bool WithDivision>
+void run_programs(int programs, std::uint64_t seed) {
+    random_programs<T, Rule, WithDivision>(seed).run(programs);
 }
 
 constexpr int programs = 20000;

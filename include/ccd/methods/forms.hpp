@@ -55,9 +55,9 @@ constexpr vector_form<S, 0> coefficient(const vector_form<S, N>& p, int i) {
 }
 
 /// Coplanarity and inside forms of a query: b, c, p as in the paper, n = b × c. They are linear in
-/// t; of degree 0, it is the forms' values at one time. Over scalars of W words
-/// (errbound/integers/fixed_integer.hpp) n has coefficients of 2W words, y of 3W and the others of
-/// 4W; every other scalar is its own product.
+/// t; of degree 0, it is the forms' values at one time. Over integers of W words
+/// n has coefficients of 2W words, y of 3W and the others of 4W; every other scalar is its own
+/// product.
 template <class S, int Degree = 1>
 struct coplanarity_forms {
     using product = decltype(std::declval<S>() * std::declval<S>());

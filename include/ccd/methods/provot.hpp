@@ -1,15 +1,14 @@
 // `provot`: roots of the coplanarity cubic in floating point, and an inside test at each of them
 // (Provot 1997), as textbooks give it.
 //
-// The cubic in powers of t, from differences to one vertex; its roots in [0, 1] by
-// errbound/roots/floating_roots.hpp, in number type T and without any error bound; at each root the
-// points' places, and there barycentric weights (VF) or edge parameters (EE) from the normal
-// equations, compared without tolerance. Where the normal vanishes the test says no, and there is
-// no test of vertices against edges. So collisions are lost and invented by rounding, and those of
-// degenerate features and of coplanar motion are lost by design. (A motion that stays coplanar has
-// no isolated root; t = 0 and t = 1 are asked, as ends at which the cubic is zero.) Coordinates are
-// not scaled, so tiny ones underflow; huge ones overflow, and what is then not finite gives
-// `uncertain` with cause `range`, never an answer.
+// The cubic in powers of t, from differences to one vertex; its roots in [0, 1] in number type T,
+// without any error bound; at each root the points' places, and there barycentric weights (VF) or
+// edge parameters (EE) from the normal equations, compared without tolerance. Where the normal
+// vanishes the test says no, and there is no test of vertices against edges. So collisions are lost
+// and invented by rounding, and those of degenerate features and of coplanar motion are lost by
+// design. (A motion that stays coplanar has no isolated root; t = 0 and t = 1 are asked, as ends at
+// which the cubic is zero.) Coordinates are not scaled, so tiny ones underflow; huge ones overflow,
+// and what is then not finite gives `uncertain` with cause `range`, never an answer.
 #pragma once
 
 #include <ccd/methods/forms.hpp>

@@ -253,6 +253,16 @@ class root_filter {
         return {&rows_[2 * k * size], &rows_[(2 * k + 1) * size]};
     }
 
+    /// De Casteljau's scheme, but for the powers of two: leaves the right half where the whole was.
+    static void take_left_half(const tracked_row<Rule>& whole, const tracked_row<Rule>& left,
+                               std::size_t n) {
+        for (std::size_t i = 0; i <= n; ++i) {
+            left.value[i] = whole.value[0];
+            left.error[i] = whole.error[0];
+            whole.add_next(n - i);
+        }
+    }
+
     void subdivide() {
         struct span_of_u {
             double from, to;
@@ -292,11 +302,7 @@ class root_filter {
             ++halvings;
             if (rows_.size() < 2 * (k + 2) * size) rows_.resize(2 * rows_.size());
             const auto right = row(k), left = row(k + 1);
-            for (std::size_t i = 0; i <= n; ++i) {
-                left.value[i] = right.value[0];
-                left.error[i] = right.error[0];
-                right.add_next(n - i);
-            }
+            take_left_half(right, left, n);
             left.shrink(left_factor.data(), 1, n);
             right.shrink(right_factor.data(), 0, n - 1);
             const double half = from + (to - from) / 2;
