@@ -4,12 +4,12 @@
 // closed interval [0, 1]; a degenerate triangle or edge is the segment or point that it is.
 //
 // Vertex/face and edge/edge queries pass the stages of ccd/explain.hpp and leave at the first that
-// is certain: floating point under static error bounds settles nearly all, in some ten to a hundred
+// is certain: floating point under static error bounds decides nearly all, in some ten to a hundred
 // nanoseconds. What remains is decided in integers of fixed width where the coordinates allow it:
 // where, on each axis and at each end of the step, they differ by less than 2^125 of their last
 // place. (Cloth scenes need 21 to 35 bits, the public benchmark's handcrafted queries up to 110.)
 // That takes a fraction of a microsecond to a few, without allocation. Else, and where fixed widths
-// cannot part what nearly coincides, the reference decides (ccd/reference.hpp): it takes up to a
+// cannot tell what nearly coincides, the reference decides (ccd/reference.hpp): it takes up to a
 // thousand times as long, bounded in time and memory, allocates, and throws only std::bad_alloc.
 // Coordinates must be finite: otherwise the answer is `uncertain` with cause `range`, the only case
 // in which it is not certain.

@@ -156,13 +156,13 @@ TEST(decide_exact, report_accounts_for_every_query) {
         std::size_t collisions = 0;
         for (const auto& q : set.queries)
             collisions += decide_exact(q, &report).outcome == ccd::outcome::collides;
-        std::size_t settled = 0, collides = 0;
+        std::size_t decided = 0, collides = 0;
         for (const auto& entry : report.stages) {
-            settled += entry.separate + entry.collides;
+            decided += entry.separate + entry.collides;
             collides += entry.collides;
             EXPECT_TRUE(entry.seconds > 0 || entry.entered == 0);
         }
-        EXPECT_EQ(settled, set.queries.size());
+        EXPECT_EQ(decided, set.queries.size());
         EXPECT_EQ(collides, collisions);
     });
 }
@@ -177,9 +177,9 @@ TEST(batch, agrees_with_the_reference_on_every_instruction_set_and_thread_count)
                                   {.threads = threads, .set = isa, .report = &report});
                 std::size_t i = 0;
                 expect_never_wrong(set, [&](const auto&) { return answers[i++]; });
-                std::size_t settled = 0;
-                for (const auto& entry : report.stages) settled += entry.separate + entry.collides;
-                EXPECT_EQ(settled, set.queries.size()) << ccd::name(isa);
+                std::size_t decided = 0;
+                for (const auto& entry : report.stages) decided += entry.separate + entry.collides;
+                EXPECT_EQ(decided, set.queries.size()) << ccd::name(isa);
             }
     });
 }
