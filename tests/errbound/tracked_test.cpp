@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/scaled.hpp"
 #include "tests/support/special_values.hpp"
 
 namespace {
@@ -127,7 +128,7 @@ void run_programs(int programs, std::uint64_t seed) {
     random_programs<T, Rule, WithDivision>(seed).run(programs);
 }
 
-constexpr int programs = 20000;
+const int programs = support::scaled(20000);
 
 template <class Rule>
 class TrackedBy : public testing::Test {};
