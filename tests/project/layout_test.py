@@ -89,9 +89,9 @@ def kind_of_brace(head):
 def cpp_functions(text):
     """(name, first line, lines) of every function that is in no other."""
     code = code_alone(text)
-    found, stack, start, i = [], [], 0, 0
-    while i < len(code):
-        c = code[i]
+    found, stack, start = [], [], 0
+    for mark in re.finditer(r"[{};]|\b(?:public|private|protected)\s*:", code):
+        i, c = mark.start(), mark[0]
         outside = all(kind == "scope" for kind, _ in stack)
         if c == "{":
             kind = kind_of_brace(code[start:i]) if outside else "inside"
@@ -108,11 +108,8 @@ def cpp_functions(text):
                 found.append((name, first, code.count("\n", 0, i) + 2 - first))
             if kind in ("scope", "function"):
                 start = i + 1
-        elif c == ";" and outside:
-            start = i + 1
-        elif c == ":" and outside and re.search(r"\b(public|private|protected)\s*$", code[start:i]):
-            start = i + 1
-        i += 1
+        elif c != "}" and outside:
+            start = mark.end()
     return found
 
 
