@@ -1,9 +1,9 @@
 // How much larger bounds are than the true errors, by MPFR (errbound/validation/validation.hpp).
 #include <algorithm>
+#include <errbound/validation/validation.hpp>
 #include <utility>
 
 #include "ccd/report/sections.hpp"
-#include "errbound/validation/validation.hpp"
 
 namespace ccd::report {
 namespace {

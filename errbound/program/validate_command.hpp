@@ -2,11 +2,10 @@
 #pragma once
 
 #include <ccd/io/query_file.hpp>
+#include <errbound/validation/validation.hpp>
 #include <filesystem>
 #include <optional>
 #include <vector>
-
-#include "errbound/validation/validation.hpp"
 
 namespace errbound::validation {
 

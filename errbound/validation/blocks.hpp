@@ -5,13 +5,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <errbound/validation/ball.hpp>
+#include <errbound/validation/validation.hpp>
 #include <future>
 #include <memory>
 #include <thread>
 #include <vector>
-
-#include "errbound/validation/ball.hpp"
-#include "errbound/validation/validation.hpp"
 
 namespace errbound::validation {
 

@@ -1,8 +1,8 @@
 // Distributions of log10 of a ratio, as counts.
-#include "errbound/validation/distribution.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <errbound/validation/distribution.hpp>
 #include <limits>
 
 namespace errbound::validation {

@@ -1,9 +1,9 @@
 // Random expressions: their making, their reference values and their text.
-#include "errbound/validation/expression.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <errbound/validation/expression.hpp>
 #include <limits>
 
 namespace errbound::validation {

@@ -1,12 +1,12 @@
 // Random expressions under every rule against one reference.
 #include <algorithm>
+#include <errbound/validation/findings.hpp>
+#include <errbound/validation/validation.hpp>
 #include <map>
 #include <utility>
 
 #include "errbound/validation/blocks.hpp"
-#include "errbound/validation/findings.hpp"
 #include "errbound/validation/minimise.hpp"
-#include "errbound/validation/validation.hpp"
 
 namespace errbound::validation {
 namespace {

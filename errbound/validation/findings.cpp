@@ -1,8 +1,8 @@
 // What comparing one value with its reference finds, in words.
-#include "errbound/validation/findings.hpp"
 
 #include <algorithm>
 #include <cstdio>
+#include <errbound/validation/findings.hpp>
 
 namespace errbound::validation {
 namespace {

@@ -1,10 +1,9 @@
 // Makes an expression that shows a violation smaller, as long as it still shows one. Internal.
 #pragma once
 
+#include <errbound/validation/expression.hpp>
 #include <functional>
 #include <optional>
-
-#include "errbound/validation/expression.hpp"
 
 namespace errbound::validation {
 

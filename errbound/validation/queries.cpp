@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <ccd/methods/transform.hpp>
+#include <errbound/validation/validation.hpp>
 #include <map>
 #include <utility>
 
 #include "errbound/validation/blocks.hpp"
-#include "errbound/validation/validation.hpp"
 
 namespace errbound::validation {
 

@@ -1,8 +1,84 @@
 // Every rule in every case of tiny formats.
+#include <cmath>
+#include <errbound/validation/tiny_check.hpp>
+#include <errbound/validation/validation.hpp>
+#include <string>
+
 #include "errbound/validation/blocks.hpp"
-#include "errbound/validation/validation.hpp"
 
 namespace errbound::validation {
+namespace {
+
+constexpr std::uint64_t max_described = 5;
+
+std::string text_of(const char* name, const tiny_account::operand& x) {
+    const std::string value = hexadecimal(x.value);
+    return "const number " + std::string(name) + " = " +
+           (x.error == 0 ? "format(" + value + ")"
+                         : "number::within(" + value + ", " + hexadecimal(x.error) + ")") +
+           ";\n";
+}
+std::string text_of(const tiny_account& how) {
+    constexpr const char* names[] = {"a", "b", "c"};
+    std::string text;
+    for (std::size_t i = 0; i < how.count; ++i) text += text_of(names[i], how.operands[i]);
+    if (how.inner != nullptr) text += "const number d = " + std::string(how.inner) + ";\n";
+    std::string operation = how.operation;
+    if (operation == "scale") operation = "scale(a, " + std::to_string(how.exponent) + ")";
+    return text + "const number " + (how.inner != nullptr ? "e" : "c") + " = " + operation + ";\n";
+}
+
+}  // namespace
+
+void tiny_judge::check(const claim& r, const exact_range& exact, const tiny_account& how) {
+    ++found_.values;
+    if (!std::isfinite(r.value) || !exact.defined()) {
+        if (certain(r.sign) || std::isfinite(r.error))
+            add(r, "certain about what has no finite value", how);
+        return;
+    }
+    if (!std::isnan(r.error) &&
+        !(r.value - exact.low <= r.error && exact.high - r.value <= r.error))
+        add(r, "the bound is too small", how);
+    check_sign(r, exact.low, exact.high, how);
+}
+
+void tiny_judge::check_quotient(const claim& r, const exact_range& n, const exact_range& d,
+                                const tiny_account& how) {
+    if (!n.defined() || !d.defined() || !(d.low > 0 || d.high < 0) || !std::isfinite(r.value)) {
+        check(r, {}, how);
+        return;
+    }
+    ++found_.values;
+    for (const double divisor : {d.low, d.high})
+        for (const double dividend : {n.low, n.high})
+            if (!std::isnan(r.error) &&
+                !(std::abs(r.value * divisor - dividend) <= r.error * std::abs(divisor))) {
+                add(r, "the bound is too small", how);
+                return;
+            }
+    if (d.low > 0)
+        check_sign(r, n.low, n.high, how);
+    else
+        check_sign(r, -n.high, -n.low, how);
+}
+
+void tiny_judge::check_sign(const claim& r, double low, double high, const tiny_account& how) {
+    if ((r.sign == sign_type::positive && !(low > 0)) ||
+        (r.sign == sign_type::negative && !(high < 0)) ||
+        (r.sign == sign_type::zero && !(low == 0 && high == 0)))
+        add(r, "the sign is wrong", how);
+}
+
+void tiny_judge::add(const claim& r, const char* broken, const tiny_account& how) {
+    if (++found_.violations > max_described) return;
+    found_.first.push_back(
+        {std::string(broken) + " (rounding " + std::string(direction_) + "): value " +
+             hexadecimal(r.value) + ", bound " + hexadecimal(r.error),
+         "using format = errbound::validation::" + found_.format +
+             ";\nusing number = errbound::tracked<format, errbound::" + std::string(rule_) +
+             ">;\n" + text_of(how)});
+}
 
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show) {
     std::vector<tiny_findings> found(rules.size() * tiny_format_count);

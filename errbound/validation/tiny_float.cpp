@@ -1,7 +1,7 @@
 // The tables of tiny formats, by MPFR.
-#include "errbound/validation/tiny_float.hpp"
 
 #include <algorithm>
+#include <errbound/validation/tiny_float.hpp>
 
 namespace errbound::validation {
 namespace {

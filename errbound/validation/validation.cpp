@@ -1,14 +1,22 @@
 // The rules that there are, and reports joined.
-#include "errbound/validation/validation.hpp"
 
+#include <errbound/validation/validation.hpp>
 #include <iterator>
+
+#include "errbound/validation/all_rules.hpp"
 
 namespace errbound::validation {
 
 std::span<const rule> rules() {
     static const std::vector<rule> all = [] {
         std::vector<rule> r;
-        for_each_rule(all_rules(), [&r]<class Rule>() { r.push_back(rule_of<Rule>()); });
+        for_each_rule(all_rules(), [&r]<class Rule>() {
+            rule one;
+            set_expression_checks<Rule>(one);
+            r.push_back(one);
+        });
+        set_query_checks(r);
+        set_tiny_checks(r);
         return r;
     }();
     return all;

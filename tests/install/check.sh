@@ -16,6 +16,7 @@ scene=$work/prefix/share/errbound/scenes/cloth-over-ball
 ! "$work/build/use_ccd_io" "$scene"/frame0.ply missing.ply 2>"$work/said"
 grep -q "missing.ply: found no such file" "$work/said"
 if [[ -f $work/prefix/lib/liberrbound_ccd_cuda.a ]]; then "$work/build/use_ccd_cuda"; fi
+if [[ -f $work/prefix/lib/liberrbound_validation.a ]]; then "$work/build/use_validation" >/dev/null; fi
 "$work/prefix/bin/ccd" methods | grep -q exact
 test -f "$work/prefix/share/doc/errbound/CITATION.cff"
 echo "installed package found, built against and run"

@@ -27,12 +27,12 @@ LAYERS = [
     ("exact numbers", r"include/errbound/(integers/|(multiprecision|eigen)\.hpp)"),
     ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),
     ("predicates", r"include/errbound/(predicate\w*\.hpp|filters/)"),
-    ("all of errbound", r"include/errbound/"),
+    ("all of errbound", r"include/errbound/(?!validation/)"),
     ("ccd: queries and calls", r"include/ccd/(?!ccd\.hpp)\w+\.hpp"),
     ("ccd: methods' headers", r"include/ccd/methods/"),
     ("all of ccd", r"include/ccd/"),
     ("support of programs", r"errbound/support/"),
-    ("validation", r"errbound/validation/"),
+    ("validation", r"(include/)?errbound/validation/"),
     ("ccd: one query", r"ccd/exact/"),
     ("ccd: other methods", r"ccd/methods/"),
     ("ccd: batches", r"ccd/batch/"),
@@ -43,9 +43,9 @@ LAYERS = [
     ("reports", r"ccd/report/"),
     ("programs", r"(ccd|errbound)/program/"),
 ]
-KNOWS_CCD = r"errbound/(validation|program)/"  # as their CMakeLists.txt say
+KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
 INTERNAL = r"(errbound/(detail|integers|filters|roots)|ccd/(exact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
-PUBLIC_HEADERS = r"include/(errbound/(rules/)?|ccd/(methods/)?)\w+\.hpp$"
+PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/(methods/)?)\w+\.hpp$"
 
 
 def blank(match):

@@ -34,58 +34,53 @@ constexpr entry<Dimension, Count, Predicate, Oracle> make_entry(std::string_view
     return {name, predicate, oracle, surfaces, constant_of_shewchuk};
 }
 
-inline constexpr auto all = [] {
-    using enum surface;
-    namespace oracle = predicate_oracle;
-    // Oracles take points in a common unit, and 1 in that unit.
-    return std::tuple(
-        make_entry<2, 3>(
-            "orient2d", errbound::orient2d,
-            [](const auto& p, const auto&) { return sign(oracle::orient2d(p)); }, {flat, flat}, 3),
-        make_entry<3, 4>(
-            "orient3d", errbound::orient3d,
-            [](const auto& p, const auto&) { return sign(oracle::orient3d(p)); }, {flat, flat}, 7),
-        make_entry<2, 4>(
-            "incircle", errbound::incircle,
-            [](const auto& p, const auto&) { return sign(oracle::incircle(p)); }, {round, round},
-            10),
-        make_entry<3, 5>(
-            "insphere", errbound::insphere,
-            [](const auto& p, const auto&) { return sign(oracle::insphere(p)); }, {round, round},
-            16),
-        make_entry<3, 4>(
-            "power_incircle", errbound::power_incircle,
-            [](const auto& p, const auto& one) { return sign(oracle::power_incircle(p, one)); },
-            {weighted, weighted}),
-        make_entry<4, 5>(
-            "power_insphere", errbound::power_insphere,
-            [](const auto& p, const auto& one) { return sign(oracle::power_insphere(p, one)); },
-            {weighted, weighted}),
-        make_entry<2, 3>(
-            "compare_distances2d", errbound::compare_distances2d,
-            [](const auto& p, const auto&) { return sign(oracle::compare_distances(p)); },
-            {centred, centred}),
-        make_entry<3, 3>(
-            "compare_distances3d", errbound::compare_distances3d,
-            [](const auto& p, const auto&) { return sign(oracle::compare_distances(p)); },
-            {centred, centred}),
-        make_entry<3, 4>("segments_intersect3d", errbound::segments_intersect3d,
-                         [](const auto& p, const auto&) { return oracle::segments_intersect3d(p); },
-                         {flat, concurrent}),
-        make_entry<3, 5>(
-            "segment_intersects_triangle", errbound::segment_intersects_triangle,
-            [](const auto& p, const auto&) { return oracle::segment_intersects_triangle(p); },
-            {flat, concurrent}),
-        make_entry<2, 6>("orient2d_line_line", errbound::orient2d_line_line,
-                         [](const auto& p, const auto&) { return oracle::orient2d_line_line(p); },
-                         {concurrent, concurrent}),
-        make_entry<3, 8>("orient3d_line_plane", errbound::orient3d_line_plane,
-                         [](const auto& p, const auto&) { return oracle::orient3d_line_plane(p); },
-                         {concurrent, concurrent}),
-        make_entry<2, 8>("compare_x_line_line", errbound::compare_x_line_line,
-                         [](const auto& p, const auto&) { return oracle::compare_x_line_line(p); },
-                         {concurrent, concurrent}));
-}();
+using enum surface;
+namespace oracle = predicate_oracle;
+
+/// Oracles take points in a common unit, and 1 in that unit.
+inline constexpr std::tuple all{
+    make_entry<2, 3>(
+        "orient2d", errbound::orient2d,
+        [](const auto& p, const auto&) { return sign(oracle::orient2d(p)); }, {flat, flat}, 3),
+    make_entry<3, 4>(
+        "orient3d", errbound::orient3d,
+        [](const auto& p, const auto&) { return sign(oracle::orient3d(p)); }, {flat, flat}, 7),
+    make_entry<2, 4>(
+        "incircle", errbound::incircle,
+        [](const auto& p, const auto&) { return sign(oracle::incircle(p)); }, {round, round}, 10),
+    make_entry<3, 5>(
+        "insphere", errbound::insphere,
+        [](const auto& p, const auto&) { return sign(oracle::insphere(p)); }, {round, round}, 16),
+    make_entry<3, 4>(
+        "power_incircle", errbound::power_incircle,
+        [](const auto& p, const auto& one) { return sign(oracle::power_incircle(p, one)); },
+        {weighted, weighted}),
+    make_entry<4, 5>(
+        "power_insphere", errbound::power_insphere,
+        [](const auto& p, const auto& one) { return sign(oracle::power_insphere(p, one)); },
+        {weighted, weighted}),
+    make_entry<2, 3>("compare_distances2d", errbound::compare_distances2d,
+                     [](const auto& p, const auto&) { return sign(oracle::compare_distances(p)); },
+                     {centred, centred}),
+    make_entry<3, 3>("compare_distances3d", errbound::compare_distances3d,
+                     [](const auto& p, const auto&) { return sign(oracle::compare_distances(p)); },
+                     {centred, centred}),
+    make_entry<3, 4>("segments_intersect3d", errbound::segments_intersect3d,
+                     [](const auto& p, const auto&) { return oracle::segments_intersect3d(p); },
+                     {flat, concurrent}),
+    make_entry<3, 5>(
+        "segment_intersects_triangle", errbound::segment_intersects_triangle,
+        [](const auto& p, const auto&) { return oracle::segment_intersects_triangle(p); },
+        {flat, concurrent}),
+    make_entry<2, 6>("orient2d_line_line", errbound::orient2d_line_line,
+                     [](const auto& p, const auto&) { return oracle::orient2d_line_line(p); },
+                     {concurrent, concurrent}),
+    make_entry<3, 8>("orient3d_line_plane", errbound::orient3d_line_plane,
+                     [](const auto& p, const auto&) { return oracle::orient3d_line_plane(p); },
+                     {concurrent, concurrent}),
+    make_entry<2, 8>("compare_x_line_line", errbound::compare_x_line_line,
+                     [](const auto& p, const auto&) { return oracle::compare_x_line_line(p); },
+                     {concurrent, concurrent})};
 
 /// The unit in which an entry's oracle takes these points.
 template <class Entry, class Points>

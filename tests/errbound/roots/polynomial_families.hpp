@@ -65,91 +65,24 @@ class generator {
     sample make(family f, int degree) {
         const auto n = static_cast<std::size_t>(degree);
         switch (f) {
-            case family::random: {
-                std::vector<double> c(n + 1);
-                for (double& x : c) x = uniform();
-                return of_doubles(c);
-            }
-            case family::wide: {
-                std::vector<double> c(n + 1);
-                for (double& x : c) x = any_double();
-                return of_doubles(c);
-            }
-            case family::separated: {
-                std::vector<double> c{1};
-                while (c.size() <= n) {
-                    const double r = 4 * uniform();
-                    const bool pair = c.size() < n && random_() % 3 == 0;
-                    c = pair ? product(c, {r * r + 1 + uniform(), -2 * r, 1}) : product(c, {-r, 1});
-                }
-                return of_doubles(c);
-            }
-            case family::clustered: {
-                std::vector<integer> c{1};
-                integer near = small(100);
-                int bits = 4;
-                while (c.size() <= n) {
-                    // The root near/2^bits.
-                    c = product(c, {integer(-near), integer(1) << static_cast<unsigned>(bits)});
-                    const int closer = static_cast<int>(random_() % 3) * 10;
-                    if (closer == 0 || bits + closer > 44) {
-                        near = small(100);
-                        bits = 4;
-                    } else {
-                        near = (near << static_cast<unsigned>(closer)) + small(3);
-                        bits += closer;
-                    }
-                }
-                return {c};
-            }
-            case family::multiple: {
-                std::vector<integer> c{1};
-                while (c.size() <= n) {
-                    const std::vector<integer> factor =
-                        random_() % 3 == 0
-                            ? std::vector<integer>{small(6), small(6), 1 + small(1)}
-                            : std::vector<integer>{small(8), 1 + static_cast<int>(random_() % 4)};
-                    for (std::uint64_t m = 1 + random_() % 3;
-                         m > 0 && c.size() + factor.size() <= n + 2; --m)
-                        c = product(c, factor);
-                    if (c.size() + 2 > n + 1) break;
-                }
-                errbound::roots::trim(c);
-                return c.empty() ? sample{{1, 2, 1}} : sample{c};
-            }
-            case family::bernstein: {
-                std::vector<integer> b(n + 1);
-                for (integer& x : b) x = small(2);
-                return {from_control_values(b)};
-            }
-            case family::wilkinson: {
-                std::vector<integer> c{1};
-                for (int k = 1; k <= degree; ++k) c = product(c, {integer(-k), 1});
-                if (random_() % 2 == 0) c[random_() % c.size()] += small(1);
-                return {c};
-            }
-            case family::chebyshev: {
-                std::vector<integer> before{1}, c{0, 1};
-                for (int k = 1; k < degree; ++k) {
-                    std::vector<integer> next = product(c, {0, 2});
-                    for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
-                    before = std::move(c);
-                    c = std::move(next);
-                }
-                for (integer& x : c) x <<= 20U;
-                c[0] += small(1 << 20);  // ±2^20 makes extrema double roots
-                if (random_() % 4 == 0) c[0] = c[0] > 0 ? 1 << 20 : -(1 << 20);
-                return {c};
-            }
-            case family::mignotte: {
-                const integer a = 2 + static_cast<int>(random_() % 1000);
-                std::vector<integer> c(std::max<std::size_t>(n, 3) + 1);
-                c.back() = 1;
-                c[0] = -2;
-                c[1] = 4 * a;
-                c[2] -= 2 * a * a;
-                return {c};
-            }
+            case family::random:
+                return random(n);
+            case family::wide:
+                return wide(n);
+            case family::separated:
+                return separated(n);
+            case family::clustered:
+                return clustered(n);
+            case family::multiple:
+                return multiple(n);
+            case family::bernstein:
+                return bernstein(n);
+            case family::wilkinson:
+                return wilkinson(degree);
+            case family::chebyshev:
+                return chebyshev(degree);
+            case family::mignotte:
+                return mignotte(n);
         }
         return {};
     }
@@ -173,6 +106,92 @@ class generator {
     }
 
   private:
+    sample random(std::size_t n) {
+        std::vector<double> c(n + 1);
+        for (double& x : c) x = uniform();
+        return of_doubles(c);
+    }
+    sample wide(std::size_t n) {
+        std::vector<double> c(n + 1);
+        for (double& x : c) x = any_double();
+        return of_doubles(c);
+    }
+    sample separated(std::size_t n) {
+        std::vector<double> c{1};
+        while (c.size() <= n) {
+            const double r = 4 * uniform();
+            const bool pair = c.size() < n && random_() % 3 == 0;
+            c = pair ? product(c, {r * r + 1 + uniform(), -2 * r, 1}) : product(c, {-r, 1});
+        }
+        return of_doubles(c);
+    }
+    sample clustered(std::size_t n) {
+        std::vector<integer> c{1};
+        integer near = small(100);
+        int bits = 4;
+        while (c.size() <= n) {
+            // The root near/2^bits.
+            c = product(c, {integer(-near), integer(1) << static_cast<unsigned>(bits)});
+            const int closer = static_cast<int>(random_() % 3) * 10;
+            if (closer == 0 || bits + closer > 44) {
+                near = small(100);
+                bits = 4;
+            } else {
+                near = (near << static_cast<unsigned>(closer)) + small(3);
+                bits += closer;
+            }
+        }
+        return {c};
+    }
+    sample multiple(std::size_t n) {
+        std::vector<integer> c{1};
+        while (c.size() <= n) {
+            const std::vector<integer> factor =
+                random_() % 3 == 0
+                    ? std::vector<integer>{small(6), small(6), 1 + small(1)}
+                    : std::vector<integer>{small(8), 1 + static_cast<int>(random_() % 4)};
+            for (std::uint64_t m = 1 + random_() % 3; m > 0 && c.size() + factor.size() <= n + 2;
+                 --m)
+                c = product(c, factor);
+            if (c.size() + 2 > n + 1) break;
+        }
+        errbound::roots::trim(c);
+        return c.empty() ? sample{{1, 2, 1}} : sample{c};
+    }
+    sample bernstein(std::size_t n) {
+        std::vector<integer> b(n + 1);
+        for (integer& x : b) x = small(2);
+        return {from_control_values(b)};
+    }
+    sample wilkinson(int degree) {
+        std::vector<integer> c{1};
+        for (int k = 1; k <= degree; ++k) c = product(c, {integer(-k), 1});
+        if (random_() % 2 == 0) c[random_() % c.size()] += small(1);
+        return {c};
+    }
+    sample chebyshev(int degree) {
+        std::vector<integer> before{1}, c{0, 1};
+        for (int k = 1; k < degree; ++k) {
+            std::vector<integer> next = product(c, {0, 2});
+            for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
+            before = std::move(c);
+            c = std::move(next);
+        }
+        for (integer& x : c) x <<= 20U;
+        c[0] += small(1 << 20);  // ±2^20 makes extrema double roots
+        if (random_() % 4 == 0) c[0] = c[0] > 0 ? 1 << 20 : -(1 << 20);
+        return {c};
+    }
+    sample mignotte(std::size_t n) {
+        const integer a = 2 + static_cast<int>(random_() % 1000);
+        std::vector<integer> c(std::max<std::size_t>(n, 3) + 1);
+        c.back() = 1;
+        c[0] = -2;
+        c[1] = 4 * a;
+        c[2] -= 2 * a * a;
+        return {c};
+    }
+
     /// Σ b_i C(n, i) x^i (1 − x)^(n−i)
     static std::vector<integer> from_control_values(const std::vector<integer>& b) {
         const int n = static_cast<int>(b.size()) - 1;

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <errbound/validation/tiny_float.hpp>
+#include <errbound/validation/validation.hpp>
 #include <limits>
 
-#include "errbound/validation/tiny_float.hpp"
-#include "errbound/validation/validation.hpp"
 #include "tests/errbound/validation/validation_rules.hpp"
 
 namespace {
@@ -65,8 +65,11 @@ TEST(Tiny, EveryRuleKeepsItsPromises) {
 }
 
 TEST(Tiny, BrokenRulesAreCaught) {
-    const rule broken[] = {validation::rule_of<validation_test::as_printed>(),
-                           validation::rule_of<validation_test::too_small>()};
+    rule broken[2];
+    broken[0].name = validation_test::as_printed::name;
+    broken[1].name = validation_test::too_small::name;
+    validation::set_tiny_checks<validation_test::as_printed>(broken[0]);
+    validation::set_tiny_checks<validation_test::too_small>(broken[1]);
     for (const rule& r : broken) {
         const validation::report found = validation::validate_tiny(std::span(&r, 1), 0);
         EXPECT_GT(found.violation_count(), 0U) << r.name;

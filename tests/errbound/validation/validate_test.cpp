@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <errbound/validation/validation.hpp>
 #include <string>
 #include <vector>
 
-#include "errbound/validation/validation.hpp"
 #include "tests/errbound/validation/validation_rules.hpp"
 #include "tests/support/query_families.hpp"
 #include "tests/support/scaled.hpp"

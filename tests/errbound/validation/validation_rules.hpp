@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <errbound/validation/validation.hpp>
 #include <string>
-
-#include "errbound/validation/validation.hpp"
 
 namespace validation_test {
 

@@ -6,14 +6,13 @@
 #include <cstdint>
 #include <errbound/bernstein.hpp>
 #include <errbound/tracked.hpp>
+#include <errbound/validation/distribution.hpp>
+#include <errbound/validation/findings.hpp>
+#include <errbound/validation/rule_list.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "errbound/validation/distribution.hpp"
-#include "errbound/validation/findings.hpp"
-#include "errbound/validation/rule_list.hpp"
 
 namespace errbound::validation {
 

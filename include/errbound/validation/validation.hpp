@@ -9,14 +9,13 @@
 
 #include <ccd/query.hpp>
 #include <cstdint>
+#include <errbound/validation/distribution.hpp>
+#include <errbound/validation/rule.hpp>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "errbound/validation/distribution.hpp"
-#include "errbound/validation/rule.hpp"
 
 namespace errbound::validation {
 

@@ -8,11 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/tracked.hpp>
+#include <errbound/validation/ball.hpp>
+#include <errbound/validation/rule_list.hpp>
 #include <string>
 #include <string_view>
-
-#include "errbound/validation/ball.hpp"
-#include "errbound/validation/rule_list.hpp"
 
 namespace errbound::validation {
 

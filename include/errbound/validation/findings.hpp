@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <errbound/validation/ball.hpp>
+#include <errbound/validation/distribution.hpp>
+#include <errbound/validation/expression.hpp>
 #include <string>
-
-#include "errbound/validation/ball.hpp"
-#include "errbound/validation/distribution.hpp"
-#include "errbound/validation/expression.hpp"
 
 namespace errbound::validation {
 

@@ -3,9 +3,8 @@
 
 #include <ccd/methods/bsc.hpp>
 #include <ccd/methods/forms.hpp>
+#include <errbound/validation/shadowed.hpp>
 #include <string_view>
-
-#include "errbound/validation/shadowed.hpp"
 
 namespace errbound::validation {
 

@@ -1,0 +1,13 @@
+// The check of tiny formats for every rule: instances alone.
+#include <cstddef>
+
+#include "errbound/validation/all_rules.hpp"
+
+namespace errbound::validation {
+
+void set_tiny_checks(std::span<rule> rules) {
+    std::size_t i = 0;
+    for_each_rule(all_rules(), [&]<class Rule>() { set_tiny_checks<Rule>(rules[i++]); });
+}
+
+}  // namespace errbound::validation

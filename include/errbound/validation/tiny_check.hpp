@@ -1,0 +1,272 @@
+// A bound rule in every case of tiny formats.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <errbound/tracked.hpp>
+#include <errbound/validation/expression.hpp>
+#include <errbound/validation/rule_list.hpp>
+#include <errbound/validation/tiny_float.hpp>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace errbound::validation {
+
+template <class...>
+struct tiny_format_types {};
+/// Of 6, 7 and 8 bits. Three bits of exponent at least, so that u is a number of the format.
+using tiny_formats =
+    tiny_format_types<tiny_float<3, 3>, tiny_float<2, 4>, tiny_float<4, 3>, tiny_float<3, 4>,
+                      tiny_float<5, 3>, tiny_float<4, 4>, tiny_float<3, 5>>;
+inline constexpr std::size_t tiny_format_count = 7;
+
+/// What a rule was found to do in one format.
+struct tiny_findings {
+    struct broken {
+        std::string what, code;
+    };
+    std::string format;  ///< empty: below the rule's minimal_precision
+    std::uint64_t values = 0, violations = 0;
+    std::vector<broken> first;  ///< the first few
+};
+
+/// The least precision for which the rule's bounds are proved, where it names one.
+template <class Rule>
+inline constexpr int minimal_precision = [] {
+    if constexpr (requires { Rule::minimal_precision; })
+        return Rule::minimal_precision;
+    else
+        return 2;
+}();
+/// Whether the rule's bounds hold in directed rounding too.
+template <class Rule>
+inline constexpr bool holds_in_directed_rounding = [] {
+    if constexpr (requires { Rule::holds_in_directed_rounding; })
+        return Rule::holds_in_directed_rounding;
+    else
+        return false;
+}();
+
+/// Where an exact result may lie; by default nowhere: there is none.
+struct exact_range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    bool defined() const { return std::isfinite(low) && std::isfinite(high); }
+};
+
+/// How a result came about: operands a, b, c, as many as there are; d, where it is made of a and b
+/// first; and the operation.
+struct tiny_account {
+    struct operand {
+        double value, error;
+    };
+    std::array<operand, 3> operands{};
+    std::size_t count = 0;
+    const char* inner = nullptr;
+    const char* operation = "";
+    int exponent = 0;  ///< of the operation "scale"
+};
+
+/// Holds results to what they may be the results of. Exact references are doubles here: every sum,
+/// difference and product of what tiny formats and their bounds hold fits 53 bits, and quotients
+/// are compared multiplied out.
+class tiny_judge {
+  public:
+    tiny_judge(tiny_findings& found, std::string_view rule, std::string_view direction)
+        : found_(found), rule_(rule), direction_(direction) {}
+
+    void check(const claim& r, const exact_range& exact, const tiny_account& how);
+    /// A quotient of what lies in these ranges: compared multiplied by the divisor, at the corners,
+    /// among which are the extremes if the divisor cannot be zero.
+    void check_quotient(const claim& r, const exact_range& n, const exact_range& d,
+                        const tiny_account& how);
+
+  private:
+    /// A certain sign must be that of all numbers from low to high.
+    void check_sign(const claim& r, double low, double high, const tiny_account& how);
+    void add(const claim& r, const char* broken, const tiny_account& how);
+
+    tiny_findings& found_;
+    std::string_view rule_, direction_;
+};
+
+/// Every operation of a rule in one format.
+template <class Rule, class Tiny>
+class tiny_checker {
+    using number = tracked<Tiny, Rule>;
+
+  public:
+    tiny_checker(tiny_findings& found, std::string_view direction)
+        : judge_(found, Rule::name, direction) {
+        for (int code = 0; code < Tiny::codes; ++code)
+            if (const Tiny x = Tiny::from_code(code); std::isfinite(double(x))) {
+                finite_.push_back(x);
+                if (code < Tiny::codes / 2) bounds_.push_back(x);
+            }
+    }
+
+    void check_everything() {
+        check_exact_pairs();
+        if constexpr (Tiny::precision + Tiny::exponent_bits == 6) {
+            check_bounded();
+            check_two_operations();
+        }
+    }
+
+  private:
+    /// A number and all that it may stand for: low to high.
+    struct operand_range {
+        number x;
+        double low, high;
+        tiny_account::operand as_operand;
+    };
+
+    static operand_range exactly(Tiny x) {
+        return {number(x), double(x), double(x), {double(x), 0}};
+    }
+    static operand_range within(Tiny x, Tiny error) {
+        const double value = double(x), off = double(error);
+        return {error == 0 ? number(x) : number::within(x, error),
+                value - off,
+                value + off,
+                {value, off}};
+    }
+
+    // The flag is cleared after a result was looked at, and so before each operation.
+
+    void check(const number& r, const exact_range& exact, tiny_account& how,
+               const char* operation) {
+        if (!Tiny::overflowed_unnoticed()) {  // the one thing that a rule may miss
+            how.operation = operation;
+            judge_.check({double(r.value()), double(r.error()), sign_of(r)}, exact, how);
+        }
+        Tiny::clear_flag();
+    }
+    void check_quotient(const number& r, const exact_range& n, const exact_range& d,
+                        tiny_account& how, const char* operation) {
+        if (!Tiny::overflowed_unnoticed()) {
+            how.operation = operation;
+            judge_.check_quotient({double(r.value()), double(r.error()), sign_of(r)}, n, d, how);
+        }
+        Tiny::clear_flag();
+    }
+
+    /// Every operation on two operands.
+    void check_pair(const operand_range& a, const operand_range& b) {
+        tiny_account how{{a.as_operand, b.as_operand}, 2};
+        Tiny::clear_flag();
+        check(a.x + b.x, {a.low + b.low, a.high + b.high}, how, "a + b");
+        check(a.x - b.x, {a.low - b.high, a.high - b.low}, how, "a - b");
+        check(a.x * b.x, product(a, b), how, "a * b");
+        if constexpr (has_division<Rule>)
+            check_quotient(a.x / b.x, {a.low, a.high}, {b.low, b.high}, how, "a / b");
+    }
+    static exact_range product(const operand_range& a, const operand_range& b) {
+        if (!std::isfinite(a.low) || !std::isfinite(b.low)) return {};
+        const double products[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+        const auto [low, high] = std::minmax_element(std::begin(products), std::end(products));
+        return {*low, *high};
+    }
+    /// The operand itself, −x, and x·2^e for every e that leaves something.
+    void check_one(const operand_range& a) {
+        tiny_account how{{a.as_operand}, 1};
+        Tiny::clear_flag();
+        check(a.x, {a.low, a.high}, how, "a");
+        check(-a.x, {-a.high, -a.low}, how, "-a");
+        constexpr int reach = (1 << Tiny::exponent_bits) + Tiny::precision;
+        for (int e = -reach; e <= reach; ++e) {
+            how.exponent = e;
+            check(scale(a.x, e), {std::ldexp(a.low, e), std::ldexp(a.high, e)}, how, "scale");
+        }
+    }
+
+    void check_exact_pairs() {
+        // Infinities and NaN among them: all codes.
+        for (int a = 0; a < Tiny::codes; ++a) {
+            check_one(exactly(Tiny::from_code(a)));
+            for (int b = 0; b < Tiny::codes; ++b)
+                check_pair(exactly(Tiny::from_code(a)), exactly(Tiny::from_code(b)));
+        }
+    }
+    /// Every pair of numbers with every pair of bounds.
+    void check_bounded() {
+        std::vector<operand_range> all;
+        for (const Tiny x : finite_)
+            for (const Tiny e : bounds_)
+                if (all.push_back(within(x, e)); e != 0) check_one(all.back());
+        for (const operand_range& a : all)
+            for (const operand_range& b : all) check_pair(a, b);
+    }
+    /// Every (a ∘ b) ∘ c and c ∘ (a ∘ b) of exact numbers, the inner operation not a division:
+    /// bounds as rules make them themselves.
+    void check_two_operations() {
+        for (const Tiny a : finite_)
+            for (const Tiny b : finite_) {
+                const double x = double(a), y = double(b);
+                tiny_account how{{{{x, 0}, {y, 0}}}, 3};
+                Tiny::clear_flag();
+                check_with_third(number(a) + number(b), x + y, how, "a + b");
+                check_with_third(number(a) - number(b), x - y, how, "a - b");
+                check_with_third(number(a) * number(b), x * y, how, "a * b");
+            }
+    }
+    void check_with_third(const number& inner, double exact, tiny_account& how,
+                          const char* inner_operation) {
+        const bool usable = !Tiny::overflowed_unnoticed();
+        Tiny::clear_flag();
+        if (!usable) return;
+        how.inner = inner_operation;
+        for (const Tiny c : finite_) {
+            const number outer(c);
+            const double z = double(c);
+            how.operands[2] = {z, 0};
+            Tiny::clear_flag();
+            check(inner + outer, {exact + z, exact + z}, how, "d + c");
+            check(inner - outer, {exact - z, exact - z}, how, "d - c");
+            check(outer - inner, {z - exact, z - exact}, how, "c - d");
+            check(inner * outer, {exact * z, exact * z}, how, "d * c");
+            if constexpr (has_division<Rule>) {
+                check_quotient(inner / outer, {exact, exact}, {z, z}, how, "d / c");
+                check_quotient(outer / inner, {z, z}, {exact, exact}, how, "c / d");
+            }
+        }
+    }
+
+    tiny_judge judge_;
+    std::vector<Tiny> finite_, bounds_;
+};
+
+template <class Rule, class Tiny>
+void check_tiny_format(tiny_findings& found) {
+    if (!promises_bound<Rule> || Tiny::precision < minimal_precision<Rule>) return;
+    found.format = "tiny_float<" + std::to_string(Tiny::precision) + ", " +
+                   std::to_string(Tiny::exponent_bits) + ">";
+    constexpr std::array<std::pair<mpfr_rnd_t, std::string_view>, 4> directions{
+        {{MPFR_RNDN, "to nearest"},
+         {MPFR_RNDZ, "towards zero"},
+         {MPFR_RNDU, "upwards"},
+         {MPFR_RNDD, "downwards"}}};
+    for (const auto& [direction, name] : directions) {
+        if (direction != MPFR_RNDN && !holds_in_directed_rounding<Rule>) continue;
+        const tiny_rounding<Tiny> rounding(direction);
+        tiny_checker<Rule, Tiny>(found, name).check_everything();
+    }
+}
+
+/// The rule in the format of this index, 0 <= format < tiny_format_count.
+template <class Rule>
+void check_tiny(std::size_t format, tiny_findings& found) {
+    [&]<class... Tiny>(tiny_format_types<Tiny...>) {
+        static_assert(sizeof...(Tiny) == tiny_format_count);
+        std::size_t i = 0;
+        ((i++ == format ? check_tiny_format<Rule, Tiny>(found) : void()), ...);
+    }(tiny_formats());
+}
+
+}  // namespace errbound::validation

@@ -1,0 +1,476 @@
+// The C++ code is what the proofs are about: in every case of a tiny format, and in a selection of
+// cases of larger ones, it gives the results that proofs/tie.txt tells by their hash. That table is
+// written by proofs/tie.ml, a program of the proofs' own definitions; what is enumerated here, and
+// in which order, is what is enumerated there.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <errbound/error_free.hpp>
+#include <errbound/tracked.hpp>
+#include <errbound/validation/tiny_float.hpp>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace tie {
+
+using errbound::number_traits;
+using errbound::rule_operand;
+using errbound::validation::tiny_float;
+
+/// The error that it is told, to ask the default sign_of.
+struct given_error {
+    static constexpr const char* name = "given error";
+    template <class T>
+    struct bound {
+        T error;
+    };
+    template <class T>
+    static bound<T> exact(const T&) {
+        return {T(0)};
+    }
+    template <class T>
+    static bound<T> within(const T&, const T& error) {
+        return {error};
+    }
+    template <class T>
+    static T error(const T&, const bound<T>& b) {
+        return b.error;
+    }
+    // A rule has these; nothing is asked of them.
+    template <class T>
+    static bound<T> add(const T&, auto, auto) {
+        return {};
+    }
+    template <class T>
+    static bound<T> subtract(const T&, auto, auto) {
+        return {};
+    }
+    template <class T>
+    static bound<T> multiply(const T&, auto, auto) {
+        return {};
+    }
+    template <class T>
+    static bound<T> scale(const T&, auto, int) {
+        return {};
+    }
+};
+
+struct expected_results {
+    std::uint64_t cases;
+    std::uint32_t hash;
+};
+using table = std::map<std::string, expected_results>;
+
+/// By "format operation".
+inline table read_table() {
+    std::ifstream file(ERRBOUND_TIE_TABLE);
+    table read;
+    std::string format, operation;
+    expected_results results{};
+    while (file >> format >> operation >> std::dec >> results.cases >> std::hex >> results.hash)
+        read[format + " " + operation] = results;
+    return read;
+}
+
+/// FNV-1a, of 32-bit words.
+class hash {
+  public:
+    void put(std::uint32_t word) { value_ = (value_ ^ word) * 16777619U; }
+    std::uint32_t value() const { return value_; }
+
+  private:
+    std::uint32_t value_ = 2166136261U;
+};
+
+/// A number sequence, modulo 2^63; the upper bits are used.
+class sequence {
+  public:
+    explicit sequence(std::uint64_t start = 1) : state_(start) {}
+    std::uint64_t draw(std::uint64_t n) {
+        state_ = (state_ * 3935559000370003845U + 2691343689449507681U) & (~std::uint64_t{0} >> 1);
+        return (state_ >> 20) % n;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+// What is enumerated of a format: values, those not negative for bounds; and how results are put:
+// zeros alike, NaN alike.
+
+template <class T>
+struct format;
+
+template <int P, int E>
+struct format<tiny_float<P, E>> {
+    using T = tiny_float<P, E>;
+    static constexpr std::uint64_t samples = 1 << 20;
+    static constexpr std::uint64_t exhaustive = P + E == 6 ? 1 << 24 : 1 << 20;
+    static constexpr int nan = ((1 << E) - 1) * (1 << (P - 1)) + 1;
+    std::string name = "tiny_float<" + std::to_string(P) + "," + std::to_string(E) + ">";
+    std::vector<T> values, bounds;
+
+    format() {
+        for (int c = 0; c < T::codes; ++c)
+            if (c <= nan || (c >= T::codes / 2 && c < nan + T::codes / 2)) {
+                values.push_back(T::from_code(c));
+                if (c < T::codes / 2) bounds.push_back(T::from_code(c));
+            }
+    }
+    static void put(hash& h, T x) {
+        const int code = std::isnan(double(x)) ? nan : x == 0 ? 0 : x.code();
+        h.put(static_cast<std::uint32_t>(code));
+    }
+};
+
+template <std::floating_point F>
+struct format<F> {
+    using T = F;
+    using limits = std::numeric_limits<T>;
+    static constexpr bool one_word = sizeof(T) == 4;
+    static constexpr std::uint64_t samples = 2000, exhaustive = 0;
+    std::string name = one_word ? "float" : "double";
+    std::vector<T> values{T(0),          limits::infinity(),   limits::quiet_NaN(),
+                          limits::max(), limits::denorm_min(), limits::min(),
+                          T(1)};
+    std::vector<T> bounds = values;
+
+    format() {
+        values.push_back(-limits::infinity());
+        values.push_back(-limits::max());
+        sequence numbers;
+        for (int i = 0; i < 150; ++i) values.push_back(number(numbers, true));
+        for (int i = 0; i < 100; ++i) bounds.push_back(number(numbers, false));
+    }
+    static T number(sequence& numbers, bool with_sign) {
+        constexpr std::uint64_t bias = limits::max_exponent - 1, p = limits::digits;
+        std::uint64_t exponent = 0;
+        switch (numbers.draw(8)) {
+            case 0:
+            case 1:
+            case 2:
+                exponent = bias - 2 + numbers.draw(5);
+                break;
+            case 3:
+            case 4:
+                exponent = bias - p - 2 + numbers.draw(5);
+                break;
+            case 5:
+                exponent = numbers.draw(4);
+                break;
+            case 6:
+                exponent = bias / 2 - p + numbers.draw(2 * p);
+                break;
+            default:
+                exponent = 2 * bias - numbers.draw(4);
+        }
+        const std::uint64_t sign = with_sign ? numbers.draw(2) : 0;
+        const bool is_short = numbers.draw(4) == 0;
+        constexpr int upper_bits = one_word ? 23 : 20;
+        const std::uint64_t upper = numbers.draw(std::uint64_t{1} << upper_bits);
+        const std::uint64_t lower = numbers.draw(std::uint64_t{1} << 32);
+        const std::uint64_t first = sign << 31 | exponent << upper_bits | (is_short ? 0 : upper);
+        if constexpr (one_word)
+            return std::bit_cast<T>(static_cast<std::uint32_t>(first));
+        else
+            return std::bit_cast<T>(first << 32 | (is_short ? 0 : lower));
+    }
+    static void put(hash& h, T x) {
+        if (std::isnan(x))  // the one NaN of the proofs
+            x = std::bit_cast<T>(std::bit_cast<word>(limits::infinity()) + 1);
+        else if (x == 0)
+            x = 0;
+        const auto bits = std::bit_cast<word>(x);
+        if constexpr (!one_word) h.put(static_cast<std::uint32_t>(std::uint64_t{bits} >> 32));
+        h.put(static_cast<std::uint32_t>(bits));
+    }
+
+  private:
+    using word = std::conditional_t<one_word, std::uint32_t, std::uint64_t>;
+};
+
+/// One operation: its number of cases, and what puts the results of one.
+struct operation {
+    std::string name;
+    std::uint64_t total;
+    std::function<void(hash&, std::uint64_t)> run;
+};
+
+template <class First, class Second, class Case>
+operation of_two(std::string name, const std::vector<First>& first,
+                 const std::vector<Second>& second, Case put) {
+    return {std::move(name), first.size() * second.size(),
+            [&first, &second, put](hash& h, std::uint64_t i) {
+                put(h, first[i / second.size()], second[i % second.size()]);
+            }};
+}
+template <class State, class Case>
+operation of_one(std::string name, const std::vector<State>& states, Case put) {
+    return {std::move(name), states.size(),
+            [&states, put](hash& h, std::uint64_t i) { put(h, states[i]); }};
+}
+
+inline const std::vector<int> exponents = [] {
+    std::vector<int> all;
+    for (int e = -12; e <= 12; ++e) all.push_back(e);
+    return all;
+}();
+
+template <class T, class Rule>
+struct operand_state {
+    T value;
+    typename Rule::template bound<T> bound;
+    rule_operand<T, Rule> as_operand() const { return {value, bound}; }
+};
+
+/// Rules whose bound is an error.
+template <class T, class Rule>
+struct states {
+    using bound_type = typename Rule::template bound<T>;
+    using state = operand_state<T, Rule>;
+    std::vector<state> all;
+
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values)
+            for (const T& e : f.bounds) all.push_back({v, {e}});
+    }
+    static void put(hash& h, const bound_type& b) { format<T>::put(h, b.error); }
+    void own(const format<T>&, std::vector<operation>&) const {}
+};
+
+/// Products and quotients of exact operands, of which a selection of all states has few.
+template <class States, class T, class Rule>
+void add_exact_operations(const std::vector<operand_state<T, Rule>>& exact,
+                          std::vector<operation>& all_operations) {
+    using state = operand_state<T, Rule>;
+    all_operations.push_back(
+        of_two("multiply_exact", exact, exact, [](hash& h, const state& a, const state& b) {
+            States::put(h, Rule::template multiply<T>(T(a.value * b.value), a.as_operand(),
+                                                      b.as_operand()));
+        }));
+    all_operations.push_back(
+        of_two("divide_exact", exact, exact, [](hash& h, const state& a, const state& b) {
+            States::put(
+                h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(), b.as_operand()));
+        }));
+}
+
+template <class T, class Rule>
+requires std::same_as<typename Rule::template bound<T>, errbound::safe::bound<T>>
+struct states<T, Rule> {
+    using bound_type = typename Rule::template bound<T>;
+    using state = operand_state<T, Rule>;
+    std::vector<state> all;
+
+    explicit states(const format<T>& f) {
+        using traits = number_traits<T>;
+        const T infinity = traits::infinity();
+        for (const T& v : {T(0), T(1), T(-traits::largest()), infinity, T(infinity - infinity)})
+            for (const T& b : f.bounds)
+                for (const int k : {0, 1, 2, 5, (1 << 29) - 1, 1 << 29}) all.push_back({v, {b, k}});
+    }
+    static void put(hash& h, const bound_type& b) {
+        format<T>::put(h, b.magnitude);
+        h.put(static_cast<std::uint32_t>(b.operations));
+    }
+    void own(const format<T>&, std::vector<operation>& all_operations) const {
+        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
+            format<T>::put(h, Rule::template error<T>(s.value, s.bound));
+        }));
+    }
+};
+
+template <class T, class Rule>
+requires std::same_as<typename Rule::template bound<T>, errbound::interval::bound<T>>
+struct states<T, Rule> {
+    using bound_type = typename Rule::template bound<T>;
+    using state = operand_state<T, Rule>;
+    std::vector<state> all, exact;
+
+    /// Unknown numbers; lower <= upper and a value that is one of them.
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values) exact.push_back({v, {v, v}});
+        const T infinity = number_traits<T>::infinity();
+        for (const T& v : f.values) all.push_back({v, {-infinity, infinity}});
+        for (const T& lower : f.values)
+            for (const T& upper : f.values)
+                if (lower <= upper)
+                    for (const T& v : {lower, upper}) all.push_back({v, {lower, upper}});
+    }
+    static void put(hash& h, const bound_type& b) {
+        format<T>::put(h, b.lower);
+        format<T>::put(h, b.upper);
+    }
+    void own(const format<T>&, std::vector<operation>& all_operations) const {
+        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
+            format<T>::put(h, Rule::template error<T>(s.value, s.bound));
+        }));
+        all_operations.push_back(of_one("sign", all, [](hash& h, const state& s) {
+            h.put(static_cast<std::uint32_t>(Rule::template sign<T>(s.value, s.bound)));
+        }));
+        add_exact_operations<states>(exact, all_operations);
+    }
+};
+
+template <class T, class Rule>
+requires std::same_as<typename Rule::template bound<T>, errbound::residual::bound<T>>
+struct states<T, Rule> {
+    using bound_type = typename Rule::template bound<T>;
+    using state = operand_state<T, Rule>;
+    std::vector<bound_type> bounds;
+    std::vector<state> all, exact;
+
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values) exact.push_back({v, {T(0), T(0)}});
+        for (const T& c : f.values)
+            for (const T& r : f.bounds) bounds.push_back({c, r});
+        for (const T& v : f.values)
+            for (const bound_type& b : bounds) all.push_back({v, b});
+    }
+    static void put(hash& h, const bound_type& b) {
+        format<T>::put(h, b.correction);
+        format<T>::put(h, b.remainder);
+    }
+    void own(const format<T>&, std::vector<operation>& all_operations) const {
+        all_operations.push_back(of_one("error", bounds, [](hash& h, const bound_type& b) {
+            format<T>::put(h, Rule::template error<T>(T(0), b));
+        }));
+        all_operations.push_back(of_one("sign", all, [](hash& h, const state& s) {
+            h.put(static_cast<std::uint32_t>(Rule::template sign<T>(s.value, s.bound)));
+        }));
+        add_exact_operations<states>(exact, all_operations);
+    }
+};
+
+/// Every operation of a rule.
+template <class T, class Rule>
+std::vector<operation> operations_of(const format<T>& f, const states<T, Rule>& s) {
+    using states_type = states<T, Rule>;
+    using state = typename states_type::state;
+    std::vector<operation> all{
+        of_one("exact", f.values,
+               [](hash& h, const T& v) { states_type::put(h, Rule::template exact<T>(v)); }),
+        of_two("within", f.values, f.values,
+               [](hash& h, const T& v, const T& e) {
+                   states_type::put(h, Rule::template within<T>(v, e));
+               }),
+        of_two("add", s.all, s.all,
+               [](hash& h, const state& a, const state& b) {
+                   states_type::put(h, Rule::template add<T>(T(a.value + b.value), a.as_operand(),
+                                                             b.as_operand()));
+               }),
+        of_two("subtract", s.all, s.all,
+               [](hash& h, const state& a, const state& b) {
+                   states_type::put(h, Rule::template subtract<T>(T(a.value - b.value),
+                                                                  a.as_operand(), b.as_operand()));
+               }),
+        of_two("multiply", s.all, s.all,
+               [](hash& h, const state& a, const state& b) {
+                   states_type::put(h, Rule::template multiply<T>(T(a.value * b.value),
+                                                                  a.as_operand(), b.as_operand()));
+               }),
+        of_two("scale", s.all, exponents, [](hash& h, const state& a, int e) {
+            states_type::put(
+                h, Rule::template scale<T>(number_traits<T>::scale(a.value, e), a.as_operand(), e));
+        })};
+    if constexpr (!std::same_as<typename Rule::template bound<T>, errbound::safe::bound<T>>)
+        all.push_back(of_two("divide", s.all, s.all, [](hash& h, const state& a, const state& b) {
+            states_type::put(
+                h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(), b.as_operand()));
+        }));
+    s.own(f, all);
+    for (operation& o : all) o.name = std::string(Rule::name) + "." + o.name;
+    return all;
+}
+
+/// What is no rule's own.
+template <class T>
+std::vector<operation> other_operations(const format<T>& f) {
+    using F = format<T>;
+    return {of_two("sign_of", f.values, f.values,
+                   [](hash& h, const T& v, const T& e) {
+                       h.put(static_cast<std::uint32_t>(
+                           sign_of(errbound::tracked<T, given_error>::within(v, e))));
+                   }),
+            of_two("two_sum", f.values, f.values,
+                   [](hash& h, const T& x, const T& y) {
+                       const auto sum = errbound::two_sum<T>(x, y);
+                       F::put(h, sum.value);
+                       F::put(h, sum.error);
+                   }),
+            of_two("two_product", f.values, f.values,
+                   [](hash& h, const T& x, const T& y) {
+                       const auto product = errbound::two_product<T>(x, y);
+                       F::put(h, product.value);
+                       F::put(h, product.error);
+                       h.put(errbound::product_error_is_exact<T>(x, y, product));
+                   }),
+            of_two("remainder_of_division", f.values, f.values,
+                   [](hash& h, const T& x, const T& y) {
+                       const auto r = errbound::remainder_of_division<T>(x, y, T(x / y));
+                       F::put(h, r.value);
+                       h.put(r.exact);
+                   }),
+            of_one("none.error", f.values, [](hash& h, const T& v) {
+                F::put(h, errbound::none::error<T>(v, errbound::none::exact<T>(v)));
+            })};
+}
+
+/// The operations whose results are not those of the table.
+template <class T>
+std::vector<std::string> differences(const table& expected, const std::vector<operation>& all) {
+    std::vector<std::string> found;
+    for (const operation& o : all) {
+        auto line = expected.end();
+        if (errbound::has_fast_fma<T>) line = expected.find(format<T>().name + ",fma " + o.name);
+        if (line == expected.end()) line = expected.find(format<T>().name + " " + o.name);
+        if (line == expected.end()) {
+            found.push_back(o.name + " (not in the table)");
+            continue;
+        }
+        const std::uint64_t cases =
+            o.total <= format<T>::exhaustive ? o.total : std::min(o.total, format<T>::samples);
+        hash results;
+        sequence numbers;
+        for (std::uint64_t i = 0; i < cases; ++i)
+            o.run(results, cases == o.total ? i : numbers.draw(o.total));
+        if (cases != line->second.cases || results.value() != line->second.hash)
+            found.push_back(o.name);
+    }
+    return found;
+}
+
+template <class T, class Rule>
+std::vector<std::string> differences(const table& expected) {
+    const format<T> f;
+    const states<T, Rule> s(f);
+    return differences<T>(expected, operations_of<T, Rule>(f, s));
+}
+
+template <class T>
+void expect_the_proofs_results() {
+    const table expected = read_table();
+    ASSERT_FALSE(expected.empty()) << ERRBOUND_TIE_TABLE;
+    const std::vector<std::string> none;
+    const format<T> f;
+    EXPECT_EQ(differences<T>(expected, other_operations<T>(f)), none);
+    EXPECT_EQ((differences<T, errbound::tight>(expected)), none);
+    EXPECT_EQ((differences<T, errbound::sharp>(expected)), none);
+    EXPECT_EQ((differences<T, errbound::safe>(expected)), none);
+    EXPECT_EQ((differences<T, errbound::interval>(expected)), none);
+    EXPECT_EQ((differences<T, errbound::residual>(expected)), none);
+}
+
+}  // namespace tie
