@@ -23,8 +23,8 @@ int main() {
     ccd::mesh after = before;
     for (std::size_t i = 3; i < 6; ++i) after.vertices[i].z = -1;
     const ccd::step_result result = ccd::step(before, after, {.method = ccd::method::exact});
-    for (const auto& [v, f0, f1, f2] : result.vertex_face)
+    for (const auto& [v, f0, f1, f2] : result.pairs.vertex_face)
         std::printf("vertex %u hits face %u %u %u\n", v, f0, f1, f2);
-    for (const auto& [a0, a1, b0, b1] : result.edge_edge)
+    for (const auto& [a0, a1, b0, b1] : result.pairs.edge_edge)
         std::printf("edge %u %u hits edge %u %u\n", a0, a1, b0, b1);
 }

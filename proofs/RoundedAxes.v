@@ -1,5 +1,5 @@
 (** The culls in single precision: ccd/batch/rounded_axes.hpp, ccd/batch/rounded_positions.hpp and the swept boxes of
-    ccd/step/step_frames.hpp. Coordinates in double are mapped by one translation per axis and one scale, and
+    ccd/step/swept_boxes.hpp. Coordinates in double are mapped by one translation per axis and one scale, and
     rounded to float; any direction, the same in both formats.
 
     Results: rounded_monotone    rounding preserves order though not strictly

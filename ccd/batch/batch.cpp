@@ -4,33 +4,35 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <ccd/batch.hpp>
+#include <ccd/exact.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/exact/finite.hpp"
 
-namespace ccd {
-namespace detail {
+namespace ccd::detail {
 namespace {
 
 /// Queries that a thread takes at a time: enough to make the call cheap, few enough for the second
 /// cache.
 constexpr std::size_t chunk = 4096;
 
-/// Calls decide(worker, first, count) for chunks of `count` queries.
+/// Calls decide(worker, first, count) for chunks of `count` queries. Returns what the stages did.
 template <class Decide>
-void for_each_chunk(std::size_t count, const batch_options& options, const Decide& decide) {
-    const batch_worker fresh(kernels_for(options.set), options.report != nullptr);
+stage_report for_each_chunk(std::size_t count, const batch_options& options, const Decide& decide) {
+    const batch_worker fresh(kernels_for(options.set), options.explain);
     if (options.threads == 1 || count <= chunk) {
         batch_worker worker = fresh;
         for (std::size_t first = 0; first < count; first += chunk)
             decide(worker, first, std::min(chunk, count - first));
-        if (options.report != nullptr) *options.report += worker.report();
-        return;
+        return worker.report();
     }
     tbb::enumerable_thread_specific<batch_worker> workers(fresh);
     const std::size_t chunks = (count + chunk - 1) / chunk;
@@ -42,8 +44,9 @@ void for_each_chunk(std::size_t count, const batch_options& options, const Decid
                                   decide(worker, c * chunk, std::min(chunk, count - c * chunk));
                           });
     });
-    if (options.report != nullptr)
-        for (const batch_worker& worker : workers) *options.report += worker.report();
+    stage_report all;
+    for (const batch_worker& worker : workers) all += worker.report();
+    return all;
 }
 
 void check_lengths(std::size_t queries, std::size_t answers) {
@@ -82,73 +85,107 @@ void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
     }
 }
 
+template <class QueryOrPair>
+constexpr bool has_kernels =
+    kind_of<QueryOrPair> == kind::vertex_face || kind_of<QueryOrPair> == kind::edge_edge;
+
+template <class Query>
+Query without_motion(const Query& query) {
+    constexpr std::size_t count = sizeof(Query) / sizeof(moving_point<double>);
+    auto points = std::bit_cast<std::array<moving_point<double>, count>>(query);
+    for (auto& p : points) p.t1 = p.t0;
+    return std::bit_cast<Query>(points);
+}
+
+}  // namespace
+
 template <class Pair>
-void decide_indexed(const vertex_rows& rows, std::span<const Pair> queries,
-                    std::span<outcome> answers, const batch_options& options) {
-    check_lengths(queries.size(), answers.size());
+stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                          std::span<outcome> answers, const batch_options& options,
+                          question asked) {
+    check_lengths(pairs.size(), answers.size());
+    vertex_rows rows = positions;
+    if (asked == question::contact_at_start) rows.after = rows.before;
     // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
     // and saves some 10 ns a query.
-    const bool many = 2 * queries.size() > rows.vertices;
+    const bool many = has_kernels<Pair> && 2 * pairs.size() > rows.vertices;
     const bool all_are_finite = many && all_finite(rows.before, 3 * rows.vertices) &&
                                 all_finite(rows.after, 3 * rows.vertices);
     std::optional<rounded_positions> rounded;
     if (all_are_finite) rounded.emplace(rows);
-    const batch_positions positions{rows, rounded ? rounded->data() : nullptr};
-    const auto finite_vertex = [&](index v) {
+    const batch_positions at{rows, rounded ? rounded->data() : nullptr};
+    const auto finite_vertex = [&rows](index v) {
         return all_finite(rows.before + 3 * std::size_t(v), 3) &&
                all_finite(rows.after + 3 * std::size_t(v), 3);
     };
-    for_each_chunk(queries.size(), options,
-                   [&](batch_worker& worker, std::size_t first, std::size_t count) {
-                       const auto part = queries.subspan(first, count);
-                       check_indices(part, first, rows.vertices);
-                       decide_finite(
-                           count, &answers[first], all_are_finite,
-                           [&](std::size_t i) {
-                               return std::ranges::all_of(vertices_of(part[i]), finite_vertex);
-                           },
-                           [&](std::size_t i, std::size_t n) {
-                               worker.decide(positions, part.subspan(i, n), &answers[first + i]);
-                           });
-                   });
+    const auto decide = [&](batch_worker& worker, std::span<const Pair> part, outcome* into) {
+        if constexpr (has_kernels<Pair>)
+            worker.decide(at, part, into);
+        else
+            std::ranges::transform(
+                part, into, [&](const Pair& p) { return decide_exact(query_of(rows, p)).outcome; });
+    };
+    return for_each_chunk(
+        pairs.size(), options, [&](batch_worker& worker, std::size_t first, std::size_t count) {
+            const auto part = pairs.subspan(first, count);
+            check_indices(part, first, rows.vertices);
+            decide_finite(
+                count, &answers[first], all_are_finite,
+                [&](std::size_t i) {
+                    return std::ranges::all_of(vertices_of(part[i]), finite_vertex);
+                },
+                [&](std::size_t i, std::size_t n) {
+                    decide(worker, part.subspan(i, n), &answers[first + i]);
+                });
+        });
 }
 
 template <class Query>
-void decide_stored(std::span<const Query> queries, std::span<outcome> answers,
-                   const batch_options& options) {
+stage_report decide_queries(std::span<const Query> queries, std::span<outcome> answers,
+                            const batch_options& options, question asked) {
     check_lengths(queries.size(), answers.size());
     constexpr std::size_t numbers = sizeof(Query) / sizeof(double);
-    for_each_chunk(queries.size(), options,
-                   [&](batch_worker& worker, std::size_t first, std::size_t count) {
-                       const auto part = queries.subspan(first, count);
-                       const auto* at = reinterpret_cast<const double*>(part.data());
-                       decide_finite(
-                           count, &answers[first], all_finite(at, numbers * count),
-                           [&](std::size_t i) { return all_finite(at + numbers * i, numbers); },
-                           [&](std::size_t i, std::size_t n) {
-                               worker.decide(part.subspan(i, n), &answers[first + i]);
-                           });
-                   });
+    const auto decide = [](batch_worker& worker, std::span<const Query> part, outcome* into) {
+        if constexpr (has_kernels<Query>)
+            worker.decide(part, into);
+        else
+            std::ranges::transform(part, into,
+                                   [](const Query& q) { return decide_exact(q).outcome; });
+    };
+    return for_each_chunk(
+        queries.size(), options, [&](batch_worker& worker, std::size_t first, std::size_t count) {
+            auto part = queries.subspan(first, count);
+            std::vector<Query> still;
+            if (asked == question::contact_at_start) {
+                still.resize(count);
+                std::ranges::transform(part, still.begin(), without_motion<Query>);
+                part = still;
+            }
+            const auto* at = reinterpret_cast<const double*>(part.data());
+            decide_finite(
+                count, &answers[first], all_finite(at, numbers * count),
+                [&](std::size_t i) { return all_finite(at + numbers * i, numbers); },
+                [&](std::size_t i, std::size_t n) {
+                    decide(worker, part.subspan(i, n), &answers[first + i]);
+                });
+        });
 }
 
-}  // namespace
-}  // namespace detail
+template stage_report decide_pairs(const vertex_rows&, std::span<const vertex_face_pair>,
+                                   std::span<outcome>, const batch_options&, question);
+template stage_report decide_queries(std::span<const vertex_face<double>>, std::span<outcome>,
+                                     const batch_options&, question);
+template stage_report decide_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
+                                   std::span<outcome>, const batch_options&, question);
+template stage_report decide_queries(std::span<const edge_edge<double>>, std::span<outcome>,
+                                     const batch_options&, question);
+template stage_report decide_pairs(const vertex_rows&, std::span<const vertex_edge_pair>,
+                                   std::span<outcome>, const batch_options&, question);
+template stage_report decide_queries(std::span<const vertex_edge<double>>, std::span<outcome>,
+                                     const batch_options&, question);
+template stage_report decide_pairs(const vertex_rows&, std::span<const vertex_vertex_pair>,
+                                   std::span<outcome>, const batch_options&, question);
+template stage_report decide_queries(std::span<const vertex_vertex<double>>, std::span<outcome>,
+                                     const batch_options&, question);
 
-void decide_batch(const vertex_rows& positions, std::span<const vertex_face_pair> queries,
-                  std::span<outcome> answers, const batch_options& options) {
-    detail::decide_indexed(positions, queries, answers, options);
-}
-void decide_batch(const vertex_rows& positions, std::span<const edge_edge_pair> queries,
-                  std::span<outcome> answers, const batch_options& options) {
-    detail::decide_indexed(positions, queries, answers, options);
-}
-void decide_batch(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
-                  const batch_options& options) {
-    detail::decide_stored(queries, answers, options);
-}
-void decide_batch(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
-                  const batch_options& options) {
-    detail::decide_stored(queries, answers, options);
-}
-
-}  // namespace ccd
+}  // namespace ccd::detail

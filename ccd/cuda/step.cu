@@ -9,7 +9,9 @@
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/step.hpp"
-#include "ccd/step/step_parts.hpp"
+#include "ccd/step/checks.hpp"
+#include "ccd/step/elements.hpp"
+#include "ccd/step/stopwatch.hpp"
 
 namespace ccd::cuda {
 
@@ -25,14 +27,9 @@ struct mesh_steps::state {
 
 mesh_steps::mesh_steps(std::span<const face> faces, std::size_t vertices)
     : state_(std::make_unique<state>()) {
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        for (const index v : faces[i])
-            if (v >= vertices)
-                throw std::invalid_argument("ccd::cuda::mesh_steps: face " + std::to_string(i) +
-                                            " names vertex " + std::to_string(v) + " of " +
-                                            std::to_string(vertices));
-    state_->faces.assign(faces.begin(), faces.end());
-    state_->edges = unique_edges(state_->faces);
+    ccd::detail::check_elements(faces, {}, vertices, "ccd::cuda::mesh_steps");
+    state_->faces = unique_faces(faces);
+    state_->edges = unique_edges(faces);
     state_->vertices = vertices;
 }
 mesh_steps::~mesh_steps() = default;
@@ -151,8 +148,12 @@ status decide(std::span<const edge_edge<double>> queries, std::span<outcome> ans
 status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
             step_result& result) {
     result = {};
-    check_step(before, after);
-    stopwatch total, watch;
+    ccd::detail::check_frames(before, after);
+    ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size());
+    ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
+    if (!ccd::detail::has_faces_alone(before))
+        return {"ccd::cuda: found edges or points, expected a mesh of faces alone"};
+    ccd::detail::stopwatch total, watch;
     detail::device_launcher launcher(nullptr);
     device_frames frames;
     mesh_steps steps(before.faces, before.vertices.size());
@@ -168,12 +169,12 @@ status step(const mesh& before, const mesh& after, const step_options& options, 
     std::vector<edge_edge_pair> edge_edge(found.edge_edge_count);
     launcher.read(found.vertex_face, vertex_face.size(), vertex_face.data());
     launcher.read(found.edge_edge, edge_edge.size(), edge_edge.data());
-    for (const auto& q : vertex_face) result.vertex_face.push_back(canonical(q));
-    for (const auto& q : edge_edge) result.edge_edge.push_back(canonical(q));
-    std::ranges::sort(result.vertex_face);
-    std::ranges::sort(result.edge_edge);
-    result.vertex_face_candidates = found.vertex_face_candidates;
-    result.edge_edge_candidates = found.edge_edge_candidates;
+    for (const auto& q : vertex_face) result.pairs.vertex_face.push_back(ccd::detail::canonical(q));
+    for (const auto& q : edge_edge) result.pairs.edge_edge.push_back(q);
+    std::ranges::sort(result.pairs.vertex_face);
+    std::ranges::sort(result.pairs.edge_edge);
+    result.candidates.vertex_face = found.vertex_face_candidates;
+    result.candidates.edge_edge = found.edge_edge_candidates;
     result.sort_seconds = watch.lap();
     result.total_seconds = total.lap();
     result.threads = 1;

@@ -167,7 +167,7 @@ struct curve_key {
             const auto cell = place >= 1023.0f ? 1023U
                               : place > 0.0f   ? static_cast<std::uint32_t>(place)
                                                : 0U;
-            key |= spread_bits(cell) << k;
+            key |= ccd::detail::spread_bits(cell) << k;
         }
         keys[i] = key;
         order[i] = i;
@@ -202,7 +202,8 @@ struct make_node {
 template <std::size_t A, std::size_t B, class Visit>
 constexpr void visit_candidate(const positions& at, const std::array<index, A>& a,
                                const std::array<index, B>& b, bool certain, const Visit& visit) {
-    if (!share_vertex(a, b) && (certain || exactly_touch(at, a, b))) visit(candidate_of(a, b));
+    if (!ccd::detail::share_vertex(a, b) && (certain || exactly_touch(at, a, b)))
+        visit(ccd::detail::candidate_of(a, b));
 }
 
 /// Calls visit(candidate) for all candidates of the vertices in the tree with face i.

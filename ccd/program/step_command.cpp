@@ -47,36 +47,41 @@ struct step_question {
 
 std::string lines_of_pairs(const step_result& result) {
     std::string lines;
-    const auto add = [&lines](std::string_view kind, const std::initializer_list<index>& indices) {
-        lines += kind;
-        for (const index i : indices) lines += ',' + std::to_string(i);
-        lines += '\n';
-    };
-    for (const vertex_face_pair& p : result.vertex_face)
-        add(short_name(kind::vertex_face), {p.v, p.f0, p.f1, p.f2});
-    for (const edge_edge_pair& p : result.edge_edge)
-        add(short_name(kind::edge_edge), {p.a0, p.a1, p.b0, p.b1});
+    for_each_kind([&]<kind K>() {
+        for (const auto& pair : result.pairs.of<K>()) {
+            lines += short_name(K);
+            for (const index v : vertices_of(pair)) lines += ',' + std::to_string(v);
+            lines += '\n';
+        }
+    });
     return lines;
+}
+
+/// Vertex/edge and vertex/vertex pairs are told of where there are any.
+template <kind K>
+bool is_shown(const step_result& result) {
+    return K == kind::vertex_face || K == kind::edge_edge || result.candidates.of<K>() > 0;
 }
 
 std::string json_of(const step_question& asked, const step_result& result, double read,
                     std::size_t memory) {
-    nlohmann::ordered_json document = {
-        {"method", info(asked.method).name},
-        {"candidates",
-         {{"vertex_face", result.vertex_face_candidates},
-          {"edge_edge", result.edge_edge_candidates}}},
-        {"collisions",
-         {{"vertex_face", result.vertex_face.size()}, {"edge_edge", result.edge_edge.size()}}},
-        {"seconds",
-         {{"read", read},
-          {"prepare", result.prepare_seconds},
-          {"broad", result.broad_phase_seconds},
-          {"narrow", result.narrow_phase_seconds},
-          {"sort", result.sort_seconds},
-          {"total", result.total_seconds}}},
-        {"threads", result.threads},
-        {"peak_memory_bytes", memory}};
+    nlohmann::ordered_json document = {{"method", info(asked.method).name},
+                                       {"candidates", nlohmann::ordered_json::object()},
+                                       {"collisions", nlohmann::ordered_json::object()},
+                                       {"seconds",
+                                        {{"read", read},
+                                         {"prepare", result.prepare_seconds},
+                                         {"broad", result.broad_phase_seconds},
+                                         {"narrow", result.narrow_phase_seconds},
+                                         {"sort", result.sort_seconds},
+                                         {"total", result.total_seconds}}},
+                                       {"threads", result.threads},
+                                       {"peak_memory_bytes", memory}};
+    for_each_kind([&]<kind K>() {
+        if (!is_shown<K>(result)) return;
+        document["candidates"][std::string(name(K))] = result.candidates.of<K>();
+        document["collisions"][std::string(name(K))] = result.pairs.of<K>().size();
+    });
     if (asked.explain) {
         document["stages"] = nlohmann::ordered_json::array();
         for (const stage_info& stage : exact_stages) {
@@ -109,8 +114,8 @@ std::string text_of_boxes(std::size_t vertices, std::size_t faces, std::size_t e
     const auto v = static_cast<double>(vertices), f = static_cast<double>(faces),
                e = static_cast<double>(edges);
     const table rows = {{"pairs", "of the mesh", "apart", "candidates"},
-                        row("vertex-face", v * f, result.vertex_face_candidates),
-                        row("edge-edge", e * (e - 1) / 2, result.edge_edge_candidates)};
+                        row("vertex-face", v * f, result.candidates.vertex_face),
+                        row("edge-edge", e * (e - 1) / 2, result.candidates.edge_edge)};
     return text_of(rows, 1) + "apart: swept boxes do not touch, or a vertex is shared; found in " +
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
@@ -148,11 +153,12 @@ std::string text_of_stages(const step_result& result) {
 
 std::string text_of_step(const step_question& asked, const mesh& before, const step_result& result,
                          double read, std::size_t memory) {
-    const table pairs = {{std::string(info(asked.method).name), "candidates", "collisions"},
-                         {"vertex-face", std::to_string(result.vertex_face_candidates),
-                          std::to_string(result.vertex_face.size())},
-                         {"edge-edge", std::to_string(result.edge_edge_candidates),
-                          std::to_string(result.edge_edge.size())}};
+    table pairs = {{std::string(info(asked.method).name), "candidates", "collisions"}};
+    for_each_kind([&]<kind K>() {
+        if (is_shown<K>(result))
+            pairs.push_back({std::string(path_name(K)), std::to_string(result.candidates.of<K>()),
+                             std::to_string(result.pairs.of<K>().size())});
+    });
     const table costs = {
         {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
         {fixed(1e3 * read, "%.1f ms"), fixed(1e3 * result.prepare_seconds, "%.1f ms"),

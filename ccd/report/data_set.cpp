@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/io/query_file.hpp>
+#include <ccd/step.hpp>
 #include <errbound/support/error.hpp>
 #include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <tuple>
 
-#include "ccd/batch/threads.hpp"
 #include "ccd/report/machine.hpp"
-#include "ccd/step/broad_phase.hpp"
-#include "ccd/step/step_frames.hpp"
-#include "ccd/step/step_parts.hpp"
+#include "ccd/step/elements.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {
@@ -97,32 +94,10 @@ void add_stored_truth(const std::vector<signed char>& truths, queries_with_truth
 
 // ---- Scenes ----
 
-/// Collects the blocks that a broad phase hands out from its threads, sorted.
-template <class Pair, class Find>
-std::vector<Pair> collected(const Find& find) {
-    std::vector<Pair> all;
-    std::mutex mutex;
-    find([&](std::span<const Pair> block) {
-        const std::lock_guard lock(mutex);
-        all.insert(all.end(), block.begin(), block.end());
-    });
-    std::ranges::sort(all);
-    return all;
-}
-
 void find_candidates(data_set& data, int threads) {
-    const step_frames frames(data.before, data.after);
-    const std::vector<face>& faces = data.before.faces;
-    detail::on_threads(threads, [&] {
-        data.queries.vertex_face.queries.by_index =
-            collected<vertex_face_pair>([&](const auto& consume) {
-                vertex_face_candidates(frames, faces, data.before.vertices.size(), consume);
-            });
-        data.queries.edge_edge.queries.by_index =
-            collected<edge_edge_pair>([&](const auto& consume) {
-                edge_edge_candidates(frames, unique_edges(faces), consume);
-            });
-    });
+    pair_lists found = candidates(data.before, data.after, {.threads = threads});
+    data.queries.vertex_face.queries.by_index = std::move(found.vertex_face);
+    data.queries.edge_edge.queries.by_index = std::move(found.edge_edge);
     data.queries.for_each(
         [rows = vertex_rows(data.before, data.after)](auto& known) { known.queries.rows = rows; });
 }
@@ -214,7 +189,7 @@ std::optional<truth_of_pairs<Pair>> read_stored_truth(const fs::path& frame,
         if (!pair)
             throw file_error(path->string() + ": element " + std::to_string(i) +
                              ": found a number out of range, expected one of the frames'");
-        stored.collides[canonical(*pair)] = truth[i];
+        stored.collides[detail::canonical(*pair)] = truth[i];
     }
     return stored;
 }
@@ -228,7 +203,7 @@ void compare_stored(const fs::path& frame, const numbered_elements& elements,
     known.stored_truths = read->lines;
     auto& stored = read->collides;
     for (std::size_t i = 0; i < known.queries.by_index.size(); ++i) {
-        const auto entry = stored.find(canonical(known.queries.by_index[i]));
+        const auto entry = stored.find(detail::canonical(known.queries.by_index[i]));
         const bool expected = entry != stored.end() && entry->second;
         known.contradictions += expected != (known.collides[i] != 0);
         if (entry != stored.end()) stored.erase(entry);

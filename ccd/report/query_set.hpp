@@ -26,14 +26,13 @@ struct query_set {
         return by_index.empty() ? stored[i] : ccd::query_of(rows, by_index[i]);
     }
     /// Queries from `first` on, as many as there are answers.
-    void decide_batch(std::size_t first, std::span<ccd::outcome> answers,
-                      const ccd::batch_options& options) const {
-        if (by_index.empty()) {
-            ccd::decide_batch(std::span(stored).subspan(first, answers.size()), answers, options);
-        } else {
-            ccd::decide_batch(rows, std::span(by_index).subspan(first, answers.size()), answers,
-                              options);
-        }
+    stage_report decide_batch(std::size_t first, std::span<ccd::outcome> answers,
+                              const ccd::batch_options& options) const {
+        return by_index.empty()
+                   ? ccd::decide_batch(std::span(stored).subspan(first, answers.size()), answers,
+                                       options)
+                   : ccd::decide_batch(rows, std::span(by_index).subspan(first, answers.size()),
+                                       answers, options);
     }
     /// So many: drawn evenly where there are more, over and over where there are fewer.
     query_set resized(std::size_t count) const {

@@ -16,7 +16,7 @@ stress::subject batch_subject() {
     const auto in_batches = [answers = std::vector<outcome>()](auto queries,
                                                                std::span<verdict> said) mutable {
         answers.resize(queries.size());
-        decide_batch(queries, answers);
+        decide_batch(queries, answers, {.threads = 1});
         // Batches are uncertain only of coordinates that are not finite.
         std::ranges::transform(answers, said.begin(), [](outcome answer) {
             return verdict{answer, answer == outcome::uncertain ? cause::range : cause::none};

@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace ccd {
+namespace ccd::detail {
 
 /// A closed box with finite coordinates.
 template <class Real>
@@ -128,10 +128,12 @@ class box_tree {
   public:
     using pack = box_pack<Real>;
 
-    /// Over the boxes box_of(0), ..., box_of(count - 1). Cost: O(count), on all threads of the
-    /// arena; memory: 27.5 bytes a box for floats, 55 for doubles.
+    /// Makes it one over the boxes box_of(0), ..., box_of(count - 1), in the memory that it has if
+    /// that suffices. Cost: O(count), on all threads of the arena; memory: 27.5 bytes a box for
+    /// floats, 55 for doubles.
     template <class BoxOf>
-    box_tree(std::size_t count, const BoxOf& box_of) {
+    void build(std::size_t count, const BoxOf& box_of) {
+        levels_ = 0;
         std::size_t packs = 0, in_level = count;
         do {
             in_level = (in_level + pack::size - 1) / pack::size;
@@ -139,6 +141,7 @@ class box_tree {
             packs += in_level;
         } while (in_level > 1);
         level_start_[levels_] = packs;
+        packs_.clear();
         packs_.resize(packs);
 
         fill(0, count, box_of);
@@ -151,6 +154,19 @@ class box_tree {
 
     /// Leaf p holds boxes 8 p to 8 p + 7.
     std::span<const pack> leaves() const { return {packs_.data(), level_start_[1]}; }
+
+    /// The sum of the leaves' lengths along the axes, which an order that gathers neighbours keeps
+    /// small; 0 where there is but one leaf.
+    double length_of_leaves() const {
+        double sum = 0;
+        if (levels_ < 2) return sum;
+        const pack* hulls = &packs_[level_start_[1]];
+        for (std::size_t leaf = 0; leaf < level_start_[1]; ++leaf) {
+            const box<Real> b = hulls[leaf / pack::size][leaf % pack::size];
+            for (std::size_t k = 0; k < 3; ++k) sum += double(b.high[k]) - double(b.low[k]);
+        }
+        return sum;
+    }
 
     /// Calls visit(p, members) for every leaf p >= first with members that touch b.
     template <class Visit>
@@ -237,4 +253,4 @@ void for_each_touching(const box_tree<Real>& a, const box_tree<Real>& b, const L
         });
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

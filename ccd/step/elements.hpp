@@ -1,14 +1,15 @@
-// What the searches for candidates share, on the host and on devices: facts of a mesh's elements.
-// Internal.
+// What the searches for candidates share, on the host and on devices: facts of a mesh's elements
+// and pairs.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <ccd/batch.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <cstddef>
 #include <cstdint>
 
-namespace ccd {
+namespace ccd::detail {
 
 template <std::size_t A, std::size_t B>
 constexpr bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) {
@@ -29,6 +30,28 @@ constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
     const edge &x = in_order ? a : b, &y = in_order ? b : a;
     return {x[0], x[1], y[0], y[1]};
 }
+/// The candidate of a point and an edge.
+constexpr vertex_edge_pair candidate_of(const std::array<index, 1>& v, const edge& e) {
+    return {v[0], e[0], e[1]};
+}
+/// The candidate of two points, the lesser first.
+constexpr vertex_vertex_pair candidate_of(const std::array<index, 1>& v,
+                                          const std::array<index, 1>& w) {
+    return {v[0] < w[0] ? v[0] : w[0], v[0] < w[0] ? w[0] : v[0]};
+}
+
+/// A candidate as it is reported: the vertices of a face ascending. (Candidates have all else in
+/// order already.)
+template <class Pair>
+constexpr Pair canonical(const Pair& pair) {
+    if constexpr (kind_of<Pair> == kind::vertex_face) {
+        std::array<index, 3> f{pair.f0, pair.f1, pair.f2};
+        std::ranges::sort(f);
+        return {pair.v, f[0], f[1], f[2]};
+    } else {
+        return pair;
+    }
+}
 
 /// The ten bits of x with two zeros before each: a part of a key on a Morton curve.
 constexpr std::uint32_t spread_bits(std::uint32_t x) {
@@ -38,4 +61,4 @@ constexpr std::uint32_t spread_bits(std::uint32_t x) {
     return (x | (x << 2)) & 0x09249249;
 }
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -1,43 +1,100 @@
+// Unique edges and faces: each goes to the bucket of its lowest vertex, which leaves only short
+// runs to sort.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <ccd/mesh.hpp>
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace ccd {
+namespace {
 
-std::vector<edge> unique_edges(const std::vector<face>& faces) {
+/// Items in buckets, by a vertex of each.
+template <class Item>
+struct buckets {
+    std::vector<Item> items;
+    std::vector<std::size_t> end;  ///< of each bucket
+
+    /// for_each(visit) calls visit(vertex, item) for all `count` items, with vertices up to `last`.
+    template <class ForEach>
+    buckets(std::size_t count, index last, const ForEach& for_each) : items(count) {
+        unsigned shift = 0;
+        while (last >> shift > count) ++shift;
+        end.resize((last >> shift) + 2);
+        for_each([&](index v, const Item&) { ++end[(v >> shift) + 1]; });
+        std::partial_sum(end.begin(), end.end(), end.begin());
+        for_each([&](index v, const Item& item) { items[end[v >> shift]++] = item; });
+        end.pop_back();
+    }
+
+    /// Calls visit(items) of each bucket, on all threads of the arena.
+    template <class Visit>
+    void for_each_bucket(const Visit& visit) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, end.size(), 1024),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t b = range.begin(); b < range.end(); ++b) {
+                                  const std::size_t begin = b == 0 ? 0 : end[b - 1];
+                                  visit(std::span(items).subspan(begin, end[b] - begin));
+                              }
+                          });
+    }
+};
+
+template <std::size_t N>
+index largest(std::span<const std::array<index, N>> elements) {
     index last = 0;
-    for (const face& f : faces) last = std::max({last, f[0], f[1], f[2]});
-    // Edges go to buckets by their lower vertices, which leaves only short runs to sort.
-    unsigned shift = 0;
-    while (last >> shift > faces.size()) ++shift;
-    std::vector<std::size_t> bucket_end((last >> shift) + 2);
-    const auto for_each_edge = [&faces](const auto& visit) {
-        for (const face& f : faces)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const index v = f[k], w = f[(k + 1) % 3];
-                if (v != w) visit(edge{std::min(v, w), std::max(v, w)});
-            }
-    };
-    for_each_edge([&](const edge& e) { ++bucket_end[(e[0] >> shift) + 1]; });
-    for (std::size_t b = 1; b < bucket_end.size(); ++b) bucket_end[b] += bucket_end[b - 1];
+    for (const auto& e : elements)
+        for (const index v : e) last = std::max(last, v);
+    return last;
+}
 
-    std::vector<edge> edges(bucket_end.back());
-    for_each_edge([&](const edge& e) { edges[bucket_end[e[0] >> shift]++] = e; });
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, bucket_end.size() - 1, 1024),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                const std::size_t begin = b == 0 ? 0 : bucket_end[b - 1];
-                std::ranges::sort(std::span(edges).subspan(begin, bucket_end[b] - begin));
-            }
-        });
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    edges.shrink_to_fit();
-    return edges;
+face ascending(face f) {
+    std::ranges::sort(f);
+    return f;
+}
+
+}  // namespace
+
+std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge> edges) {
+    const auto for_each_edge = [&](const auto& visit) {
+        const auto take = [&visit](index v, index w) {
+            if (v != w) visit(std::min(v, w), edge{std::min(v, w), std::max(v, w)});
+        };
+        for (const face& f : faces)
+            for (std::size_t k = 0; k < 3; ++k) take(f[k], f[(k + 1) % 3]);
+        for (const edge& e : edges) take(e[0], e[1]);
+    };
+    buckets<edge> all(3 * faces.size() + edges.size(), std::max(largest(faces), largest(edges)),
+                      for_each_edge);
+    all.items.resize(all.end.back());
+    all.for_each_bucket([](std::span<edge> bucket) { std::ranges::sort(bucket); });
+    std::vector<edge> unique = std::move(all.items);
+    unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
+    unique.shrink_to_fit();
+    return unique;
+}
+
+std::vector<face> unique_faces(std::span<const face> faces) {
+    buckets<index> all(faces.size(), largest(faces), [&](const auto& visit) {
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            visit(std::min({faces[i][0], faces[i][1], faces[i][2]}), static_cast<index>(i));
+    });
+    std::vector<std::uint8_t> repeated(faces.size());
+    all.for_each_bucket([&](std::span<index> bucket) {
+        // A stable order: the number of a face tells equal ones apart.
+        std::ranges::sort(bucket, {}, [&](index i) { return std::pair(ascending(faces[i]), i); });
+        for (std::size_t i = 1; i < bucket.size(); ++i)
+            repeated[bucket[i]] = ascending(faces[bucket[i - 1]]) == ascending(faces[bucket[i]]);
+    });
+    std::vector<face> unique;
+    unique.reserve(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (!repeated[i]) unique.push_back(faces[i]);
+    return unique;
 }
 
 }  // namespace ccd

@@ -1,132 +1,161 @@
-// One step of a mesh: the broad phase hands its candidates to the narrow phase block by block.
+// Steps of a mesh: the search hands its candidates to the narrow phase block by block.
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
-#include "ccd/step/broad_phase.hpp"
-#include "ccd/step/step_frames.hpp"
-#include "ccd/step/step_parts.hpp"
+#include "ccd/step/candidate_search.hpp"
+#include "ccd/step/checks.hpp"
+#include "ccd/step/narrow_phase.hpp"
+#include "ccd/step/stopwatch.hpp"
 
 namespace ccd {
 namespace {
 
-/// Decides the candidates that it is given and keeps the pairs that may collide.
-template <class Pair>
-class narrow_phase {
-  public:
-    narrow_phase(const detail::batch_positions& positions, const step_options& options)
-        : positions_(positions),
-          method_(options.method),
-          parts_(part{
-              {}, detail::batch_worker(detail::kernels_for(options.set), options.explain), {}, 0}) {
-    }
+template <kind K>
+using phase = detail::narrow_phase<K>;
 
-    /// From any thread.
-    template <class Candidate>
-    void operator()(std::span<const Candidate> candidates) const {
-        stopwatch watch;
-        part& local = parts_.local();
-        if (method_ == method::exact) {
-            local.answers.resize(candidates.size());
-            local.worker.decide(positions_, candidates, local.answers.data());
-            for (std::size_t i = 0; i < candidates.size(); ++i)
-                if (local.answers[i] == outcome::collides)
-                    local.pairs.push_back(canonical(candidates[i]));
-        } else {
-            for (const Candidate& c : candidates)
-                if (may_collide(ccd::decide(method_, query_of(positions_.exact, c))))
-                    local.pairs.push_back(canonical(c));
-        }
-        local.seconds += watch.lap();
-    }
-
-    /// What the stages of `exact` did, if that was asked for.
-    stage_report report() const {
-        stage_report sum;
-        for (const part& p : parts_) sum += p.worker.report();
-        return sum;
-    }
-
-    /// Of all threads together.
-    double seconds() const {
-        double sum = 0;
-        for (const part& p : parts_) sum += p.seconds;
-        return sum;
-    }
-
-    /// All pairs, sorted. Each thread's are released as they are taken.
-    std::vector<Pair> take_sorted() {
-        std::size_t count = 0;
-        for (const part& p : parts_) count += p.pairs.size();
-        std::vector<Pair> all;
-        all.reserve(count);
-        for (part& p : parts_) {
-            all.insert(all.end(), p.pairs.begin(), p.pairs.end());
-            p.pairs = {};
-        }
-        tbb::parallel_sort(all.begin(), all.end());
-        return all;
-    }
-
-  private:
-    struct part {
-        std::vector<Pair> pairs;
-        detail::batch_worker worker;
-        std::vector<outcome> answers;
-        double seconds = 0;
-    };
-
-    detail::batch_positions positions_;
-    method method_;
-    mutable tbb::enumerable_thread_specific<part> parts_;
-};
-
-step_result run_step(const mesh& before, const mesh& after, const step_options& options) {
-    stopwatch total, watch;
+/// All but touching_at_start, on the threads of the arena.
+step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
+                     const step_options& options) {
+    detail::stopwatch watch;
     step_result result;
-    check_step(before, after);
-    std::vector<edge> edges = unique_edges(before.faces);
-    const vertex_rows rows(before, after);
-    const detail::rounded_positions rounded(rows);
+    const detail::rounded_positions rounded(positions);
+    const detail::batch_positions at{positions, rounded.data()};
     result.prepare_seconds = watch.lap();
 
-    const step_frames frames(before, after);
-    narrow_phase<vertex_face_pair> vertex_face({rows, rounded.data()}, options);
-    narrow_phase<edge_edge_pair> edge_edge({rows, rounded.data()}, options);
-    result.vertex_face_candidates =
-        vertex_face_candidates(frames, before.faces, before.vertices.size(), vertex_face);
-    result.edge_edge_candidates = edge_edge_candidates(frames, std::move(edges), edge_edge);
-    result.narrow_phase_seconds =
-        (vertex_face.seconds() + edge_edge.seconds()) / tbb::this_task_arena::max_concurrency();
+    by_kind<phase> phases{
+        phase<kind::vertex_face>(at, options), phase<kind::edge_edge>(at, options),
+        phase<kind::vertex_edge>(at, options), phase<kind::vertex_vertex>(at, options)};
+    candidate_visitor visitor;
+    for_each_kind([&]<kind K>() {
+        visitor.of<K>() = [&](std::span<const pair_of_kind<K>> block) {
+            phases.of<K>().decide(block);
+        };
+    });
+    result.candidates = search.find(positions, options.filter, visitor);
+    for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
+    result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
     result.broad_phase_seconds = watch.lap() - result.narrow_phase_seconds;
 
-    result.vertex_face = vertex_face.take_sorted();
-    result.edge_edge = edge_edge.take_sorted();
+    for_each_kind([&]<kind K>() {
+        result.pairs.of<K>() = phases.of<K>().take_pairs();
+        result.stages += phases.of<K>().report();
+    });
     result.sort_seconds = watch.lap();
-    result.stages = vertex_face.report();
-    result.stages += edge_edge.report();
-    result.total_seconds = total.lap();
     return result;
+}
+
+template <class Pair>
+std::vector<Pair> touching_at_start(const vertex_rows& positions, const std::vector<Pair>& pairs,
+                                    const batch_options& options) {
+    const auto answers = touches_at_start_batch(positions, pairs, options).answers;
+    std::vector<Pair> found;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (answers[i] == outcome::collides) found.push_back(pairs[i]);
+    return found;
 }
 
 }  // namespace
 
-step_result step(const mesh& before, const mesh& after, const step_options& options) {
+struct mesh_steps::state {
+    detail::candidate_search search;
+
+    void check(const vertex_rows& positions, const step_options& options) const {
+        detail::check_positions(positions, search.vertices());
+        detail::check_options(options, search.vertices());
+    }
+};
+
+mesh_steps::mesh_steps(std::span<const face> faces, std::span<const edge> edges,
+                       std::size_t vertices) {
+    detail::check_elements(faces, edges, vertices, "ccd::mesh_steps");
+    state_ = std::make_unique<state>(state{{faces, edges, vertices}});
+}
+mesh_steps::mesh_steps(const mesh& mesh)
+    : mesh_steps(mesh.faces, mesh.edges, mesh.vertices.size()) {}
+mesh_steps::~mesh_steps() = default;
+mesh_steps::mesh_steps(mesh_steps&&) noexcept = default;
+mesh_steps& mesh_steps::operator=(mesh_steps&&) noexcept = default;
+
+step_result mesh_steps::run(const vertex_rows& positions, const step_options& options) {
+    detail::stopwatch total, watch;
+    state_->check(positions, options);
+    const double check_seconds = watch.lap();
     step_result result;
-    const int threads =
-        detail::on_threads(options.threads, [&] { result = run_step(before, after, options); });
+    const int threads = detail::on_threads(
+        options.threads, [&] { result = run_step(state_->search, positions, options); });
     result.threads = threads;
+    result.prepare_seconds += check_seconds;
+    if (options.initial_contact) {
+        watch.lap();
+        for_each_kind([&]<kind K>() {
+            result.touching_at_start.of<K>() = touching_at_start(
+                positions, result.pairs.of<K>(), {.threads = options.threads, .set = options.set});
+        });
+        result.initial_contact_seconds = watch.lap();
+    }
+    result.total_seconds = total.lap();
     return result;
+}
+
+pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
+                                           const candidate_visitor& visitor,
+                                           const step_options& options) {
+    state_->check(positions, options);
+    pair_counts counts;
+    detail::on_threads(options.threads,
+                       [&] { counts = state_->search.find(positions, options.filter, visitor); });
+    return counts;
+}
+
+pair_lists mesh_steps::candidates(const vertex_rows& positions, const step_options& options) {
+    by_kind<detail::lists_of_threads> found;
+    candidate_visitor visitor;
+    for_each_kind([&]<kind K>() {
+        visitor.of<K>() = [&](std::span<const pair_of_kind<K>> block) {
+            auto& pairs = found.of<K>().local().pairs;
+            pairs.insert(pairs.end(), block.begin(), block.end());
+        };
+    });
+    for_each_candidate(positions, visitor, options);
+    pair_lists sorted;
+    detail::on_threads(options.threads, [&] {
+        for_each_kind([&]<kind K>() {
+            sorted.of<K>() = detail::take_sorted<pair_of_kind<K>>(found.of<K>());
+        });
+    });
+    return sorted;
+}
+
+step_result step(std::span<const face> faces, std::span<const edge> edges,
+                 const vertex_rows& positions, const step_options& options) {
+    detail::stopwatch watch;
+    mesh_steps steps(faces, edges, positions.vertices);
+    const double seconds = watch.lap();
+    step_result result = steps.run(positions, options);
+    result.prepare_seconds += seconds;
+    result.total_seconds += seconds;
+    return result;
+}
+step_result step(const mesh& before, const mesh& after, const step_options& options) {
+    detail::check_frames(before, after);
+    return step(before.faces, before.edges, vertex_rows(before, after), options);
+}
+
+pair_lists candidates(std::span<const face> faces, std::span<const edge> edges,
+                      const vertex_rows& positions, const step_options& options) {
+    return mesh_steps(faces, edges, positions.vertices).candidates(positions, options);
+}
+pair_lists candidates(const mesh& before, const mesh& after, const step_options& options) {
+    detail::check_frames(before, after);
+    return candidates(before.faces, before.edges, vertex_rows(before, after), options);
 }
 
 }  // namespace ccd

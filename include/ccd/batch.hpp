@@ -9,21 +9,32 @@
 #include <ccd/mesh.hpp>
 #include <ccd/query.hpp>
 #include <ccd/verdict.hpp>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ccd {
 
+/// A matrix as Eigen's are, of doubles.
+template <class M>
+concept double_matrix = requires(const M& m) {
+    { m.data() } -> std::same_as<const double*>;
+    { m.rows() } -> std::convertible_to<std::size_t>;
+    { m.cols() } -> std::convertible_to<std::size_t>;
+    { m.outerStride() } -> std::convertible_to<std::size_t>;
+    { m.innerStride() } -> std::convertible_to<std::size_t>;
+    { M::IsRowMajor } -> std::convertible_to<bool>;
+};
+
 /// Positions of the same vertices at t = 0 and t = 1: `vertices` rows of x y z each, contiguous.
 /// Not owned.
-///
-/// Of Eigen matrices, pass data() of a row-major one, which is not Eigen's default: declare it
-/// Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>. (errbound/eigen.hpp is about
-/// scalars.)
 struct vertex_rows {
     static_assert(sizeof(point<double>) == 3 * sizeof(double));
     const double* before = nullptr;
@@ -37,16 +48,20 @@ struct vertex_rows {
     vertex_rows(std::span<const point<double>> at_start, std::span<const point<double>> at_end)
         : before(reinterpret_cast<const double*>(at_start.data())),
           after(reinterpret_cast<const double*>(at_end.data())),
-          vertices(at_start.size()) {
-        if (at_start.size() != at_end.size())
-            throw std::invalid_argument("ccd::vertex_rows: " + std::to_string(at_start.size()) +
-                                        " vertices at t = 0, " + std::to_string(at_end.size()) +
-                                        " at t = 1");
-    }
+          vertices(of_both(at_start.size(), at_end.size())) {}
     /// Of two frames of one mesh.
     vertex_rows(const mesh& at_start, const mesh& at_end)
         : vertex_rows(std::span<const point<double>>(at_start.vertices),
                       std::span<const point<double>>(at_end.vertices)) {}
+    /// Of Eigen matrices, n by 3 and row-major, which is not Eigen's default: declare them
+    /// Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>, or copy column-major ones into
+    /// such. Throws std::invalid_argument if they have not three columns, gaps between rows, or
+    /// different numbers of rows.
+    template <double_matrix M>
+    vertex_rows(const M& at_start, const M& at_end)
+        : before(at_start.data()),
+          after(at_end.data()),
+          vertices(of_both(rows_of(at_start), rows_of(at_end))) {}
 
     moving_point<double> operator[](index vertex) const {
         const auto at = [vertex](const double* frame) {
@@ -54,6 +69,25 @@ struct vertex_rows {
             return point<double>{row[0], row[1], row[2]};
         };
         return {at(before), at(after)};
+    }
+
+  private:
+    static std::size_t of_both(std::size_t at_start, std::size_t at_end) {
+        if (at_start != at_end)
+            throw std::invalid_argument("ccd::vertex_rows: " + std::to_string(at_start) +
+                                        " vertices at t = 0, " + std::to_string(at_end) +
+                                        " at t = 1");
+        return at_start;
+    }
+    template <double_matrix M>
+    static std::size_t rows_of(const M& m) {
+        static_assert(M::IsRowMajor,
+                      "ccd::vertex_rows takes row-major matrices: the coordinates of a vertex must "
+                      "lie side by side");
+        if (m.cols() != 3 || m.outerStride() != 3 || m.innerStride() != 1)
+            throw std::invalid_argument(
+                "ccd::vertex_rows: expected matrices of three columns without gaps");
+        return static_cast<std::size_t>(m.rows());
     }
 };
 
@@ -63,6 +97,12 @@ inline vertex_face<double> query_of(const vertex_rows& rows, const vertex_face_p
 }
 inline edge_edge<double> query_of(const vertex_rows& rows, const edge_edge_pair& q) {
     return {rows[q.a0], rows[q.a1], rows[q.b0], rows[q.b1]};
+}
+inline vertex_edge<double> query_of(const vertex_rows& rows, const vertex_edge_pair& q) {
+    return {rows[q.v], rows[q.e0], rows[q.e1]};
+}
+inline vertex_vertex<double> query_of(const vertex_rows& rows, const vertex_vertex_pair& q) {
+    return {rows[q.v], rows[q.w]};
 }
 
 /// What the kernels are compiled for.
@@ -77,22 +117,112 @@ std::string_view name(instruction_set set);
 std::optional<instruction_set> find_instruction_set(std::string_view name);
 
 struct batch_options {
-    int threads = 1;                          ///< at most; 0: one per core
+    int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
-    stage_report* report = nullptr;           ///< added to, if given: costs a few per cent
+    bool explain = false;                     ///< fill the stages' report: costs a few per cent
 };
 
-/// Decides queries[i] by `exact` into answers[i], contiguous. Coordinates that are not finite give
-/// `uncertain`. Throws std::invalid_argument if the two lengths differ, an index is out of range or
-/// the instruction set is not of instruction_sets(). Cost: see `./run bench`; memory: some
-/// 300 KB of stack a thread, and 32 bytes a vertex if there are queries for half the vertices.
-void decide_batch(const vertex_rows& positions, std::span<const vertex_face_pair> queries,
-                  std::span<outcome> answers, const batch_options& options = {});
-void decide_batch(const vertex_rows& positions, std::span<const edge_edge_pair> queries,
-                  std::span<outcome> answers, const batch_options& options = {});
-void decide_batch(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
-                  const batch_options& options = {});
-void decide_batch(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
-                  const batch_options& options = {});
+struct batch_result {
+    std::vector<outcome> answers;
+    stage_report stages;  ///< of vertex/face and edge/edge queries, if asked for
+};
+
+namespace detail {
+
+template <class T>
+concept has_kind = requires {
+    kind_constant<T>::value;
+};
+template <class T>
+concept is_pair =
+    has_kind<T> && std::same_as<T, typename kind_traits<kind_constant<T>::value>::pair>;
+template <class T>
+concept is_query = has_kind<T> &&
+    std::same_as<T, typename kind_traits<kind_constant<T>::value>::template query<double>>;
+template <class R>
+concept contiguous_items = std::ranges::contiguous_range<R> && std::ranges::sized_range<R>;
+template <class R>
+using items_of = std::span<const std::ranges::range_value_t<R>>;
+
+/// What is asked of each query.
+enum class question : std::uint8_t { contact, contact_at_start };
+
+template <class Pair>
+stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                          std::span<outcome> answers, const batch_options& options, question asked);
+template <class Query>
+stage_report decide_queries(std::span<const Query> queries, std::span<outcome> answers,
+                            const batch_options& options, question asked);
+
+}  // namespace detail
+
+/// A span, vector or other contiguous range of pairs of one kind.
+template <class R>
+concept pair_range = detail::contiguous_items<R> && detail::is_pair<std::ranges::range_value_t<R>>;
+/// The same of queries in doubles.
+template <class R>
+concept query_range =
+    detail::contiguous_items<R> && detail::is_query<std::ranges::range_value_t<R>>;
+
+/// Decides queries by `exact`, of any kind: by index, or stored. Coordinates that are not finite
+/// give `uncertain`. Throws std::invalid_argument if an index is out of range or the instruction
+/// set is not one of instruction_sets().
+///
+/// Cost: see `./run bench`; vertex/edge and vertex/vertex queries are decided one by one. Memory:
+/// some 300 KB of stack a thread, and 32 bytes a vertex if there are queries for half the vertices.
+template <pair_range Pairs>
+batch_result decide_batch(const vertex_rows& positions, const Pairs& pairs,
+                          const batch_options& options = {});
+template <query_range Queries>
+batch_result decide_batch(const Queries& queries, const batch_options& options = {});
+
+/// The same into memory of one's own: answers[i] is that of query i. Returns the stages' report.
+/// Throws std::invalid_argument also if the two lengths differ.
+template <pair_range Pairs>
+stage_report decide_batch(const vertex_rows& positions, const Pairs& pairs,
+                          std::span<outcome> answers, const batch_options& options = {}) {
+    return detail::decide_pairs(positions, detail::items_of<Pairs>(pairs), answers, options,
+                                detail::question::contact);
+}
+template <query_range Queries>
+stage_report decide_batch(const Queries& queries, std::span<outcome> answers,
+                          const batch_options& options = {}) {
+    return detail::decide_queries(detail::items_of<Queries>(queries), answers, options,
+                                  detail::question::contact);
+}
+
+/// Whether the features of each query touch already at t = 0: as decide_batch, but as
+/// touches_at_start of ccd/exact.hpp answers. Only positions at t = 0 are looked at.
+template <pair_range Pairs>
+batch_result touches_at_start_batch(const vertex_rows& positions, const Pairs& pairs,
+                                    const batch_options& options = {}) {
+    batch_result result{std::vector<outcome>(std::ranges::size(pairs)), {}};
+    result.stages =
+        detail::decide_pairs(positions, detail::items_of<Pairs>(pairs), std::span(result.answers),
+                             options, detail::question::contact_at_start);
+    return result;
+}
+template <query_range Queries>
+batch_result touches_at_start_batch(const Queries& queries, const batch_options& options = {}) {
+    batch_result result{std::vector<outcome>(std::ranges::size(queries)), {}};
+    result.stages =
+        detail::decide_queries(detail::items_of<Queries>(queries), std::span(result.answers),
+                               options, detail::question::contact_at_start);
+    return result;
+}
+
+template <pair_range Pairs>
+batch_result decide_batch(const vertex_rows& positions, const Pairs& pairs,
+                          const batch_options& options) {
+    batch_result result{std::vector<outcome>(std::ranges::size(pairs)), {}};
+    result.stages = decide_batch(positions, pairs, std::span(result.answers), options);
+    return result;
+}
+template <query_range Queries>
+batch_result decide_batch(const Queries& queries, const batch_options& options) {
+    batch_result result{std::vector<outcome>(std::ranges::size(queries)), {}};
+    result.stages = decide_batch(queries, std::span(result.answers), options);
+    return result;
+}
 
 }  // namespace ccd

@@ -187,8 +187,9 @@ class mesh_steps {
 };
 
 /// ccd::step() on the device, which throws what that throws: copies both frames there and the pairs
-/// back. Of the options only the method counts; of the seconds, those of both phases are taken
-/// together as the narrow's.
+/// back. The mesh must have no edges of its own and at most one vertex on no face, whose kinds of
+/// pairs the device does not look for: anything else is an error. Of the options only the method
+/// counts; of the seconds, those of both phases are taken together as the narrow's.
 status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
             step_result& result);
 

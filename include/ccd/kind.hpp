@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace ccd {
 
@@ -93,6 +94,41 @@ struct kind_traits<kind::vertex_vertex> {
     static constexpr std::string_view short_name = "vv", name = "vertex_vertex",
                                       path_name = "vertex-vertex";
 };
+
+/// The pair type of a kind.
+template <kind K>
+using pair_of_kind = typename kind_traits<K>::pair;
+
+/// Something for each kind: an Of<K> by the kind's name, or of<K>().
+template <template <kind> class Of>
+struct by_kind {
+    Of<kind::vertex_face> vertex_face{};
+    Of<kind::edge_edge> edge_edge{};
+    Of<kind::vertex_edge> vertex_edge{};
+    Of<kind::vertex_vertex> vertex_vertex{};
+
+    template <kind K>
+    constexpr const Of<K>& of() const {
+        if constexpr (K == kind::vertex_face) return vertex_face;
+        if constexpr (K == kind::edge_edge) return edge_edge;
+        if constexpr (K == kind::vertex_edge) return vertex_edge;
+        if constexpr (K == kind::vertex_vertex) return vertex_vertex;
+    }
+    template <kind K>
+    constexpr Of<K>& of() {
+        return const_cast<Of<K>&>(std::as_const(*this).template of<K>());
+    }
+    friend bool operator==(const by_kind&, const by_kind&) = default;
+};
+
+/// Calls visit.operator()<K>() for every kind.
+template <class Visit>
+constexpr void for_each_kind(Visit&& visit) {
+    visit.template operator()<kind::vertex_face>();
+    visit.template operator()<kind::edge_edge>();
+    visit.template operator()<kind::vertex_edge>();
+    visit.template operator()<kind::vertex_vertex>();
+}
 
 namespace detail {
 

@@ -1,24 +1,35 @@
-// Triangle meshes: what a frame holds, and what one step of a mesh asks.
+// Meshes: what a frame holds, faces, edges of their own and points.
 #pragma once
 
 #include <array>
 #include <ccd/kind.hpp>
 #include <ccd/query.hpp>
+#include <span>
 #include <vector>
 
 namespace ccd {
 
-using face = std::array<index, 3>;  ///< vertex indices in the file's order
-using edge = std::array<index, 2>;  ///< vertex indices, ascending
+using face = std::array<index, 3>;  ///< vertex indices, in any order
+using edge = std::array<index, 2>;  ///< vertex indices; ascending where the library makes it
 
-/// One frame. `faces` index `vertices`; the reader checks that they are in range.
+/// One frame: triangles, edges that bound no triangle (rods, hair, springs), and points.
+///
+/// `edges` are those beside the faces' own, in any order; an edge that a face has, that is given
+/// twice or that repeats a vertex adds nothing. Every vertex that is on no edge, its own or a
+/// face's, is a point (a particle).
 struct mesh {
     std::vector<point<double>> vertices;
     std::vector<face> faces;
+    std::vector<edge> edges = {};
 };
 
-/// The mesh's unique edges, each ascending, sorted; a vertex repeated within a face makes no edge.
-/// Cost: O(faces) unless very many of them share a vertex; memory: 36 bytes a face and 8 a vertex.
-std::vector<edge> unique_edges(const std::vector<face>& faces);
+/// The unique edges of faces and of `edges`, each ascending, sorted; a vertex repeated within a
+/// face or an edge makes no edge. Cost: O(faces + edges) unless very many of them share a vertex;
+/// memory: 36 bytes a face, 12 an edge and 8 a vertex.
+std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge> edges = {});
+
+/// The faces, in their order, without those that have the same three vertices, in any order, as one
+/// before. Cost and memory: as unique_edges.
+std::vector<face> unique_faces(std::span<const face> faces);
 
 }  // namespace ccd

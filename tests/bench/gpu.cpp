@@ -254,8 +254,8 @@ void steps(const bench::scene& s, const device_scene& device, const bench::optio
         table.push_back({bench::word(info(m).name),
                          bench::count(found.vertex_face_candidates + found.edge_edge_candidates),
                          bench::count(found.vertex_face_count + found.edge_edge_count),
-                         bench::word(found.vertex_face_count == on_host.vertex_face.size() &&
-                                             found.edge_edge_count == on_host.edge_edge.size()
+                         bench::word(found.vertex_face_count == on_host.pairs.vertex_face.size() &&
+                                             found.edge_edge_count == on_host.pairs.edge_edge.size()
                                          ? "yes"
                                          : "NO"),
                          bench::number(1e3 * times[0].minimum, 3),

@@ -96,7 +96,7 @@ class methods_race {
     void add_stored_batch(const std::string& how) {
         answers_of_sample_.resize(sample_.size());
         const auto pass = [this] {
-            ccd::decide_batch(std::span<const Query>(sample_), answers_of_sample_);
+            ccd::decide_batch(sample_, answers_of_sample_, {.threads = 1});
         };
         pass();
         add_exact(how, sample_.size(), answers_of_sample_, pass);

@@ -48,8 +48,8 @@ std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
     const std::size_t heap = peak_heap(
         [&] { keep(ccd::step(s.before, s.after, {.method = c.method, .threads = c.threads})); });
     const std::size_t frames = bytes_of(s.before) + bytes_of(s.after);
-    const std::size_t result = r.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
-                               r.edge_edge.size() * sizeof(ccd::edge_edge_pair);
+    const std::size_t result = r.pairs.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
+                               r.pairs.edge_edge.size() * sizeof(ccd::edge_edge_pair);
     const std::size_t without_result = heap - std::min(heap, result);
     return {word(ccd::info(c.method).name),
             count(static_cast<std::uint64_t>(r.threads)),
@@ -59,8 +59,8 @@ std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
             number(1e3 * r.broad_phase_seconds, 2),
             number(1e3 * r.narrow_phase_seconds, 2),
             number(1e3 * r.sort_seconds, 2),
-            count(r.vertex_face_candidates + r.edge_edge_candidates),
-            count(r.vertex_face.size() + r.edge_edge.size()),
+            count(r.candidates.vertex_face + r.candidates.edge_edge),
+            count(r.pairs.vertex_face.size() + r.pairs.edge_edge.size()),
             number(megabytes(frames), 2),
             number(megabytes(result), 2),
             number(megabytes(heap), 2),
@@ -79,8 +79,8 @@ void steps(const scene& s, const options& o, report& out) {
     std::vector<std::vector<cell>> rows;
     for (std::size_t i = 0; i < contestants.size(); ++i) {
         const ccd::step_result& r = contestants[i].quickest;
-        if (r.vertex_face_candidates != s.queries.vertex_face.size() ||
-            r.edge_edge_candidates != s.queries.edge_edge.size())
+        if (r.candidates.vertex_face != s.queries.vertex_face.size() ||
+            r.candidates.edge_edge != s.queries.edge_edge.size())
             throw std::runtime_error(s.name + ": the step has other candidates than found here");
         rows.push_back(row_of(s, contestants[i], timings[i]));
     }
@@ -114,11 +114,11 @@ void growth_with_mesh(const options& o, report& out) {
         const auto timings = race_steps(before, after, contestants, o.repeats());
         const ccd::step_result& r = contestants[0].quickest;
         const auto candidates =
-            static_cast<double>(r.vertex_face_candidates + r.edge_edge_candidates);
+            static_cast<double>(r.candidates.vertex_face + r.candidates.edge_edge);
         const auto vertices = static_cast<double>(before.vertices.size());
         rows.push_back({count(before.vertices.size()), count(before.faces.size()),
-                        count(r.vertex_face_candidates + r.edge_edge_candidates),
-                        count(r.vertex_face.size() + r.edge_edge.size()),
+                        count(r.candidates.vertex_face + r.candidates.edge_edge),
+                        count(r.pairs.vertex_face.size() + r.pairs.edge_edge.size()),
                         number(1e3 * timings[0].minimum, 2), number(1e3 * timings[1].minimum, 2),
                         number(1e9 * timings[0].minimum / vertices, 0),
                         number(1e9 * timings[0].minimum / candidates, 1),

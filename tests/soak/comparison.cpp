@@ -143,7 +143,7 @@ std::vector<decider> exact_deciders() {
         const std::string name(ccd::name(set));
         all.push_back(
             both_kinds(name + ", stored", [set](auto queries, std::span<ccd::outcome> answers) {
-                ccd::decide_batch(queries, answers, {.set = set});
+                ccd::decide_batch(queries, answers, {.threads = 1, .set = set});
             }));
         all.push_back(both_kinds(
             name + ", by index",

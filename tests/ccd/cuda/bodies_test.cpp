@@ -23,7 +23,7 @@
 #include "ccd/cuda/exact_stages.hpp"
 #include "ccd/cuda/pairs.hpp"
 #include "ccd/cuda/step.hpp"
-#include "ccd/step/step_parts.hpp"
+#include "ccd/step/elements.hpp"
 #include "tests/ccd/cuda/on_host.hpp"
 #include "tests/ccd/cuda/sets.hpp"
 #include "tests/support/scaled.hpp"
@@ -408,7 +408,8 @@ ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, st
     ccd::cuda::detail::step_memory<host_launcher> memory(block);
     const positions at = positions_of({before, after});
     const auto edges = ccd::unique_edges(before.faces);
-    memory.set_mesh(launcher, before.vertices.size(), before.faces, edges);
+    const auto faces = ccd::unique_faces(before.faces);
+    memory.set_mesh(launcher, before.vertices.size(), faces, edges);
     ccd::step_result result;
     // Twice: the second step finds memory that the first has used.
     for (int i = 0; i < 2; ++i) {
@@ -421,32 +422,33 @@ ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, st
                 run_exact_stages(launcher, at, part, answers, *all, precision::float32);
                 return finish_exact(launcher, at, part, answers, *all).left;
             });
-        result.vertex_face_candidates = found.vertex_face_candidates;
-        result.edge_edge_candidates = found.edge_edge_candidates;
+        result.candidates.vertex_face = found.vertex_face_candidates;
+        result.candidates.edge_edge = found.edge_edge_candidates;
         for (std::size_t k = 0; k < found.vertex_face; ++k)
-            result.vertex_face.push_back(ccd::canonical(memory.vertex_face().data()[k]));
+            result.pairs.vertex_face.push_back(
+                ccd::detail::canonical(memory.vertex_face().data()[k]));
         for (std::size_t k = 0; k < found.edge_edge; ++k)
-            result.edge_edge.push_back(ccd::canonical(memory.edge_edge().data()[k]));
+            result.pairs.edge_edge.push_back(ccd::detail::canonical(memory.edge_edge().data()[k]));
     }
-    std::ranges::sort(result.vertex_face);
-    std::ranges::sort(result.edge_edge);
+    std::ranges::sort(result.pairs.vertex_face);
+    std::ranges::sort(result.pairs.edge_edge);
     return result;
 }
 
 void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
     const auto expected = ccd::step(before, after);
     const auto found = device_step(before, after, block);
-    EXPECT_EQ(found.vertex_face_candidates, expected.vertex_face_candidates);
-    EXPECT_EQ(found.edge_edge_candidates, expected.edge_edge_candidates);
-    EXPECT_EQ(found.vertex_face, expected.vertex_face);
-    EXPECT_EQ(found.edge_edge, expected.edge_edge);
+    EXPECT_EQ(found.candidates.vertex_face, expected.candidates.vertex_face);
+    EXPECT_EQ(found.candidates.edge_edge, expected.candidates.edge_edge);
+    EXPECT_EQ(found.pairs.vertex_face, expected.pairs.vertex_face);
+    EXPECT_EQ(found.pairs.edge_edge, expected.pairs.edge_edge);
 }
 
 TEST(device_step, finds_the_pairs_of_a_scene) {
     const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
     const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
     const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
-    EXPECT_FALSE(ccd::step(before, after).vertex_face.empty());
+    EXPECT_FALSE(ccd::step(before, after).pairs.vertex_face.empty());
     expect_step_as_on_host(before, after, std::size_t(1) << 22);
     expect_step_as_on_host(before, after, 1000);  // blocks that end within an element's candidates
 }

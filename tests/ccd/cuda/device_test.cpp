@@ -84,10 +84,10 @@ void expect_same_step(const fs::path& scene, const char* first, const char* seco
         ccd::step_result found;
         const auto s = ccd::cuda::step(before, after, {.method = m}, precision::float64, found);
         ASSERT_TRUE(s) << s.error;
-        EXPECT_EQ(found.vertex_face_candidates, expected.vertex_face_candidates);
-        EXPECT_EQ(found.edge_edge_candidates, expected.edge_edge_candidates);
-        EXPECT_EQ(found.vertex_face, expected.vertex_face);
-        EXPECT_EQ(found.edge_edge, expected.edge_edge);
+        EXPECT_EQ(found.candidates.vertex_face, expected.candidates.vertex_face);
+        EXPECT_EQ(found.candidates.edge_edge, expected.candidates.edge_edge);
+        EXPECT_EQ(found.pairs.vertex_face, expected.pairs.vertex_face);
+        EXPECT_EQ(found.pairs.edge_edge, expected.pairs.edge_edge);
     }
 }
 

@@ -172,9 +172,8 @@ TEST(batch, agrees_with_the_reference_on_every_instruction_set_and_thread_count)
         for (const ccd::instruction_set isa : ccd::instruction_sets())
             for (const int threads : {1, 3}) {
                 std::vector<ccd::outcome> answers(set.queries.size());
-                ccd::stage_report report;
-                ccd::decide_batch(std::span(set.queries), std::span(answers),
-                                  {.threads = threads, .set = isa, .report = &report});
+                const ccd::stage_report report = ccd::decide_batch(
+                    set.queries, answers, {.threads = threads, .set = isa, .explain = true});
                 std::size_t i = 0;
                 expect_never_wrong(set, [&](const auto&) { return answers[i++]; });
                 std::size_t decided = 0;

@@ -1,18 +1,17 @@
-// The two frames of a step as the broad phase sees them: swept boxes, exact and rounded.
+// The two frames of a step as the search for candidates sees them: swept boxes, exact and rounded.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <ccd/mesh.hpp>
+#include <ccd/batch.hpp>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "ccd/step/box_tree.hpp"
 
-namespace ccd {
+namespace ccd::detail {
 
 /// Maps an interval of finite numbers to about [-1, 1], preserving order though not strictly.
 class unit_axis {
@@ -31,10 +30,19 @@ class unit_axis {
     double middle_ = 0, scale_ = 1;
 };
 
-class step_frames {
+/// The sampling stride of `count` to take for a sample of about a thousand.
+constexpr std::size_t sampling_stride(std::size_t count) {
+    return 1 + count / 1024;
+}
+
+class swept_boxes {
   public:
-    /// Of two frames of one mesh with finite coordinates, which must outlive this.
-    step_frames(const mesh& before, const mesh& after);
+    /// Of finite positions, whose memory must outlive this.
+    explicit swept_boxes(const vertex_rows& positions) : positions_(positions) {
+        if (positions.vertices == 0) return;
+        const box<double> all = hull_of_all();
+        for (std::size_t k = 0; k < 3; ++k) axes_[k] = unit_axis(all.low[k], all.high[k]);
+    }
 
     /// The box that an element (1, 2 or 3 vertices) sweeps. In doubles it is exact. In floats each
     /// axis is mapped to about [-1, 1] and rounded, which preserves order though not strictly:
@@ -43,12 +51,11 @@ class step_frames {
     /// Proof: proofs/RoundedAxes.v, swept_face_separate, swept_edges_separate, swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<index, N>& element) const {
-        box<double> exact;
-        exact.low = exact.high = coordinates(before_, element[0]);
-        widen(exact, coordinates(after_, element[0]));
+        box<double> exact = box_of(positions_.before, element[0]);
+        widen(exact, positions_.after, element[0]);
         for (std::size_t i = 1; i < N; ++i)
-            for (const std::vector<point<double>>* frame : {&before_, &after_})
-                widen(exact, coordinates(*frame, element[i]));
+            for (const double* frame : {positions_.before, positions_.after})
+                widen(exact, frame, element[i]);
         if constexpr (std::is_same_v<Real, double>) {
             return exact;
         } else {
@@ -73,28 +80,42 @@ class step_frames {
     /// Whether floats would confuse the boxes: of a sample, more than one in sixteen have an axis
     /// on which only doubles tell their ends apart. So it is where small parts are very far apart.
     template <std::size_t N>
-    bool need_doubles(std::span<const std::array<index, N>> elements) const;
-
-    /// The elements, ordered along a Morton curve through the middles of their boxes. Cost:
-    /// O(n log n) unless the middles are spread over very many orders of magnitude, each three of
-    /// which cost one more sort of what is left; memory: 8 bytes an element beyond the result.
-    template <class Real, std::size_t N>
-    std::vector<std::array<index, N>> along_curve(
-        std::span<const std::array<index, N>> elements) const;
+    bool need_doubles(std::span<const std::array<index, N>> elements) const {
+        std::size_t confused = 0, samples = 0;
+        for (std::size_t i = 0; i < elements.size();
+             i += sampling_stride(elements.size()), ++samples) {
+            const box<double> exact = swept_box<double>(elements[i]);
+            const box<float> rounded = swept_box<float>(elements[i]);
+            bool merged = false;
+            for (std::size_t k = 0; k < 3; ++k)
+                merged |= exact.low[k] != exact.high[k] && rounded.low[k] == rounded.high[k];
+            confused += merged;
+        }
+        return confused > samples / 16;
+    }
 
   private:
-    static std::array<double, 3> coordinates(const std::vector<point<double>>& frame, index v) {
-        return {frame[v].x, frame[v].y, frame[v].z};
+    static box<double> box_of(const double* frame, index v) {
+        const double* row = frame + 3 * std::size_t(v);
+        return {{row[0], row[1], row[2]}, {row[0], row[1], row[2]}};
     }
-    static void widen(box<double>& b, const std::array<double, 3>& x) {
+    static void widen(box<double>& b, const double* frame, index v) {
+        const double* row = frame + 3 * std::size_t(v);
         for (std::size_t k = 0; k < 3; ++k) {
-            b.low[k] = std::min(b.low[k], x[k]);
-            b.high[k] = std::max(b.high[k], x[k]);
+            b.low[k] = std::min(b.low[k], row[k]);
+            b.high[k] = std::max(b.high[k], row[k]);
         }
     }
+    box<double> hull_of_all() const {
+        box<double> all = box_of(positions_.before, 0);
+        for (const double* frame : {positions_.before, positions_.after})
+            for (std::size_t v = 0; v < positions_.vertices; ++v)
+                widen(all, frame, static_cast<index>(v));
+        return all;
+    }
 
-    const std::vector<point<double>>&before_, &after_;
+    vertex_rows positions_;
     std::array<unit_axis, 3> axes_;
 };
 
-}  // namespace ccd
+}  // namespace ccd::detail

@@ -1,0 +1,94 @@
+// Candidates on their way from the search to whoever asked for them, block by block.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for_each.h>
+
+#include <algorithm>
+#include <array>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <span>
+
+namespace ccd::detail {
+
+inline bool lets_all_through(const pair_filter& filter) {
+    return !filter.can_collide && filter.groups.empty() && filter.pinned.empty();
+}
+
+inline bool may_collide(const pair_filter& filter, index v, index w) {
+    if (!filter.pinned.empty() && filter.pinned[v] != 0 && filter.pinned[w] != 0) return false;
+    if (!filter.groups.empty() && (filter.groups[v] == filter.groups[w]) !=
+                                      (filter.rule == pair_filter::group_rule::within_groups))
+        return false;
+    return !filter.can_collide || filter.can_collide(v, w);
+}
+
+template <class Pair>
+bool may_collide(const pair_filter& filter, const Pair& pair) {
+    const auto vertices = vertices_of(pair);
+    constexpr std::size_t first = kind_traits<kind_of<Pair>>::first_vertices;
+    for (std::size_t i = 0; i < first; ++i)
+        for (std::size_t j = first; j < vertices.size(); ++j)
+            if (may_collide(filter, vertices[i], vertices[j])) return true;
+    return false;
+}
+
+/// One block of candidates for each thread.
+template <class Pair>
+class candidate_blocks {
+  public:
+    using visitor = std::function<void(std::span<const Pair>)>;
+    static constexpr std::size_t block_size = 2048;
+
+    class block {
+      public:
+        block(const visitor& visit, const pair_filter* filter) : visit_(&visit), filter_(filter) {}
+
+        /// Adds the candidate if `is_one`.
+        void add(const Pair& c, bool is_one) {
+            candidates_[size_] = c;  // unconditionally: a branch would often be mispredicted
+            size_ += is_one;
+            if (size_ == block_size) flush();
+        }
+        void flush() {
+            std::span<const Pair> found(candidates_.data(), size_);
+            if (filter_ != nullptr) {
+                const auto end =
+                    std::remove_if(candidates_.begin(), candidates_.begin() + size_,
+                                   [&](const Pair& c) { return !may_collide(*filter_, c); });
+                found = {candidates_.begin(), end};
+            }
+            if (!found.empty()) (*visit_)(found);
+            count_ += found.size();
+            size_ = 0;
+        }
+        std::size_t count() const { return count_; }
+
+      private:
+        const visitor* visit_;
+        const pair_filter* filter_;
+        std::size_t size_ = 0, count_ = 0;
+        std::array<Pair, block_size> candidates_;
+    };
+
+    /// `filter` may be null: all pass.
+    candidate_blocks(const visitor& visit, const pair_filter* filter)
+        : blocks_([&visit, filter] { return block(visit, filter); }) {}
+
+    block& local() { return blocks_.local(); }
+
+    /// Hands out what is left. Returns the number of candidates.
+    std::size_t finish() {
+        tbb::parallel_for_each(blocks_, [](block& b) { b.flush(); });
+        return std::transform_reduce(blocks_.begin(), blocks_.end(), std::size_t(0), std::plus<>(),
+                                     [](const block& b) { return b.count(); });
+    }
+
+  private:
+    tbb::enumerable_thread_specific<block> blocks_;
+};
+
+}  // namespace ccd::detail

@@ -1,0 +1,109 @@
+#include "ccd/step/candidate_search.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+
+#include "ccd/step/candidate_blocks.hpp"
+#include "ccd/step/curve_order.hpp"
+#include "ccd/step/elements.hpp"
+
+namespace ccd::detail {
+namespace {
+
+std::vector<std::array<index, 1>> all_vertices(std::size_t count) {
+    std::vector<std::array<index, 1>> vertices(count);
+    for (std::size_t v = 0; v < count; ++v) vertices[v] = {static_cast<index>(v)};
+    return vertices;
+}
+
+std::vector<std::array<index, 1>> vertices_on_no_edge(const std::vector<edge>& edges,
+                                                      std::size_t count) {
+    std::vector<std::uint8_t> on_an_edge(count);
+    for (const edge& e : edges) on_an_edge[e[0]] = on_an_edge[e[1]] = 1;
+    std::vector<std::array<index, 1>> points;
+    for (std::size_t v = 0; v < count; ++v)
+        if (on_an_edge[v] == 0) points.push_back({static_cast<index>(v)});
+    return points;
+}
+
+/// The unique ones of `edges` that are not among `face_edges`.
+std::vector<edge> edges_of_no_face(std::span<const edge> edges,
+                                   const std::vector<edge>& face_edges) {
+    std::vector<edge> rods;
+    std::ranges::set_difference(unique_edges({}, edges), face_edges, std::back_inserter(rods));
+    return rods;
+}
+
+}  // namespace
+
+template <std::size_t N>
+template <class Real>
+void ordered_elements<N>::build_tree(box_tree<Real>& tree, const swept_boxes& boxes) {
+    constexpr bool by_doubles = std::is_same_v<Real, double>;
+    constexpr double worth_sorting = 1.25;  // times as long as the leaves have been
+    const auto box_of = [&](std::size_t i) { return boxes.swept_box<Real>(elements_[i]); };
+    if (ordered_ && by_doubles_ == by_doubles) {
+        tree.build(size(), box_of);
+        if (tree.length_of_leaves() <= worth_sorting * least_length_) {
+            least_length_ = std::min(least_length_, tree.length_of_leaves());
+            return;
+        }
+    }
+    order_along_curve<Real>(elements_, boxes);
+    tree.build(size(), box_of);
+    least_length_ = tree.length_of_leaves();
+    ordered_ = true;
+    by_doubles_ = by_doubles;
+}
+
+candidate_search::candidate_search(std::span<const face> faces, std::span<const edge> edges,
+                                   std::size_t vertices)
+    : vertices_(all_vertices(vertices)), faces_(unique_faces(faces)) {
+    std::vector<edge> all = unique_edges(faces, edges);
+    points_ = ordered_elements(vertices_on_no_edge(all, vertices));
+    if (!edges.empty()) rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
+    edges_ = ordered_elements(std::move(all));
+}
+
+template <kind K, class Real, class First, class Second>
+std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& asked, First& first,
+                                      Second& second) {
+    constexpr bool within_one = std::is_same_v<First, Second>;
+    second.build_tree(trees.second, asked.boxes);
+    if constexpr (!within_one) first.build_tree(trees.first, asked.boxes);
+    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter);
+    for_each_touching(
+        within_one ? trees.second : trees.first,
+        trees.second, [&]() -> auto& { return blocks.local(); },
+        [&](auto& block, std::size_t i, std::size_t j, bool certain) {
+            const auto &a = first[i], &b = second[j];
+            const bool apart = !share_vertex(a, b);
+            block.add(candidate_of(a, b), certain ? apart : apart && asked.boxes.touch(a, b));
+        });
+    return blocks.finish();
+}
+
+template <kind K, class First, class Second>
+std::size_t candidate_search::find_kind(const question& asked, First& first, Second& second) {
+    if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
+    return asked.boxes.need_doubles<Second::vertices>(second)
+               ? find_by<K>(in_doubles_, asked, first, second)
+               : find_by<K>(in_floats_, asked, first, second);
+}
+
+pair_counts candidate_search::find(const vertex_rows& positions, const pair_filter& filter,
+                                   const candidate_visitor& visitor) {
+    const swept_boxes boxes(positions);
+    const question asked{boxes, lets_all_through(filter) ? nullptr : &filter, visitor};
+    pair_counts counts;
+    counts.edge_edge = find_kind<kind::edge_edge>(asked, edges_, edges_);
+    counts.vertex_face = find_kind<kind::vertex_face>(asked, vertices_, faces_);
+    counts.vertex_edge = find_kind<kind::vertex_edge>(asked, points_, rods_);
+    counts.vertex_vertex = find_kind<kind::vertex_vertex>(asked, points_, points_);
+    return counts;
+}
+
+}  // namespace ccd::detail

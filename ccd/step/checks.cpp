@@ -1,0 +1,90 @@
+#include "ccd/step/checks.hpp"
+
+#include <algorithm>
+#include <ccd/method.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "ccd/exact/finite.hpp"
+
+namespace ccd::detail {
+namespace {
+
+template <std::size_t N>
+void check_indices(std::span<const std::array<index, N>> elements, const std::string& of,
+                   std::size_t vertices) {
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        for (const index v : elements[i])
+            if (v >= vertices)
+                throw std::invalid_argument(of + std::to_string(i) + " names vertex " +
+                                            std::to_string(v) + " of " + std::to_string(vertices));
+}
+
+void check_finite(const double* frame, std::size_t vertices, const char* time) {
+    if (all_finite(frame, 3 * vertices)) return;
+    const double* bad =
+        std::find_if_not(frame, frame + 3 * vertices, [](double x) { return std::isfinite(x); });
+    const auto at = static_cast<std::size_t>(bad - frame);
+    throw std::invalid_argument("ccd::step: the " + std::string(1, "xyz"[at % 3]) + " of vertex " +
+                                std::to_string(at / 3) + " at t = " + time + " is not finite (" +
+                                std::to_string(*bad) + ")");
+}
+
+void check_length(const char* of, std::size_t found, std::size_t vertices) {
+    if (found != 0 && found != vertices)
+        throw std::invalid_argument("ccd::step: the filter has " + std::string(of) + " of " +
+                                    std::to_string(found) + " vertices, the mesh has " +
+                                    std::to_string(vertices));
+}
+
+}  // namespace
+
+void check_frames(const mesh& before, const mesh& after) {
+    if (before.vertices.size() != after.vertices.size())
+        throw std::invalid_argument("ccd::step: " + std::to_string(before.vertices.size()) +
+                                    " vertices before, " + std::to_string(after.vertices.size()) +
+                                    " after");
+    if (before.faces != after.faces)
+        throw std::invalid_argument("ccd::step: the two frames differ in their faces");
+    if (before.edges != after.edges)
+        throw std::invalid_argument("ccd::step: the two frames differ in their edges");
+}
+
+void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
+                    const std::string& caller) {
+    if (std::max({vertices, faces.size(), edges.size()}) > std::numeric_limits<index>::max())
+        throw std::invalid_argument(caller + ": more vertices, faces or edges than can be named");
+    check_indices(faces, caller + ": face ", vertices);
+    check_indices(edges, caller + ": edge ", vertices);
+}
+
+void check_positions(const vertex_rows& positions, std::size_t vertices) {
+    if (positions.vertices != vertices)
+        throw std::invalid_argument("ccd::step: positions of " +
+                                    std::to_string(positions.vertices) +
+                                    " vertices, the mesh has " + std::to_string(vertices));
+    if (vertices == 0) return;
+    if (positions.before == nullptr || positions.after == nullptr)
+        throw std::invalid_argument("ccd::step: found a null pointer, expected positions");
+    check_finite(positions.before, vertices, "0");
+    check_finite(positions.after, vertices, "1");
+}
+
+void check_options(const step_options& options, std::size_t vertices) {
+    if (std::ranges::find(methods(), options.method, &method_info::method) == methods().end())
+        throw std::invalid_argument("ccd::step: found method " +
+                                    std::to_string(static_cast<int>(options.method)) +
+                                    ", expected one of ccd::methods()");
+    check_length("groups", options.filter.groups.size(), vertices);
+    check_length("pinned flags", options.filter.pinned.size(), vertices);
+}
+
+bool has_faces_alone(const mesh& mesh) {
+    std::vector<bool> on_an_edge(mesh.vertices.size());
+    for (const edge& e : unique_edges(mesh.faces)) on_an_edge[e[0]] = on_an_edge[e[1]] = true;
+    return mesh.edges.empty() && std::ranges::count(on_an_edge, false) < 2;
+}
+
+}  // namespace ccd::detail

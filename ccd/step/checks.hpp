@@ -1,0 +1,30 @@
+// Checks of what steps on the host and on devices are given; check_... throw std::invalid_argument.
+#pragma once
+
+#include <ccd/mesh.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace ccd::detail {
+
+/// That two frames are of one mesh.
+void check_frames(const mesh& before, const mesh& after);
+
+/// That all indices are below `vertices`, and that indices can name all elements. `caller` is named
+/// in the message.
+void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
+                    const std::string& caller);
+
+/// That there are positions of so many vertices, all finite.
+void check_positions(const vertex_rows& positions, std::size_t vertices);
+
+/// That the method is one, and that the filter's lists are as long as there are vertices.
+void check_options(const step_options& options, std::size_t vertices);
+
+/// Whether vertex/face and edge/edge pairs are all that a mesh has: no edges beside those of its
+/// faces, at most one point. Indices must be in range.
+bool has_faces_alone(const mesh& mesh);
+
+}  // namespace ccd::detail

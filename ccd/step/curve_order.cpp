@@ -1,0 +1,223 @@
+// The order of elements along a space-filling curve (Morton, "A computer oriented geodetic data
+// base and a new technique in file sequencing", 1966).
+#include "ccd/step/curve_order.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+
+#include "ccd/step/elements.hpp"
+
+namespace ccd::detail {
+namespace {
+
+/// Position on the curve in the upper half, element in the lower.
+using curve_key = std::uint64_t;
+
+index element_of(curve_key key) {
+    return static_cast<index>(key);
+}
+std::uint32_t position_of(curve_key key) {
+    return static_cast<std::uint32_t>(key >> 32);
+}
+
+/// Cells of the curve along an axis.
+constexpr std::uint32_t cells = 1024;
+constexpr unsigned curve_bits = 30;
+constexpr std::size_t leaf_size = box_pack<float>::size;
+
+template <class Real>
+double middle(const box<Real>& b, std::size_t k) {
+    return 0.5 * double(b.low[k]) + 0.5 * double(b.high[k]);
+}
+
+void widen(box<double>& b, const box<double>& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        b.low[k] = std::min(b.low[k], other.low[k]);
+        b.high[k] = std::max(b.high[k], other.high[k]);
+    }
+}
+
+template <class BoxOf>
+box<double> box_of_middles(std::span<const curve_key> keys, const BoxOf& box_of) {
+    const auto middle_of = [&](curve_key key) {
+        const auto b = box_of(element_of(key));
+        const std::array<double, 3> m{middle(b, 0), middle(b, 1), middle(b, 2)};
+        return box<double>{m, m};
+    };
+    return tbb::parallel_deterministic_reduce(
+        tbb::blocked_range<std::size_t>(0, keys.size(), 4096), middle_of(keys.front()),
+        [&](const tbb::blocked_range<std::size_t>& range, box<double> all) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                widen(all, middle_of(keys[i]));
+            return all;
+        },
+        [](box<double> a, const box<double>& b) {
+            widen(a, b);
+            return a;
+        });
+}
+
+/// By radix: serial, but beside the rest of the work hardly to be seen, which no sort by
+/// comparisons on a few cores was.
+void sort_keys(std::span<curve_key> keys) {
+    constexpr std::size_t few = 4096, digit_bits = 8;
+    if (keys.size() < few) {
+        std::ranges::sort(keys);
+        return;
+    }
+    std::vector<curve_key> buffer(keys.size());
+    std::span<curve_key> from = keys, to = buffer;
+    for (std::size_t shift = 32; shift < 64; shift += digit_bits) {
+        const auto digit = [shift](curve_key key) { return (key >> shift) % (1U << digit_bits); };
+        std::array<std::size_t, (1U << digit_bits) + 1> start{};
+        for (const curve_key key : from) ++start[digit(key) + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        for (const curve_key key : from) to[start[digit(key)]++] = key;
+        std::swap(from, to);
+    }
+}
+
+/// Calls visit(run) for all runs of keys whose positions have the same upper bits.
+template <class Visit>
+void for_each_run(std::span<curve_key> keys, unsigned lower_bits, const Visit& visit) {
+    const auto upper = [lower_bits](curve_key key) { return position_of(key) >> lower_bits; };
+    for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+        while (end < keys.size() && upper(keys[end]) == upper(keys[begin])) ++end;
+        visit(keys.subspan(begin, end - begin));
+    }
+}
+
+/// The cells of a Morton curve through the middles of boxes.
+///
+/// They are as many times longer on one axis than on another as the boxes are: an axis on which
+/// boxes are long tells few of them apart. Boxes of no length get cubes.
+template <class BoxOf>
+class curve_grid {
+  public:
+    /// `keys` must not be empty.
+    curve_grid(std::span<const curve_key> keys, const BoxOf& box_of)
+        : box_of_(box_of), middles_(box_of_middles(keys, box_of)) {
+        for (std::size_t k = 0; k < 3; ++k) axes_[k] = unit_axis(middles_.low[k], middles_.high[k]);
+        const std::array<double, 3> mean = mean_lengths(keys);
+        std::array<double, 3> half_spread;  // halved, so that it does not overflow
+        for (std::size_t k = 0; k < 3; ++k)
+            half_spread[k] = 0.5 * middles_.high[k] - 0.5 * middles_.low[k];
+        const double cube = *std::ranges::max_element(half_spread) / cells;
+        for (std::size_t k = 0; k < 3; ++k)
+            half_cells_[k] = half_spread[k] > 0 ? 1 / std::max(mean[k], cube / half_spread[k]) : 0;
+        const double largest = *std::ranges::max_element(half_cells_);
+        for (double& half : half_cells_) half *= 0.5 * (cells - 1) / largest;
+    }
+
+    /// Whether all middles are one point, which has no cells.
+    bool is_one_point() const { return middles_.low == middles_.high; }
+
+    /// The key with its element's position: the cell's, after its class's if they are told apart.
+    curve_key place(curve_key key, bool one_class) const {
+        const index element = element_of(key);
+        const auto b = box_of_(element);
+        std::uint32_t position = one_class ? 0 : class_of(b) << curve_bits;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double cell = half_cells_[k] + half_cells_[k] * axes_[k](middle(b, k));
+            position |= spread_bits(static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1.0)))
+                        << k;
+        }
+        return curve_key(position) << 32 | element;
+    }
+
+  private:
+    /// As a part of the spread of the middles; bounded, since it may be infinite.
+    template <class Box>
+    double length(const Box& b, std::size_t k) const {
+        return std::min<double>(0.5 * (axes_[k](b.high[k]) - axes_[k](b.low[k])), cells);
+    }
+
+    std::array<double, 3> mean_lengths(std::span<const curve_key> keys) const {
+        std::array<double, 3> mean{};
+        const std::size_t stride = sampling_stride(keys.size());
+        for (std::size_t i = 0; i < keys.size(); i += stride) {
+            const auto b = box_of_(element_of(keys[i]));
+            for (std::size_t k = 0; k < 3; ++k) mean[k] += length(b, k);
+        }
+        for (double& m : mean)
+            m = m * static_cast<double>(stride) / static_cast<double>(keys.size());
+        return mean;
+    }
+
+    /// 0, or 1 + the axis on which a box is long beside the whole, and longest.
+    template <class Box>
+    std::uint32_t class_of(const Box& b) const {
+        double longest = 1.0 / 16;
+        std::uint32_t found = 0;
+        for (std::uint32_t k = 0; k < 3; ++k)
+            if (length(b, k) > longest) {
+                longest = length(b, k);
+                found = k + 1;
+            }
+        return found;
+    }
+
+    const BoxOf& box_of_;
+    box<double> middles_;
+    std::array<unit_axis, 3> axes_;
+    std::array<double, 3> half_cells_;  // half the number of cells along each axis
+};
+
+/// Sorts the keys by their elements' boxes: along a Morton curve through the middles, which gathers
+/// in each leaf boxes that are near each other.
+///
+/// Boxes that are long beside the whole (unless all are of `one_class`) come after all others, by
+/// the axis on which they are longest, each class along a curve of its own: one long box, or two
+/// that cross, would make a leaf of everything. What shares a cell in the end is sorted again by
+/// finer cells, so that nothing remote leaves the others in disorder.
+template <class BoxOf>
+void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of, bool one_class) {
+    const curve_grid<BoxOf> grid(keys, box_of);
+    if (grid.is_one_point()) return;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 4096),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i)
+                              keys[i] = grid.place(keys[i], one_class);
+                      });
+    sort_keys(keys);
+
+    for_each_run(keys, curve_bits, [&](std::span<curve_key> members) {
+        if (position_of(members.front()) >> curve_bits != 0) {
+            sort_along_curve(members, box_of, true);
+            return;
+        }
+        for_each_run(members, 0, [&](std::span<curve_key> cell) {
+            if (cell.size() > leaf_size && cell.size() < keys.size())
+                sort_along_curve(cell, box_of, one_class);
+        });
+    });
+}
+
+}  // namespace
+
+template <class Real, std::size_t N>
+void order_along_curve(std::vector<std::array<index, N>>& elements, const swept_boxes& boxes) {
+    if (elements.empty()) return;
+    std::vector<curve_key> keys(elements.size());
+    std::iota(keys.begin(), keys.end(), curve_key(0));
+    sort_along_curve(
+        std::span(keys), [&](index i) { return boxes.swept_box<Real>(elements[i]); }, false);
+    std::vector<std::array<index, N>> ordered(elements.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = elements[element_of(keys[i])];
+    elements = std::move(ordered);
+}
+
+template void order_along_curve<float>(std::vector<std::array<index, 1>>&, const swept_boxes&);
+template void order_along_curve<double>(std::vector<std::array<index, 1>>&, const swept_boxes&);
+template void order_along_curve<float>(std::vector<edge>&, const swept_boxes&);
+template void order_along_curve<double>(std::vector<edge>&, const swept_boxes&);
+template void order_along_curve<float>(std::vector<face>&, const swept_boxes&);
+template void order_along_curve<double>(std::vector<face>&, const swept_boxes&);
+
+}  // namespace ccd::detail

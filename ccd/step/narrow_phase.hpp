@@ -1,0 +1,110 @@
+// The narrow phase of a step: decides candidates as they come and keeps the pairs that may collide.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
+
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
+#include <span>
+#include <vector>
+
+#include "ccd/batch/batch_worker.hpp"
+#include "ccd/step/elements.hpp"
+#include "ccd/step/stopwatch.hpp"
+
+namespace ccd::detail {
+
+/// Pairs that threads collect, each in `pairs` of its own.
+template <kind K>
+struct pair_list_of_thread {
+    std::vector<pair_of_kind<K>> pairs;
+};
+template <kind K>
+using lists_of_threads = tbb::enumerable_thread_specific<pair_list_of_thread<K>>;
+
+/// All pairs of the threads' lists, sorted. Each list is released as it is taken.
+template <class Pair, class Parts>
+std::vector<Pair> take_sorted(Parts& parts) {
+    std::size_t count = 0;
+    for (const auto& p : parts) count += p.pairs.size();
+    std::vector<Pair> all;
+    all.reserve(count);
+    for (auto& p : parts) {
+        all.insert(all.end(), p.pairs.begin(), p.pairs.end());
+        p.pairs = {};
+    }
+    tbb::parallel_sort(all.begin(), all.end());
+    return all;
+}
+
+template <kind K>
+class narrow_phase {
+  public:
+    using pair = pair_of_kind<K>;
+
+    narrow_phase(const batch_positions& positions, const step_options& options)
+        : positions_(positions),
+          method_(options.method),
+          parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
+
+    /// From any thread.
+    void decide(std::span<const pair> candidates) {
+        stopwatch watch;
+        part& local = parts_.local();
+        if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+            if (method_ == method::exact)
+                decide_block(local, candidates);
+            else
+                keep(local, candidates, [this](const auto& q) { return ccd::decide(method_, q); });
+        } else {
+            keep(local, candidates, [](const auto& q) { return decide_exact(q); });
+        }
+        local.seconds += watch.lap();
+    }
+
+    /// What the stages of `exact` did, if that was asked for.
+    stage_report report() const {
+        stage_report sum;
+        for (const part& p : parts_) sum += p.worker.report();
+        return sum;
+    }
+
+    /// Of all threads together.
+    double seconds() const {
+        double sum = 0;
+        for (const part& p : parts_) sum += p.seconds;
+        return sum;
+    }
+
+    std::vector<pair> take_pairs() { return take_sorted<pair>(parts_); }
+
+  private:
+    struct part {
+        std::vector<pair> pairs;
+        batch_worker worker;
+        std::vector<outcome> answers;
+        double seconds = 0;
+    };
+
+    void decide_block(part& local, std::span<const pair> candidates) {
+        local.answers.resize(candidates.size());
+        local.worker.decide(positions_, candidates, local.answers.data());
+        for (std::size_t i = 0; i < candidates.size(); ++i)
+            if (local.answers[i] == outcome::collides)
+                local.pairs.push_back(canonical(candidates[i]));
+    }
+    template <class Decide>
+    void keep(part& local, std::span<const pair> candidates, const Decide& decide) {
+        for (const pair& c : candidates)
+            if (ccd::may_collide(decide(query_of(positions_.exact, c))))
+                local.pairs.push_back(canonical(c));
+    }
+
+    batch_positions positions_;
+    method method_;
+    tbb::enumerable_thread_specific<part> parts_;
+};
+
+}  // namespace ccd::detail

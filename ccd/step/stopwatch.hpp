@@ -1,0 +1,20 @@
+#pragma once
+
+#include <chrono>
+#include <utility>
+
+namespace ccd::detail {
+
+/// Seconds since it was made or last read.
+class stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace ccd::detail

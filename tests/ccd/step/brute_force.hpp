@@ -1,0 +1,191 @@
+// What a step must report, by looking at every pair.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <functional>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace brute_force {
+
+using ccd::index;
+using two_frames = std::pair<ccd::mesh, ccd::mesh>;
+using vertex = std::array<index, 1>;
+
+/// A soup of triangles on a small grid, so that touching boxes and degenerate contacts abound.
+inline two_frames random_soup(std::uint64_t seed, unsigned vertices, unsigned faces) {
+    std::mt19937_64 random(seed);
+    const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
+    ccd::mesh before;
+    for (unsigned i = 0; i < vertices; ++i)
+        before.vertices.push_back({coordinate(), coordinate(), coordinate()});
+    for (unsigned i = 0; i < faces; ++i) {
+        const auto v = static_cast<index>(random() % (vertices - 2));
+        before.faces.push_back({v + 2, v, v + 1});
+    }
+    ccd::mesh after = before;
+    for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
+    return {before, after};
+}
+
+/// The same with rods among the first vertices, and points. Some edges are faces' own, some are
+/// given twice, in either direction, or repeat a vertex.
+inline two_frames random_mixture(std::uint64_t seed) {
+    auto [before, after] = random_soup(seed, 24, 6);
+    std::mt19937_64 random(seed);
+    const auto coordinate = [&random] { return static_cast<double>(random() % 6); };
+    for (unsigned i = 0; i < 8; ++i)
+        before.edges.push_back({index(random() % 24), index(random() % 24)});
+    before.edges.push_back({before.edges[0][1], before.edges[0][0]});
+    before.edges.push_back({before.faces[0][0], before.faces[0][1]});
+    before.edges.push_back({23, 23});
+    after.edges = before.edges;
+    for (auto* m : {&before, &after})
+        for (unsigned i = 0; i < 12; ++i)
+            m->vertices.push_back({coordinate(), coordinate(), coordinate()});
+    return {before, after};
+}
+
+struct elements {
+    std::vector<ccd::face> faces;  ///< the first of each set of vertices
+    std::vector<ccd::edge> edges, rods;
+    std::vector<vertex> vertices, points;
+
+    explicit elements(const ccd::mesh& m) {
+        std::set<ccd::face> seen;
+        std::set<ccd::edge> of_faces, all, lone;
+        const auto add = [](std::set<ccd::edge>& to, index v, index w) {
+            if (v != w) to.insert({std::min(v, w), std::max(v, w)});
+        };
+        for (const ccd::face& f : m.faces) {
+            ccd::face sorted = f;
+            std::ranges::sort(sorted);
+            if (seen.insert(sorted).second) faces.push_back(f);
+            for (std::size_t k = 0; k < 3; ++k) add(of_faces, f[k], f[(k + 1) % 3]);
+        }
+        all = of_faces;
+        for (const ccd::edge& e : m.edges) add(all, e[0], e[1]);
+        std::ranges::set_difference(all, of_faces, std::back_inserter(rods));
+        edges.assign(all.begin(), all.end());
+        std::set<index> on_edges;
+        for (const ccd::edge& e : edges) on_edges.insert(e.begin(), e.end());
+        for (index v = 0; v < m.vertices.size(); ++v) {
+            vertices.push_back({v});
+            if (!on_edges.contains(v)) points.push_back({v});
+        }
+    }
+};
+
+/// Whether two elements share a vertex, and whether the closed boxes that they sweep touch.
+template <std::size_t A, std::size_t B>
+bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) {
+    return std::ranges::any_of(a, [&](index v) { return std::ranges::find(b, v) != b.end(); });
+}
+template <std::size_t A, std::size_t B>
+bool boxes_touch(const two_frames& at, const std::array<index, A>& a,
+                 const std::array<index, B>& b) {
+    for (const auto axis : {&ccd::point<>::x, &ccd::point<>::y, &ccd::point<>::z}) {
+        const auto extent = [&](const auto& element) {
+            double low = at.first.vertices[element[0]].*axis, high = low;
+            for (const index v : element)
+                for (const auto* m : {&at.first, &at.second}) {
+                    low = std::min(low, m->vertices[v].*axis);
+                    high = std::max(high, m->vertices[v].*axis);
+                }
+            return std::pair(low, high);
+        };
+        const auto [a_low, a_high] = extent(a);
+        const auto [b_low, b_high] = extent(b);
+        if (a_low > b_high || b_low > a_high) return false;
+    }
+    return true;
+}
+
+using vertices_may_collide = std::function<bool(index, index)>;
+
+/// Adds the pairs of one kind: make(a, b) makes one.
+template <ccd::kind K, class As, class Bs, class Make>
+void add_pairs(const two_frames& at, ccd::method method, const vertices_may_collide& may,
+               const As& as, const Bs& bs, const Make& make, ccd::step_result& result) {
+    constexpr bool within_one = std::is_same_v<As, Bs>;
+    const ccd::vertex_rows rows(at.first, at.second);
+    for (std::size_t i = 0; i < as.size(); ++i)
+        for (std::size_t j = within_one ? i + 1 : 0; j < bs.size(); ++j) {
+            const auto &a = as[i], &b = bs[j];
+            if (share_vertex(a, b) || !boxes_touch(at, a, b)) continue;
+            if (may && std::ranges::none_of(a, [&](index v) {
+                    return std::ranges::any_of(b, [&](index w) { return may(v, w); });
+                }))
+                continue;
+            ++result.candidates.of<K>();
+            const auto query = query_of(rows, make(a, b));
+            ccd::verdict found;
+            if constexpr (K == ccd::kind::vertex_face || K == ccd::kind::edge_edge)
+                found = ccd::decide(method, query);
+            else
+                found = ccd::decide_exact(query);
+            if (!may_collide(found)) continue;
+            auto b_sorted = b;
+            std::ranges::sort(b_sorted);
+            result.pairs.of<K>().push_back(make(a, b_sorted));
+            if (may_collide(ccd::touches_at_start(query)))
+                result.touching_at_start.of<K>().push_back(make(a, b_sorted));
+        }
+    std::ranges::sort(result.pairs.of<K>());
+    std::ranges::sort(result.touching_at_start.of<K>());
+}
+
+/// Every pair looked at.
+inline ccd::step_result step(const two_frames& at, ccd::method method = ccd::method::exact,
+                             const vertices_may_collide& may = {}) {
+    const elements of(at.first);
+    ccd::step_result result;
+    add_pairs<ccd::kind::vertex_face>(
+        at, method, may, of.vertices, of.faces,
+        [](const auto& v, const auto& f) {
+            return ccd::vertex_face_pair{v[0], f[0], f[1], f[2]};
+        },
+        result);
+    add_pairs<ccd::kind::edge_edge>(
+        at, method, may, of.edges, of.edges,
+        [](const auto& a, const auto& b) {
+            return ccd::edge_edge_pair{a[0], a[1], b[0], b[1]};
+        },
+        result);
+    add_pairs<ccd::kind::vertex_edge>(
+        at, method, may, of.points, of.rods,
+        [](const auto& v, const auto& e) {
+            return ccd::vertex_edge_pair{v[0], e[0], e[1]};
+        },
+        result);
+    add_pairs<ccd::kind::vertex_vertex>(
+        at, method, may, of.points, of.points,
+        [](const auto& v, const auto& w) {
+            return ccd::vertex_vertex_pair{v[0], w[0]};
+        },
+        result);
+    return result;
+}
+
+inline void expect_same(const ccd::step_result& found, const ccd::step_result& expected) {
+    EXPECT_EQ(found.candidates, expected.candidates);
+    EXPECT_EQ(found.pairs, expected.pairs);
+}
+
+/// Steps on one thread and more against every pair looked at.
+inline void expect_as_by_brute_force(const two_frames& at, ccd::method method) {
+    const auto expected = step(at, method);
+    for (const int threads : {1, 2, 3})
+        expect_same(ccd::step(at.first, at.second, {.method = method, .threads = threads}),
+                    expected);
+}
+
+}  // namespace brute_force

@@ -1,0 +1,110 @@
+// Repeated steps of one mesh, filters, candidates, initial contact.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "tests/ccd/step/brute_force.hpp"
+
+namespace {
+
+using brute_force::expect_same;
+using brute_force::index;
+using brute_force::random_mixture;
+using brute_force::two_frames;
+
+TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
+    const auto [mesh, second] = random_mixture(1);
+    std::mt19937_64 random(1);
+    ccd::mesh_steps steps(mesh);
+    auto before = mesh.vertices, after = second.vertices;
+    for (unsigned step = 0; step < 40; ++step) {
+        const ccd::vertex_rows rows(before, after);
+        expect_same(steps.run(rows, {.threads = 1 + static_cast<int>(step % 2)}),
+                    ccd::step(mesh.faces, mesh.edges, rows));
+        before = after;
+        // Small motions, then a shuffle; parts so far apart that floats do not tell them apart.
+        for (auto& p : after) {
+            p.x += 0.25 * static_cast<double>(random() % 5) - 0.5;
+            p.y += step % 10 == 4 ? static_cast<double>(random() % 30) : 0;
+            if (step == 20 || step == 25) p.z = static_cast<double>(random() % 2) * 1e12;
+        }
+    }
+}
+
+TEST(MeshSteps, MayBeMoved) {
+    const auto at = random_mixture(2);
+    ccd::mesh_steps steps(at.first);
+    ccd::mesh_steps moved = std::move(steps);
+    expect_same(moved.run({at.first, at.second}), ccd::step(at.first, at.second));
+}
+
+TEST(Filter, LetsThroughPairsOfWhichSomeVerticesMayCollide) {
+    const auto at = random_mixture(3);
+    const std::size_t vertices = at.first.vertices.size();
+    std::vector<int> groups(vertices);
+    std::vector<std::uint8_t> pinned(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        groups[v] = static_cast<int>(v / 9);
+        pinned[v] = v % 3 != 0;
+    }
+    const auto by_sum = [](index v, index w) { return (v + w) % 5 == 0; };
+    const auto one_group = [&](index v, index w) { return groups[v] == groups[w]; };
+    const auto one_moves = [&](index v, index w) { return pinned[v] == 0 || pinned[w] == 0; };
+    const auto unfiltered = ccd::step(at.first, at.second);
+    const auto expect = [&](const ccd::pair_filter& filter, const auto& may) {
+        const auto found = ccd::step(at.first, at.second, {.filter = filter});
+        expect_same(found, brute_force::step(at, ccd::method::exact, may));
+        EXPECT_LT(found.candidates.edge_edge, unfiltered.candidates.edge_edge);
+        EXPECT_GT(found.candidates.edge_edge, 0U);
+    };
+    expect({.can_collide = by_sum}, by_sum);
+    expect({.groups = groups}, [&](index v, index w) { return !one_group(v, w); });
+    expect({.groups = groups, .rule = ccd::pair_filter::group_rule::within_groups}, one_group);
+    expect({.pinned = pinned}, one_moves);
+    expect({.can_collide = by_sum, .groups = groups, .pinned = pinned},
+           [&](index v, index w) { return by_sum(v, w) && !one_group(v, w) && one_moves(v, w); });
+}
+
+TEST(Candidates, AreThoseOfTheStep) {
+    const auto at = random_mixture(4);
+    const auto expected = brute_force::step(at);
+    const auto listed = ccd::candidates(at.first, at.second);
+    std::atomic<std::size_t> in_blocks = 0;
+    ccd::mesh_steps steps(at.first);
+    const auto counts = steps.for_each_candidate(
+        {at.first, at.second}, {.edge_edge = [&](auto block) { in_blocks += block.size(); }});
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        EXPECT_EQ(listed.of<K>().size(), expected.candidates.of<K>()) << name(K);
+        EXPECT_TRUE(std::ranges::is_sorted(listed.of<K>()));
+        // Of vertex/face candidates the faces come in the mesh's order, not ascending.
+        if constexpr (K != ccd::kind::vertex_face) {
+            EXPECT_TRUE(std::ranges::includes(listed.of<K>(), expected.pairs.of<K>())) << name(K);
+        }
+    });
+    EXPECT_EQ(in_blocks, expected.candidates.edge_edge);
+    EXPECT_EQ(counts.edge_edge, expected.candidates.edge_edge);
+    EXPECT_EQ(counts.vertex_face, 0U);  // without a visitor
+    const auto none = steps.candidates(
+        {at.first, at.second}, {.filter = {.can_collide = [](index, index) { return false; }}});
+    EXPECT_EQ(none, ccd::pair_lists{});
+}
+
+TEST(InitialContact, IsToldFromALaterImpact) {
+    std::size_t touching = 0, later = 0;
+    for (const unsigned seed : {5U, 6U, 7U}) {
+        const auto at = random_mixture(seed);
+        const auto expected = brute_force::step(at);
+        const auto found = ccd::step(at.first, at.second, {.initial_contact = true});
+        EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
+        EXPECT_EQ(ccd::step(at.first, at.second).touching_at_start, ccd::pair_lists{});
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            touching += found.touching_at_start.of<K>().size();
+            later += found.pairs.of<K>().size() - found.touching_at_start.of<K>().size();
+        });
+    }
+    EXPECT_GT(touching, 0U);
+    EXPECT_GT(later, 0U);
+}
+
+}  // namespace

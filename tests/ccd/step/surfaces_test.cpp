@@ -1,0 +1,204 @@
+// Whole steps against brute force, and real frames against their published numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/io/mesh_file.hpp>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
+#include <cfenv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/nasty_shapes.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using brute_force::expect_as_by_brute_force;
+using brute_force::random_soup;
+
+TEST(Step, AgreesWithBruteForce) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        const auto at = random_soup(seed, 60, 50);
+        expect_as_by_brute_force(at, ccd::method::exact);
+        const auto pairs = ccd::step(at.first, at.second).pairs;
+        EXPECT_FALSE(pairs.vertex_face.empty());
+        EXPECT_FALSE(pairs.edge_edge.empty());
+    }
+}
+
+using nasty_shapes::generator;
+using nasty_shapes::shape;
+using nasty_shapes::shapes;
+
+class NastyShape : public testing::TestWithParam<shape> {};
+
+TEST_P(NastyShape, AgreesWithBruteForce) {
+    for (const unsigned patches : {1U, 2U, 40U}) {
+        for (const unsigned seed : {1U, 2U}) {
+            // Patches of six vertices and five faces, one of them degenerate; some joined.
+            generator random(seed);
+            ccd::mesh before, after;
+            for (unsigned patch = 0; patch < patches; ++patch) {
+                const ccd::index v = 6 * patch;
+                for (unsigned i = 0; i < 6; ++i) {
+                    const auto p = GetParam().vertex(random, patch);
+                    before.vertices.push_back(p.t0);
+                    after.vertices.push_back(p.t1);
+                }
+                for (const ccd::face f :
+                     {ccd::face{v, v + 1, v + 2}, ccd::face{v + 3, v + 2, v + 1},
+                      ccd::face{v + 5, v + 4, v + 3}, ccd::face{v, v + 5, v},
+                      ccd::face{v + 4, v, v > 0 ? v - 1 : v + 5}})
+                    before.faces.push_back(f);
+            }
+            after.faces = before.faces;
+            expect_as_by_brute_force({before, after}, ccd::method::float_);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, NastyShape, testing::ValuesIn(shapes),
+                         [](const auto& info) { return info.param.name; });
+
+ccd::point<double> moved(const ccd::point<double>& p, const ccd::point<double>& by) {
+    return {p.x + by.x, p.y + by.y, p.z + by.z};
+}
+
+TEST(Step, FindsInEachOfManyCopiesWhatItFindsInOne) {
+    const auto [before, after] = random_soup(4, 60, 50);
+    const auto one = brute_force::step({before, after});
+    constexpr ccd::index copies = 120;
+    ccd::mesh all_before, all_after;
+    ccd::pair_lists expected;
+    for (ccd::index copy = 0; copy < copies; ++copy) {
+        const ccd::index first = 60 * copy;
+        const ccd::point<double> offset{100.0 * (copy % 5), 100.0 * (copy / 5), 0};
+        for (ccd::index v = 0; v < 60; ++v) {
+            all_before.vertices.push_back(moved(before.vertices[v], offset));
+            all_after.vertices.push_back(moved(after.vertices[v], offset));
+        }
+        for (const auto& [a, b, c] : before.faces)
+            all_before.faces.push_back({first + a, first + b, first + c});
+        for (const auto& [v, f0, f1, f2] : one.pairs.vertex_face)
+            expected.vertex_face.push_back({first + v, first + f0, first + f1, first + f2});
+        for (const auto& [a0, a1, b0, b1] : one.pairs.edge_edge)
+            expected.edge_edge.push_back({first + a0, first + a1, first + b0, first + b1});
+        for (const auto& [v, w] : one.pairs.vertex_vertex)
+            expected.vertex_vertex.push_back({first + v, first + w});
+    }
+    all_after.faces = all_before.faces;
+    for (const int threads : {1, 2, 3}) {
+        const auto all = ccd::step(all_before, all_after, {.threads = threads});
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            EXPECT_EQ(all.candidates.of<K>(), copies * one.candidates.of<K>()) << name(K);
+        });
+        EXPECT_EQ(all.pairs, expected);
+    }
+}
+
+TEST(Step, TakesOneFaceAndNone) {
+    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}}, {{0, 1, 2}}};
+    expect_as_by_brute_force({one, one}, ccd::method::exact);
+    EXPECT_EQ(ccd::step(one, one).pairs.vertex_face.size(), 1U);
+    const ccd::mesh points{one.vertices, {}};
+    expect_as_by_brute_force({points, points}, ccd::method::exact);
+    const ccd::mesh point{{{0, 0, 0}}, {{0, 0, 0}}};
+    expect_as_by_brute_force({point, point}, ccd::method::exact);
+}
+
+// Flat on one axis, and not: no rounding direction may lose a candidate.
+TEST(Step, HoldsInEveryRoundingDirection) {
+    ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0.25, 0}, {4, 0, 0}, {4, 1, 0}},
+                     {{0, 1, 2}, {3, 4, 5}}};
+    ccd::mesh after = before;
+    for (std::size_t i = 3; i < 6; ++i) after.vertices[i].x -= 2.75;
+    const auto soup = random_soup(7, 60, 50);
+    const auto flat_expected = brute_force::step({before, after});
+    const auto soup_expected = brute_force::step(soup);
+    EXPECT_FALSE(flat_expected.pairs.vertex_face.empty());
+    for (const int mode : {FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+        std::fesetround(mode);
+        const auto flat = ccd::step(before, after);
+        const auto deep = ccd::step(soup.first, soup.second);
+        std::fesetround(FE_TONEAREST);
+        brute_force::expect_same(flat, flat_expected);
+        brute_force::expect_same(deep, soup_expected);
+    }
+}
+
+TEST(Mesh, UniqueEdgesAreThoseOfAllFaces) {
+    EXPECT_TRUE(ccd::unique_edges({}).empty());
+    const std::vector<ccd::face> point{{7, 7, 7}};
+    EXPECT_TRUE(ccd::unique_edges(point).empty());
+    constexpr ccd::index last = std::numeric_limits<ccd::index>::max();
+    generator random(1);
+    for (const ccd::index range : {3U, 50U, 100000U, last}) {
+        std::vector<ccd::face> faces;
+        std::set<ccd::edge> expected;
+        for (unsigned i = 0; i < 300; ++i) {
+            ccd::face f;
+            for (auto& v : f) v = range - static_cast<ccd::index>(random() % range);
+            faces.push_back(f);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [v, w] = std::minmax(f[k], f[(k + 1) % 3]);
+                if (v != w) expected.insert({v, w});
+            }
+        }
+        const auto edges = ccd::unique_edges(faces);
+        EXPECT_TRUE(std::ranges::equal(edges, expected));
+    }
+}
+
+TEST(Step, ConservativeMethodsReportEveryExactCollision) {
+    const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
+    const auto before = ccd::io::read_mesh(scene / "frame0.ply");
+    const auto after = ccd::io::read_mesh(scene / "frame1.ply");
+    const auto exact = ccd::step(before, after, {.method = ccd::method::exact});
+    EXPECT_FALSE(exact.pairs.vertex_face.empty());
+    EXPECT_FALSE(exact.pairs.edge_edge.empty());
+    for (const auto m : {ccd::method::safe, ccd::method::tight}) {
+        const auto result = ccd::step(before, after, {.method = m});
+        EXPECT_TRUE(std::ranges::includes(result.pairs.vertex_face, exact.pairs.vertex_face));
+        EXPECT_TRUE(std::ranges::includes(result.pairs.edge_edge, exact.pairs.edge_edge));
+    }
+}
+
+struct scene {
+    const char *name, *before, *after;
+    std::size_t vf_candidates, ee_candidates, vf, ee;
+};
+
+class RealScene : public testing::TestWithParam<scene> {};
+
+TEST_P(RealScene, HasItsKnownNumbers) {
+    const scene& s = GetParam();
+    const fs::path frames = fs::path(ERRBOUND_SHARED_DATA) / "scenes" / s.name / "frames";
+    if (!fs::exists(frames)) GTEST_SKIP() << "skipped: no real frames at " << frames;
+    const auto before = ccd::io::read_mesh(frames / s.before);
+    const auto after = ccd::io::read_mesh(frames / s.after);
+    const auto exact = ccd::step(before, after, {.method = ccd::method::exact});
+    EXPECT_EQ(exact.candidates.vertex_face, s.vf_candidates);
+    EXPECT_EQ(exact.candidates.edge_edge, s.ee_candidates);
+    EXPECT_EQ(exact.pairs.vertex_face.size(), s.vf);
+    EXPECT_EQ(exact.pairs.edge_edge.size(), s.ee);
+    const auto tight = ccd::step(before, after, {.method = ccd::method::tight});
+    EXPECT_TRUE(std::ranges::includes(tight.pairs.vertex_face, exact.pairs.vertex_face));
+    EXPECT_TRUE(std::ranges::includes(tight.pairs.edge_edge, exact.pairs.edge_edge));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, RealScene,
+    testing::Values(scene{"cloth-funnel", "227.ply", "228.ply", 7319, 33770, 27, 107},
+                    scene{"cloth-ball", "cloth_ball92.ply", "cloth_ball93.ply", 1655541, 5197332,
+                          19032, 94822}),
+    [](const auto& info) { return info.index == 0 ? "ClothFunnel" : "ClothBall"; });
+
+}  // namespace
