@@ -12,7 +12,6 @@ FILES_PER_FOLDER = 22
 ROOT_CMAKE_LINES = 80
 README_LINES = 160
 FUNCTION_LINES = 50
-LONGER_FUNCTIONS = 1  # to be none
 
 FOLDERS = ["ccd", "errbound", "include", "python", "examples", "tests"]
 CPP = {".hpp", ".cpp", ".cu", ".cuh"}
@@ -149,8 +148,7 @@ def check_functions(root, sources, found):
         functions += [(lines, f"{path}:{first}: {name}") for name, first, lines in of(text)]
     functions.sort(reverse=True)
     longer = [case for case in functions if case[0] > FUNCTION_LINES]
-    found.check(f"functions of more than {FUNCTION_LINES} lines, of {len(functions)}", len(longer),
-                LONGER_FUNCTIONS)
+    found.check(f"functions of more than {FUNCTION_LINES} lines, of {len(functions)}", len(longer), 0)
     for lines, where in longer or functions[:1]:
         print(f"{lines:12} lines: {where}")
 
