@@ -2,7 +2,7 @@
 // scalar that counts.
 //
 // An expression may branch on signs. Then it is run once for each sequence of signs that it can be
-// told, up to `max_runs`; the counts are the largest of all.
+// given, up to `max_runs`; the counts are the largest of all.
 #pragma once
 
 #include <array>
@@ -27,19 +27,19 @@ struct expression_counts {
 inline void degree_that_is_too_high() {}
 inline void too_many_signs() {}
 
-/// One run: the signs that it is told, and what it asks.
+/// One run: the signs that it asks for, and the answers that it gets.
 struct counting_run {
     static constexpr std::size_t max_signs = 256;
 
     expression_counts counts;
-    std::array<sign_type, max_signs> told{};  ///< by default `negative`, the first of its type
+    std::array<sign_type, max_signs> answers{};  ///< by default `negative`, the first of its type
     std::size_t asked = 0;
     int coordinate_bits = 0;
 
     /// The next sequence of signs; false if there is none.
     constexpr bool advance() {
         while (asked > 0) {
-            sign_type& last = told[asked - 1];
+            sign_type& last = answers[asked - 1];
             if (last != sign_type::positive) {
                 last = last == sign_type::negative ? sign_type::zero : sign_type::positive;
                 asked = 0;
@@ -102,7 +102,7 @@ class expression_count {
         bits = larger(bits, x.bits_);
         run.counts.degree = larger(run.counts.degree, x.degree_);
         if (run.asked == counting_run::max_signs) too_many_signs();
-        return run.told[run.asked++];
+        return run.answers[run.asked++];
     }
 
   private:

@@ -15,9 +15,9 @@
 //    <= 3(1 + XY), and 3·a_x·a_y·τ is less than 1 for any expression of less than 10^14 terms.
 // The bound computed is
 //     constant(k)/2·(2m·M^d + 2a·τ),
-// with k − 1 roundings for signs, and one more that pays for what follows, as constant(k) grows
+// with k − 1 roundings for signs, and one more that covers what follows, as constant(k) grows
 // with k by u and the rest is of the order of u²: the roundings of m (no more than of S), M^d and
-// the bound, and a·τ·M^d. The second a·τ pays for underflow in M^d, τ being 2^49·η or more.
+// the bound, and a·τ·M^d. The second a·τ covers underflow in M^d, τ being 2^49·η or more.
 //
 // Overflow: where 2m·M^d is finite no number of the expression can have overflown, fused or not.
 // NaN in a coordinate that M misses is one in the value.

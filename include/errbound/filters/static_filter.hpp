@@ -21,7 +21,7 @@
 // Sizes are computed too. On a path to S there are at most 2k + 2 roundings, each by a factor of at
 // least 1 − u; where a product of sizes underflows, the half of τ that is left pays. Then
 //     |x̂ − x| <= ku(1 + ku)·(1 + (2k + 5)u)·Ŝ < constant(k)·Ŝ,   constant(k) = ku(1 + (4k + 8)u),
-// where the sum of the slacks, at least 3u, pays for the rounding of the constant, of the bound and
+// where the sum of the slacks, at least 3u, covers the rounding of the constant, of the bound and
 // of x̂ itself. The bound does not underflow: uτ > m.
 //
 // Overflow: rounding is monotone, so Ŝ >= |x̂| for every number of an expression; where one is

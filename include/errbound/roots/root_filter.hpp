@@ -82,7 +82,7 @@ struct tracked_row {
         }
     }
     /// this[j] *= factor[j] for first <= j <= last, powers of two <= 1. Where that underflows,
-    /// value and error are each off by less than the smallest number; the last factor pays for the
+    /// value and error are each off by less than the smallest number; the last factor covers the
     /// two roundings after that.
     void shrink(const double* factor, std::size_t first, std::size_t last) const {
         constexpr double lost = 2 * number_traits<double>::underflow_unit();

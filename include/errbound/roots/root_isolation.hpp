@@ -155,7 +155,7 @@ class root_isolation {
     using point = dyadic<Integer>;
     using interval = isolating_interval<Integer>;
 
-    /// Multiplicities are told if they are at most this.
+    /// Multiplicities are reported if they are at most this.
     explicit root_isolation(const form& p,
                             std::size_t multiplicities = std::numeric_limits<std::size_t>::max())
         : chain_(squarefree_chain(p, multiplicities)) {

@@ -132,7 +132,7 @@ struct residual {
         const T inherited = a.bound.correction - x;
         const T numerator = own + inherited;
         const T correction = numerator / b.value;
-        // |N/vb| <= |c|(1 + u) + η/2 + unknown. The inner factor 1 + 8ε pays for seven roundings,
+        // |N/vb| <= |c|(1 + u) + η/2 + unknown. The inner factor 1 + 8ε covers seven roundings,
         // that of the distance among them, the outer one for four.
         const T lost = unknown + traits::underflow_unit();
         const T c = traits::abs(correction) + lost, q = traits::abs(v);

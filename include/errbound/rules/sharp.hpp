@@ -79,7 +79,7 @@ struct sharp {
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
-        // |â/b̂| <= |v|(1 + u) + η/2. Where b is not exact, η pays for underflow in the numerator
+        // |â/b̂| <= |v|(1 + u) + η/2. Where b is not exact, η covers underflow in the numerator
         // before the division enlarges it. Up to eight roundings, (1 + u)^8 <= (1 + 8u)².
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? traits::underflow_unit() : T(0);

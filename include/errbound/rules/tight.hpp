@@ -89,7 +89,7 @@ struct tight {
         if (!(distance > 0)) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
         // |â/b̂| itself may have been rounded down; inflated() is applied to it alone too. Where b
-        // is not exact, 4η pays for underflow in the numerator before the division enlarges it.
+        // is not exact, 4η covers underflow in the numerator before the division enlarges it.
         const T quotient = inflated<T>(traits::abs(v) + traits::underflow_unit());
         const T lost = b.bound.error > 0 ? 4 * traits::underflow_unit() : T(0);
         const T inherited =
