@@ -3,7 +3,7 @@
 #include <ccd/io/mesh_file.hpp>
 #include <errbound/support/error.hpp>
 
-#include "ccd/io/face_check.hpp"
+#include "ccd/io/element_check.hpp"
 #include "ccd/io/text.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -12,19 +12,24 @@ namespace ccd::io {
 using errbound::support::file_error;
 using errbound::support::read_whole;
 
-std::string text_of(const face& f) {
-    return std::to_string(f[0]) + " " + std::to_string(f[1]) + " " + std::to_string(f[2]);
+std::string text_of(std::span<const index> element) {
+    std::string text;
+    for (const index i : element) text += (text.empty() ? "" : " ") + std::to_string(i);
+    return text;
 }
 
-std::optional<std::string> fault_of(const face& f, std::size_t vertices) {
-    for (const index i : f) {
+std::optional<std::string> fault_of(std::span<const index> element, std::size_t vertices) {
+    for (const index i : element) {
         if (i >= vertices) {
             return "found vertex index " + std::to_string(i) + ", expected less than " +
                    std::to_string(vertices);
         }
     }
-    if (f[0] == f[1] || f[1] == f[2] || f[0] == f[2]) {
-        return "found a repeated vertex (" + text_of(f) + "), expected three different ones";
+    for (std::size_t i = 0; i < element.size(); ++i) {
+        if (std::ranges::count(element, element[i]) > 1) {
+            return "found a repeated vertex (" + text_of(element) + "), expected " +
+                   (element.size() == 2 ? "two" : "three") + " different ones";
+        }
     }
     return std::nullopt;
 }
@@ -49,13 +54,17 @@ void require_same_topology(const mesh& before, const std::string& before_name, c
                          ", expected " + std::to_string(expected) + " as in " + before_name);
     };
     require_equal(after.vertices.size(), before.vertices.size(), "vertices");
-    require_equal(after.faces.size(), before.faces.size(), "faces");
-    const auto [a, b] = std::mismatch(after.faces.begin(), after.faces.end(), before.faces.begin());
-    if (a != after.faces.end()) {
-        throw file_error(after_name + ": face " + std::to_string(a - after.faces.begin()) +
+    const auto require_equal_elements = [&](const auto& found, const auto& expected,
+                                            const std::string& one) {
+        require_equal(found.size(), expected.size(), (one + "s").c_str());
+        const auto [a, b] = std::ranges::mismatch(found, expected);
+        if (a == found.end()) return;
+        throw file_error(after_name + ": " + one + " " + std::to_string(a - found.begin()) +
                          ": found vertices " + text_of(*a) + ", expected " + text_of(*b) +
                          " as in " + before_name);
-    }
+    };
+    require_equal_elements(after.faces, before.faces, "face");
+    require_equal_elements(after.edges, before.edges, "edge");
 }
 
 }  // namespace ccd::io

@@ -7,8 +7,9 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "ccd/io/face_check.hpp"
+#include "ccd/io/element_check.hpp"
 #include "ccd/io/text.hpp"
 
 namespace ccd::io {
@@ -27,25 +28,32 @@ class obj_parser {
             const std::string_view keyword = take_word(line);
             if (keyword == "v") read_vertex(line);
             if (keyword == "f") read_face(line);
+            if (keyword == "l") read_polyline(line);
         }
-        if (result_.vertices.empty() || result_.faces.empty()) {
+        if (result_.vertices.empty() || (result_.faces.empty() && result_.edges.empty())) {
             throw file_error(name_ + ": found no " +
-                             (result_.vertices.empty() ? "vertices" : "faces") +
-                             ", expected lines 'v x y z' and 'f i j k'");
+                             (result_.vertices.empty() ? "vertices" : "faces or edges") +
+                             ", expected lines 'v x y z' and 'f i j k' or 'l i j'");
         }
         // A face may come before its vertices, so this must wait until all are read.
-        for (std::size_t i = 0; i < result_.faces.size(); ++i) {
-            line_ = face_lines_[i];
-            if (const auto fault = fault_of(result_.faces[i], result_.vertices.size())) {
-                fail("face " + std::to_string(i) + " (indices from 0): " + *fault);
-            }
-        }
+        require_good("face", result_.faces, face_lines_);
+        require_good("edge", result_.edges, edge_lines_);
         return std::move(result_);
     }
 
   private:
     [[noreturn]] void fail(const std::string& what) const {
         throw file_error(name_ + ":" + std::to_string(line_) + ": " + what);
+    }
+
+    template <class Element>
+    void require_good(const char* name, const std::vector<Element>& elements,
+                      const std::vector<std::size_t>& lines) {
+        for (std::size_t i = 0; i < elements.size(); ++i) {
+            line_ = lines[i];
+            if (const auto fault = fault_of(elements[i], result_.vertices.size()))
+                fail(std::string(name) + " " + std::to_string(i) + " (indices from 0): " + *fault);
+        }
     }
 
     void read_vertex(std::string_view line) {
@@ -82,6 +90,24 @@ class obj_parser {
         face_lines_.push_back(line_);
     }
 
+    /// An edge between every two neighbours.
+    void read_polyline(std::string_view line) {
+        std::optional<index> last;
+        std::size_t count = 0;
+        for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
+            const index next = corner(word);
+            if (last) {
+                result_.edges.push_back({*last, next});
+                edge_lines_.push_back(line_);
+            }
+            last = next;
+            ++count;
+        }
+        if (count < 2) {
+            fail("found a line with " + std::to_string(count) + " vertices, expected 2 or more");
+        }
+    }
+
     /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0.
     index corner(std::string_view word) const {
         std::array<std::int64_t, 3> indices{};
@@ -114,7 +140,7 @@ class obj_parser {
 
     const std::string& name_;
     mesh result_;
-    std::vector<std::size_t> face_lines_;
+    std::vector<std::size_t> face_lines_, edge_lines_;
     std::size_t line_ = 0;
 };
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "ccd/io/face_check.hpp"
+#include "ccd/io/element_check.hpp"
 #include "ccd/io/ply_header.hpp"
 #include "ccd/io/ply_values.hpp"
 
@@ -32,19 +32,26 @@ class body_reader {
                 result_.vertices.reserve(capacity(e));
             } else if (e.name == "face") {
                 result_.faces.reserve(capacity(e));
+            } else if (e.name == "edge") {
+                result_.edges.reserve(capacity(e));
             }
             for (std::uint64_t i = 0; i < e.count; ++i) read_element(e, i);
         }
         values_.finish();
-        for (std::size_t i = 0; i < result_.faces.size(); ++i) {
-            if (const auto fault = fault_of(result_.faces[i], result_.vertices.size())) {
-                throw file_error(name_ + ": face " + std::to_string(i) + ": " + *fault);
-            }
-        }
+        require_good("face", result_.faces);
+        require_good("edge", result_.edges);
         return std::move(result_);
     }
 
   private:
+    template <class Element>
+    void require_good(const char* kind, const std::vector<Element>& elements) const {
+        for (std::size_t i = 0; i < elements.size(); ++i) {
+            if (const auto fault = fault_of(elements[i], result_.vertices.size()))
+                throw file_error(name_ + ": " + kind + " " + std::to_string(i) + ": " + *fault);
+        }
+    }
+
     /// What to reserve: no more than the bytes that are there can hold, whatever the header claims.
     /// Every element takes at least one byte per property.
     std::size_t capacity(const element& e) const {
@@ -53,32 +60,48 @@ class body_reader {
         return static_cast<std::size_t>(std::min<std::uint64_t>(e.count, limit));
     }
 
+    const element* find(std::string_view element_name) const {
+        const auto found = std::ranges::find(header_.elements, element_name, &element::name);
+        return found == header_.elements.end() ? nullptr : &*found;
+    }
+
     void require_elements() const {
-        const element* vertices = nullptr;
-        const element* faces = nullptr;
-        for (const element& e : header_.elements) {
-            if (e.name == "vertex") vertices = &e;
-            if (e.name == "face") faces = &e;
-        }
-        if (vertices == nullptr || faces == nullptr) {
+        const element* const vertices = find("vertex");
+        const element* const faces = find("face");
+        const element* const edges = find("edge");
+        if (vertices == nullptr || (faces == nullptr && edges == nullptr)) {
             throw file_error(name_ + ": found no element '" +
                              (vertices == nullptr ? "vertex" : "face") +
-                             "', expected the elements vertex and face");
+                             "', expected the elements vertex and face or edge");
         }
         if (vertices->count > std::numeric_limits<index>::max()) {
             throw file_error(name_ + ": found " + std::to_string(vertices->count) +
                              " vertices, expected fewer than 2^32");
         }
-        if (faces->count == 0) throw file_error(name_ + ": found no faces, expected at least one");
-        for (const char* axis : {"x", "y", "z"}) {
-            if (std::none_of(vertices->properties.begin(), vertices->properties.end(),
-                             [&](const property& p) { return p.name == axis && !p.count_type; })) {
-                throw file_error(name_ + ": found no property '" + axis +
-                                 "' of vertex, expected x, y and z");
-            }
-        }
-        const auto lists = std::count_if(faces->properties.begin(), faces->properties.end(),
-                                         [](const property& p) { return is_face_list(p); });
+        const bool has_faces = faces != nullptr && faces->count > 0;
+        const bool has_edges = edges != nullptr && edges->count > 0;
+        if (!has_faces && !has_edges)
+            throw file_error(name_ + ": found no faces, expected at least one, or an edge");
+        for (const char* axis : {"x", "y", "z"}) require_property(*vertices, axis, is_coordinate);
+        if (has_faces) require_face_list(*faces);
+        if (has_edges)
+            for (const char* end : {"vertex1", "vertex2"})
+                require_property(*edges, end, is_vertex_of_edge);
+    }
+
+    template <class IsOne>
+    void require_property(const element& of, const char* wanted, const IsOne& is_one) const {
+        const bool found = std::ranges::any_of(
+            of.properties, [&](const property& p) { return p.name == wanted && is_one(p); });
+        if (found) return;
+        const bool coordinates = of.name == "vertex";
+        throw file_error(name_ + ": found no property '" + wanted + "' of " + of.name +
+                         ", expected " +
+                         (coordinates ? "x, y and z" : "integers vertex1 and vertex2"));
+    }
+
+    void require_face_list(const element& faces) const {
+        const auto lists = std::ranges::count_if(faces.properties, is_face_list);
         if (lists != 1) {
             throw file_error(name_ + ": found " + (lists == 0 ? "no" : "more than one") +
                              " list of vertex indices in face, expected one list of integers "
@@ -86,6 +109,12 @@ class body_reader {
         }
     }
 
+    static bool is_coordinate(const property& p) {
+        return !p.count_type && (p.name == "x" || p.name == "y" || p.name == "z");
+    }
+    static bool is_vertex_of_edge(const property& p) {
+        return !p.count_type && is_integer(p.type) && (p.name == "vertex1" || p.name == "vertex2");
+    }
     static bool is_face_list(const property& p) {
         return p.count_type && is_integer(p.type) &&
                (p.name == "vertex_indices" || p.name == "vertex_index");
@@ -93,30 +122,59 @@ class body_reader {
 
     void read_element(const element& e, std::uint64_t number) {
         values_.begin(e.name, number);
-        point<double> position;
-        face corners{};
-        for (const property& p : e.properties) {
-            if (p.count_type) {
-                const double count = values_.next(*p.count_type);
-                if (count < 0) values_.fail("found a negative count of a list");
-                if (e.name == "face" && is_face_list(p)) {
-                    corners = read_corners(p, static_cast<std::uint64_t>(count));
-                } else {
-                    values_.skip(p.type, static_cast<std::uint64_t>(count));
-                }
-            } else if (e.name == "vertex" && p.name == "x") {
-                position.x = coordinate(p);
-            } else if (e.name == "vertex" && p.name == "y") {
-                position.y = coordinate(p);
-            } else if (e.name == "vertex" && p.name == "z") {
-                position.z = coordinate(p);
-            } else {
-                values_.skip(p.type, 1);
-            }
+        if (e.name == "vertex") {
+            result_.vertices.push_back(read_vertex(e));
+        } else if (e.name == "face") {
+            result_.faces.push_back(read_face(e));
+        } else if (e.name == "edge") {
+            result_.edges.push_back(read_edge(e));
+        } else {
+            for (const property& p : e.properties) skip(p);
         }
         values_.end();
-        if (e.name == "vertex") result_.vertices.push_back(position);
-        if (e.name == "face") result_.faces.push_back(corners);
+    }
+
+    point<double> read_vertex(const element& e) {
+        point<double> position;
+        for (const property& p : e.properties) {
+            if (is_coordinate(p))
+                (p.name == "x"   ? position.x
+                 : p.name == "y" ? position.y
+                                 : position.z) = coordinate(p);
+            else
+                skip(p);
+        }
+        return position;
+    }
+
+    face read_face(const element& e) {
+        face corners{};
+        for (const property& p : e.properties) {
+            if (is_face_list(p))
+                corners = read_corners(p);
+            else
+                skip(p);
+        }
+        return corners;
+    }
+
+    edge read_edge(const element& e) {
+        edge ends{};
+        for (const property& p : e.properties) {
+            if (is_vertex_of_edge(p))
+                ends[p.name == "vertex1" ? 0 : 1] = vertex_index(p);
+            else
+                skip(p);
+        }
+        return ends;
+    }
+
+    void skip(const property& p) { values_.skip(p.type, p.count_type ? list_size(p) : 1); }
+
+    std::uint64_t list_size(const property& p) {
+        const double count = values_.next(*p.count_type);
+        if (count < 0) values_.fail("found a negative count of a list");
+        return static_cast<std::uint64_t>(count);
     }
 
     double coordinate(const property& p) {
@@ -128,22 +186,24 @@ class body_reader {
         return value;
     }
 
-    face read_corners(const property& p, std::uint64_t count) {
+    face read_corners(const property& p) {
+        const std::uint64_t count = list_size(p);
         if (count != 3) {
             values_.fail("found a face with " + std::to_string(count) +
                          " vertices, expected a triangle");
         }
         face result;
-        for (index& i : result) {
-            const double value = values_.next(p.type);
-            if (value < 0) {
-                values_.fail("found vertex index " +
-                             std::to_string(static_cast<std::int64_t>(value)) +
-                             ", expected 0 or more");
-            }
-            i = static_cast<index>(value);
-        }
+        for (index& i : result) i = vertex_index(p);
         return result;
+    }
+
+    index vertex_index(const property& p) {
+        const double value = values_.next(p.type);
+        if (value < 0) {
+            values_.fail("found vertex index " + std::to_string(static_cast<std::int64_t>(value)) +
+                         ", expected 0 or more");
+        }
+        return static_cast<index>(value);
     }
 
     const header& header_;

@@ -167,11 +167,12 @@ std::string text_of_step(const step_question& asked, const mesh& before, const s
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
-           (asked.explain ? '\n' +
-                                text_of_boxes(before.vertices.size(), before.faces.size(),
-                                              unique_edges(before.faces).size(), result) +
-                                '\n' + text_of_stages(result)
-                          : "");
+           (asked.explain
+                ? '\n' +
+                      text_of_boxes(before.vertices.size(), before.faces.size(),
+                                    unique_edges(before.faces, before.edges).size(), result) +
+                      '\n' + text_of_stages(result)
+                : "");
 }
 
 class step final : public command {

@@ -133,7 +133,7 @@ std::vector<std::array<std::size_t, 2>> read_pairs(const fs::path& path) {
 class numbered_elements {
   public:
     explicit numbered_elements(const mesh& m)
-        : vertices_(m.vertices.size()), edges_(unique_edges(m.faces)), faces_(m.faces) {
+        : vertices_(m.vertices.size()), edges_(unique_edges(m.faces, m.edges)), faces_(m.faces) {
         std::ranges::sort(edges_, {}, [](const edge& e) { return std::tuple(e[1], e[0]); });
     }
 

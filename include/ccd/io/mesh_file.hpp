@@ -11,19 +11,20 @@ namespace ccd::io {
 
 /// Reads a frame; the format is that of the extension (.ply or .obj). Faces with more than three
 /// vertices are an error. Throws errbound::support::file_error: counts that do not match, indices
-/// out of range, faces with fewer than three or repeated vertices, no faces, coordinates that are
-/// not finite, truncated or unreadable files.
+/// out of range, faces with fewer than three or repeated vertices, neither faces nor edges,
+/// coordinates that are not finite, truncated or unreadable files.
 mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads a frame from the text of a PLY file: all scalar types, elements in any order, elements and
-/// properties other than the vertices' x, y, z and the faces' vertex_indices (or vertex_index)
-/// skipped. A coordinate is the value of its declared type: `property float x` with the text "0.1"
-/// is the float nearest to 0.1. `name` is used in messages. Throws as read_mesh does.
+/// properties other than the vertices' x, y, z, the faces' vertex_indices (or vertex_index) and the
+/// edges' vertex1, vertex2 skipped. A coordinate is the value of its declared type: `property float
+/// x` with the text "0.1" is the float nearest to 0.1. `name` is used in messages. Throws as
+/// read_mesh does.
 mesh parse_mesh_ply(std::string_view text, const std::string& name);
 
-/// Reads a frame from the text of an OBJ file: `v` and `f` (v, v/vt, v//vn, v/vt/vn, negative
-/// indices count back), other keywords ignored. `name` is used in messages. Throws as read_mesh
-/// does.
+/// Reads a frame from the text of an OBJ file: `v`, `f` and `l`, a polyline whose parts are
+/// edges (v, v/vt, v//vn, v/vt/vn, negative indices count back), other keywords ignored. `name` is
+/// used in messages. Throws as read_mesh does.
 mesh parse_mesh_obj(std::string_view text, const std::string& name);
 
 /// Throws errbound::support::file_error unless both frames have the same topology.

@@ -34,7 +34,8 @@ mesh some_mesh() {
              {static_cast<double>(0.1F), 1, 0x1p-149},
              {-3, static_cast<double>(std::numeric_limits<float>::max()), 7},
              {1e10, 2, 3}},
-            {{0, 1, 2}, {3, 2, 1}}};
+            {{0, 1, 2}, {3, 2, 1}},
+            {{3, 0}}};
 }
 
 template <class T>
@@ -54,7 +55,9 @@ std::string ply(const mesh& m, const std::string& format, const std::string& coo
         text += "\nproperty " + coordinate_type + " " + axis;
     }
     text += "\nelement face " + std::to_string(m.faces.size()) + "\nproperty list uchar " +
-            index_type + " " + list + "\nend_header\n";
+            index_type + " " + list + "\nelement edge " + std::to_string(m.edges.size()) +
+            "\nproperty " + index_type + " vertex1\nproperty " + index_type +
+            " vertex2\nend_header\n";
     for (const point<double>& p : m.vertices) {
         for (const double value : {p.x, p.y, p.z}) {
             if (ascii) {
@@ -67,22 +70,26 @@ std::string ply(const mesh& m, const std::string& format, const std::string& coo
         }
         if (ascii) text += '\n';
     }
-    for (const face& f : m.faces) {
-        text += ascii ? '3' : '\3';
-        for (const ccd::index i : f) {
-            if (ascii) {
+    const auto append_indices = [&](const auto& element) {
+        for (const ccd::index i : element) {
+            if (ascii)
                 text += ' ' + std::to_string(i);
-            } else {
+            else
                 append(text, static_cast<Index>(i), big);
-            }
         }
         if (ascii) text += '\n';
+    };
+    for (const face& f : m.faces) {
+        text += ascii ? '3' : '\3';
+        append_indices(f);
     }
+    for (const edge& e : m.edges) append_indices(e);
     return text;
 }
 
 void expect_same(const mesh& a, const mesh& b) {
     EXPECT_EQ(a.faces, b.faces);
+    EXPECT_EQ(a.edges, b.edges);
     ASSERT_EQ(a.vertices.size(), b.vertices.size());
     for (std::size_t i = 0; i < a.vertices.size(); ++i) {
         EXPECT_EQ(bits(a.vertices[i].x), bits(b.vertices[i].x)) << i;
@@ -181,7 +188,7 @@ TEST(Ply, BadInput) {
     EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 1 1 2\n")),
               "m.ply: face 0: found a repeated vertex (1 1 2), expected three different ones");
     EXPECT_EQ(ply_error(ascii_ply("3", "0", three)),
-              "m.ply: found no faces, expected at least one");
+              "m.ply: found no faces, expected at least one, or an edge");
     // Coordinates.
     EXPECT_EQ(ply_error(ascii_ply("1", "1", "0 nan 0\n")),
               "m.ply:10: found 'nan', expected a finite number");
@@ -252,6 +259,26 @@ TEST(Ply, BadBinary) {
         "count)");
 }
 
+TEST(Ply, EdgesAlone) {
+    const std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement edge 2\nproperty float length\nproperty uint vertex2\n"
+        "property uint vertex1\nend_header\n0 0 0\n1 0 0\n2 0 0\n1 1 0\n1 2 1\n";
+    EXPECT_EQ(parse_mesh_ply(text, "m").edges, (std::vector<edge>{{0, 1}, {1, 2}}));
+    const auto with = [&text](const std::string& from, const std::string& to) {
+        std::string changed = text;
+        return ply_error(changed.replace(changed.find(from), from.size(), to));
+    };
+    EXPECT_EQ(with("1 2 1\n", "1 3 1\n"),
+              "m.ply: edge 1: found vertex index 3, expected less than 3");
+    EXPECT_EQ(with("1 2 1\n", "1 1 1\n"),
+              "m.ply: edge 1: found a repeated vertex (1 1), expected two different ones");
+    EXPECT_EQ(with("uint vertex2", "float vertex2"),
+              "m.ply: found no property 'vertex2' of edge, expected integers vertex1 and vertex2");
+    EXPECT_NE(with("1 2 1\n", "1 -2 1\n").find("expected an integer of the declared type"),
+              std::string::npos);
+}
+
 TEST(Obj, Reads) {
     const mesh m = parse_mesh_obj(
         "# comment\r\nmtllib a.mtl\no thing\nv 0 0 0\nv 0.1\t1e-310 -2 1.0 # with w\n"
@@ -262,13 +289,27 @@ TEST(Obj, Reads) {
                     {{0, 1, 2}, {0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {3, 0, 1}}});
 }
 
+TEST(Obj, Polylines) {
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 2 0 0\n";
+    EXPECT_EQ(parse_mesh_obj(points + "l 1/7 2 -1\nl 3 1\n", "m").edges,
+              (std::vector<edge>{{0, 1}, {1, 2}, {2, 0}}));
+    EXPECT_EQ(obj_error(points + "l 1 2\nl 2\n"),
+              "m.obj:5: found a line with 1 vertices, expected 2 or more");
+    EXPECT_EQ(obj_error(points + "l 1 2 4\n"),
+              "m.obj:4: edge 1 (indices from 0): found vertex index 3, expected less than 3");
+    EXPECT_EQ(obj_error(points + "l 1 1\n"),
+              "m.obj:4: edge 0 (indices from 0): found a repeated vertex (0 0), expected two "
+              "different ones");
+}
+
 TEST(Obj, BadInput) {
     const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     EXPECT_EQ(obj_error(""), "m.obj: found an empty file, expected an OBJ mesh");
     EXPECT_EQ(obj_error("\x7f"
                         "ELF\1\2"),
-              "m.obj: found no vertices, expected lines 'v x y z' and 'f i j k'");
-    EXPECT_EQ(obj_error(three), "m.obj: found no faces, expected lines 'v x y z' and 'f i j k'");
+              "m.obj: found no vertices, expected lines 'v x y z' and 'f i j k' or 'l i j'");
+    EXPECT_EQ(obj_error(three),
+              "m.obj: found no faces or edges, expected lines 'v x y z' and 'f i j k' or 'l i j'");
     EXPECT_EQ(obj_error("v 0 0\n"), "m.obj:1: found 2 values of a vertex, expected 3 (x y z)");
     EXPECT_EQ(obj_error("v 0 0 0 2\n"), "m.obj:1: found a vertex with weight, expected none or 1");
     EXPECT_EQ(obj_error("v 0 nan 0\n"), "m.obj:1: found 'nan', expected a finite number");
@@ -300,6 +341,8 @@ TEST(Meshes, Topology) {
     mesh b = a;
     b.vertices[0].x = 17;
     EXPECT_EQ(error(b), "no error");
+    b.edges[0] = {0, 3};
+    EXPECT_EQ(error(b), "b.ply: edge 0: found vertices 0 3, expected 3 0 as in a.ply");
     b.faces[1] = {3, 1, 2};
     EXPECT_EQ(error(b), "b.ply: face 1: found vertices 3 1 2, expected 3 2 1 as in a.ply");
     b.faces.pop_back();

@@ -20,11 +20,15 @@ std::string obj(const ccd::mesh& m) {
         }
         text += '\n';
     }
-    for (const auto& f : m.faces) {
-        text += 'f';
-        for (const ccd::index i : f) text += ' ' + std::to_string(std::uint64_t{i} + 1);
-        text += '\n';
-    }
+    const auto add = [&text](char keyword, const auto& elements) {
+        for (const auto& e : elements) {
+            text += keyword;
+            for (const ccd::index i : e) text += ' ' + std::to_string(std::uint64_t{i} + 1);
+            text += '\n';
+        }
+    };
+    add('f', m.faces);
+    add('l', m.edges);
     return text;
 }
 

@@ -22,13 +22,18 @@ std::string binary_ply(const ccd::mesh& m) {
                         std::to_string(m.vertices.size()) +
                         "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
                         std::to_string(m.faces.size()) +
-                        "\nproperty list uchar uint vertex_indices\nend_header\n";
+                        "\nproperty list uchar uint vertex_indices\nelement edge " +
+                        std::to_string(m.edges.size()) +
+                        "\nproperty uint vertex1\nproperty uint vertex2\nend_header\n";
     for (const auto& p : m.vertices) {
         for (const double value : {p.x, p.y, p.z}) append(bytes, value);
     }
     for (const auto& f : m.faces) {
         bytes += '\3';
         for (const ccd::index i : f) append(bytes, i);
+    }
+    for (const auto& e : m.edges) {
+        for (const ccd::index i : e) append(bytes, i);
     }
     return bytes;
 }

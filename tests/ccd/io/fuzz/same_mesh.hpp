@@ -15,7 +15,7 @@ inline bool same_bits(double a, double b) {
 }
 
 inline bool same_mesh(const mesh& a, const mesh& b) {
-    return a.faces == b.faces &&
+    return a.faces == b.faces && a.edges == b.edges &&
            std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
                       [](const point<double>& p, const point<double>& q) {
                           return same_bits(p.x, q.x) && same_bits(p.y, q.y) && same_bits(p.z, q.z);
@@ -27,9 +27,12 @@ inline void require_sound(const mesh& m) {
     for (const point<double>& p : m.vertices) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) std::abort();
     }
-    for (const face& f : m.faces) {
-        if (*std::max_element(f.begin(), f.end()) >= m.vertices.size()) std::abort();
-    }
+    const auto require_in_range = [&m](const auto& elements) {
+        for (const auto& e : elements)
+            if (*std::max_element(e.begin(), e.end()) >= m.vertices.size()) std::abort();
+    };
+    require_in_range(m.faces);
+    require_in_range(m.edges);
 }
 
 }  // namespace ccd::fuzz
