@@ -430,7 +430,7 @@ End Frame.
 (** ** Swept boxes *)
 
 (** One axis of swept_box: the least and the greatest coordinate of an element's vertices at both ends of the
-    step, and unit_axis's rounding of them; c and s are that axis's middle and scale. *)
+    step, exact and of rounded coordinates; c and s are that axis's middle and the scale. *)
 Definition sweep (least : R -> R -> R) (coordinate : point -> R) (first : moving) (others : list moving) : R :=
   fold_left (fun m q => least (least m (coordinate (start q))) (coordinate (finish q))) others
     (least (coordinate (start first)) (coordinate (finish first))).

@@ -12,6 +12,8 @@
 #include <ccd/verdict.hpp>
 #include <cstddef>
 
+#include "ccd/batch/rounded_positions.hpp"
+
 namespace ccd::detail {
 
 /// How a stage fares in a stream of queries: where it does not pay it pauses.
@@ -24,12 +26,6 @@ struct stage_pause {
 /// little, in doubles.
 struct axes_pauses {
     stage_pause in_floats, in_doubles;
-};
-
-/// Positions of a batch; `rounded` are those of ccd/batch/rounded_positions.hpp, or null.
-struct batch_positions {
-    vertex_rows exact;
-    const float* rounded = nullptr;
 };
 
 /// Decide `count` queries of finite coordinates in floating point: `uncertain` in answers[i] leaves

@@ -35,4 +35,10 @@ class rounded_positions {
     std::vector<float> floats_;
 };
 
+/// Positions, and what they are rounded to: rounded_positions::data(), or null.
+struct batch_positions {
+    vertex_rows exact;
+    const float* rounded = nullptr;
+};
+
 }  // namespace ccd::detail

@@ -94,7 +94,7 @@ std::size_t candidate_search::find_kind(const question& asked, First& first, Sec
                : find_by<K>(in_floats_, asked, first, second);
 }
 
-pair_counts candidate_search::find(const vertex_rows& positions, const pair_filter& filter,
+pair_counts candidate_search::find(const batch_positions& positions, const pair_filter& filter,
                                    const candidate_visitor& visitor) {
     const swept_boxes boxes(positions);
     const question asked{boxes, lets_all_through(filter) ? nullptr : &filter, visitor};

@@ -52,7 +52,7 @@ class candidate_search {
 
     /// Hands all candidates of the kinds that have a visitor to it, each once, as
     /// candidate_visitor tells. Positions must be finite.
-    pair_counts find(const vertex_rows& positions, const pair_filter& filter,
+    pair_counts find(const batch_positions& positions, const pair_filter& filter,
                      const candidate_visitor& visitor);
 
   private:

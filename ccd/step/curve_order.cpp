@@ -9,12 +9,30 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "ccd/step/elements.hpp"
 
 namespace ccd::detail {
 namespace {
+
+/// Maps an interval of finite numbers to about [-1, 1], preserving order though not strictly.
+class unit_axis {
+  public:
+    unit_axis() = default;
+    unit_axis(double low, double high) {
+        // Halved before adding, and the inverse bounded: neither may overflow. A flat axis keeps
+        // its unit (its radius is −0 where rounding is downward).
+        middle_ = low / 2 + high / 2;
+        const double radius = std::max(high - middle_, middle_ - low);
+        if (radius > 0) scale_ = std::min(1 / radius, std::numeric_limits<double>::max());
+    }
+    double operator()(double x) const { return (x - middle_) * scale_; }
+
+  private:
+    double middle_ = 0, scale_ = 1;
+};
 
 /// Position on the curve in the upper half, element in the lower.
 using curve_key = std::uint64_t;

@@ -39,7 +39,7 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
             phases.of<K>().decide(block);
         };
     });
-    result.candidates = search.find(positions, options.filter, visitor);
+    result.candidates = search.find(at, options.filter, visitor);
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
     result.broad_phase_seconds = watch.lap() - result.narrow_phase_seconds;
@@ -110,8 +110,10 @@ pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
                                            const step_options& options) {
     state_->check(positions, options);
     pair_counts counts;
-    detail::on_threads(options.threads,
-                       [&] { counts = state_->search.find(positions, options.filter, visitor); });
+    detail::on_threads(options.threads, [&] {
+        const detail::rounded_positions rounded(positions);
+        counts = state_->search.find({positions, rounded.data()}, options.filter, visitor);
+    });
     return counts;
 }
 

@@ -5,30 +5,13 @@
 #include <array>
 #include <ccd/batch.hpp>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <type_traits>
 
+#include "ccd/batch/rounded_positions.hpp"
 #include "ccd/step/box_tree.hpp"
 
 namespace ccd::detail {
-
-/// Maps an interval of finite numbers to about [-1, 1], preserving order though not strictly.
-class unit_axis {
-  public:
-    unit_axis() = default;
-    unit_axis(double low, double high) {
-        // Halved before adding, and the inverse bounded: neither may overflow. A flat axis keeps
-        // its unit (its radius is −0 where rounding is downward).
-        middle_ = low / 2 + high / 2;
-        const double radius = std::max(high - middle_, middle_ - low);
-        if (radius > 0) scale_ = std::min(1 / radius, std::numeric_limits<double>::max());
-    }
-    double operator()(double x) const { return (x - middle_) * scale_; }
-
-  private:
-    double middle_ = 0, scale_ = 1;
-};
 
 /// The sampling stride of `count` to take for a sample of about a thousand.
 constexpr std::size_t sampling_stride(std::size_t count) {
@@ -37,35 +20,29 @@ constexpr std::size_t sampling_stride(std::size_t count) {
 
 class swept_boxes {
   public:
-    /// Of finite positions, whose memory must outlive this.
-    explicit swept_boxes(const vertex_rows& positions) : positions_(positions) {
-        if (positions.vertices == 0) return;
-        const box<double> all = hull_of_all();
-        for (std::size_t k = 0; k < 3; ++k) axes_[k] = unit_axis(all.low[k], all.high[k]);
-    }
+    /// Of finite positions and what they are rounded to, whose memory must outlive this.
+    explicit swept_boxes(const batch_positions& positions) : positions_(positions) {}
 
-    /// The box that an element (1, 2 or 3 vertices) sweeps. In doubles it is exact. In floats each
-    /// axis is mapped to about [-1, 1] and rounded, which preserves order though not strictly:
-    /// boxes that touch still do, and boxes that touch without a common end did so before. Where
-    /// ends coincide, ask touch().
-    /// Proof: proofs/RoundedAxes.v, swept_face_separate, swept_edges_separate, swept_boxes_touch.
+    /// The box that an element (1, 2 or 3 vertices) sweeps. In doubles it is exact. In floats it is
+    /// that of the rounded positions, which keep their order though not strictly: boxes that touch
+    /// still do, and boxes that touch without a common end did so before. Where ends coincide, ask
+    /// touch().
+    /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
+    /// swept_boxes_touch.
     template <class Real, std::size_t N>
     box<Real> swept_box(const std::array<index, N>& element) const {
-        box<double> exact = box_of(positions_.before, element[0]);
-        widen(exact, positions_.after, element[0]);
-        for (std::size_t i = 1; i < N; ++i)
-            for (const double* frame : {positions_.before, positions_.after})
-                widen(exact, frame, element[i]);
-        if constexpr (std::is_same_v<Real, double>) {
-            return exact;
-        } else {
-            box<float> rounded;
-            for (std::size_t k = 0; k < 3; ++k) {
-                rounded.low[k] = static_cast<float>(axes_[k](exact.low[k]));
-                rounded.high[k] = static_cast<float>(axes_[k](exact.high[k]));
+        box<Real> all;
+        const Real* first = row<Real>(element[0], 0);
+        for (std::size_t k = 0; k < 3; ++k) all.low[k] = all.high[k] = first[k];
+        for (std::size_t i = 0; i < N; ++i)
+            for (std::size_t end = i == 0 ? 1 : 0; end < 2; ++end) {
+                const Real* x = row<Real>(element[i], end);
+                for (std::size_t k = 0; k < 3; ++k) {
+                    all.low[k] = std::min(all.low[k], x[k]);
+                    all.high[k] = std::max(all.high[k], x[k]);
+                }
             }
-            return rounded;
-        }
+        return all;
     }
 
     /// Whether the closed exact boxes that two elements sweep touch.
@@ -95,27 +72,17 @@ class swept_boxes {
     }
 
   private:
-    static box<double> box_of(const double* frame, index v) {
-        const double* row = frame + 3 * std::size_t(v);
-        return {{row[0], row[1], row[2]}, {row[0], row[1], row[2]}};
-    }
-    static void widen(box<double>& b, const double* frame, index v) {
-        const double* row = frame + 3 * std::size_t(v);
-        for (std::size_t k = 0; k < 3; ++k) {
-            b.low[k] = std::min(b.low[k], row[k]);
-            b.high[k] = std::max(b.high[k], row[k]);
-        }
-    }
-    box<double> hull_of_all() const {
-        box<double> all = box_of(positions_.before, 0);
-        for (const double* frame : {positions_.before, positions_.after})
-            for (std::size_t v = 0; v < positions_.vertices; ++v)
-                widen(all, frame, static_cast<index>(v));
-        return all;
+    /// The coordinates of a vertex at one end of the step.
+    template <class Real>
+    const Real* row(index v, std::size_t end) const {
+        if constexpr (std::is_same_v<Real, double>)
+            return (end == 0 ? positions_.exact.before : positions_.exact.after) +
+                   3 * std::size_t(v);
+        else
+            return positions_.rounded + rounded_positions::row * std::size_t(v) + 4 * end;
     }
 
-    vertex_rows positions_;
-    std::array<unit_axis, 3> axes_;
+    batch_positions positions_;
 };
 
 }  // namespace ccd::detail
