@@ -155,13 +155,14 @@ bool read_stored(const fs::path& folder, query_sets& queries) {
 
 /// Queries on small integer grids, most of them degenerate.
 void make_degenerate(query_sets& queries) {
-    constexpr std::uint64_t of_each_family = 2000, seed = 1;
+    constexpr std::uint64_t of_each_family = 2000;
+    const std::uint64_t seed = 1;
     for (const auto& family : query_families::families) {
         if (family.name.find("grid") == std::string_view::npos ||
             family.name.find('^') != std::string_view::npos) {
             continue;
         }
-        queries.for_each([&family]<class Query>(ccd::report::query_set<Query>& into) {
+        queries.for_each([&]<class Query>(ccd::report::query_set<Query>& into) {
             for (std::uint64_t i = 0; i < of_each_family; ++i)
                 into.stored.push_back(query_families::as_query<Query>(
                     query_families::make(family, ccd::kind_of<Query>, seed, i)));

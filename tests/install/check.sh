@@ -8,7 +8,7 @@ trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" >/dev/null
 cmake -G "$generator" -S "$source/tests/install/user" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" \
       -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release >/dev/null
-cmake --build "$work/build" >/dev/null
+cmake --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }
 "$work/build/use_headers"
 "$work/build/use_ccd"
 scene=$work/prefix/share/errbound/scenes/cloth-over-ball

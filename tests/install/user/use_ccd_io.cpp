@@ -10,8 +10,8 @@ int main(int argc, char** argv) try {
     const ccd::mesh before = ccd::io::read_mesh(argv[1]), after = ccd::io::read_mesh(argv[2]);
     ccd::io::require_same_topology(before, argv[1], after, argv[2]);
     const ccd::step_result found = ccd::step(before, after);
-    std::printf("%zu pairs\n", found.vertex_face.size() + found.edge_edge.size());
-    return found.vertex_face.empty();
+    std::printf("%zu pairs\n", found.pairs.vertex_face.size() + found.pairs.edge_edge.size());
+    return found.pairs.vertex_face.empty();
 } catch (const errbound::support::file_error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
