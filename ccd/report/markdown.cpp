@@ -5,19 +5,12 @@
 #include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
 #include "ccd/report/statistics.hpp"
+#include "errbound/support/table.hpp"
 
 namespace ccd::report {
 namespace {
 
-std::string grouped(std::size_t n) {
-    const std::string digits = std::to_string(n);
-    std::string text;
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-        text += digits[i];
-    }
-    return text;
-}
+using errbound::support::grouped;
 
 /// Three digits that count: 1,234,567 (or more of them), 12.3, 0.012, 1.23e-20. Not negative.
 std::string digits(double x) {

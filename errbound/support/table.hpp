@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,8 @@ using table = std::vector<std::vector<std::string>>;
 
 /// The table as text, a line per row: the first `left` columns aligned left, the others right.
 std::string text_of(const table& rows, std::size_t left);
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t n);
 
 }  // namespace errbound::support

@@ -19,6 +19,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using errbound::support::grouped;
 
 std::atomic<bool> stop = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
@@ -27,17 +28,6 @@ volatile std::sig_atomic_t caught_signal = 0;
 void ask_to_stop(int signal) {
     caught_signal = signal;
     stop = true;
-}
-
-/// 1234567 as 1,234,567.
-std::string grouped(std::uint64_t n) {
-    const std::string digits = std::to_string(n);
-    std::string text;
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-        text += digits[i];
-    }
-    return text;
 }
 
 std::string duration(double seconds) {
