@@ -22,7 +22,7 @@ int main() {
     };
     // All cores; `explain` tells what each stage decided, without it nothing is counted.
     const auto [answers, stages] = ccd::decide_batch(positions, candidates, {.explain = true});
-    // Contact at t = 0 can be told from a later impact.
+    // Contact at t = 0 can be distinguished from a later impact.
     const auto at_start = ccd::touches_at_start_batch(positions, candidates).answers;
 
     const ccd::outcome expected[] = {ccd::outcome::collides, ccd::outcome::collides,

@@ -57,7 +57,7 @@ std::string lines_of_pairs(const step_result& result) {
     return lines;
 }
 
-/// Vertex/edge and vertex/vertex pairs are told of where there are any.
+/// Vertex/edge and vertex/vertex pairs are reported where there are any.
 template <kind K>
 bool is_shown(const step_result& result) {
     return K == kind::vertex_face || K == kind::edge_edge || result.candidates.of<K>() > 0;

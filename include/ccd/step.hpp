@@ -30,7 +30,7 @@
 
 namespace ccd {
 
-/// Which pairs a step looks at, told vertex by vertex: a pair if some vertex of one element may
+/// Which pairs a step looks at, vertex by vertex: a pair if some vertex of one element may
 /// collide with some vertex of the other. Two vertices may unless one of these says no; an empty
 /// one says nothing. Not owned; groups and pinned have one entry a vertex.
 struct pair_filter {

@@ -133,7 +133,7 @@ std::vector<decider> exact_deciders() {
     std::vector<decider> all;
     all.push_back(
         one_by_one("one by one", [](const auto& q) { return ccd::decide(ccd::method::exact, q); }));
-    // The last stages alone: they see what filters settle before them in `exact`.
+    // The last stages alone: they see what filters decide before them in `exact`.
     all.push_back(one_by_one("integers, unfiltered", [](const auto& q) {
         const ccd::verdict by_integers = ccd::detail::decide_in_integers(q);
         return by_integers.outcome == ccd::outcome::uncertain ? ccd::decide_reference(q)

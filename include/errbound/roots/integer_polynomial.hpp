@@ -143,7 +143,7 @@ struct remainders {
         modulus = next;
     }
     /// Whether the modulus is likely to be large enough: all coefficients are far below it.
-    bool settled() const {
+    bool decided() const {
         const Integer bound = modulus >> 12U;
         return std::all_of(p.begin(), p.end(),
                            [&](const Integer& c) { return c < bound && -bound < c; });
@@ -190,7 +190,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
             field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);
         found.add(image, field);
-        if (!found.settled()) continue;
+        if (!found.decided()) continue;
         integer_form<Integer> divisor = found.p;
         make_primitive(divisor);
         if (!divided(a, divisor).empty() && !divided(b, divisor).empty()) return divisor;

@@ -89,7 +89,7 @@ struct tally {
     std::uint64_t collisions = 0;
     std::uint64_t crossed_once = 0;
     std::vector<errors> by_method = std::vector<errors>(ccd::methods().size());
-    std::uint64_t out_of_range = 0, unsettled = 0;  // integers of fixed width: uncertain
+    std::uint64_t out_of_range = 0, undecided = 0;  // integers of fixed width: uncertain
 
     void add(const tally& other) {
         queries += other.queries;
@@ -100,7 +100,7 @@ struct tally {
             by_method[i].false_negatives += other.by_method[i].false_negatives;
         }
         out_of_range += other.out_of_range;
-        unsettled += other.unsettled;
+        undecided += other.undecided;
     }
 };
 
@@ -181,12 +181,12 @@ void check_methods(kind which, std::size_t family, std::uint64_t index, report& 
     const auto require_right = [&](std::string_view who, ccd::verdict said) {
         if (said.outcome != right) fail(who, said.outcome);
     };
-    // What comes last in `exact` alone too, without the filter that settles most queries before.
+    // What comes last in `exact` alone too, without the filter that decides most queries before.
     require_right("decide_exact", decide_exact(which, p));
     require_right("decide_reference", decide_reference(which, p));
     const ccd::verdict integers = decide_in_integers(which, p);
     if (integers.outcome == ccd::outcome::uncertain)
-        ++(integers.cause == ccd::cause::range ? count.out_of_range : count.unsettled);
+        ++(integers.cause == ccd::cause::range ? count.out_of_range : count.undecided);
     else
         require_right("decide_in_integers", integers);
     if (crosses_once(which, p)) {
@@ -234,7 +234,7 @@ void print(kind which, const report& r) {
                                [m](const tally& t) { return t.by_method[m].false_negatives; }});
     }
     columns.push_back({"out of range", [](const tally& t) { return t.out_of_range; }});
-    columns.push_back({"unsettled", [](const tally& t) { return t.unsettled; }});
+    columns.push_back({"undecided", [](const tally& t) { return t.undecided; }});
 
     std::cout << format("%-25s", std::string(path_name(which)).c_str());
     for (const column& c : columns) std::cout << "  " << c.title;
