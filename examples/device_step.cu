@@ -62,15 +62,16 @@ int main() {
         move<<<blocks, threads>>>(before, after);
         const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(before),
                                       ccd::cuda::coordinates<double>::rows(after), count);
-        ccd::cuda::mesh_steps::result found;
-        if (const auto s = steps.run(at, {.method = ccd::method::exact}, found); !s) {
-            std::fprintf(stderr, "%s\n", s.error.c_str());
+        const auto found = steps.run(at, {.method = ccd::method::exact});
+        if (!found) {
+            std::fprintf(stderr, "%s\n", found.error.c_str());
             return 1;
         }
-        // found.vertex_face and found.edge_edge are lists in device memory, for the next kernel.
+        // found.pairs.vertex_face and found.pairs.edge_edge are lists in device memory, for the
+        // next kernel.
         std::printf("step %d: %zu vertex/face and %zu edge/edge pairs of %zu candidates\n", step,
-                    found.vertex_face_count, found.edge_edge_count,
-                    found.vertex_face_candidates + found.edge_edge_candidates);
+                    found.pairs.vertex_face.size(), found.pairs.edge_edge.size(),
+                    found.candidates.vertex_face + found.candidates.edge_edge);
         std::swap(before, after);
     }
     (void)cudaFree(before);

@@ -70,8 +70,7 @@ std::string fault_of(const positions& at, const candidates<Pair>& candidates,
     if (candidates.count > max_candidates)
         return found_of("candidates", candidates.count, max_candidates) + " at most";
     if (candidates.count == 0) return {};
-    if (at.vertices == 0)
-        return "ccd::cuda: found no vertices, or frames of different strides, expected positions";
+    if (at.vertices == 0) return "ccd::cuda: found no vertices, expected positions";
     if (at.vertices > max_candidates)
         return found_of("vertices", at.vertices, max_candidates) + " at most";
     const bool named = candidates.of_rows != nullptr ||
@@ -105,12 +104,11 @@ status decide_any(const positions& at, const candidates<Pair>& candidates, outco
 }
 
 template <class Pair>
-status finish_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
-                  scratch memory, const batch_options& options, stage_counts* counts) {
+finished finish_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
+                    scratch memory, const batch_options& options) {
     if (std::string fault = fault_of(at, candidates, answers, memory, options.method);
         !fault.empty())
-        return {std::move(fault)};
-    if (counts != nullptr) *counts = {};
+        return {{std::move(fault)}, {}};
     if (candidates.count == 0 || options.method != method::exact) return {};
     shares parts(memory, candidates.count);
     device_launcher launcher(options.stream, parts.temporary);
@@ -120,15 +118,9 @@ status finish_any(const positions& at, const candidates<Pair>& candidates, outco
         launcher.fail(
             "ccd::cuda: found scratch memory that decide_batch did not leave for these "
             "candidates");
-    if (counts != nullptr && launcher.ok())
-        *counts = {static_cast<std::uint32_t>(candidates.count),
-                   c.coplanarity,
-                   c.inside,
-                   c.subdivision,
-                   c.one_word,
-                   c.two_words,
-                   c.left};
-    return launcher.result();
+    return {launcher.result(),
+            {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside, c.subdivision,
+             c.one_word, c.two_words, c.left}};
 }
 
 }  // namespace
@@ -197,15 +189,13 @@ status decide_batch(const positions& positions, const candidates<edge_edge_pair>
                     outcome* answers, scratch memory, const batch_options& options) {
     return detail::decide_any(positions, candidates, answers, memory, options);
 }
-status finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
-              outcome* answers, scratch memory, const batch_options& options,
-              stage_counts* counts) {
-    return detail::finish_any(positions, candidates, answers, memory, options, counts);
+finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
+                outcome* answers, scratch memory, const batch_options& options) {
+    return detail::finish_any(positions, candidates, answers, memory, options);
 }
-status finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
-              outcome* answers, scratch memory, const batch_options& options,
-              stage_counts* counts) {
-    return detail::finish_any(positions, candidates, answers, memory, options, counts);
+finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
+                outcome* answers, scratch memory, const batch_options& options) {
+    return detail::finish_any(positions, candidates, answers, memory, options);
 }
 
 status select_colliding(const outcome* answers, std::size_t answer_count, index* found,

@@ -41,7 +41,7 @@ constexpr Pair pair_at(const candidates<Pair>& c, std::uint32_t i) {
 /// Coordinate `axis` of a vertex in one of the two frames; double holds floats exactly.
 constexpr double coordinate_at(const positions& p, const positions::frame& frame, std::size_t axis,
                                index vertex) {
-    const std::size_t place = p.stride * vertex;
+    const std::size_t place = frame.stride * vertex;
     return p.in_floats ? double(static_cast<const float*>(frame.axis[axis])[place])
                        : static_cast<const double*>(frame.axis[axis])[place];
 }

@@ -36,16 +36,15 @@ mesh_steps::~mesh_steps() = default;
 mesh_steps::mesh_steps(mesh_steps&&) noexcept = default;
 mesh_steps& mesh_steps::operator=(mesh_steps&&) noexcept = default;
 
-status mesh_steps::run(const positions& positions, const batch_options& options, result& found) {
-    found = {};
+mesh_steps::result mesh_steps::run(const positions& positions, const batch_options& options) {
+    const auto fault = [](std::string why) { return result{{std::move(why)}, {}, {}, 0}; };
     if (positions.vertices != state_->vertices)
-        return {"ccd::cuda: found positions of " + std::to_string(positions.vertices) +
-                " vertices (0 also of frames of different strides), expected " +
-                std::to_string(state_->vertices)};
+        return fault("ccd::cuda: found positions of " + std::to_string(positions.vertices) +
+                     " vertices, expected " + std::to_string(state_->vertices));
     if (positions.vertices > 0 && !detail::has_coordinates(positions))
-        return {"ccd::cuda: found a null pointer, expected positions"};
-    if (std::string fault = detail::fault_of_method(options.method); !fault.empty())
-        return {std::move(fault)};
+        return fault("ccd::cuda: found a null pointer, expected positions");
+    if (std::string why = detail::fault_of_method(options.method); !why.empty())
+        return fault(std::move(why));
     if (positions.vertices == 0) return {};
     detail::device_launcher& launcher = state_->launcher;
     launcher.begin(options.stream);
@@ -70,13 +69,15 @@ status mesh_steps::run(const positions& positions, const batch_options& options,
         return detail::finish_exact(launcher, positions, block, answers, all).left;
     };
     const auto pairs = memory.run(launcher, positions, decide);
-    if (launcher.ok() && !pairs.finite) return {"ccd::cuda: a coordinate is not finite"};
-    if (launcher.ok())
-        found = {memory.vertex_face().data(),  pairs.vertex_face,
-                 memory.edge_edge().data(),    pairs.edge_edge,
-                 pairs.vertex_face_candidates, pairs.edge_edge_candidates,
-                 pairs.finished_on_host};
-    return launcher.result();
+    if (!launcher.ok()) return fault(launcher.result().error);
+    if (!pairs.finite) return fault("ccd::cuda: a coordinate is not finite");
+    result found;
+    found.pairs.vertex_face = {memory.vertex_face().data(), pairs.vertex_face};
+    found.pairs.edge_edge = {memory.edge_edge().data(), pairs.edge_edge};
+    found.candidates.vertex_face = pairs.vertex_face_candidates;
+    found.candidates.edge_edge = pairs.edge_edge_candidates;
+    found.finished_on_host = pairs.finished_on_host;
+    return found;
 }
 
 namespace {
@@ -145,40 +146,42 @@ status decide(std::span<const edge_edge<double>> queries, std::span<outcome> ans
     return decide_stored<edge_edge<double>, edge_edge_pair>(queries, answers, options);
 }
 
-status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
-            step_result& result) {
-    result = {};
+step_result step(const mesh& before, const mesh& after, const step_options& options,
+                 precision precision) {
+    step_result result;
+    const auto failed = [](status s) { return step_result{std::move(s), {}}; };
     ccd::detail::check_frames(before, after);
     ccd::detail::check_positions(vertex_rows(before, after), before.vertices.size());
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
     if (!ccd::detail::has_faces_alone(before))
-        return {"ccd::cuda: found edges or points, expected a mesh of faces alone"};
+        return failed({"ccd::cuda: found edges or points, expected a mesh of faces alone"});
     ccd::detail::stopwatch total, watch;
     detail::device_launcher launcher(nullptr);
     device_frames frames;
     mesh_steps steps(before.faces, before.vertices.size());
     const positions at = frames.copy(launcher, vertex_rows(before, after));
-    if (!launcher.ok()) return launcher.result();
+    if (!launcher.ok()) return failed(launcher.result());
     result.prepare_seconds = watch.lap();
 
-    mesh_steps::result found;
-    if (status s = steps.run(at, {options.method, precision, nullptr}, found); !s) return s;
+    const mesh_steps::result found = steps.run(at, {options.method, precision, nullptr});
+    if (!found) return failed(found);
     result.narrow_phase_seconds = watch.lap();
 
-    std::vector<vertex_face_pair> vertex_face(found.vertex_face_count);
-    std::vector<edge_edge_pair> edge_edge(found.edge_edge_count);
-    launcher.read(found.vertex_face, vertex_face.size(), vertex_face.data());
-    launcher.read(found.edge_edge, edge_edge.size(), edge_edge.data());
-    for (const auto& q : vertex_face) result.pairs.vertex_face.push_back(ccd::detail::canonical(q));
-    for (const auto& q : edge_edge) result.pairs.edge_edge.push_back(q);
-    std::ranges::sort(result.pairs.vertex_face);
-    std::ranges::sort(result.pairs.edge_edge);
-    result.candidates.vertex_face = found.vertex_face_candidates;
-    result.candidates.edge_edge = found.edge_edge_candidates;
+    auto& vertex_face = result.pairs.vertex_face;
+    auto& edge_edge = result.pairs.edge_edge;
+    vertex_face.resize(found.pairs.vertex_face.size());
+    edge_edge.resize(found.pairs.edge_edge.size());
+    launcher.read(found.pairs.vertex_face.data(), vertex_face.size(), vertex_face.data());
+    launcher.read(found.pairs.edge_edge.data(), edge_edge.size(), edge_edge.data());
+    if (!launcher.ok()) return failed(launcher.result());
+    for (vertex_face_pair& p : vertex_face) p = ccd::detail::canonical(p);
+    std::ranges::sort(vertex_face);
+    std::ranges::sort(edge_edge);
+    result.candidates = found.candidates;
     result.sort_seconds = watch.lap();
     result.total_seconds = total.lap();
     result.threads = 1;
-    return launcher.result();
+    return result;
 }
 
 }  // namespace ccd::cuda

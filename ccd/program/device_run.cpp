@@ -29,8 +29,8 @@ void decide_on_device(std::span<const Query> queries, std::span<outcome> answers
 }
 step_result step_on_device(const mesh& before, const mesh& after, method m,
                            cuda::precision precision) {
-    step_result result;
-    require(cuda::step(before, after, {.method = m}, precision, result));
+    const cuda::step_result result = cuda::step(before, after, {.method = m}, precision);
+    require(result);
     return result;
 }
 

@@ -59,22 +59,20 @@ struct coordinates {
 struct positions {
     struct frame {
         const void* axis[3] = {};
+        std::size_t stride = 1;  ///< in numbers
     };
     frame before, after;
-    std::size_t stride = 1;  ///< in numbers
     bool in_floats = false;
     std::size_t vertices = 0;
 
     constexpr positions() = default;
-    /// The two frames must have the same stride.
     template <class Real>
     constexpr positions(const coordinates<Real>& at_start, const coordinates<Real>& at_end,
                         std::size_t count)
-        : before{{at_start.x, at_start.y, at_start.z}},
-          after{{at_end.x, at_end.y, at_end.z}},
-          stride(at_start.stride),
+        : before{{at_start.x, at_start.y, at_start.z}, at_start.stride},
+          after{{at_end.x, at_end.y, at_end.z}, at_end.stride},
           in_floats(sizeof(Real) == sizeof(float)),
-          vertices(at_start.stride == at_end.stride ? count : 0) {}
+          vertices(count) {}
 };
 
 /// Candidates: rows or columns of vertex indices, or pairs of elements. Pair must be in range:
@@ -137,16 +135,17 @@ struct stage_counts {
     std::uint32_t integers_one_word = 0, integers_two_words = 0;
     std::uint32_t left_open = 0;  ///< decided by finish()
 };
+/// What finish() answers.
+struct [[nodiscard]] finished : status {
+    stage_counts stages;
+};
 
 /// Decides what decide_batch of `exact` left open, on the host by all its threads, and writes the
-/// answers. Waits for the stream. `counts`, if not null, receives what the stages did. Throws
-/// only std::bad_alloc.
-status finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
-              outcome* answers, scratch memory, const batch_options& options,
-              stage_counts* counts = nullptr);
-status finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
-              outcome* answers, scratch memory, const batch_options& options,
-              stage_counts* counts = nullptr);
+/// answers. Waits for the stream. Throws only std::bad_alloc.
+finished finish(const positions& positions, const candidates<vertex_face_pair>& candidates,
+                outcome* answers, scratch memory, const batch_options& options);
+finished finish(const positions& positions, const candidates<edge_edge_pair>& candidates,
+                outcome* answers, scratch memory, const batch_options& options);
 
 /// Writes the numbers of the answers other than `separate`, ascending, to found[0], ...,
 /// found[room − 1] and how many there are to *count, which may exceed `room`: then call again with
@@ -155,16 +154,21 @@ status finish(const positions& positions, const candidates<edge_edge_pair>& cand
 status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
                         std::size_t room, index* count, scratch memory, stream stream = nullptr);
 
+namespace detail {
+template <kind K>
+using span_of_kind = std::span<const pair_of_kind<K>>;
+}  // namespace detail
+/// Lists of pairs in device memory, as ccd::pair_lists on the host.
+using pair_spans = by_kind<detail::span_of_kind>;
+
 /// Steps of one mesh on the device: keeps its faces, edges and memory from step to step.
 class mesh_steps {
   public:
-    /// Pairs in device memory, as vertex indices, in no particular order but always the same one.
-    struct result {
-        const vertex_face_pair* vertex_face = nullptr;
-        std::size_t vertex_face_count = 0;
-        const edge_edge_pair* edge_edge = nullptr;
-        std::size_t edge_edge_count = 0;
-        std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
+    /// Pairs in no particular order but always the same one, or what went wrong. Of points and of
+    /// edges that bound no face the device knows nothing.
+    struct [[nodiscard]] result : status {
+        pair_spans pairs;
+        pair_counts candidates;
         std::size_t finished_on_host = 0;  ///< candidates that `exact` left open
     };
 
@@ -179,19 +183,22 @@ class mesh_steps {
     /// result is this object's, complete on return, and lasts until the next call. A coordinate
     /// that is not finite is an error. Waits for the stream some times; allocates where its memory
     /// does not suffice. All calls must be on one device.
-    status run(const positions& positions, const batch_options& options, result& found);
+    result run(const positions& positions, const batch_options& options = {});
 
   private:
     struct state;
     std::unique_ptr<state> state_;
 };
 
+/// A step's result, or what went wrong.
+struct [[nodiscard]] step_result : status, ccd::step_result {};
+
 /// ccd::step() on the device, which throws what that throws: copies both frames there and the pairs
 /// back. The mesh must have no edges of its own and at most one vertex on no face, whose kinds of
 /// pairs the device does not look for: anything else is an error. Of the options only the method
 /// counts; of the seconds, those of both phases are taken together as the narrow's.
-status step(const mesh& before, const mesh& after, const step_options& options, precision precision,
-            step_result& result);
+step_result step(const mesh& before, const mesh& after, const step_options& options = {},
+                 precision precision = precision::float64);
 
 /// ccd::decide_batch, from and to host memory, by any of device_methods(). Throws
 /// std::invalid_argument if the two lengths differ.

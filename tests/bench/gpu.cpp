@@ -90,12 +90,13 @@ class device_batch {
 
     std::size_t size() const { return rows_.size(); }
     std::size_t copies() const { return copies_; }
-    void decide(const ccd::cuda::batch_options& options,
-                ccd::cuda::stage_counts* counts = nullptr) const {
+    ccd::cuda::stage_counts decide(const ccd::cuda::batch_options& options) const {
         const auto all = ccd::cuda::candidates<pair>::rows(rows_.data(), rows_.size());
         const ccd::cuda::scratch scratch{memory_.data(), memory_.size()};
         check(decide_batch(scene_.at, all, answers_.data(), scratch, options));
-        check(finish(scene_.at, all, answers_.data(), scratch, options, counts));
+        const auto finished = finish(scene_.at, all, answers_.data(), scratch, options);
+        check(finished);
+        return finished.stages;
     }
     std::vector<ccd::outcome> answers() const { return answers_.copied(); }
 
@@ -192,8 +193,7 @@ void add_methods_table(const bench::scene& s, const device_batch<Query>& batch,
 template <class Query>
 void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, double seconds,
                       const bench::device_peaks& peaks, bench::report& out) {
-    ccd::cuda::stage_counts counts;
-    batch.decide({}, &counts);
+    const ccd::cuda::stage_counts counts = batch.decide({});
     const auto operations = bench::operations_of_stages<Query>();
     const auto row = [&](const char* stage, std::uint32_t entered, std::uint64_t each,
                          double peak) {
@@ -247,21 +247,22 @@ void steps(const bench::scene& s, const device_scene& device, const bench::optio
         ccd::step_result on_host;
         const auto times =
             bench::race({[&] {
-                             check(steps.run(device.at, {m, precision::float64, nullptr}, found));
+                             found = steps.run(device.at, {m, precision::float64, nullptr});
+                             check(found);
                          },
                          [&] { on_host = ccd::step(s.before, s.after, {.method = m}); }},
                         o.repeats());
-        table.push_back({bench::word(info(m).name),
-                         bench::count(found.vertex_face_candidates + found.edge_edge_candidates),
-                         bench::count(found.vertex_face_count + found.edge_edge_count),
-                         bench::word(found.vertex_face_count == on_host.pairs.vertex_face.size() &&
-                                             found.edge_edge_count == on_host.pairs.edge_edge.size()
-                                         ? "yes"
-                                         : "NO"),
-                         bench::number(1e3 * times[0].minimum, 3),
-                         bench::number(1e3 * times[0].median, 3),
-                         bench::number(1e3 * times[1].minimum, 3),
-                         bench::number(times[1].minimum / times[0].minimum, 1)});
+        table.push_back(
+            {bench::word(info(m).name),
+             bench::count(found.candidates.vertex_face + found.candidates.edge_edge),
+             bench::count(found.pairs.vertex_face.size() + found.pairs.edge_edge.size()),
+             bench::word(found.pairs.vertex_face.size() == on_host.pairs.vertex_face.size() &&
+                                 found.pairs.edge_edge.size() == on_host.pairs.edge_edge.size()
+                             ? "yes"
+                             : "NO"),
+             bench::number(1e3 * times[0].minimum, 3), bench::number(1e3 * times[0].median, 3),
+             bench::number(1e3 * times[1].minimum, 3),
+             bench::number(times[1].minimum / times[0].minimum, 1)});
     }
     out.table("gpu-steps", {{"scene", s.name}},
               "A step: from vertices on the device to pairs there, in ms; by the host with all "

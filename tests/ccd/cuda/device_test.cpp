@@ -81,9 +81,8 @@ void expect_same_step(const fs::path& scene, const char* first, const char* seco
     const ccd::mesh after = ccd::io::read_mesh(scene / second);
     for (const ccd::method m : {ccd::method::exact, ccd::method::tight}) {
         const auto expected = ccd::step(before, after, {.method = m});
-        ccd::step_result found;
-        const auto s = ccd::cuda::step(before, after, {.method = m}, precision::float64, found);
-        ASSERT_TRUE(s) << s.error;
+        const auto found = ccd::cuda::step(before, after, {.method = m});
+        ASSERT_TRUE(found) << found.error;
         EXPECT_EQ(found.candidates.vertex_face, expected.candidates.vertex_face);
         EXPECT_EQ(found.candidates.edge_edge, expected.candidates.edge_edge);
         EXPECT_EQ(found.pairs.vertex_face, expected.pairs.vertex_face);
@@ -118,12 +117,13 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     const auto at = cuda_sets::positions_of({before, after, set.before.size()});
     const auto all = ccd::cuda::candidates<ccd::vertex_face_pair>::rows(rows, set.size());
     const ccd::cuda::batch_options options{ccd::method::exact, precision::float64, stream};
-    ccd::cuda::stage_counts counts;
-    for (const auto& s : {ccd::cuda::decide_batch(at, all, answers, memory, options),
-                          ccd::cuda::finish(at, all, answers, memory, options, &counts),
-                          ccd::cuda::select_colliding(answers, set.size(), found, set.size(),
-                                                      found + set.size(), memory, stream)})
-        ASSERT_TRUE(s) << s.error;
+    const auto expect_done = [](const ccd::cuda::status& s) { EXPECT_TRUE(s) << s.error; };
+    expect_done(ccd::cuda::decide_batch(at, all, answers, memory, options));
+    const auto finished = ccd::cuda::finish(at, all, answers, memory, options);
+    expect_done(finished);
+    const ccd::cuda::stage_counts& counts = finished.stages;
+    expect_done(ccd::cuda::select_colliding(answers, set.size(), found, set.size(),
+                                            found + set.size(), memory, stream));
     std::vector<ccd::index> list(set.size() + 1);
     ASSERT_EQ(cudaStreamSynchronize(stream), cudaSuccess);
     ASSERT_EQ(cudaMemcpy(list.data(), found, list.size() * sizeof list[0], cudaMemcpyDeviceToHost),
@@ -186,10 +186,7 @@ TEST(device_arguments, are_refused_in_words) {
     EXPECT_THROW(ccd::cuda::mesh_steps(std::vector<ccd::face>{{0, 1, 4}}, 4),
                  std::invalid_argument);
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 3);
-    ccd::cuda::mesh_steps::result found;
-    EXPECT_NE(steps.run(at, {}, found)
-                  .error.find("4 vertices (0 also of frames of different strides), expected 3"),
-              std::string::npos);
+    EXPECT_NE(steps.run(at).error.find("4 vertices, expected 3"), std::string::npos);
 }
 
 }  // namespace
