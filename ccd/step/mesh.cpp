@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <ccd/mesh.hpp>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace ccd {
@@ -52,10 +54,23 @@ index largest(std::span<const std::array<index, N>> elements) {
     return last;
 }
 
-face ascending(face f) {
-    std::ranges::sort(f);
-    return f;
-}
+/// A face's vertices, ascending, and its number: equal faces follow each other, the first one
+/// first.
+struct numbered_face {
+    index low, middle, high, number;
+    friend auto operator<=>(const numbered_face&, const numbered_face&) = default;
+
+    numbered_face() = default;
+    numbered_face(const face& f, std::size_t i)
+        : low(std::min({f[0], f[1], f[2]})),
+          high(std::max({f[0], f[1], f[2]})),
+          number(static_cast<index>(i)) {
+        middle = f[0] ^ f[1] ^ f[2] ^ low ^ high;
+    }
+    bool repeats(const numbered_face& other) const {
+        return low == other.low && middle == other.middle && high == other.high;
+    }
+};
 
 }  // namespace
 
@@ -79,16 +94,18 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
 }
 
 std::vector<face> unique_faces(std::span<const face> faces) {
-    buckets<index> all(faces.size(), largest(faces), [&](const auto& visit) {
-        for (std::size_t i = 0; i < faces.size(); ++i)
-            visit(std::min({faces[i][0], faces[i][1], faces[i][2]}), static_cast<index>(i));
+    buckets<numbered_face> all(faces.size(), largest(faces), [&](const auto& visit) {
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const numbered_face f(faces[i], i);
+            visit(f.low, f);
+        }
     });
     std::vector<std::uint8_t> repeated(faces.size());
-    all.for_each_bucket([&](std::span<index> bucket) {
-        // A stable order: the number of a face tells equal ones apart.
-        std::ranges::sort(bucket, {}, [&](index i) { return std::pair(ascending(faces[i]), i); });
+    all.for_each_bucket([&](std::span<numbered_face> bucket) {
+        if (bucket.size() < 2) return;
+        std::ranges::sort(bucket);
         for (std::size_t i = 1; i < bucket.size(); ++i)
-            repeated[bucket[i]] = ascending(faces[bucket[i - 1]]) == ascending(faces[bucket[i]]);
+            if (bucket[i].repeats(bucket[i - 1])) repeated[bucket[i].number] = 1;
     });
     std::vector<face> unique;
     unique.reserve(faces.size());

@@ -5,7 +5,9 @@
 #include <ccd/batch.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ccd/batch/rounded_positions.hpp"
@@ -136,10 +138,22 @@ pair_lists mesh_steps::candidates(const vertex_rows& positions, const step_optio
     return sorted;
 }
 
+namespace {
+
+/// For one call alone, with no more threads than it has.
+mesh_steps steps_once(std::span<const face> faces, std::span<const edge> edges,
+                      std::size_t vertices, int threads) {
+    std::optional<mesh_steps> steps;
+    detail::on_threads(threads, [&] { steps.emplace(faces, edges, vertices); });
+    return std::move(*steps);
+}
+
+}  // namespace
+
 step_result step(std::span<const face> faces, std::span<const edge> edges,
                  const vertex_rows& positions, const step_options& options) {
     detail::stopwatch watch;
-    mesh_steps steps(faces, edges, positions.vertices);
+    mesh_steps steps = steps_once(faces, edges, positions.vertices, options.threads);
     const double seconds = watch.lap();
     step_result result = steps.run(positions, options);
     result.prepare_seconds += seconds;
@@ -153,7 +167,8 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
 
 pair_lists candidates(std::span<const face> faces, std::span<const edge> edges,
                       const vertex_rows& positions, const step_options& options) {
-    return mesh_steps(faces, edges, positions.vertices).candidates(positions, options);
+    return steps_once(faces, edges, positions.vertices, options.threads)
+        .candidates(positions, options);
 }
 pair_lists candidates(const mesh& before, const mesh& after, const step_options& options) {
     detail::check_frames(before, after);

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Two builds' benchmarks, the least times of several runs of each, and their ratios:
 
-    compare.py PORTABLE.json... NATIVE.json...
+    compare.py FIRST.json... SECOND.json...
 
-As many files of one as of the other. Takes the figures of the method exact.
+As many files of one as of the other, made by errbound_bench --json in turns. Rows that only one has are
+left out, and counted.
 """
 
 import json
@@ -16,28 +17,29 @@ def least_times(paths):
     for path in paths:
         for table in json.load(open(path))["tables"]:
             for row in table["rows"]:
-                if table["section"] == "methods" and row["contestant"].startswith("exact"):
-                    key = f"{row['scene']}, {row['kind']}, {row['contestant']}"
-                    time, unit = row["ns_min"], "ns"
-                elif table["section"] == "steps" and row["method"] == "exact":
-                    key = f"{row['scene']}, step, threads: {row['threads']}"
-                    time, unit = row["ms_min"], "ms"
-                else:
+                unit = next((unit for unit in ("ns", "ms") if f"{unit}_min" in row), None)
+                if unit is None:
                     continue
-                least[key] = min((time, unit), least.get(key, (time, unit)))
+                words = [str(row[name]) for name in
+                         ("scene", "kind", "contestant", "method", "threads", "copies", "predicate") if name in row]
+                key = ", ".join([table["section"], *words])
+                time = (row[f"{unit}_min"], unit)
+                least[key] = min(time, least.get(key, time))
     return least
 
 
 def main(paths):
     if len(paths) < 2 or len(paths) % 2:
         sys.exit(__doc__)
-    portable = least_times(paths[: len(paths) // 2])
-    native = least_times(paths[len(paths) // 2 :])
-    width = max(map(len, portable))
-    print(f"{'':{width}}{'portable':>14}{'native':>14}{'ratio':>8}")
-    for key, (time, unit) in portable.items():
-        other = native[key][0]
-        print(f"{key:{width}}{time:>11.1f} {unit}{other:>11.1f} {unit}{time / other:>8.2f}")
+    first = least_times(paths[: len(paths) // 2])
+    second = least_times(paths[len(paths) // 2 :])
+    both = [key for key in first if key in second]
+    width = max(map(len, both))
+    print(f"{'':{width}}{'first':>14}{'second':>14}{'second/first':>14}")
+    for key in both:
+        (time, unit), (other, _) = first[key], second[key]
+        print(f"{key:{width}}{time:>11.1f} {unit}{other:>11.1f} {unit}{other / time:>14.2f}")
+    print(f"{len(first) + len(second) - 2 * len(both)} rows are in one only")
 
 
 main(sys.argv[1:])
