@@ -106,6 +106,8 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     check_lengths(pairs.size(), answers.size());
     vertex_rows rows = positions;
     if (asked == question::contact_at_start) rows.after = rows.before;
+    if (rows.vertices > 0 && (rows.before == nullptr || rows.after == nullptr))
+        throw std::invalid_argument("ccd::decide_batch: found a null pointer, expected positions");
     // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
     // and saves some 10 ns a query.
     const bool many = has_kernels<Pair> && 2 * pairs.size() > rows.vertices;

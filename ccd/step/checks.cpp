@@ -77,6 +77,11 @@ void check_options(const step_options& options, std::size_t vertices) {
         throw std::invalid_argument("ccd::step: found method " +
                                     std::to_string(static_cast<int>(options.method)) +
                                     ", expected one of ccd::methods()");
+    if (options.filter.rule != pair_filter::group_rule::between_groups &&
+        options.filter.rule != pair_filter::group_rule::within_groups)
+        throw std::invalid_argument("ccd::step: found group rule " +
+                                    std::to_string(static_cast<int>(options.filter.rule)) +
+                                    ", expected between_groups or within_groups");
     check_length("groups", options.filter.groups.size(), vertices);
     check_length("pinned flags", options.filter.pinned.size(), vertices);
 }

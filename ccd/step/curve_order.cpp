@@ -126,9 +126,13 @@ class curve_grid {
         std::array<double, 3> half_spread;  // halved, so that it does not overflow
         for (std::size_t k = 0; k < 3; ++k)
             half_spread[k] = 0.5 * middles_.high[k] - 0.5 * middles_.low[k];
-        const double cube = *std::ranges::max_element(half_spread) / cells;
+        const double widest = *std::ranges::max_element(half_spread);
+        if (widest == 0)
+            return;  // all middles in one cell: they differ by an underflow unit at most
+        // Ratios of spreads first: a cube's length may underflow.
         for (std::size_t k = 0; k < 3; ++k)
-            half_cells_[k] = half_spread[k] > 0 ? 1 / std::max(mean[k], cube / half_spread[k]) : 0;
+            if (half_spread[k] > 0)
+                half_cells_[k] = 1 / std::max(mean[k], widest / half_spread[k] / cells);
         const double largest = *std::ranges::max_element(half_cells_);
         for (double& half : half_cells_) half *= 0.5 * (cells - 1) / largest;
     }
@@ -184,7 +188,7 @@ class curve_grid {
     const BoxOf& box_of_;
     box<double> middles_;
     std::array<unit_axis, 3> axes_;
-    std::array<double, 3> half_cells_;  // half the number of cells along each axis
+    std::array<double, 3> half_cells_{};  // half the number of cells along each axis
 };
 
 /// Sorts the keys by their elements' boxes: along a Morton curve through the middles, which gathers

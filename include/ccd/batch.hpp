@@ -165,8 +165,8 @@ concept query_range =
     detail::contiguous_items<R> && detail::is_query<std::ranges::range_value_t<R>>;
 
 /// Decides queries by `exact`, of any kind: by index, or stored. Coordinates that are not finite
-/// give `uncertain`. Throws std::invalid_argument if an index is out of range or the instruction
-/// set is not one of instruction_sets().
+/// give `uncertain`. Throws std::invalid_argument if an index is out of range, positions are null
+/// or the instruction set is not one of instruction_sets().
 ///
 /// Cost: see `./run bench`; vertex/edge and vertex/vertex queries are decided one by one. Memory:
 /// some 300 KB of stack a thread, and 32 bytes a vertex if there are queries for half the vertices.
@@ -177,7 +177,8 @@ template <query_range Queries>
 batch_result decide_batch(const Queries& queries, const batch_options& options = {});
 
 /// The same into memory of one's own: answers[i] is that of query i. Returns the stages' report.
-/// Throws std::invalid_argument also if the two lengths differ.
+/// Throws std::invalid_argument also if the two lengths differ. After a throw, answers may be
+/// anything.
 template <pair_range Pairs>
 stage_report decide_batch(const vertex_rows& positions, const Pairs& pairs,
                           std::span<outcome> answers, const batch_options& options = {}) {
@@ -192,7 +193,8 @@ stage_report decide_batch(const Queries& queries, std::span<outcome> answers,
 }
 
 /// Whether the features of each query touch already at t = 0: as decide_batch, but as
-/// touches_at_start of ccd/exact.hpp answers. Only positions at t = 0 are looked at.
+/// touches_at_start of ccd/exact.hpp answers. Only positions at t = 0 are looked at; those at t = 1
+/// may be null.
 template <pair_range Pairs>
 batch_result touches_at_start_batch(const vertex_rows& positions, const Pairs& pairs,
                                     const batch_options& options = {}) {

@@ -16,7 +16,7 @@ using edge = std::array<index, 2>;  ///< vertex indices; ascending where the lib
 ///
 /// `edges` are those beside the faces' own, in any order; an edge that a face has, that is given
 /// twice or that repeats a vertex adds nothing. Every vertex that is on no edge, its own or a
-/// face's, is a point (a particle).
+/// face's, is a point (a particle), so drop vertices that nothing uses.
 struct mesh {
     std::vector<point<double>> vertices;
     std::vector<face> faces;

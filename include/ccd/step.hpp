@@ -39,7 +39,8 @@ struct pair_filter {
         within_groups,   ///< two vertices of different groups may not collide
     };
 
-    /// Whether two vertices may collide. Called from several threads at once; must not throw.
+    /// Whether two vertices may collide. Called from several threads at once. What it
+    /// throws ends the call, and the object of the steps is as before.
     std::function<bool(index, index)> can_collide = {};
     std::span<const int> groups = {};  ///< the group of each vertex: its body, its layer, ...
     group_rule rule = group_rule::between_groups;
@@ -105,6 +106,8 @@ struct step_result {
 /// face. Faces with the same three vertices count once, as do edges: a pair is reported once.
 ///
 /// Vertex/edge and vertex/vertex pairs are always decided by `exact`: no other method has them.
+/// Every two points at one place are a pair: n vertices that nothing uses make n²/2 pairs if they
+/// are all at the origin. Leave such vertices out.
 ///
 /// Memory: about three times that of the two frames, or four where parts of the mesh are so far
 /// apart that floats do not tell their elements' boxes apart; kept.
@@ -114,6 +117,7 @@ class mesh_steps {
     mesh_steps(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices);
     explicit mesh_steps(const mesh& mesh);
     ~mesh_steps();
+    /// What was moved from may only be destroyed or assigned to.
     mesh_steps(mesh_steps&&) noexcept;
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
@@ -125,8 +129,8 @@ class mesh_steps {
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// All candidates of a step, the vertices of faces in the mesh's order, for narrow phases of
-    /// one's own. Of the options, `threads` and `filter` count. Memory: up to 16 bytes a candidate.
-    /// Throws as run().
+    /// one's own. Of the options, `threads` and `filter` count. Memory: up to 33 bytes a candidate.
+    /// Throws as run(); the instruction set is not looked at.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
     /// The same in blocks as they are found, in no particular order, never stored as a whole. The

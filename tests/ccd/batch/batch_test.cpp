@@ -78,6 +78,18 @@ TEST(BatchOf, ReportsStagesIfAskedFor) {
     EXPECT_GT(entered(ccd::decide_batch(rows, pairs, {.explain = true}).stages), 0U);
 }
 
+TEST(BatchOf, RefusesPositionsThatAreNull) {
+    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}};
+    const std::vector<double> rows{0, 0, 0, 0, 0, 0};
+    EXPECT_THROW(ccd::decide_batch(ccd::vertex_rows(nullptr, nullptr, 2), pairs),
+                 std::invalid_argument);
+    EXPECT_THROW(ccd::decide_batch(ccd::vertex_rows(rows.data(), nullptr, 2), pairs),
+                 std::invalid_argument);
+    const auto start =
+        ccd::touches_at_start_batch(ccd::vertex_rows(rows.data(), nullptr, 2), pairs);
+    EXPECT_EQ(start.answers[0], ccd::outcome::collides);
+}
+
 /// As Eigen's.
 template <bool RowMajor>
 struct matrix {

@@ -1,6 +1,8 @@
 // Meshes of faces, rods and points: every pair, and every contact of two elements.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/ccd/step/brute_force.hpp"
 
 namespace {
@@ -100,6 +102,21 @@ TEST(Mixture, ReportsEveryContactOfTwoElements) {
             }
     }
     EXPECT_GT(contacts, 100U);
+}
+
+// Points within a few times the least number of each other, and one far away: the length of the
+// curve's cells underflowed to 0, and positions on the curve were NaN taken for integers.
+TEST(Mixture, PointsAtTheLeastDistances) {
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    two_frames at;
+    for (int k = 0; k < 400; ++k) {
+        at.first.vertices.push_back({k % 7 * least, k % 64 * 4 * least, 0});
+        at.second.vertices.push_back({(k % 7 + 3) * least, k % 64 * 4 * least, 0});
+    }
+    brute_force::expect_as_by_brute_force(at, ccd::method::exact);
+    at.first.vertices.push_back({1, 1, 1});
+    at.second.vertices.push_back({1, 1, 1});
+    brute_force::expect_as_by_brute_force(at, ccd::method::exact);
 }
 
 TEST(Mixture, PointsOfRodsAndFacesThatAreNone) {
