@@ -67,7 +67,8 @@ std::vector<outcome> decide_exact(const positions& at, const candidates<Pair>& a
 }
 
 std::uint64_t queries_per_family() {
-    return support::scaled(200u);
+    // Of fewer, some stage would have nothing to decide.
+    return std::max(100u, support::scaled(200u));
 }
 
 template <class Pair>
