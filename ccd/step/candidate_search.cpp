@@ -79,7 +79,8 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& as
         within_one ? trees.second : trees.first,
         trees.second, [&]() -> auto& { return blocks.local(); },
         [&](auto& block, std::size_t i, std::size_t j, bool certain) {
-            const auto &a = first[i], &b = second[j];
+            const auto& a = first[i];
+            const auto& b = second[j];
             const bool apart = !share_vertex(a, b);
             block.add(candidate_of(a, b), certain ? apart : apart && asked.boxes.touch(a, b));
         });
