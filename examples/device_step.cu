@@ -31,10 +31,10 @@ __global__ void move(const double* from, double* to) {
 
 std::vector<ccd::face> faces_of_sheets() {
     std::vector<ccd::face> faces;
-    for (ccd::index sheet = 0; sheet < 2; ++sheet)
-        for (ccd::index i = 0; i + 1 < side; ++i)
-            for (ccd::index j = 0; j + 1 < side; ++j) {
-                const ccd::index v = sheet * side * side + i * side + j;
+    for (ccd::vertex_index sheet = 0; sheet < 2; ++sheet)
+        for (ccd::vertex_index i = 0; i + 1 < side; ++i)
+            for (ccd::vertex_index j = 0; j + 1 < side; ++j) {
+                const ccd::vertex_index v = sheet * side * side + i * side + j;
                 faces.push_back({v, v + 1, v + side});
                 faces.push_back({v + 1, v + side + 1, v + side});
             }

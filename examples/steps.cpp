@@ -17,7 +17,7 @@ void print(const ccd::step_result& result) {
                             : K == ccd::kind::edge_edge   ? "edge/edge"
                             : K == ccd::kind::vertex_edge ? "vertex/edge"
                                                           : "vertex/vertex");
-        for (const ccd::index v : vertices_of(pair)) std::printf(" %u", v);
+        for (const ccd::vertex_index v : vertices_of(pair)) std::printf(" %u", v);
         std::printf("\n");
     }
 }

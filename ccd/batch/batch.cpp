@@ -58,12 +58,12 @@ void check_lengths(std::size_t queries, std::size_t answers) {
 
 template <class Pair>
 void check_indices(std::span<const Pair> queries, std::size_t first, std::size_t vertices) {
-    index largest = 0;
+    vertex_index largest = 0;
     for (const Pair& q : queries)
-        for (const index v : vertices_of(q)) largest = std::max(largest, v);
+        for (const vertex_index v : vertices_of(q)) largest = std::max(largest, v);
     if (largest < vertices) return;
     for (std::size_t i = 0; i < queries.size(); ++i)
-        for (const index v : vertices_of(queries[i]))
+        for (const vertex_index v : vertices_of(queries[i]))
             if (v >= vertices)
                 throw std::invalid_argument("ccd::decide_batch: query " +
                                             std::to_string(first + i) + " names vertex " +
@@ -116,7 +116,7 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     std::optional<rounded_positions> rounded;
     if (all_are_finite) rounded.emplace(rows);
     const batch_positions at{rows, rounded ? rounded->data() : nullptr};
-    const auto finite_vertex = [&rows](index v) {
+    const auto finite_vertex = [&rows](vertex_index v) {
         return all_finite(rows.before + 3 * std::size_t(v), 3) &&
                all_finite(rows.after + 3 * std::size_t(v), 3);
     };

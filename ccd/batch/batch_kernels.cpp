@@ -71,7 +71,7 @@ void decide_indexed(const batch_positions& positions, const typename kind_traits
     const decisions decided{answers, report};
     pipeline<K> stages(decided);
     const auto read = [&](std::uint32_t id, double* at) {
-        for (const index v : vertices_of(queries[id]))
+        for (const vertex_index v : vertices_of(queries[id]))
             for (const double* frame : {positions.exact.before, positions.exact.after})
                 for (std::size_t k = 0; k < 3; ++k, at += pipeline<K>::stride)
                     *at = frame[3 * std::size_t(v) + k];

@@ -198,8 +198,8 @@ finished finish(const positions& positions, const candidates<edge_edge_pair>& ca
     return detail::finish_any(positions, candidates, answers, memory, options);
 }
 
-status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
-                        std::size_t room, index* count, scratch memory, stream stream) {
+status select_colliding(const outcome* answers, std::size_t answer_count, vertex_index* found,
+                        std::size_t room, vertex_index* count, scratch memory, stream stream) {
     if (answer_count > detail::max_candidates)
         return {detail::found_of("answers", answer_count, detail::max_candidates) + " at most"};
     if ((answer_count > 0 && answers == nullptr) || (room > 0 && found == nullptr) ||

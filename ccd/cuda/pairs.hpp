@@ -83,9 +83,9 @@ struct list_colliding {
     const outcome* answers;
     const std::uint32_t* place;
     std::size_t answer_count;
-    index* found;
+    vertex_index* found;
     std::size_t room;
-    index* count;
+    vertex_index* count;
 
     constexpr void operator()(std::uint32_t i) const {
         if (i == 0) *count = place[answer_count];
@@ -95,9 +95,9 @@ struct list_colliding {
 
 /// `place` has room for one number more than there are answers.
 template <class Launcher>
-void run_select(Launcher& launcher, const outcome* answers, std::size_t answer_count, index* found,
-                std::size_t room, index* count, std::uint32_t* place) {
-    launcher.set(count, index(0));
+void run_select(Launcher& launcher, const outcome* answers, std::size_t answer_count,
+                vertex_index* found, std::size_t room, vertex_index* count, std::uint32_t* place) {
+    launcher.set(count, vertex_index(0));
     launcher.exclusive_scan(may_collide_at{answers}, place, answer_count);
     launcher.for_each(answer_count,
                       list_colliding{answers, place, answer_count, found, room, count});

@@ -40,7 +40,7 @@ constexpr Pair pair_at(const candidates<Pair>& c, std::uint32_t i) {
 
 /// Coordinate `axis` of a vertex in one of the two frames; double holds floats exactly.
 constexpr double coordinate_at(const positions& p, const positions::frame& frame, std::size_t axis,
-                               index vertex) {
+                               vertex_index vertex) {
     const std::size_t place = frame.stride * vertex;
     return p.in_floats ? double(static_cast<const float*>(frame.axis[axis])[place])
                        : static_cast<const double*>(frame.axis[axis])[place];
@@ -49,13 +49,15 @@ constexpr double coordinate_at(const positions& p, const positions::frame& frame
 /// A query's points, in T: double, or float where positions are in floats.
 template <class T, class Pair>
 constexpr query_of_pair<Pair, T> query_at(const positions& p, const Pair& pair) {
-    const auto at = [&](const positions::frame& frame, index v) {
+    const auto at = [&](const positions::frame& frame, vertex_index v) {
         const auto coordinate = [&](std::size_t axis) {
             return static_cast<T>(coordinate_at(p, frame, axis, v));
         };
         return point<T>{coordinate(0), coordinate(1), coordinate(2)};
     };
-    const auto moving = [&](index v) { return moving_point<T>{at(p.before, v), at(p.after, v)}; };
+    const auto moving = [&](vertex_index v) {
+        return moving_point<T>{at(p.before, v), at(p.after, v)};
+    };
     const auto [a, b, c, d] = vertices_of(pair);
     return {moving(a), moving(b), moving(c), moving(d)};
 }

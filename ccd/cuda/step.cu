@@ -116,7 +116,7 @@ status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
         const auto part = queries.subspan(first, std::min(block, queries.size() - first));
         before.clear(), after.clear(), indices.clear();
         for (const Query& q : part) {
-            const auto v = static_cast<index>(before.size());
+            const auto v = static_cast<vertex_index>(before.size());
             indices.push_back({v, v + 1, v + 2, v + 3});
             for (const auto& p : points_of(q)) before.push_back(p.t0), after.push_back(p.t1);
         }

@@ -54,10 +54,10 @@ struct rounded_box {
 /// Vertices, edges or faces: element i has N vertices. Without a list, element i is vertex i.
 template <std::size_t N>
 struct elements {
-    const std::array<index, N>* list;
+    const std::array<vertex_index, N>* list;
     std::size_t count;
 
-    constexpr std::array<index, N> operator[](std::uint32_t i) const {
+    constexpr std::array<vertex_index, N> operator[](std::uint32_t i) const {
         if constexpr (N == 1)
             return {i};
         else
@@ -68,7 +68,7 @@ struct elements {
 /// The box that an element sweeps.
 template <std::size_t N>
 constexpr rounded_box swept_box(const rounded_position* rows,
-                                const std::array<index, N>& vertices) {
+                                const std::array<vertex_index, N>& vertices) {
     const auto of_row = [](const rounded_position& r) {
         return rounded_box{{r.x, r.y, r.z}, {r.x, r.y, r.z}};
     };
@@ -81,13 +81,13 @@ constexpr rounded_box swept_box(const rounded_position* rows,
 
 /// Whether the closed exact boxes that two elements sweep touch.
 template <std::size_t A, std::size_t B>
-constexpr bool exactly_touch(const positions& at, const std::array<index, A>& a,
-                             const std::array<index, B>& b) {
+constexpr bool exactly_touch(const positions& at, const std::array<vertex_index, A>& a,
+                             const std::array<vertex_index, B>& b) {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto range = [&](const auto& vertices) {
             double low = coordinate_at(at, at.before, k, vertices[0]), high = low;
             for (const auto* frame : {&at.before, &at.after})
-                for (const index v : vertices) {
+                for (const vertex_index v : vertices) {
                     const double x = coordinate_at(at, *frame, k, v);
                     low = std::min(low, x);
                     high = std::max(high, x);
@@ -200,8 +200,9 @@ struct make_node {
 /// Calls visit with the candidate of two elements, if they are one. `certain`: their boxes are
 /// known to touch.
 template <std::size_t A, std::size_t B, class Visit>
-constexpr void visit_candidate(const positions& at, const std::array<index, A>& a,
-                               const std::array<index, B>& b, bool certain, const Visit& visit) {
+constexpr void visit_candidate(const positions& at, const std::array<vertex_index, A>& a,
+                               const std::array<vertex_index, B>& b, bool certain,
+                               const Visit& visit) {
     if (!ccd::detail::share_vertex(a, b) && (certain || exactly_touch(at, a, b)))
         visit(ccd::detail::candidate_of(a, b));
 }
@@ -220,7 +221,7 @@ struct face_search {
         const face f = searching[order[i]];
         const rounded_box b = swept_box(rows, f);
         tree.find(b, 0, [&](std::uint32_t leaf) {
-            const std::array<index, 1> v{tree.order[leaf]};
+            const std::array<vertex_index, 1> v{tree.order[leaf]};
             visit_candidate(at, v, f, tree.boxes[leaf].overlaps(b), visit);
         });
     }
@@ -282,7 +283,7 @@ struct write_candidates {
 template <class Pair>
 struct copy_rows {
     const Pair* rows;
-    const index* numbers;
+    const vertex_index* numbers;
     Pair* to;
     constexpr void operator()(std::uint32_t k) const { to[k] = rows[numbers[k]]; }
 };
@@ -408,7 +409,7 @@ class step_memory {
                                        scene_.data(), rows_.data());
             run_select(launcher, answers_.data(), count, numbers_found_.data(), count,
                        count_found_.data(), place_.data());
-            index more = 0;
+            vertex_index more = 0;
             launcher.read(count_found_.data(), 1, &more);
             pairs.extend(launcher, pair_count + more);
             launcher.for_each(
@@ -427,9 +428,9 @@ class step_memory {
     buffer<rounded_box> tree_;
     buffer<std::uint32_t> keys_, order_, search_order_, counts_, place_;
     buffer<std::uint64_t> numbers_;
-    buffer<std::array<index, 4>> block_rows_;  // of either kind
+    buffer<std::array<vertex_index, 4>> block_rows_;  // of either kind
     buffer<outcome> answers_;
-    buffer<index> numbers_found_, count_found_;
+    buffer<vertex_index> numbers_found_, count_found_;
     buffer<vertex_face_pair> vertex_face_;
     buffer<edge_edge_pair> edge_edge_;
 };

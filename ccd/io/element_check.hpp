@@ -10,10 +10,10 @@
 namespace ccd::io {
 
 /// The indices, for messages.
-std::string text_of(std::span<const index> element);
+std::string text_of(std::span<const vertex_index> element);
 
 /// Whether a face or an edge is one of a mesh of so many vertices; if not, why, as the end of a
 /// message.
-std::optional<std::string> fault_of(std::span<const index> element, std::size_t vertices);
+std::optional<std::string> fault_of(std::span<const vertex_index> element, std::size_t vertices);
 
 }  // namespace ccd::io

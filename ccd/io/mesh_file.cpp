@@ -12,14 +12,14 @@ namespace ccd::io {
 using errbound::support::file_error;
 using errbound::support::read_whole;
 
-std::string text_of(std::span<const index> element) {
+std::string text_of(std::span<const vertex_index> element) {
     std::string text;
-    for (const index i : element) text += (text.empty() ? "" : " ") + std::to_string(i);
+    for (const vertex_index i : element) text += (text.empty() ? "" : " ") + std::to_string(i);
     return text;
 }
 
-std::optional<std::string> fault_of(std::span<const index> element, std::size_t vertices) {
-    for (const index i : element) {
+std::optional<std::string> fault_of(std::span<const vertex_index> element, std::size_t vertices) {
+    for (const vertex_index i : element) {
         if (i >= vertices) {
             return "found vertex index " + std::to_string(i) + ", expected less than " +
                    std::to_string(vertices);

@@ -70,7 +70,7 @@ class obj_parser {
             fail("found " + std::to_string(count) + " values of a vertex, expected 3 (x y z)");
         }
         if (count == 4 && values[3] != 1) fail("found a vertex with weight, expected none or 1");
-        if (result_.vertices.size() == std::numeric_limits<index>::max()) {
+        if (result_.vertices.size() == std::numeric_limits<vertex_index>::max()) {
             fail("found more vertices than expected, fewer than 2^32");
         }
         result_.vertices.push_back({values[0], values[1], values[2]});
@@ -92,10 +92,10 @@ class obj_parser {
 
     /// An edge between every two neighbours.
     void read_polyline(std::string_view line) {
-        std::optional<index> last;
+        std::optional<vertex_index> last;
         std::size_t count = 0;
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-            const index next = corner(word);
+            const vertex_index next = corner(word);
             if (last) {
                 result_.edges.push_back({*last, next});
                 edge_lines_.push_back(line_);
@@ -109,7 +109,7 @@ class obj_parser {
     }
 
     /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0.
-    index corner(std::string_view word) const {
+    vertex_index corner(std::string_view word) const {
         std::array<std::int64_t, 3> indices{};
         std::string_view rest = word;
         for (std::size_t part = 0;; ++part) {
@@ -129,13 +129,13 @@ class obj_parser {
         const auto vertices = static_cast<std::int64_t>(result_.vertices.size());
         const std::int64_t i = indices[0];
         const bool in_range =
-            i > 0 ? i <= std::numeric_limits<index>::max() : i < 0 && i >= -vertices;
+            i > 0 ? i <= std::numeric_limits<vertex_index>::max() : i < 0 && i >= -vertices;
         if (!in_range) {
             fail("found vertex index " + std::to_string(i) +
                  ", expected 1 or more, or one back from the last vertex so far (-1 to -" +
                  std::to_string(vertices) + ")");
         }
-        return static_cast<index>(i > 0 ? i - 1 : vertices + i);
+        return static_cast<vertex_index>(i > 0 ? i - 1 : vertices + i);
     }
 
     const std::string& name_;

@@ -74,7 +74,7 @@ class body_reader {
                              (vertices == nullptr ? "vertex" : "face") +
                              "', expected the elements vertex and face or edge");
         }
-        if (vertices->count > std::numeric_limits<index>::max()) {
+        if (vertices->count > std::numeric_limits<vertex_index>::max()) {
             throw file_error(name_ + ": found " + std::to_string(vertices->count) +
                              " vertices, expected fewer than 2^32");
         }
@@ -162,7 +162,7 @@ class body_reader {
         edge ends{};
         for (const property& p : e.properties) {
             if (is_vertex_of_edge(p))
-                ends[p.name == "vertex1" ? 0 : 1] = vertex_index(p);
+                ends[p.name == "vertex1" ? 0 : 1] = read_index(p);
             else
                 skip(p);
         }
@@ -193,17 +193,17 @@ class body_reader {
                          " vertices, expected a triangle");
         }
         face result;
-        for (index& i : result) i = vertex_index(p);
+        for (vertex_index& i : result) i = read_index(p);
         return result;
     }
 
-    index vertex_index(const property& p) {
+    vertex_index read_index(const property& p) {
         const double value = values_.next(p.type);
         if (value < 0) {
             values_.fail("found vertex index " + std::to_string(static_cast<std::int64_t>(value)) +
                          ", expected 0 or more");
         }
-        return static_cast<index>(value);
+        return static_cast<vertex_index>(value);
     }
 
     const header& header_;

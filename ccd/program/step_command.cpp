@@ -50,7 +50,7 @@ std::string lines_of_pairs(const step_result& result) {
     for_each_kind([&]<kind K>() {
         for (const auto& pair : result.pairs.of<K>()) {
             lines += short_name(K);
-            for (const index v : vertices_of(pair)) lines += ',' + std::to_string(v);
+            for (const vertex_index v : vertices_of(pair)) lines += ',' + std::to_string(v);
             lines += '\n';
         }
     });

@@ -144,7 +144,7 @@ class numbered_elements {
             const std::size_t first = vertices_ + edges_.size();
             if (i >= vertices_ || j < first || j - first >= faces_.size()) return std::nullopt;
             const face& f = faces_[j - first];
-            return Pair{static_cast<index>(i), f[0], f[1], f[2]};
+            return Pair{static_cast<vertex_index>(i), f[0], f[1], f[2]};
         } else {
             if (std::min(i, j) < vertices_ || std::max(i, j) - vertices_ >= edges_.size())
                 return std::nullopt;

@@ -18,7 +18,7 @@ inline bool lets_all_through(const pair_filter& filter) {
     return !filter.can_collide && filter.groups.empty() && filter.pinned.empty();
 }
 
-inline bool may_collide(const pair_filter& filter, index v, index w) {
+inline bool may_collide(const pair_filter& filter, vertex_index v, vertex_index w) {
     if (!filter.pinned.empty() && filter.pinned[v] != 0 && filter.pinned[w] != 0) return false;
     if (!filter.groups.empty() && (filter.groups[v] == filter.groups[w]) !=
                                       (filter.rule == pair_filter::group_rule::within_groups))

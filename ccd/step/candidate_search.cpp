@@ -13,19 +13,19 @@
 namespace ccd::detail {
 namespace {
 
-std::vector<std::array<index, 1>> all_vertices(std::size_t count) {
-    std::vector<std::array<index, 1>> vertices(count);
-    for (std::size_t v = 0; v < count; ++v) vertices[v] = {static_cast<index>(v)};
+std::vector<std::array<vertex_index, 1>> all_vertices(std::size_t count) {
+    std::vector<std::array<vertex_index, 1>> vertices(count);
+    for (std::size_t v = 0; v < count; ++v) vertices[v] = {static_cast<vertex_index>(v)};
     return vertices;
 }
 
-std::vector<std::array<index, 1>> vertices_on_no_edge(const std::vector<edge>& edges,
-                                                      std::size_t count) {
+std::vector<std::array<vertex_index, 1>> vertices_on_no_edge(const std::vector<edge>& edges,
+                                                             std::size_t count) {
     std::vector<std::uint8_t> on_an_edge(count);
     for (const edge& e : edges) on_an_edge[e[0]] = on_an_edge[e[1]] = 1;
-    std::vector<std::array<index, 1>> points;
+    std::vector<std::array<vertex_index, 1>> points;
     for (std::size_t v = 0; v < count; ++v)
-        if (on_an_edge[v] == 0) points.push_back({static_cast<index>(v)});
+        if (on_an_edge[v] == 0) points.push_back({static_cast<vertex_index>(v)});
     return points;
 }
 

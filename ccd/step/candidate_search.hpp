@@ -22,12 +22,12 @@ class ordered_elements {
     static constexpr std::size_t vertices = N;
 
     ordered_elements() = default;
-    explicit ordered_elements(std::vector<std::array<index, N>> elements)
+    explicit ordered_elements(std::vector<std::array<vertex_index, N>> elements)
         : elements_(std::move(elements)) {}
 
     std::size_t size() const { return elements_.size(); }
-    const std::array<index, N>& operator[](std::size_t i) const { return elements_[i]; }
-    operator std::span<const std::array<index, N>>() const { return elements_; }
+    const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
+    operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
     /// Makes `tree` one over their boxes, box i that of element i; sorts them anew where they are
     /// in no good order.
@@ -35,7 +35,7 @@ class ordered_elements {
     void build_tree(box_tree<Real>& tree, const swept_boxes& boxes);
 
   private:
-    std::vector<std::array<index, N>> elements_;
+    std::vector<std::array<vertex_index, N>> elements_;
     bool ordered_ = false, by_doubles_ = false;
     double least_length_ = 0;  ///< of the tree's leaves since they were sorted
 };

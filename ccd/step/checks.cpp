@@ -13,10 +13,10 @@ namespace ccd::detail {
 namespace {
 
 template <std::size_t N>
-void check_indices(std::span<const std::array<index, N>> elements, const std::string& of,
+void check_indices(std::span<const std::array<vertex_index, N>> elements, const std::string& of,
                    std::size_t vertices) {
     for (std::size_t i = 0; i < elements.size(); ++i)
-        for (const index v : elements[i])
+        for (const vertex_index v : elements[i])
             if (v >= vertices)
                 throw std::invalid_argument(of + std::to_string(i) + " names vertex " +
                                             std::to_string(v) + " of " + std::to_string(vertices));
@@ -54,7 +54,7 @@ void check_frames(const mesh& before, const mesh& after) {
 
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
                     const std::string& caller) {
-    if (std::max({vertices, faces.size(), edges.size()}) > std::numeric_limits<index>::max())
+    if (std::max({vertices, faces.size(), edges.size()}) > std::numeric_limits<vertex_index>::max())
         throw std::invalid_argument(caller + ": more vertices, faces or edges than can be named");
     check_indices(faces, caller + ": face ", vertices);
     check_indices(edges, caller + ": edge ", vertices);

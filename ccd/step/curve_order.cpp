@@ -37,8 +37,8 @@ class unit_axis {
 /// Position on the curve in the upper half, element in the lower.
 using curve_key = std::uint64_t;
 
-index element_of(curve_key key) {
-    return static_cast<index>(key);
+vertex_index element_of(curve_key key) {
+    return static_cast<vertex_index>(key);
 }
 std::uint32_t position_of(curve_key key) {
     return static_cast<std::uint32_t>(key >> 32);
@@ -142,7 +142,7 @@ class curve_grid {
 
     /// The key with its element's position: the cell's, after its class's if they are told apart.
     curve_key place(curve_key key, bool one_class) const {
-        const index element = element_of(key);
+        const vertex_index element = element_of(key);
         const auto b = box_of_(element);
         std::uint32_t position = one_class ? 0 : class_of(b) << curve_bits;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -224,19 +224,22 @@ void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of, bool one_c
 }  // namespace
 
 template <class Real, std::size_t N>
-void order_along_curve(std::vector<std::array<index, N>>& elements, const swept_boxes& boxes) {
+void order_along_curve(std::vector<std::array<vertex_index, N>>& elements,
+                       const swept_boxes& boxes) {
     if (elements.empty()) return;
     std::vector<curve_key> keys(elements.size());
     std::iota(keys.begin(), keys.end(), curve_key(0));
     sort_along_curve(
-        std::span(keys), [&](index i) { return boxes.swept_box<Real>(elements[i]); }, false);
-    std::vector<std::array<index, N>> ordered(elements.size());
+        std::span(keys), [&](vertex_index i) { return boxes.swept_box<Real>(elements[i]); }, false);
+    std::vector<std::array<vertex_index, N>> ordered(elements.size());
     for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = elements[element_of(keys[i])];
     elements = std::move(ordered);
 }
 
-template void order_along_curve<float>(std::vector<std::array<index, 1>>&, const swept_boxes&);
-template void order_along_curve<double>(std::vector<std::array<index, 1>>&, const swept_boxes&);
+template void order_along_curve<float>(std::vector<std::array<vertex_index, 1>>&,
+                                       const swept_boxes&);
+template void order_along_curve<double>(std::vector<std::array<vertex_index, 1>>&,
+                                        const swept_boxes&);
 template void order_along_curve<float>(std::vector<edge>&, const swept_boxes&);
 template void order_along_curve<double>(std::vector<edge>&, const swept_boxes&);
 template void order_along_curve<float>(std::vector<face>&, const swept_boxes&);

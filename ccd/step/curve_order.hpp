@@ -13,6 +13,7 @@ namespace ccd::detail {
 /// the middles are spread over very many orders of magnitude, each three of which cost one more
 /// sort of what is left; memory: 8 bytes an element and a copy of the elements.
 template <class Real, std::size_t N>
-void order_along_curve(std::vector<std::array<index, N>>& elements, const swept_boxes& boxes);
+void order_along_curve(std::vector<std::array<vertex_index, N>>& elements,
+                       const swept_boxes& boxes);
 
 }  // namespace ccd::detail

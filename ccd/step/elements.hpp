@@ -12,15 +12,16 @@
 namespace ccd::detail {
 
 template <std::size_t A, std::size_t B>
-constexpr bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) {
+constexpr bool share_vertex(const std::array<vertex_index, A>& a,
+                            const std::array<vertex_index, B>& b) {
     bool shared = false;
-    for (const index v : a)
-        for (const index w : b) shared |= v == w;
+    for (const vertex_index v : a)
+        for (const vertex_index w : b) shared |= v == w;
     return shared;
 }
 
 /// The candidate of a vertex and a face, whose vertices come in the mesh's order.
-constexpr vertex_face_pair candidate_of(const std::array<index, 1>& v, const face& f) {
+constexpr vertex_face_pair candidate_of(const std::array<vertex_index, 1>& v, const face& f) {
     return {v[0], f[0], f[1], f[2]};
 }
 /// The candidate of two ascending edges that share no vertex: the lesser edge first, which is that
@@ -31,12 +32,12 @@ constexpr edge_edge_pair candidate_of(const edge& a, const edge& b) {
     return {x[0], x[1], y[0], y[1]};
 }
 /// The candidate of a point and an edge.
-constexpr vertex_edge_pair candidate_of(const std::array<index, 1>& v, const edge& e) {
+constexpr vertex_edge_pair candidate_of(const std::array<vertex_index, 1>& v, const edge& e) {
     return {v[0], e[0], e[1]};
 }
 /// The candidate of two points, the lesser first.
-constexpr vertex_vertex_pair candidate_of(const std::array<index, 1>& v,
-                                          const std::array<index, 1>& w) {
+constexpr vertex_vertex_pair candidate_of(const std::array<vertex_index, 1>& v,
+                                          const std::array<vertex_index, 1>& w) {
     return {v[0] < w[0] ? v[0] : w[0], v[0] < w[0] ? w[0] : v[0]};
 }
 
@@ -45,7 +46,7 @@ constexpr vertex_vertex_pair candidate_of(const std::array<index, 1>& v,
 template <class Pair>
 constexpr Pair canonical(const Pair& pair) {
     if constexpr (kind_of<Pair> == kind::vertex_face) {
-        std::array<index, 3> f{pair.f0, pair.f1, pair.f2};
+        std::array<vertex_index, 3> f{pair.f0, pair.f1, pair.f2};
         std::ranges::sort(f);
         return {pair.v, f[0], f[1], f[2]};
     } else {

@@ -23,13 +23,13 @@ struct buckets {
 
     /// for_each(visit) calls visit(vertex, item) for all `count` items, with vertices up to `last`.
     template <class ForEach>
-    buckets(std::size_t count, index last, const ForEach& for_each) : items(count) {
+    buckets(std::size_t count, vertex_index last, const ForEach& for_each) : items(count) {
         unsigned shift = 0;
         while (last >> shift > count) ++shift;
         end.resize((last >> shift) + 2);
-        for_each([&](index v, const Item&) { ++end[(v >> shift) + 1]; });
+        for_each([&](vertex_index v, const Item&) { ++end[(v >> shift) + 1]; });
         std::partial_sum(end.begin(), end.end(), end.begin());
-        for_each([&](index v, const Item& item) { items[end[v >> shift]++] = item; });
+        for_each([&](vertex_index v, const Item& item) { items[end[v >> shift]++] = item; });
         end.pop_back();
     }
 
@@ -47,24 +47,24 @@ struct buckets {
 };
 
 template <std::size_t N>
-index largest(std::span<const std::array<index, N>> elements) {
-    index last = 0;
+vertex_index largest(std::span<const std::array<vertex_index, N>> elements) {
+    vertex_index last = 0;
     for (const auto& e : elements)
-        for (const index v : e) last = std::max(last, v);
+        for (const vertex_index v : e) last = std::max(last, v);
     return last;
 }
 
 /// A face's vertices, ascending, and its number: equal faces follow each other, the first one
 /// first.
 struct numbered_face {
-    index low, middle, high, number;
+    vertex_index low, middle, high, number;
     friend auto operator<=>(const numbered_face&, const numbered_face&) = default;
 
     numbered_face() = default;
     numbered_face(const face& f, std::size_t i)
         : low(std::min({f[0], f[1], f[2]})),
           high(std::max({f[0], f[1], f[2]})),
-          number(static_cast<index>(i)) {
+          number(static_cast<vertex_index>(i)) {
         middle = f[0] ^ f[1] ^ f[2] ^ low ^ high;
     }
     bool repeats(const numbered_face& other) const {
@@ -76,7 +76,7 @@ struct numbered_face {
 
 std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge> edges) {
     const auto for_each_edge = [&](const auto& visit) {
-        const auto take = [&visit](index v, index w) {
+        const auto take = [&visit](vertex_index v, vertex_index w) {
             if (v != w) visit(std::min(v, w), edge{std::min(v, w), std::max(v, w)});
         };
         for (const face& f : faces)

@@ -30,7 +30,7 @@ class swept_boxes {
     /// Proof: proofs/RoundedAxes.v, swept_rounded_first, swept_face_separate, swept_edges_separate,
     /// swept_boxes_touch.
     template <class Real, std::size_t N>
-    box<Real> swept_box(const std::array<index, N>& element) const {
+    box<Real> swept_box(const std::array<vertex_index, N>& element) const {
         box<Real> all;
         const Real* first = row<Real>(element[0], 0);
         for (std::size_t k = 0; k < 3; ++k) all.low[k] = all.high[k] = first[k];
@@ -47,7 +47,7 @@ class swept_boxes {
 
     /// Whether the closed exact boxes that two elements sweep touch.
     template <std::size_t A, std::size_t B>
-    bool touch(const std::array<index, A>& a, const std::array<index, B>& b) const {
+    bool touch(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) const {
         const box<double> x = swept_box<double>(a), y = swept_box<double>(b);
         for (std::size_t k = 0; k < 3; ++k)
             if (x.low[k] > y.high[k] || y.low[k] > x.high[k]) return false;
@@ -57,7 +57,7 @@ class swept_boxes {
     /// Whether floats would confuse the boxes: of a sample, more than one in sixteen have an axis
     /// on which only doubles tell their ends apart. So it is where small parts are very far apart.
     template <std::size_t N>
-    bool need_doubles(std::span<const std::array<index, N>> elements) const {
+    bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
         std::size_t confused = 0, samples = 0;
         for (std::size_t i = 0; i < elements.size();
              i += sampling_stride(elements.size()), ++samples) {
@@ -74,7 +74,7 @@ class swept_boxes {
   private:
     /// The coordinates of a vertex at one end of the step.
     template <class Real>
-    const Real* row(index v, std::size_t end) const {
+    const Real* row(vertex_index v, std::size_t end) const {
         if constexpr (std::is_same_v<Real, double>)
             return (end == 0 ? positions_.exact.before : positions_.exact.after) +
                    3 * std::size_t(v);

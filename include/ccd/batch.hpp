@@ -63,7 +63,7 @@ struct vertex_rows {
           after(at_end.data()),
           vertices(of_both(rows_of(at_start), rows_of(at_end))) {}
 
-    moving_point<double> operator[](index vertex) const {
+    moving_point<double> operator[](vertex_index vertex) const {
         const auto at = [vertex](const double* frame) {
             const double* row = frame + 3 * std::size_t(vertex);
             return point<double>{row[0], row[1], row[2]};

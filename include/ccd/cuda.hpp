@@ -80,10 +80,10 @@ struct positions {
 template <class Pair>
 struct candidates {
     /// The second element of a pair: a face or an edge.
-    using element = std::array<index, kind_traits<kind_of<Pair>>::second_vertices>;
+    using element = std::array<vertex_index, kind_traits<kind_of<Pair>>::second_vertices>;
 
     const Pair* of_rows = nullptr;
-    const index* columns[4] = {};  ///< of vertex indices, or the first two of elements
+    const vertex_index* columns[4] = {};  ///< of vertex indices, or the first two of elements
     const element* elements = nullptr;
     std::size_t count = 0;
 
@@ -92,12 +92,13 @@ struct candidates {
         return {rows, {}, nullptr, count};
     }
     /// Four columns: v f0 f1 f2, or a0 a1 b0 b1.
-    static constexpr candidates of_columns(const index* a, const index* b, const index* c,
-                                           const index* d, std::size_t count) {
+    static constexpr candidates of_columns(const vertex_index* a, const vertex_index* b,
+                                           const vertex_index* c, const vertex_index* d,
+                                           std::size_t count) {
         return {nullptr, {a, b, c, d}, nullptr, count};
     }
     /// Pairs of a vertex and a number of `elements` (faces), or of two numbers of them (edges).
-    static constexpr candidates pairs(const index* first, const index* second,
+    static constexpr candidates pairs(const vertex_index* first, const vertex_index* second,
                                       const element* elements, std::size_t count) {
         return {nullptr, {first, second, nullptr, nullptr}, elements, count};
     }
@@ -151,8 +152,9 @@ finished finish(const positions& positions, const candidates<edge_edge_pair>& ca
 /// found[room − 1] and how many there are to *count, which may exceed `room`: then call again with
 /// more. Only queues work. Scratch memory as above: finish() first, since this overwrites what
 /// decide_batch left there.
-status select_colliding(const outcome* answers, std::size_t answer_count, index* found,
-                        std::size_t room, index* count, scratch memory, stream stream = nullptr);
+status select_colliding(const outcome* answers, std::size_t answer_count, vertex_index* found,
+                        std::size_t room, vertex_index* count, scratch memory,
+                        stream stream = nullptr);
 
 namespace detail {
 template <kind K>

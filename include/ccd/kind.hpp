@@ -15,39 +15,39 @@
 namespace ccd {
 
 /// Names a vertex of a mesh.
-using index = std::uint32_t;
+using vertex_index = std::uint32_t;
 
 /// Vertex v and face f0 f1 f2.
 struct vertex_face_pair {
-    index v, f0, f1, f2;
+    vertex_index v, f0, f1, f2;
     friend auto operator<=>(const vertex_face_pair&, const vertex_face_pair&) = default;
 };
 /// Edge a0 a1 and edge b0 b1.
 struct edge_edge_pair {
-    index a0, a1, b0, b1;
+    vertex_index a0, a1, b0, b1;
     friend auto operator<=>(const edge_edge_pair&, const edge_edge_pair&) = default;
 };
 /// Vertex v and edge e0 e1.
 struct vertex_edge_pair {
-    index v, e0, e1;
+    vertex_index v, e0, e1;
     friend auto operator<=>(const vertex_edge_pair&, const vertex_edge_pair&) = default;
 };
 /// Vertices v and w.
 struct vertex_vertex_pair {
-    index v, w;
+    vertex_index v, w;
     friend auto operator<=>(const vertex_vertex_pair&, const vertex_vertex_pair&) = default;
 };
 
-constexpr std::array<index, 4> vertices_of(const vertex_face_pair& p) {
+constexpr std::array<vertex_index, 4> vertices_of(const vertex_face_pair& p) {
     return {p.v, p.f0, p.f1, p.f2};
 }
-constexpr std::array<index, 4> vertices_of(const edge_edge_pair& p) {
+constexpr std::array<vertex_index, 4> vertices_of(const edge_edge_pair& p) {
     return {p.a0, p.a1, p.b0, p.b1};
 }
-constexpr std::array<index, 3> vertices_of(const vertex_edge_pair& p) {
+constexpr std::array<vertex_index, 3> vertices_of(const vertex_edge_pair& p) {
     return {p.v, p.e0, p.e1};
 }
-constexpr std::array<index, 2> vertices_of(const vertex_vertex_pair& p) {
+constexpr std::array<vertex_index, 2> vertices_of(const vertex_vertex_pair& p) {
     return {p.v, p.w};
 }
 

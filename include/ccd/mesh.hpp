@@ -9,8 +9,8 @@
 
 namespace ccd {
 
-using face = std::array<index, 3>;  ///< vertex indices, in any order
-using edge = std::array<index, 2>;  ///< vertex indices; ascending where the library makes it
+using face = std::array<vertex_index, 3>;  ///< vertex indices, in any order
+using edge = std::array<vertex_index, 2>;  ///< vertex indices; ascending where the library makes it
 
 /// One frame: triangles, edges that bound no triangle (rods, hair, springs), and points.
 ///

@@ -41,7 +41,7 @@ struct pair_filter {
 
     /// Whether two vertices may collide. Called from several threads at once. What it
     /// throws ends the call, and the object of the steps is as before.
-    std::function<bool(index, index)> can_collide = {};
+    std::function<bool(vertex_index, vertex_index)> can_collide = {};
     std::span<const int> groups = {};  ///< the group of each vertex: its body, its layer, ...
     group_rule rule = group_rule::between_groups;
     /// Not 0: the vertex does not move, or moves as prescribed. Two such may not collide, so pairs

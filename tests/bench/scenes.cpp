@@ -41,12 +41,12 @@ bool touch(const box& a, const box& b) {
 
 template <std::size_t N>
 box swept_box(const ccd::mesh& before, const ccd::mesh& after,
-              const std::array<ccd::index, N>& vertices, std::size_t element) {
+              const std::array<ccd::vertex_index, N>& vertices, std::size_t element) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     box b{{infinity, infinity, infinity},
           {-infinity, -infinity, -infinity},
           static_cast<std::uint32_t>(element)};
-    for (const ccd::index v : vertices) {
+    for (const ccd::vertex_index v : vertices) {
         for (const ccd::mesh* frame : {&before, &after}) {
             const auto& p = frame->vertices[v];
             const std::array<double, 3> x{p.x, p.y, p.z};
@@ -197,8 +197,9 @@ query_sets candidates(const ccd::mesh& before, const ccd::mesh& after) {
         }
         return boxes;
     };
-    std::vector<std::array<ccd::index, 1>> vertices(before.vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = {static_cast<ccd::index>(i)};
+    std::vector<std::array<ccd::vertex_index, 1>> vertices(before.vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        vertices[i] = {static_cast<ccd::vertex_index>(i)};
     const auto edges = ccd::unique_edges(before.faces);
     const std::vector<box> edge_boxes = boxes_of(edges);
 
@@ -206,11 +207,12 @@ query_sets candidates(const ccd::mesh& before, const ccd::mesh& after) {
     result.vertex_face.rows = result.edge_edge.rows = ccd::vertex_rows(before, after);
     auto& vf = result.vertex_face.by_index;
     auto& ee = result.edge_edge.by_index;
-    touching_pairs(boxes_of(vertices), boxes_of(before.faces), [&](ccd::index v, ccd::index f) {
-        const ccd::face& t = before.faces[f];
-        if (std::ranges::find(t, v) == t.end()) vf.push_back({v, t[0], t[1], t[2]});
-    });
-    touching_pairs(edge_boxes, edge_boxes, [&](ccd::index i, ccd::index j) {
+    touching_pairs(boxes_of(vertices), boxes_of(before.faces),
+                   [&](ccd::vertex_index v, ccd::vertex_index f) {
+                       const ccd::face& t = before.faces[f];
+                       if (std::ranges::find(t, v) == t.end()) vf.push_back({v, t[0], t[1], t[2]});
+                   });
+    touching_pairs(edge_boxes, edge_boxes, [&](ccd::vertex_index i, ccd::vertex_index j) {
         const ccd::edge &a = edges[i], &b = edges[j];
         if (i < j && a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1]) {
             ee.push_back({a[0], a[1], b[0], b[1]});
@@ -248,7 +250,7 @@ void make_cloth_over_sphere(int n, ccd::mesh& before, ccd::mesh& after) {
     const auto add = [&](double x, double y, double z, double sink) {
         before.vertices.push_back({x, y, z});
         after.vertices.push_back({x, y, z - sink});
-        return static_cast<ccd::index>(before.vertices.size() - 1);
+        return static_cast<ccd::vertex_index>(before.vertices.size() - 1);
     };
     const auto add_grid = [&](int rows, int columns, const auto& vertex) {
         for (int i = 0; i < rows; ++i) {
@@ -257,7 +259,8 @@ void make_cloth_over_sphere(int n, ccd::mesh& before, ccd::mesh& after) {
         const auto first = before.vertices.size() -
                            static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
         const auto at = [&](int i, int j) {
-            return static_cast<ccd::index>(first) + static_cast<ccd::index>(i * columns + j);
+            return static_cast<ccd::vertex_index>(first) +
+                   static_cast<ccd::vertex_index>(i * columns + j);
         };
         for (int i = 0; i + 1 < rows; ++i) {
             for (int j = 0; j + 1 < columns; ++j) {

@@ -41,7 +41,7 @@ struct indexed {
 
     explicit indexed(std::span<const Query> stored) {
         for (const Query& q : stored) {
-            const auto first = static_cast<ccd::index>(before.size());
+            const auto first = static_cast<ccd::vertex_index>(before.size());
             const auto p = ccd::points_of(q);
             // Backwards, so that indices do not ascend, as in a mesh.
             for (std::size_t k = p.size(); k-- > 0;) {

@@ -11,8 +11,8 @@
 
 namespace {
 
-using ccd::index;
 using ccd::outcome;
+using ccd::vertex_index;
 
 /// Vertices on a small grid, so that contacts abound, two of them not finite.
 std::vector<ccd::point<double>> grid(std::uint64_t seed) {
@@ -31,7 +31,7 @@ std::vector<Pair> random_pairs(std::size_t count) {
     std::vector<Pair> pairs(count);
     for (Pair& pair : pairs) {
         auto vertices = vertices_of(pair);
-        for (index& v : vertices) v = static_cast<index>(random() % 60);
+        for (vertex_index& v : vertices) v = static_cast<vertex_index>(random() % 60);
         std::apply([&pair](auto... v) { pair = {v...}; }, vertices);
     }
     return pairs;

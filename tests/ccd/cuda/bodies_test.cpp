@@ -258,13 +258,15 @@ template <class Pair>
 struct named_pairs {
     using all = candidates<Pair>;
     std::vector<typename all::element> elements{40};
-    std::vector<ccd::index> first, second, column[4];
+    std::vector<ccd::vertex_index> first, second, column[4];
     std::vector<Pair> named;
 
     named_pairs(std::mt19937& random, std::size_t vertices, std::size_t count) {
-        const auto below = [&](std::size_t n) { return static_cast<ccd::index>(random() % n); };
+        const auto below = [&](std::size_t n) {
+            return static_cast<ccd::vertex_index>(random() % n);
+        };
         for (auto& e : elements)
-            for (ccd::index& v : e) v = below(vertices);
+            for (ccd::vertex_index& v : e) v = below(vertices);
         for (std::size_t i = 0; i < count; ++i) {
             first.push_back(below(batch<Pair>::of_faces ? vertices : elements.size()));
             second.push_back(below(elements.size()));
@@ -359,16 +361,16 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
     const std::size_t expected = (n + 2) / 3;
     host_launcher launcher;
     for (const std::size_t room : {n, expected, expected - 1, std::size_t(1), std::size_t(0)}) {
-        std::vector<ccd::index> found(room + 1, 12345);
+        std::vector<ccd::vertex_index> found(room + 1, 12345);
         std::vector<std::uint32_t> place(n + 1);
-        ccd::index count = 0;
+        ccd::vertex_index count = 0;
         ccd::cuda::detail::run_select(launcher, answers.data(), n, found.data(), room, &count,
                                       place.data());
         EXPECT_EQ(count, expected) << "the number needed, whatever the room";
         for (std::size_t k = 0; k < std::min(room, expected); ++k) EXPECT_EQ(found[k], 3 * k);
         EXPECT_EQ(found[room], 12345u) << "nothing is written beyond the room";
     }
-    ccd::index count = 7;
+    ccd::vertex_index count = 7;
     std::uint32_t place = 0;
     ccd::cuda::detail::run_select(launcher, answers.data(), 0, nullptr, 0, &count, &place);
     EXPECT_EQ(count, 0u);
@@ -462,7 +464,7 @@ TEST(device_step, finds_the_pairs_of_soups_on_a_grid) {
         for (unsigned i = 0; i < 100; ++i)
             before.vertices.push_back({coordinate(), coordinate(), coordinate()});
         for (unsigned i = 0; i < 80; ++i) {
-            const auto v = static_cast<ccd::index>(random() % 98);
+            const auto v = static_cast<ccd::vertex_index>(random() % 98);
             before.faces.push_back({v + 2, v, v + 1});
         }
         ccd::mesh after = before;

@@ -110,7 +110,8 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     auto* const after = static_cast<double*>(copied(set.after));
     auto* const rows = static_cast<ccd::vertex_face_pair*>(copied(set.rows));
     auto* const answers = static_cast<outcome*>(copied(std::vector<outcome>(set.size())));
-    auto* const found = static_cast<ccd::index*>(copied(std::vector<ccd::index>(set.size() + 1)));
+    auto* const found =
+        static_cast<ccd::vertex_index*>(copied(std::vector<ccd::vertex_index>(set.size() + 1)));
     const std::size_t bytes = ccd::cuda::scratch_bytes(set.before.size(), set.size());
     const ccd::cuda::scratch memory{copied(std::vector<std::byte>(bytes)), bytes};
 
@@ -124,12 +125,12 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     const ccd::cuda::stage_counts& counts = finished.stages;
     expect_done(ccd::cuda::select_colliding(answers, set.size(), found, set.size(),
                                             found + set.size(), memory, stream));
-    std::vector<ccd::index> list(set.size() + 1);
+    std::vector<ccd::vertex_index> list(set.size() + 1);
     ASSERT_EQ(cudaStreamSynchronize(stream), cudaSuccess);
     ASSERT_EQ(cudaMemcpy(list.data(), found, list.size() * sizeof list[0], cudaMemcpyDeviceToHost),
               cudaSuccess);
-    std::vector<ccd::index> expected;
-    for (ccd::index i = 0; i < set.size(); ++i)
+    std::vector<ccd::vertex_index> expected;
+    for (ccd::vertex_index i = 0; i < set.size(); ++i)
         if (ccd::decide_exact(set.queries[i]).outcome != outcome::separate) expected.push_back(i);
     ASSERT_EQ(list.back(), expected.size());
     list.resize(expected.size());
@@ -172,12 +173,12 @@ TEST(device_arguments, are_refused_in_words) {
         std::string::npos);
     EXPECT_NE(error(at, candidates::rows(nullptr, 1), &answer, little).find("null pointer"),
               std::string::npos);
-    const ccd::index one_index = 0;
+    const ccd::vertex_index one_index = 0;
     EXPECT_NE(error(at, candidates::pairs(&one_index, &one_index, nullptr, 1), &answer, little)
                   .find("null pointer"),
               std::string::npos);
     EXPECT_TRUE(ccd::cuda::decide_batch(at, candidates{}, nullptr, {}));
-    ccd::index found_one = 0, count = 0;
+    ccd::vertex_index found_one = 0, count = 0;
     EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, {}).error.find("null"),
               std::string::npos);
     EXPECT_NE(ccd::cuda::select_colliding(&answer, 1, &found_one, 1, &count, little)

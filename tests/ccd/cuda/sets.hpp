@@ -37,7 +37,7 @@ struct batch {
     std::vector<Pair> rows;
 
     void add(const query& q) {
-        const auto v = static_cast<ccd::index>(before.size());
+        const auto v = static_cast<ccd::vertex_index>(before.size());
         rows.push_back({v, v + 1, v + 2, v + 3});
         queries.push_back(q);
         for (const auto& p : points_of(q)) {

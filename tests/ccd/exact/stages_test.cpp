@@ -210,7 +210,7 @@ TEST(batch, indices_give_the_same_answers_as_stored_queries) {
             std::vector<indices_type> indices;
             std::vector<ccd::outcome> truth;
             for (std::size_t k = 0; k < times; ++k) {
-                for (ccd::index i = 0; i < 4 * set.queries.size(); i += 4)
+                for (ccd::vertex_index i = 0; i < 4 * set.queries.size(); i += 4)
                     indices.push_back({i, i + 1, i + 2, i + 3});
                 truth.insert(truth.end(), set.truth.begin(), set.truth.end());
             }
@@ -252,7 +252,7 @@ TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_quer
         EXPECT_EQ(decide_exact(queries[i]).cause, ccd::cause::range);
     }
     std::vector<ccd::vertex_face_pair> indices;
-    for (ccd::index i = 0; i < 4 * queries.size(); i += 4)
+    for (ccd::vertex_index i = 0; i < 4 * queries.size(); i += 4)
         indices.push_back({i, i + 1, i + 2, i + 3});
     const rows_of_queries<ccd::vertex_face<double>> positions(queries);
     for (const ccd::instruction_set isa : ccd::instruction_sets()) {

@@ -71,7 +71,7 @@ std::string ply(const mesh& m, const std::string& format, const std::string& coo
         if (ascii) text += '\n';
     }
     const auto append_indices = [&](const auto& element) {
-        for (const ccd::index i : element) {
+        for (const ccd::vertex_index i : element) {
             if (ascii)
                 text += ' ' + std::to_string(i);
             else

@@ -16,9 +16,9 @@
 
 namespace brute_force {
 
-using ccd::index;
+using ccd::vertex_index;
 using two_frames = std::pair<ccd::mesh, ccd::mesh>;
-using vertex = std::array<index, 1>;
+using vertex = std::array<vertex_index, 1>;
 
 /// A soup of triangles on a small grid, so that touching boxes and degenerate contacts abound.
 inline two_frames random_soup(std::uint64_t seed, unsigned vertices, unsigned faces) {
@@ -28,7 +28,7 @@ inline two_frames random_soup(std::uint64_t seed, unsigned vertices, unsigned fa
     for (unsigned i = 0; i < vertices; ++i)
         before.vertices.push_back({coordinate(), coordinate(), coordinate()});
     for (unsigned i = 0; i < faces; ++i) {
-        const auto v = static_cast<index>(random() % (vertices - 2));
+        const auto v = static_cast<vertex_index>(random() % (vertices - 2));
         before.faces.push_back({v + 2, v, v + 1});
     }
     ccd::mesh after = before;
@@ -43,7 +43,7 @@ inline two_frames random_mixture(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto coordinate = [&random] { return static_cast<double>(random() % 6); };
     for (unsigned i = 0; i < 8; ++i)
-        before.edges.push_back({index(random() % 24), index(random() % 24)});
+        before.edges.push_back({vertex_index(random() % 24), vertex_index(random() % 24)});
     before.edges.push_back({before.edges[0][1], before.edges[0][0]});
     before.edges.push_back({before.faces[0][0], before.faces[0][1]});
     before.edges.push_back({23, 23});
@@ -62,7 +62,7 @@ struct elements {
     explicit elements(const ccd::mesh& m) {
         std::set<ccd::face> seen;
         std::set<ccd::edge> of_faces, all, lone;
-        const auto add = [](std::set<ccd::edge>& to, index v, index w) {
+        const auto add = [](std::set<ccd::edge>& to, vertex_index v, vertex_index w) {
             if (v != w) to.insert({std::min(v, w), std::max(v, w)});
         };
         for (const ccd::face& f : m.faces) {
@@ -75,9 +75,9 @@ struct elements {
         for (const ccd::edge& e : m.edges) add(all, e[0], e[1]);
         std::ranges::set_difference(all, of_faces, std::back_inserter(rods));
         edges.assign(all.begin(), all.end());
-        std::set<index> on_edges;
+        std::set<vertex_index> on_edges;
         for (const ccd::edge& e : edges) on_edges.insert(e.begin(), e.end());
-        for (index v = 0; v < m.vertices.size(); ++v) {
+        for (vertex_index v = 0; v < m.vertices.size(); ++v) {
             vertices.push_back({v});
             if (!on_edges.contains(v)) points.push_back({v});
         }
@@ -86,16 +86,17 @@ struct elements {
 
 /// Whether two elements share a vertex, and whether the closed boxes that they sweep touch.
 template <std::size_t A, std::size_t B>
-bool share_vertex(const std::array<index, A>& a, const std::array<index, B>& b) {
-    return std::ranges::any_of(a, [&](index v) { return std::ranges::find(b, v) != b.end(); });
+bool share_vertex(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) {
+    return std::ranges::any_of(a,
+                               [&](vertex_index v) { return std::ranges::find(b, v) != b.end(); });
 }
 template <std::size_t A, std::size_t B>
-bool boxes_touch(const two_frames& at, const std::array<index, A>& a,
-                 const std::array<index, B>& b) {
+bool boxes_touch(const two_frames& at, const std::array<vertex_index, A>& a,
+                 const std::array<vertex_index, B>& b) {
     for (const auto axis : {&ccd::point<>::x, &ccd::point<>::y, &ccd::point<>::z}) {
         const auto extent = [&](const auto& element) {
             double low = at.first.vertices[element[0]].*axis, high = low;
-            for (const index v : element)
+            for (const vertex_index v : element)
                 for (const auto* m : {&at.first, &at.second}) {
                     low = std::min(low, m->vertices[v].*axis);
                     high = std::max(high, m->vertices[v].*axis);
@@ -109,7 +110,7 @@ bool boxes_touch(const two_frames& at, const std::array<index, A>& a,
     return true;
 }
 
-using vertices_may_collide = std::function<bool(index, index)>;
+using vertices_may_collide = std::function<bool(vertex_index, vertex_index)>;
 
 /// Adds the pairs of one kind: make(a, b) makes one.
 template <ccd::kind K, class As, class Bs, class Make>
@@ -121,8 +122,8 @@ void add_pairs(const two_frames& at, ccd::method method, const vertices_may_coll
         for (std::size_t j = within_one ? i + 1 : 0; j < bs.size(); ++j) {
             const auto &a = as[i], &b = bs[j];
             if (share_vertex(a, b) || !boxes_touch(at, a, b)) continue;
-            if (may && std::ranges::none_of(a, [&](index v) {
-                    return std::ranges::any_of(b, [&](index w) { return may(v, w); });
+            if (may && std::ranges::none_of(a, [&](vertex_index v) {
+                    return std::ranges::any_of(b, [&](vertex_index w) { return may(v, w); });
                 }))
                 continue;
             ++result.candidates.of<K>();

@@ -7,10 +7,10 @@
 
 namespace {
 
-using brute_force::index;
 using brute_force::random_mixture;
 using brute_force::two_frames;
 using brute_force::vertex;
+using brute_force::vertex_index;
 
 TEST(Mixture, AgreesWithBruteForce) {
     ccd::pair_counts found;
@@ -63,7 +63,7 @@ bool touch(const ccd::vertex_rows& rows, const element& a, const element& b) {
 }
 
 bool holds(const element& e, auto... vertices) {
-    const auto is_one = [&e](index v) {
+    const auto is_one = [&e](vertex_index v) {
         return std::ranges::find(e.vertices, vertex{v}) != e.vertices.end();
     };
     return (is_one(vertices) && ...);

@@ -9,9 +9,9 @@
 namespace {
 
 using brute_force::expect_same;
-using brute_force::index;
 using brute_force::random_mixture;
 using brute_force::two_frames;
+using brute_force::vertex_index;
 
 TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     const auto [mesh, second] = random_mixture(1);
@@ -48,9 +48,11 @@ TEST(Filter, LetsThroughPairsOfWhichSomeVerticesMayCollide) {
         groups[v] = static_cast<int>(v / 9);
         pinned[v] = v % 3 != 0;
     }
-    const auto by_sum = [](index v, index w) { return (v + w) % 5 == 0; };
-    const auto one_group = [&](index v, index w) { return groups[v] == groups[w]; };
-    const auto one_moves = [&](index v, index w) { return pinned[v] == 0 || pinned[w] == 0; };
+    const auto by_sum = [](vertex_index v, vertex_index w) { return (v + w) % 5 == 0; };
+    const auto one_group = [&](vertex_index v, vertex_index w) { return groups[v] == groups[w]; };
+    const auto one_moves = [&](vertex_index v, vertex_index w) {
+        return pinned[v] == 0 || pinned[w] == 0;
+    };
     const auto unfiltered = ccd::step(at.first, at.second);
     const auto expect = [&](const ccd::pair_filter& filter, const auto& may) {
         const auto found = ccd::step(at.first, at.second, {.filter = filter});
@@ -59,11 +61,13 @@ TEST(Filter, LetsThroughPairsOfWhichSomeVerticesMayCollide) {
         EXPECT_GT(found.candidates.edge_edge, 0U);
     };
     expect({.can_collide = by_sum}, by_sum);
-    expect({.groups = groups}, [&](index v, index w) { return !one_group(v, w); });
+    expect({.groups = groups}, [&](vertex_index v, vertex_index w) { return !one_group(v, w); });
     expect({.groups = groups, .rule = ccd::pair_filter::group_rule::within_groups}, one_group);
     expect({.pinned = pinned}, one_moves);
     expect({.can_collide = by_sum, .groups = groups, .pinned = pinned},
-           [&](index v, index w) { return by_sum(v, w) && !one_group(v, w) && one_moves(v, w); });
+           [&](vertex_index v, vertex_index w) {
+               return by_sum(v, w) && !one_group(v, w) && one_moves(v, w);
+           });
 }
 
 TEST(Candidates, AreThoseOfTheStep) {
@@ -86,7 +90,8 @@ TEST(Candidates, AreThoseOfTheStep) {
     EXPECT_EQ(counts.edge_edge, expected.candidates.edge_edge);
     EXPECT_EQ(counts.vertex_face, 0U);  // without a visitor
     const auto none = steps.candidates(
-        {at.first, at.second}, {.filter = {.can_collide = [](index, index) { return false; }}});
+        {at.first, at.second},
+        {.filter = {.can_collide = [](vertex_index, vertex_index) { return false; }}});
     EXPECT_EQ(none, ccd::pair_lists{});
 }
 

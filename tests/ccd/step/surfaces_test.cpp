@@ -47,7 +47,7 @@ TEST_P(NastyShape, AgreesWithBruteForce) {
             generator random(seed);
             ccd::mesh before, after;
             for (unsigned patch = 0; patch < patches; ++patch) {
-                const ccd::index v = 6 * patch;
+                const ccd::vertex_index v = 6 * patch;
                 for (unsigned i = 0; i < 6; ++i) {
                     const auto p = GetParam().vertex(random, patch);
                     before.vertices.push_back(p.t0);
@@ -75,13 +75,13 @@ ccd::point<double> moved(const ccd::point<double>& p, const ccd::point<double>& 
 TEST(Step, FindsInEachOfManyCopiesWhatItFindsInOne) {
     const auto [before, after] = random_soup(4, 60, 50);
     const auto one = brute_force::step({before, after});
-    constexpr ccd::index copies = 120;
+    constexpr ccd::vertex_index copies = 120;
     ccd::mesh all_before, all_after;
     ccd::pair_lists expected;
-    for (ccd::index copy = 0; copy < copies; ++copy) {
-        const ccd::index first = 60 * copy;
+    for (ccd::vertex_index copy = 0; copy < copies; ++copy) {
+        const ccd::vertex_index first = 60 * copy;
         const ccd::point<double> offset{100.0 * (copy % 5), 100.0 * (copy / 5), 0};
-        for (ccd::index v = 0; v < 60; ++v) {
+        for (ccd::vertex_index v = 0; v < 60; ++v) {
             all_before.vertices.push_back(moved(before.vertices[v], offset));
             all_after.vertices.push_back(moved(after.vertices[v], offset));
         }
@@ -138,14 +138,14 @@ TEST(Mesh, UniqueEdgesAreThoseOfAllFaces) {
     EXPECT_TRUE(ccd::unique_edges({}).empty());
     const std::vector<ccd::face> point{{7, 7, 7}};
     EXPECT_TRUE(ccd::unique_edges(point).empty());
-    constexpr ccd::index last = std::numeric_limits<ccd::index>::max();
+    constexpr ccd::vertex_index last = std::numeric_limits<ccd::vertex_index>::max();
     generator random(1);
-    for (const ccd::index range : {3U, 50U, 100000U, last}) {
+    for (const ccd::vertex_index range : {3U, 50U, 100000U, last}) {
         std::vector<ccd::face> faces;
         std::set<ccd::edge> expected;
         for (unsigned i = 0; i < 300; ++i) {
             ccd::face f;
-            for (auto& v : f) v = range - static_cast<ccd::index>(random() % range);
+            for (auto& v : f) v = range - static_cast<ccd::vertex_index>(random() % range);
             faces.push_back(f);
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [v, w] = std::minmax(f[k], f[(k + 1) % 3]);

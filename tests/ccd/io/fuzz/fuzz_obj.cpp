@@ -23,7 +23,7 @@ std::string obj(const ccd::mesh& m) {
     const auto add = [&text](char keyword, const auto& elements) {
         for (const auto& e : elements) {
             text += keyword;
-            for (const ccd::index i : e) text += ' ' + std::to_string(std::uint64_t{i} + 1);
+            for (const ccd::vertex_index i : e) text += ' ' + std::to_string(std::uint64_t{i} + 1);
             text += '\n';
         }
     };

@@ -30,10 +30,10 @@ std::string binary_ply(const ccd::mesh& m) {
     }
     for (const auto& f : m.faces) {
         bytes += '\3';
-        for (const ccd::index i : f) append(bytes, i);
+        for (const ccd::vertex_index i : f) append(bytes, i);
     }
     for (const auto& e : m.edges) {
-        for (const ccd::index i : e) append(bytes, i);
+        for (const ccd::vertex_index i : e) append(bytes, i);
     }
     return bytes;
 }
