@@ -1,0 +1,96 @@
+"""Runs fuzzers by libFuzzer, each for some minutes, and says what they ran, covered and found.
+
+Argument: a build folder of the preset `fuzz`; options as --help says. Fuzzers are the build's
+targets fuzz_*. Status 1 if any fuzzer found something: its input is then in out/fuzz/NAME.
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SAVED = ROOT / "tests/fuzz/corpus"
+FOUND = ROOT / "out/fuzz"
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="./run fuzz", description="Fuzzers by libFuzzer.")
+    parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="those with one of these in their names")
+    parser.add_argument("--minutes", type=float, default=1, metavar="M", help="each, else 1")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
+                        help="fuzzers at a time, else one per core")
+    parser.add_argument("--minimise", action="store_true",
+                        help="then keep in tests/fuzz/corpus the fewest inputs that cover as much")
+    return parser.parse_args()
+
+
+def fuzzers(build, names):
+    """The build's targets that were asked for."""
+    listed = subprocess.run(["cmake", "--build", build, "--target", "help"], check=True,
+                            stdout=subprocess.PIPE, text=True).stdout
+    known = sorted(set(re.findall(r"^(?:\.\.\. )?(fuzz_\w+)(?::|$)", listed, re.MULTILINE)))
+    chosen = [name for name in known if not names or any(part in name for part in names)]
+    if not chosen:
+        sys.exit(f"run: found no fuzzer named {' '.join(names)}, expected one of {', '.join(known)}")
+    return chosen
+
+
+def run(build, name, minutes):
+    """A row of the table: what libFuzzer's last lines say."""
+    folder = FOUND / name
+    corpus = folder / "corpus"
+    corpus.mkdir(parents=True, exist_ok=True)
+    saved = [SAVED / name] if (SAVED / name).is_dir() else []
+    with open(folder / "log", "w+") as log:
+        status = subprocess.run(
+            [build / "fuzz" / name, f"-max_total_time={round(60 * minutes)}", "-timeout=20",
+             "-rss_limit_mb=3000", "-print_final_stats=1", f"-artifact_prefix={folder}/", corpus, *saved],
+            stdout=log, stderr=subprocess.STDOUT).returncode
+        log.seek(0)
+        text = log.read()
+    progress = re.findall(r"^#(\d+)\s.*?cov: (\d+) ft: (\d+) corp: (\d+)/", text, re.MULTILINE)
+    edges = sum(map(int, re.findall(r"\((\d+) inline 8-bit counters\)", text)))
+    runs = re.search(r"number_of_executed_units: (\d+)", text)
+    _, covered, features, kept = progress[-1] if progress else (0, 0, 0, 0)
+    found = re.findall(r"Test unit written to (\S+)", text)
+    return [name, f"{int(runs[1]) if runs else 0:,}", f"{int(covered):,} of {edges:,}", f"{int(features):,}",
+            kept, found[-1] if found else "nothing" if status == 0 else f"stopped, see {folder}/log"]
+
+
+def minimise(build, name):
+    """The fewest inputs of old and new ones that cover what all do."""
+    fewest = FOUND / name / "fewest"
+    shutil.rmtree(fewest, ignore_errors=True)
+    fewest.mkdir()
+    saved = SAVED / name
+    saved.mkdir(exist_ok=True)
+    subprocess.run([build / "fuzz" / name, "-set_cover_merge=1", fewest, saved, FOUND / name / "corpus"],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    shutil.rmtree(saved)
+    shutil.move(fewest, saved)
+
+
+def main():
+    asked = arguments()
+    build = asked.build.resolve()
+    names = fuzzers(build, asked.names)
+    subprocess.run(["cmake", "--build", build, "--target", *names], check=True)
+    with concurrent.futures.ThreadPoolExecutor(max(asked.jobs, 1)) as jobs:
+        rows = list(jobs.map(lambda name: run(build, name, asked.minutes), names))
+    heading = ["fuzzer", "runs", "edges covered", "features", "corpus", "found"]
+    widths = [max(len(str(row[i])) for row in [heading, *rows]) for i in range(len(heading))]
+    for row in [heading, *rows]:
+        print("  ".join(str(cell).ljust(width) for cell, width in zip(row, widths)).rstrip())
+    if asked.minimise:
+        for name in names:
+            minimise(build, name)
+    return any(row[-1] != "nothing" for row in rows)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
