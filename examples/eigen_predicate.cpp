@@ -26,14 +26,6 @@ constexpr double coordinate_of(const station& s, int i) {
 }
 }  // namespace survey
 
-// Points one after the other in memory, as columns of a matrix: anything indexed by numbers.
-struct columns {
-    const Eigen::Matrix2Xd& matrix;
-    Eigen::Map<const Eigen::Vector2d> operator[](std::size_t i) const {
-        return Eigen::Map<const Eigen::Vector2d>(matrix.data() + 2 * i);
-    }
-};
-
 int main() {
     // One by one. 0.1 + 0.2 and 0.3 are different doubles: c is left of the line by 2^-54.
     const Eigen::Vector2d a(0, 0), b(1, 1), c(0.3, 0.1 + 0.2);
@@ -60,7 +52,7 @@ int main() {
 
     std::vector<sign_type> signs(n), of_columns(n), of_list(n);
     errbound::batch_signs(errbound::orient2d, signs, from, to, arrays);
-    errbound::batch_signs(errbound::orient2d, of_columns, from, to, columns{by_point});
+    errbound::batch_signs(errbound::orient2d, of_columns, from, to, by_point.colwise());
     errbound::batch_signs(errbound::orient2d, of_list, from, to, list);
     std::array<int, 3> count{};
     for (Eigen::Index i = 0; i < n; ++i) {

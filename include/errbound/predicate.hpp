@@ -166,8 +166,8 @@ class predicate_type {
     template <class... Points, std::size_t... I>
     static constexpr bool has_dimensions(std::index_sequence<I...>) {
         return sizeof...(Points) != Shape::count ||
-               ((filters::known_dimension<Points>() == 0 ||
-                 static_cast<int>(filters::known_dimension<Points>()) >= Shape::dimensions[I]) &&
+               ((filters::max_dimension<Points>() == 0 ||
+                 static_cast<int>(filters::max_dimension<Points>()) >= Shape::dimensions[I]) &&
                 ...);
     }
     template <class... Points>

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,28 @@ namespace detail {
 
 inline constexpr std::size_t block_size = 64;
 
+/// Input i of a range, by its index or its iterators.
+template <class Range>
+constexpr decltype(auto) input_of(const Range& range, std::size_t i) {
+    if constexpr (filters::matrix_point<Range>)
+        static_assert(Range::RowsAtCompileTime == 1 || Range::ColsAtCompileTime == 1,
+                      "errbound: a matrix is no range of points: write m.colwise()");
+    if constexpr (requires { range[i]; })
+        return range[i];
+    else
+        return range.begin()[static_cast<std::ptrdiff_t>(i)];
+}
+/// Whether a range has so many inputs, as far as it tells.
+template <class Range>
+constexpr bool has_inputs(const Range& range, std::size_t count) {
+    if constexpr (requires { range.size(); })
+        return static_cast<std::size_t>(range.size()) >= count;
+    else if constexpr (requires { range.end() - range.begin(); })
+        return static_cast<std::size_t>(range.end() - range.begin()) >= count;
+    else
+        return true;
+}
+
 /// Whether coordinates of such points are read from memory, not computed by a function of theirs.
 template <class Point>
 inline constexpr bool has_stored_coordinates =
@@ -67,7 +90,7 @@ class computed_block {
         for (std::size_t k = 0; k < rows; ++k) block.coordinates[k] = rows_[k].data();
         for (std::size_t i = 0; i < block_size; ++i)
             for (std::size_t k = 0; k < rows; ++k)
-                rows_[k][i] = coordinate_of(range_[first + i], static_cast<int>(k));
+                rows_[k][i] = coordinate_of(input_of(range_, first + i), static_cast<int>(k));
         return block;
     }
 
@@ -166,7 +189,7 @@ template <class Predicate, class... Ranges, std::size_t... I>
 void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::index_sequence<I...>,
                 const Ranges&... p) {
     std::size_t first = 0;
-    using estimate = decltype(Predicate::estimate(p[first]...));
+    using estimate = decltype(Predicate::estimate(input_of(p, first)...));
     if constexpr (!std::is_same_v<estimate, sign_type>) {
         using T = decltype(estimate::value);
         std::tuple blocks{blocks_of<T, Predicate::shape::dimensions[I]>(p)...};
@@ -176,20 +199,23 @@ void batch_over(const Predicate& predicate, std::span<sign_type> signs, std::ind
             if (filter(&signs[first], std::get<I>(blocks).at(first)...)) [[likely]]
                 continue;
             for (std::size_t i = first; i < first + block_size; ++i)
-                if (!certain(signs[i])) signs[i] = predicate(p[i]...);
+                if (!certain(signs[i])) signs[i] = predicate(input_of(p, i)...);
         }
     }
-    for (; first < signs.size(); ++first) signs[first] = predicate(p[first]...);
+    for (; first < signs.size(); ++first) signs[first] = predicate(input_of(p, first)...);
 }
 
 }  // namespace detail
 
-/// signs[i] becomes the predicate's sign of point i of each range: anything indexed by numbers, of
-/// at least signs.size() points. Contiguous ranges of arrays, and coordinate_arrays, are read where
-/// they are; coordinates of others are copied first, 64 points at a time.
+/// signs[i] becomes the predicate's sign of point i of each range: anything that numbers or its
+/// iterators index, such as a matrix's columns, m.colwise(). Precondition: at least signs.size()
+/// points each. Contiguous ranges of arrays, and coordinate_arrays, are read where they are;
+/// coordinates of others are copied first, 64 points at a time.
 /// Expressions that branch go one by one. No allocation.
 template <class Predicate, class... Ranges>
 void batch_signs(const Predicate& predicate, std::span<sign_type> signs, const Ranges&... p) {
+    assert((detail::has_inputs(p, signs.size()) && ...) &&
+           "errbound: a range has fewer points than there are signs");
     detail::batch_over(predicate, signs, std::index_sequence_for<Ranges...>(), p...);
 }
 

@@ -1,9 +1,12 @@
-// Tracked scalars inside Eigen's matrices.
+// Tracked scalars inside Eigen's matrices; Eigen's vectors, of every kind, as points.
+#undef NDEBUG  // sizes that are known when the program runs are assertions
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <errbound/eigen.hpp>
+#include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <vector>
 
 namespace {
 
@@ -36,6 +39,65 @@ TEST(Eigen, VectorsArePoints) {
     EXPECT_EQ(errbound::orient2d(a, b, c), sign_type::positive);
     const Eigen::Matrix<float, 3, 4> m = Eigen::Matrix<float, 3, 4>::Identity();
     EXPECT_EQ(errbound::orient3d(m.col(0), m.col(1), m.col(2), m.col(3)), sign_type::positive);
+}
+
+/// a, b, c turn left.
+const Eigen::VectorXd a = Eigen::Vector2d(0, 0), b = Eigen::Vector2d(1, 0),
+                      c = Eigen::Vector2d(0, 1);
+
+template <class... Points>
+void expect_left_turn(const Points&... p) {
+    EXPECT_EQ(errbound::orient2d(p...), sign_type::positive);
+    for (const auto stage :
+         {errbound::predicate_stage::static_filter, errbound::predicate_stage::long_integers})
+        EXPECT_EQ(errbound::orient2d.by(stage, p...), sign_type::positive);
+}
+
+TEST(Eigen, VectorsOfASizeKnownAtRunTimeArePoints) {
+    Eigen::MatrixXd columns(2, 3);
+    columns << a, b, c;
+    const Eigen::MatrixXd rows = columns.transpose(), identity = Eigen::MatrixXd::Identity(2, 2);
+    expect_left_turn(a, b, c);
+    expect_left_turn(columns.col(0), columns.col(1), columns.col(2));
+    expect_left_turn(rows.row(0), rows.row(1), rows.row(2));
+    expect_left_turn(columns.block(0, 0, 2, 1), rows.block(1, 0, 1, 2), columns.rightCols(1));
+    expect_left_turn(Eigen::Map<const Eigen::VectorXd>(a.data(), 2),
+                     Eigen::Map<const Eigen::RowVectorXd>(b.data(), 2), c.head(2));
+    expect_left_turn(a + b - b, 2 * b, c.cwiseAbs());
+    expect_left_turn(identity * a, c.reverse(), c.transpose() * identity);
+    expect_left_turn(a.cast<float>(), Eigen::ArrayXf(b.cast<float>()), c.array());
+    expect_left_turn(Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>(a), b, Eigen::Vector2d(c));
+}
+
+TEST(Eigen, VectorsOfASizeKnownAtRunTimeMakeBatches) {
+    const std::vector<Eigen::VectorXd> list(100, c);
+    const Eigen::MatrixXd columns = c.replicate(1, 100), rows = columns.transpose();
+    const errbound::every<Eigen::VectorXd> from{a}, to{b};
+    const std::vector<sign_type> left(100, sign_type::positive);
+    std::vector<sign_type> signs(100);
+    const auto expect_left = [&](const auto& points) {
+        errbound::batch_signs(errbound::orient2d, signs, from, to, points);
+        EXPECT_EQ(signs, left);
+        signs.assign(100, sign_type::uncertain);
+    };
+    expect_left(list);
+    expect_left(columns.colwise());
+    expect_left(rows.rowwise());
+}
+
+TEST(Eigen, PointsAndBatchesThatAreTooShortAreAssertions) {
+    constexpr const char* message = "fewer coordinates than the predicate's shape says";
+    const Eigen::VectorXd one = Eigen::VectorXd::Zero(1);
+    EXPECT_DEATH((void)errbound::orient2d(a, b, one), message);
+    EXPECT_DEATH((void)errbound::orient2d(a, std::vector<double>{1}, c), message);
+    EXPECT_DEATH((void)errbound::orient2d(a, std::span<const double>(b.data(), 1), c), message);
+    const Eigen::MatrixXd square = Eigen::MatrixXd::Zero(2, 2);
+    EXPECT_DEATH((void)errbound::orient2d(a, b, square.block(0, 0, 2, 2)),
+                 "a point only if it is a row or a column");
+    std::vector<sign_type> signs(3);
+    EXPECT_DEATH(errbound::batch_signs(errbound::orient2d, signs, square.colwise(),
+                                       square.colwise(), square.colwise()),
+                 "a range has fewer points than there are signs");
 }
 
 }  // namespace
