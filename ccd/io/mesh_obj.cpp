@@ -1,4 +1,5 @@
 // The OBJ reader. Our own, because the libraries at hand do not round coordinates correctly.
+#include <algorithm>
 #include <array>
 #include <ccd/io/mesh_file.hpp>
 #include <charconv>
@@ -17,18 +18,43 @@ namespace {
 
 using errbound::support::file_error;
 
+/// Keywords that say nothing of vertices, faces or edges: names, materials, rendering, what belongs
+/// to vertices or to free-form geometry. A point element (p) adds nothing, since every vertex is
+/// one.
+constexpr std::array<std::string_view, 33> skipped_keywords{
+    "vt",         "vn",        "vp",     "p",      "g",      "s",      "mg",     "o",     "bevel",
+    "c_interp",   "d_interp",  "lod",    "usemtl", "mtllib", "usemap", "maplib", "ctech", "stech",
+    "shadow_obj", "trace_obj", "cstype", "deg",    "bmat",   "step",   "curv2",  "parm",  "trim",
+    "hole",       "scrv",      "sp",     "end",    "con",    "res"};
+
+/// Free-form curves and surfaces, and what takes lines from elsewhere: a mesh would lack what they
+/// stand for.
+constexpr std::array<std::string_view, 8> refused_keywords{"curv", "surf", "bzp",  "bsp",
+                                                           "cdc",  "cdp",  "call", "csh"};
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+bool is_control(char c) {
+    return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
+}
+
 class obj_parser {
   public:
-    explicit obj_parser(const std::string& name) : name_(name) {}
+    obj_parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
-    mesh parse(std::string_view text) {
-        while (const std::optional<std::string_view> whole = take_line(text)) {
-            ++line_;
-            std::string_view line = whole->substr(0, whole->find('#'));
-            const std::string_view keyword = take_word(line);
-            if (keyword == "v") read_vertex(line);
-            if (keyword == "f") read_face(line);
-            if (keyword == "l") read_polyline(line);
+    mesh parse() {
+        while (std::optional<std::string_view> line = next_line()) {
+            const std::string_view keyword = take_word(*line);
+            if (keyword == "v")
+                read_vertex(*line);
+            else if (keyword == "f" || keyword == "fo")  // fo: what f was called at first
+                read_face(*line);
+            else if (keyword == "l")
+                read_polyline(*line);
+            else if (!keyword.empty())
+                require_skipped(keyword);
         }
         if (result_.vertices.empty() || (result_.faces.empty() && result_.edges.empty())) {
             throw file_error(name_ + ": found no " +
@@ -44,6 +70,49 @@ class obj_parser {
   private:
     [[noreturn]] void fail(const std::string& what) const {
         throw file_error(name_ + ":" + std::to_string(line_) + ": " + what);
+    }
+
+    /// The next line without its comment, and with the lines that a backslash at its end adds.
+    std::optional<std::string_view> next_line() {
+        line_ += continuations_ + 1;
+        continuations_ = 0;
+        const std::optional<std::string_view> first = next_piece();
+        if (!first || !first->ends_with('\\')) return first;
+        joined_ = *first;
+        while (joined_.ends_with('\\')) {
+            joined_.pop_back();
+            ++continuations_;
+            const std::optional<std::string_view> next = next_piece();
+            if (!next) fail("found a backslash at the end of the file, expected a line after it");
+            // Whether a word goes on across the line end is where readers differ.
+            const bool may_split = !joined_.empty() && !next->empty() &&
+                                   !is_blank(joined_.back()) && !is_blank(next->front());
+            if (may_split)
+                fail("found a backslash that may split a word, expected a blank before it");
+            joined_ += *next;
+        }
+        return joined_;
+    }
+
+    /// A line of the file without its comment.
+    std::optional<std::string_view> next_piece() {
+        const std::optional<std::string_view> whole = take_line(text_);
+        if (!whole) return whole;
+        const std::string_view piece = whole->substr(0, whole->find('#'));
+        // Some readers take the next line for a part of the comment.
+        if (piece.size() < whole->size() && whole->ends_with('\\'))
+            fail("found a backslash at the end of a comment, expected none");
+        if (std::ranges::any_of(piece, is_control))
+            fail("found a control character in " + excerpt(piece) + ", expected text");
+        return piece;
+    }
+
+    void require_skipped(std::string_view keyword) const {
+        if (std::ranges::find(refused_keywords, keyword) != refused_keywords.end())
+            fail("found " + excerpt(keyword) + ", which a mesh cannot hold, expected triangles");
+        if (std::ranges::find(skipped_keywords, keyword) == skipped_keywords.end())
+            fail("found the keyword " + excerpt(keyword) +
+                 ", expected v, f, l or another of OBJ's");
     }
 
     template <class Element>
@@ -138,17 +207,20 @@ class obj_parser {
         return static_cast<vertex_index>(i > 0 ? i - 1 : vertices + i);
     }
 
+    std::string_view text_;
     const std::string& name_;
+    std::string joined_;  ///< lines that backslashes join
     mesh result_;
     std::vector<std::size_t> face_lines_, edge_lines_;
-    std::size_t line_ = 0;
+    std::size_t line_ = 0;           ///< the first of those joined
+    std::size_t continuations_ = 0;  ///< lines joined to it
 };
 
 }  // namespace
 
 mesh parse_mesh_obj(std::string_view text, const std::string& name) {
     if (text.empty()) throw file_error(name + ": found an empty file, expected an OBJ mesh");
-    return obj_parser(name).parse(text);
+    return obj_parser(without_byte_order_mark(text, name), name).parse();
 }
 
 }  // namespace ccd::io

@@ -65,7 +65,22 @@ class body_reader {
         return found == header_.elements.end() ? nullptr : &*found;
     }
 
+    /// Elements that would be lost with what they say of faces or edges, such as tristrips.
+    void require_no_other_geometry() const {
+        for (const element& e : header_.elements) {
+            if (e.count == 0 || e.name == "vertex" || e.name == "face" || e.name == "edge")
+                continue;
+            const bool has_indices = std::ranges::any_of(e.properties, [](const property& p) {
+                return is_face_list(p) || is_vertex_of_edge(p);
+            });
+            if (has_indices)
+                throw file_error(name_ + ": found vertex indices in element " + excerpt(e.name) +
+                                 ", expected them in face or edge");
+        }
+    }
+
     void require_elements() const {
+        require_no_other_geometry();
         const element* const vertices = find("vertex");
         const element* const faces = find("face");
         const element* const edges = find("edge");
@@ -218,6 +233,7 @@ class body_reader {
 mesh parse_mesh_ply(std::string_view text, const std::string& name) {
     if (text.empty()) throw file_error(name + ": found an empty file, expected a PLY mesh");
     using namespace ply;
+    text = without_byte_order_mark(text, name);
     const header head = parse_header(text, name);
     if (head.format == encoding::ascii)
         return body_reader(head, ascii_values(text, name, head.lines), name).read();

@@ -1,5 +1,6 @@
 #include "ccd/io/ply_header.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <errbound/support/error.hpp>
@@ -50,6 +51,10 @@ class header_parser {
     header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
 
     header parse() {
+        // Where CR alone ends the first line it ends all: a LF after the last is of a binary body.
+        const std::size_t first_end = text_.find_first_of("\r\n");
+        if (first_end != std::string_view::npos && !text_.substr(first_end).starts_with("\r\n"))
+            line_end_ = text_[first_end];
         std::string_view line = next_line();
         if (trimmed(line) != "ply") fail("found " + excerpt(line) + ", expected 'ply'");
         bool has_format = false;
@@ -89,10 +94,12 @@ class header_parser {
     }
 
     std::string_view next_line() {
-        const std::optional<std::string_view> line = take_line(text_);
         ++header_.lines;
-        if (!line) fail("found the end of the file in the header, expected end_header");
-        return *line;
+        if (text_.empty()) fail("found the end of the file in the header, expected end_header");
+        std::string_view line = text_.substr(0, text_.find(line_end_));
+        text_.remove_prefix(std::min(line.size() + 1, text_.size()));
+        if (line_end_ == '\n' && line.ends_with('\r')) line.remove_suffix(1);
+        return line;
     }
 
     void read_format(std::string_view line, std::string_view whole) {
@@ -162,6 +169,7 @@ class header_parser {
 
     std::string_view& text_;
     const std::string& name_;
+    char line_end_ = '\n';  ///< maybe after a CR
     header header_;
 };
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <errbound/support/error.hpp>
 #include <limits>
 #include <locale>
 #include <numeric>
@@ -21,6 +22,8 @@ using boost::multiprecision::cpp_int;
 constexpr number fail(number_status status) {
     return {0, status};
 }
+
+constexpr std::string_view blanks = " \t";
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
@@ -195,8 +198,15 @@ std::string excerpt(std::string_view found) {
     return result + "'";
 }
 
+std::string_view without_byte_order_mark(std::string_view text, const std::string& name) {
+    if (text.starts_with("\xfe\xff") || text.starts_with("\xff\xfe"))
+        throw errbound::support::file_error(name +
+                                            ": found UTF-16 or UTF-32, expected ASCII or UTF-8");
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    return text;
+}
+
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
     const std::size_t first = text.find_first_not_of(blanks);
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
@@ -204,15 +214,16 @@ std::string_view trimmed(std::string_view text) {
 
 std::optional<std::string_view> take_line(std::string_view& text) {
     if (text.empty()) return std::nullopt;
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
+    const auto end =
+        std::ranges::find_if(text, [](char c) { return c == '\n' || c == '\r'; }) - text.begin();
+    const std::string_view line = text.substr(0, static_cast<std::size_t>(end));
+    text.remove_prefix(line.size());
+    const std::size_t end_size = text.starts_with("\r\n") ? 2 : 1;
+    text.remove_prefix(std::min(end_size, text.size()));
     return line;
 }
 
 std::string_view take_word(std::string_view& line) {
-    constexpr std::string_view blanks = " \t\r";
     line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(blanks));
     line.remove_prefix(word.size());

@@ -11,10 +11,14 @@ namespace ccd::io {
 /// `found` in quotes for a message: printable ASCII only, at most 40 characters of it.
 std::string excerpt(std::string_view found);
 
-/// `text` without blanks (space, tab, carriage return) at either end.
+/// The text of a file without a byte order mark of UTF-8. Throws errbound::support::file_error,
+/// with `name` in its message, where the mark is that of UTF-16 or UTF-32.
+std::string_view without_byte_order_mark(std::string_view text, const std::string& name);
+
+/// `text` without blanks (space, tab) at either end.
 std::string_view trimmed(std::string_view text);
 
-/// Takes the next line, without its line end (LF or CRLF), off the front of `text`. Nothing if
+/// Takes the next line, without its line end (LF, CRLF or CR), off the front of `text`. Nothing if
 /// `text` is empty.
 std::optional<std::string_view> take_line(std::string_view& text);
 

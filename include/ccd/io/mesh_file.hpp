@@ -1,5 +1,6 @@
 // Readers of frames of a mesh (target errbound::ccd_io): PLY (ascii, binary in both byte orders)
-// and OBJ; coordinates bit for bit.
+// and OBJ; coordinates bit for bit. Lines end in LF, CRLF or CR; a byte order mark of UTF-8 is
+// skipped, UTF-16 refused.
 #pragma once
 
 #include <ccd/mesh.hpp>
@@ -17,14 +18,15 @@ mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads a frame from the text of a PLY file: all scalar types, elements in any order, elements and
 /// properties other than the vertices' x, y, z, the faces' vertex_indices (or vertex_index) and the
-/// edges' vertex1, vertex2 skipped. A coordinate is the value of its declared type: `property float
-/// x` with the text "0.1" is the float nearest to 0.1. `name` is used in messages. Throws as
-/// read_mesh does.
+/// edges' vertex1, vertex2 skipped; other elements with vertex indices (tristrips) are refused. A
+/// coordinate is the value of its declared type: `property float x` with the text "0.1" is the
+/// float nearest to 0.1. `name` is used in messages. Throws as read_mesh does.
 mesh parse_mesh_ply(std::string_view text, const std::string& name);
 
 /// Reads a frame from the text of an OBJ file: `v`, `f` and `l`, a polyline whose parts are
-/// edges (v, v/vt, v//vn, v/vt/vn, negative indices count back), other keywords ignored. `name` is
-/// used in messages. Throws as read_mesh does.
+/// edges (v, v/vt, v//vn, v/vt/vn, negative indices count back). The format's other keywords are
+/// skipped; curves, surfaces and `call`, which stand for what a mesh would lack, and words that are
+/// no keyword are refused. `name` is used in messages. Throws as read_mesh does.
 mesh parse_mesh_obj(std::string_view text, const std::string& name);
 
 /// Throws errbound::support::file_error unless both frames have the same topology.

@@ -307,6 +307,8 @@ TEST(Obj, BadInput) {
     EXPECT_EQ(obj_error(""), "m.obj: found an empty file, expected an OBJ mesh");
     EXPECT_EQ(obj_error("\x7f"
                         "ELF\1\2"),
+              "m.obj:1: found a control character in '\\x7fELF\\x01\\x02', expected text");
+    EXPECT_EQ(obj_error("o nothing\n"),
               "m.obj: found no vertices, expected lines 'v x y z' and 'f i j k' or 'l i j'");
     EXPECT_EQ(obj_error(three),
               "m.obj: found no faces or edges, expected lines 'v x y z' and 'f i j k' or 'l i j'");
@@ -331,6 +333,130 @@ TEST(Obj, BadInput) {
         EXPECT_TRUE(obj_error(three + "f 1 2 " + bad + "\n").starts_with("m.obj:4: found '"))
             << bad;
     }
+}
+
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const mesh triangle_mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+
+std::string with_line_ends(const std::string& text, const std::string& end) {
+    std::string result;
+    for (const char c : text) result += c == '\n' ? end : std::string(1, c);
+    return result;
+}
+
+TEST(Obj, ByteOrderMarkHidTheFirstVertex) {
+    expect_same(parse_mesh_obj("\xef\xbb\xbf" + triangle, "m"), triangle_mesh);
+    // As where two files, each with a mark, are put together.
+    EXPECT_EQ(
+        obj_error("v 0 0 0\n\xef\xbb\xbf" + triangle),
+        "m.obj:2: found the keyword '\\xef\\xbb\\xbfv', expected v, f, l or another of OBJ's");
+    for (const char* mark : {"\xff\xfe", "\xfe\xff"})
+        EXPECT_EQ(obj_error(mark + triangle),
+                  "m.obj: found UTF-16 or UTF-32, expected ASCII or UTF-8");
+    EXPECT_EQ(obj_error(std::string("v\0 \0\x30\0\n\0", 8)),
+              "m.obj:1: found a control character in 'v\\x00 \\x000\\x00', expected text");
+}
+
+TEST(Obj, KeywordsThatWereIgnoredTookTheirLinesWithThem) {
+    const auto error = [](const std::string& line) { return obj_error(triangle + line + "\n"); };
+    for (const char* word : {"V", "F", "vv", "\xc2\xa0v", "t", "v,", "1", "face", "fn", "v:"})
+        EXPECT_TRUE(error(std::string(word) + " 0 0 0").starts_with("m.obj:5: found the keyword '"))
+            << word;
+    for (const char* word : {"curv", "surf", "bzp", "bsp", "cdc", "cdp", "call", "csh"})
+        EXPECT_EQ(error(std::string(word) + " 1 2 3"),
+                  std::string("m.obj:5: found '") + word +
+                      "', which a mesh cannot hold, expected triangles");
+    for (const char* line :
+         {"vt 0 0", "vn 0 0 1", "vp 0", "p 1", "g a b", "s off", "mg 0", "o", "bevel on", "lod 1",
+          "usemtl a#b", "mtllib a b", "cstype bezier", "deg 3", "parm u 0 1", "end", " \t", ""})
+        EXPECT_EQ(error(line), "no error") << line;
+    expect_same(parse_mesh_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nfo 1 2 3\n", "m"), triangle_mesh);
+}
+
+TEST(Obj, LinesThatEndInCarriageReturnsWereOneLine) {
+    for (const char* end : {"\r", "\r\n", "\r\r\n", "\n\r"}) {
+        expect_same(parse_mesh_obj(with_line_ends("# all of it\n" + triangle, end), "m"),
+                    triangle_mesh);
+        expect_same(parse_mesh_obj(with_line_ends("o one\n" + triangle, end), "m"), triangle_mesh);
+    }
+    for (const char* end : {"\f", "\v", "\x1a", "\x1c"})
+        EXPECT_NE(obj_error(with_line_ends("o one\n" + triangle, end)).find("a control character"),
+                  std::string::npos);
+}
+
+TEST(Obj, LinesJoinedByBackslashes) {
+    expect_same(parse_mesh_obj("v 0 \\\n 0\\\r\n 0\nv 1 0 0\ng a \\\nv 5 5 5\nv 0 1 0\nf \\\n"
+                               "\\\n1 2 \\\n3 # last\n",
+                               "m"),
+                triangle_mesh);
+    EXPECT_EQ(obj_error("v 0 0 \\\n0\nv 1 0 0\nv 0 1 \\\nx\nf 1 2 3\n"),
+              "m.obj:4: found 'x', expected a number");
+    // "f 1 2 34" or "f 1 2 3 4", a comment of one line or of two: readers differ.
+    EXPECT_EQ(obj_error("f 1 2 3\\\n4\n"),
+              "m.obj:1: found a backslash that may split a word, expected a blank before it");
+    EXPECT_EQ(obj_error("# C:\\\n" + triangle),
+              "m.obj:1: found a backslash at the end of a comment, expected none");
+    EXPECT_EQ(obj_error(triangle + "f 1 2 3 \\"),
+              "m.obj:5: found a backslash at the end of the file, expected a line after it");
+    EXPECT_EQ(obj_error(triangle + "f 1 2 \\ \n3\n").substr(0, 16), "m.obj:5: found '");
+}
+
+TEST(Obj, VerticesOfFourToEightValues) {
+    const auto error = [](const std::string& values) {
+        return obj_error("v " + values + "\n" + triangle);
+    };
+    for (const char* good : {"0 0 0", "0 0 0 1", "0 0 0 1.0", "0 0 0 0.5 0.25 1"})
+        EXPECT_EQ(error(good), "no error") << good;
+    for (const char* bad :
+         {"", "0", "0 0", "0 0 0 0.5", "0 0 0 0 0", "0 0 0 1 0 0 0", "0 0 0 0 0 x"})
+        EXPECT_TRUE(error(bad).starts_with("m.obj:1: found ")) << bad;
+}
+
+TEST(Ply, HeadersWithMarksCarriageReturnsAndComments) {
+    const mesh m = some_mesh();
+    for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        const std::string text = ply<double, std::int32_t>(m, format, "double", "int");
+        const std::size_t body = text.find("end_header\n") + 11;
+        std::string header = text.substr(0, body);
+        header.replace(header.find("element"), 0, "comment element vertex 7\nobj_info \xff\n");
+        for (const char* end : {"\n", "\r\n", "\r"})
+            expect_same(parse_mesh_ply(
+                            "\xef\xbb\xbf" + with_line_ends(header, end) + text.substr(body), "m"),
+                        m);
+    }
+    EXPECT_EQ(ply_error("\xff\xfep"), "m.ply: found UTF-16 or UTF-32, expected ASCII or UTF-8");
+    const std::string one = ascii_ply("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    expect_same(parse_mesh_ply(with_line_ends(one, "\r"), "m"), triangle_mesh);
+}
+
+TEST(Ply, BinaryBodyThatBeginsLikeALineEnd) {
+    // 0x0a0d0a0a: the first bytes of x are LF and CR, which do not belong to the header.
+    mesh m = triangle_mesh;
+    m.vertices[0].x = std::bit_cast<float>(0x0a0d0a0aU);
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+        const std::string text = ply<float, std::int32_t>(m, "binary_big_endian", "float", "int");
+        const std::size_t body = text.find("end_header\n") + 11;
+        expect_same(
+            parse_mesh_ply(with_line_ends(text.substr(0, body), end) + text.substr(body), "m"), m);
+    }
+}
+
+TEST(Ply, StripsOfTrianglesWereSkippedBesideFaces) {
+    std::string text = ascii_ply("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n4 0 1 2 -1\n");
+    text.replace(text.find("end_header"), 0,
+                 "element tristrips 1\nproperty list int int vertex_indices\n");
+    EXPECT_EQ(ply_error(text),
+              "m.ply: found vertex indices in element 'tristrips', expected them in face or edge");
+}
+
+TEST(Ply, CountsOfMoreThan64Bits) {
+    for (const char* count :
+         {"18446744073709551616", "99999999999999999999999", "1e3", "3.0", "+3"}) {
+        EXPECT_TRUE(ply_error(ascii_ply(count, "1", "")).ends_with("expected element NAME COUNT"));
+        EXPECT_TRUE(ply_error(ascii_ply("3", count, "")).ends_with("expected element NAME COUNT"));
+    }
+    EXPECT_EQ(ply_error(ascii_ply("3", "18446744073709551615", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")),
+              "m.ply:14: found the end of the file, expected face 1 (truncated, or a wrong count)");
 }
 
 TEST(Meshes, Topology) {

@@ -52,6 +52,17 @@ TEST(Queries, RowsBecomePoints) {
     EXPECT_EQ(edges[0].b1, q.f2);
 }
 
+TEST(Queries, ByteOrderMarksAndCarriageReturns) {
+    const std::string rows = repeated("1,1,1,1,1,1\n", 8);
+    EXPECT_EQ(queries("\xef\xbb\xbf" + rows).size(), 1U);
+    EXPECT_EQ(query_error("\xff\xfe" + rows),
+              "q.csv: found UTF-16 or UTF-32, expected ASCII or UTF-8");
+    EXPECT_EQ(query_error("\xef\xbb\xbf").substr(0, 27), "q.csv: found an empty file,");
+    EXPECT_EQ(queries(repeated("1,1,1,1,1,1\r", 16)).size(), 2U);
+    EXPECT_EQ(query_error(std::string("1,\0,1\n", 7)),
+              "q.csv:1: found '\\x00' as y, expected a decimal or hexadecimal float");
+}
+
 TEST(Queries, FormsAndLineEnds) {
     const query_file truth =
         queries(repeated("1,1,1,1,1,1,1\r\n", 8) + repeated("1,1,1,1,1,1,0\r\n", 8) + "\r\n\n");
