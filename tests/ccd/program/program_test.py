@@ -315,7 +315,7 @@ class Step(ProgramTest):
         for name, content, message in [
                 ("empty.ply", "", "found an empty file"),
                 ("garbage.ply", bytes(range(256)), "found"),
-                ("garbage.obj", bytes(range(256)), "found no vertices"),
+                ("garbage.obj", bytes(range(256)), "found a control character"),
                 ("counts.ply", ply(BEFORE, FACES, vertex_count=7), "expected the end of the line"),
                 ("faces.ply", ply(BEFORE, FACES, face_count=3), "truncated, or a wrong count"),
                 ("trailing.ply", ply(BEFORE, FACES, face_count=1), "after the last element"),
