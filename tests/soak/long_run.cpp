@@ -20,19 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 using clock = std::chrono::steady_clock;
 using nlohmann::json;
-using query_families::families;
-using query_families::kind;
 
 double seconds_since(clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();
-}
-
-json json_of(const difference& d) {
-    return {{"family", families[d.family].name},
-            {"kind", short_name(d.which)},
-            {"index", d.index},
-            {"collides", d.collides},
-            {"wrong", d.wrong}};
 }
 
 /// Refuses what is not a whole number or is too large to have been counted.
@@ -43,25 +33,29 @@ std::uint64_t whole(const json& j) {
     return j.get<std::uint64_t>();
 }
 
-difference difference_of(const json& j) {
-    difference d;
-    const auto family = j.at("family").get<std::string>();
-    const auto found = std::ranges::find(families, family, &query_families::family::name);
-    if (found == std::end(families)) throw std::runtime_error("no family \"" + family + "\"");
-    d.family = static_cast<std::size_t>(found - std::begin(families));
-    d.which = ccd::find_kind(j.at("kind").get<std::string>()).value();
-    d.index = whole(j.at("index"));
-    d.collides = j.at("collides").get<bool>();
-    d.wrong = j.at("wrong").get<std::vector<std::string>>();
-    return d;
+json json_of(const count_table& table) {
+    json all{{"title", table.title}, {"columns", table.columns}, {"rows", json::array()}};
+    for (const auto& [name, counts] : table.rows)
+        all["rows"].push_back({{"name", name}, {"counts", counts}});
+    return all;
+}
+
+count_table table_of(const json& j) {
+    count_table table{j.at("title").get<std::string>(),
+                      j.at("columns").get<std::vector<std::string>>()};
+    for (const json& row : j.at("rows")) {
+        auto& counts = table[row.at("name").get<std::string>()];
+        for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = whole(row.at("counts").at(k));
+    }
+    return table;
 }
 
 /// Finished blocks, added up in their order.
 class collector {
   public:
-    explicit collector(totals from) : sum_(std::move(from)) {}
+    explicit collector(findings from) : sum_(std::move(from)) {}
 
-    void add(std::uint64_t block, totals found) {
+    void add(std::uint64_t block, findings found) {
         waiting_.emplace(block, std::move(found));
         for (auto next = waiting_.find(sum_.blocks); next != waiting_.end();
              next = waiting_.find(sum_.blocks)) {
@@ -69,22 +63,21 @@ class collector {
             waiting_.erase(next);
         }
     }
-    const totals& sum() const { return sum_; }
+    const findings& sum() const { return sum_; }
 
   private:
-    totals sum_;
-    std::map<std::uint64_t, totals> waiting_;
+    findings sum_;
+    std::map<std::uint64_t, findings> waiting_;
 };
 
 /// Threads that compare block after block, and what they have found.
 class comparing_threads {
   public:
-    comparing_threads(const state& from, const run_options& options, const decider& truth,
-                      std::span<const decider> deciders, const std::atomic<bool>& stop)
+    comparing_threads(const state& from, const run_options& options, const part& what,
+                      const std::atomic<bool>& stop)
         : seed_(from.seed),
           blocks_(options.blocks),
-          truth_(truth),
-          deciders_(deciders),
+          what_(what),
           stop_(stop),
           next_(from.found.blocks),
           found_(from.found) {
@@ -101,7 +94,7 @@ class comparing_threads {
         std::unique_lock lock(mutex_);
         return finished_.wait_for(lock, time, [&] { return working_ == 0; });
     }
-    totals found() {
+    findings found() {
         const std::scoped_lock lock(mutex_);
         return found_.sum();
     }
@@ -117,9 +110,9 @@ class comparing_threads {
             const std::uint64_t block = next_++;
             if (block >= blocks_) break;
             try {
-                totals part = compare_block(seed_, block, truth_, deciders_);
+                findings of_block = what_.compare_block(seed_, block);
                 const std::scoped_lock lock(mutex_);
-                found_.add(block, std::move(part));
+                found_.add(block, std::move(of_block));
             } catch (...) {
                 ending_ = true;
                 const std::scoped_lock lock(mutex_);
@@ -132,8 +125,7 @@ class comparing_threads {
     }
 
     std::uint64_t seed_, blocks_;
-    const decider& truth_;
-    std::span<const decider> deciders_;
+    const part& what_;
     const std::atomic<bool>& stop_;
     std::atomic<bool> ending_ = false;
     std::atomic<std::uint64_t> next_;
@@ -147,56 +139,52 @@ class comparing_threads {
 
 }  // namespace
 
-std::string to_json(const state& s) {
-    json all{{"seed", s.seed},
+std::uint64_t part::blocks_for(std::uint64_t questions) const {
+    std::uint64_t low = 0, high = 1;
+    while (count(high) < questions) high *= 2;
+    while (low < high) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        if (count(middle) >= questions) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+std::string to_json(const state& s, const part& of) {
+    json all{{"part", of.name},
+             {"version", of.version},
+             {"seed", s.seed},
              {"blocks", s.found.blocks},
              {"seconds", s.seconds},
-             {"differing_queries", s.found.differing_queries},
-             {"families", json::array()},
-             {"deciders", json::array()},
+             {"checksum", s.found.checksum},
+             {"different", s.found.different},
+             {"tables", json::array()},
              {"differences", json::array()}};
-    for (std::size_t f = 0; f < family_count; ++f) {
-        json entry{{"name", families[f].name}, {"thinning", families[f].thinning}};
-        for (std::size_t k = 0; k < ccd::stored_kinds.size(); ++k) {
-            entry[std::string(short_name(ccd::stored_kinds[k]))] = {
-                {"queries", s.found.families[k][f].queries},
-                {"collisions", s.found.families[k][f].collisions}};
-        }
-        all["families"].push_back(std::move(entry));
-    }
-    for (const decider_counts& d : s.found.deciders) {
-        all["deciders"].push_back(
-            {{"name", d.name}, {"compared", d.compared}, {"differences", d.differences}});
-    }
-    for (const difference& d : s.found.differences) all["differences"].push_back(json_of(d));
+    for (const count_table& table : s.found.tables) all["tables"].push_back(json_of(table));
+    for (const difference& d : s.found.differences)
+        all["differences"].push_back({{"text", d.text}, {"file", d.file}, {"lines", d.lines}});
     return all.dump(1) + "\n";
 }
 
-state from_json(const std::string& text) {
+state from_json(const std::string& text, const part& of) {
     try {
         const json all = json::parse(text);
+        if (all.at("part") != of.name || all.at("version") != of.version)
+            throw std::runtime_error("the run asked other questions than this program does");
         state s;
         s.seed = all.at("seed").get<std::uint64_t>();
         s.seconds = all.at("seconds").get<double>();
         s.found.blocks = whole(all.at("blocks"));
-        s.found.differing_queries = whole(all.at("differing_queries"));
-        const json& listed = all.at("families");
-        for (std::size_t f = 0; f < family_count; ++f) {
-            if (listed.size() != family_count || listed.at(f).at("name") != families[f].name ||
-                listed.at(f).at("thinning") != families[f].thinning) {
-                throw std::runtime_error("the run was of other families than this program has");
-            }
-            for (std::size_t k = 0; k < ccd::stored_kinds.size(); ++k) {
-                const json& counts = listed.at(f).at(std::string(short_name(ccd::stored_kinds[k])));
-                s.found.families[k][f] = {whole(counts.at("queries")),
-                                          whole(counts.at("collisions"))};
-            }
-        }
-        for (const json& d : all.at("deciders")) {
-            s.found.deciders.push_back({d.at("name").get<std::string>(), whole(d.at("compared")),
-                                        whole(d.at("differences"))});
-        }
-        for (const json& d : all.at("differences")) s.found.differences.push_back(difference_of(d));
+        s.found.checksum = all.at("checksum").get<std::uint64_t>();
+        s.found.different = whole(all.at("different"));
+        for (const json& table : all.at("tables")) s.found.tables.push_back(table_of(table));
+        for (const json& d : all.at("differences"))
+            s.found.differences.push_back({d.at("text").get<std::string>(),
+                                           d.at("file").get<std::string>(),
+                                           d.at("lines").get<std::string>()});
         return s;
     } catch (const json::exception& error) {
         throw std::runtime_error(std::string("not the state of a run: ") + error.what());
@@ -207,30 +195,25 @@ fs::path state_path(const fs::path& folder) {
     return folder / "state.json";
 }
 
-fs::path differences_path(const fs::path& folder, kind which) {
-    return folder / ("differences-" + std::string(short_name(which)) + ".csv");
-}
-
-void save(const state& s, const fs::path& folder) {
+void save(const state& s, const part& of, const fs::path& folder) {
     fs::create_directories(folder);
-    for (const kind which : ccd::stored_kinds) {
-        const std::string queries = differing_queries_csv(s.found, s.seed, which);
-        if (queries.empty()) {
-            fs::remove(differences_path(folder, which));
-        } else {
-            errbound::support::write_whole(differences_path(folder, which), queries);
-        }
+    std::map<std::string, std::string> files;
+    for (const difference& d : s.found.differences)
+        if (!d.file.empty()) files[d.file] += d.lines;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        if (name.starts_with("differences") && !files.contains(name)) fs::remove(entry.path());
     }
-    errbound::support::write_whole(state_path(folder), to_json(s));
+    for (const auto& [name, lines] : files) errbound::support::write_whole(folder / name, lines);
+    errbound::support::write_whole(state_path(folder), to_json(s, of));
 }
 
-state run(state from, const run_options& options, const decider& truth,
-          std::span<const decider> deciders, const std::atomic<bool>& stop,
+state run(state from, const run_options& options, const part& what, const std::atomic<bool>& stop,
           const std::function<void(const state&)>& progress) {
     // A folder that cannot be written to is refused now, not in an hour.
-    save(from, options.folder);
+    save(from, what, options.folder);
     const clock::time_point start = clock::now();
-    comparing_threads threads(from, options, truth, deciders, stop);
+    comparing_threads threads(from, options, what, stop);
     const auto now = [&] {
         return state{from.seed, threads.found(), from.seconds + seconds_since(start)};
     };
@@ -238,13 +221,13 @@ state run(state from, const run_options& options, const decider& truth,
     while (!threads.finished_within(std::chrono::milliseconds(100))) {
         const state current = now();
         if (seconds_since(saved) >= options.seconds_between_saves) {
-            save(current, options.folder);
+            save(current, what, options.folder);
             saved = clock::now();
         }
         progress(current);
     }
     const state last = now();
-    save(last, options.folder);
+    save(last, what, options.folder);
     threads.rethrow_failure();
     return last;
 }

@@ -1,7 +1,9 @@
-// ./run soak: `exact`, one by one and in batches, against the reference on millions of queries.
+// ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
+// against itself on images of them.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdint>
@@ -14,7 +16,9 @@
 
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/table.hpp"
+#include "tests/soak/comparison.hpp"
 #include "tests/soak/long_run.hpp"
+#include "tests/soak/symmetries.hpp"
 
 namespace {
 
@@ -42,16 +46,16 @@ std::string duration(double seconds) {
 /// A bar that moves on a terminal; elsewhere a line at half-minute intervals.
 class progress_display {
   public:
-    progress_display(const soak::state& from, std::uint64_t blocks)
-        : from_(from), blocks_(blocks), terminal_(isatty(STDOUT_FILENO) == 1) {}
+    progress_display(const soak::part& of, const soak::state& from, std::uint64_t blocks)
+        : of_(of), from_(from), blocks_(blocks), terminal_(isatty(STDOUT_FILENO) == 1) {}
 
     void operator()(const soak::state& now) {
         const double here = now.seconds - from_.seconds;
         if (here < shown_ + (terminal_ ? 0.5 : 30)) return;
         shown_ = here;
-        const std::uint64_t done = soak::query_count(now.found.blocks);
-        const std::uint64_t all = soak::query_count(blocks_);
-        const auto done_here = static_cast<double>(done - soak::query_count(from_.found.blocks));
+        const std::uint64_t done = of_.count(now.found.blocks);
+        const std::uint64_t all = of_.count(blocks_);
+        const auto done_here = static_cast<double>(done - of_.count(from_.found.blocks));
         const double rate = done_here / here;
         const double share = static_cast<double>(done) / static_cast<double>(all);
         std::string bar;
@@ -61,10 +65,10 @@ class progress_display {
             bar.resize(width, '.');
             bar = "\r[" + bar + "] ";
         }
-        std::printf("%s%5.1f %%  %s of %s queries, %s a second, %s differ, %s left", bar.c_str(),
-                    100 * share, grouped(done).c_str(), grouped(all).c_str(),
+        std::printf("%s%5.1f %%  %s of %s %s, %s a second, %s differ, %s left", bar.c_str(),
+                    100 * share, grouped(done).c_str(), grouped(all).c_str(), of_.unit.c_str(),
                     grouped(static_cast<std::uint64_t>(rate)).c_str(),
-                    grouped(now.found.differing_queries).c_str(),
+                    grouped(now.found.different).c_str(),
                     rate > 0 ? duration(static_cast<double>(all - done) / rate).c_str() : "?");
         std::fputs(terminal_ ? "\x1b[K" : "\n", stdout);  // the rest of an older, longer line
         std::fflush(stdout);
@@ -74,59 +78,61 @@ class progress_display {
     }
 
   private:
+    const soak::part& of_;
     soak::state from_;
     std::uint64_t blocks_;
     bool terminal_;
     double shown_ = 0;  // seconds of this sitting
 };
 
-void report(const soak::state& s, const fs::path& folder) {
-    errbound::support::table families{
-        {"family", "vf queries", "vf collisions", "ee queries", "ee collisions"}};
-    soak::kind_counts sum[2];
-    const auto row = [&](std::string title, const soak::kind_counts& vf,
-                         const soak::kind_counts& ee) {
-        families.push_back({std::move(title), grouped(vf.queries), grouped(vf.collisions),
-                            grouped(ee.queries), grouped(ee.collisions)});
+/// With each row's share of the first column, and the sum of all rows.
+std::string text_of(const soak::count_table& counts) {
+    std::vector<std::uint64_t> sums(counts.columns.size());
+    for (const auto& row : counts.rows)
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += row.counts[k];
+    errbound::support::table text{{counts.title}};
+    text[0].insert(text[0].end(), counts.columns.begin(), counts.columns.end());
+    text[0].emplace_back("share");
+    const auto add = [&](const std::string& name, const std::vector<std::uint64_t>& row) {
+        auto& cells = text.emplace_back(std::vector<std::string>{name});
+        for (const std::uint64_t n : row) cells.push_back(grouped(n));
+        char share[32];
+        std::snprintf(share, sizeof share, "%.2f %%",
+                      100 * static_cast<double>(row[0]) /
+                          static_cast<double>(std::max<std::uint64_t>(sums[0], 1)));
+        cells.emplace_back(share);
     };
-    for (std::size_t f = 0; f < soak::family_count; ++f) {
-        for (std::size_t k = 0; k < 2; ++k) {
-            sum[k].queries += s.found.families[k][f].queries;
-            sum[k].collisions += s.found.families[k][f].collisions;
-        }
-        const auto& family = query_families::families[f];
-        const unsigned thinning = soak::thinning(family);
-        row(std::string(family.name) + (thinning > 1 ? ", 1 in " + std::to_string(thinning) : ""),
-            s.found.families[0][f], s.found.families[1][f]);
-    }
-    row("all", sum[0], sum[1]);
-    errbound::support::table deciders{{"against the reference", "compared", "differences"}};
-    for (const auto& d : s.found.deciders) {
-        deciders.push_back({d.name, grouped(d.compared), grouped(d.differences)});
-    }
-    std::puts(
-        "\nfamilies: tests/support/query_families.hpp; 1 in N: a query takes tenths of a second");
-    std::printf("\n%s\n%s\n", errbound::support::text_of(families, 1).c_str(),
-                errbound::support::text_of(deciders, 1).c_str());
-    std::printf("seed %ju: %s queries in %s, %s differ\n", std::uintmax_t{s.seed},
-                grouped(sum[0].queries + sum[1].queries).c_str(), duration(s.seconds).c_str(),
-                grouped(s.found.differing_queries).c_str());
+    for (const auto& row : counts.rows) add(row.name, row.counts);
+    add("all", sums);
+    return errbound::support::text_of(text, 1);
+}
+
+void report(const soak::part& of, const soak::state& s, const fs::path& folder) {
+    for (const soak::count_table& table : s.found.tables)
+        std::printf("\n%s", text_of(table).c_str());
+    for (std::size_t i = 0; i < s.found.differences.size() && i < 10; ++i)
+        std::printf("\n%s", s.found.differences[i].text.c_str());
+    std::printf("\nseed %ju: %s %s in %s, %s differ, checksum %016jx\n", std::uintmax_t{s.seed},
+                grouped(of.count(s.found.blocks)).c_str(), of.unit.c_str(),
+                duration(s.seconds).c_str(), grouped(s.found.different).c_str(),
+                std::uintmax_t{s.found.checksum});
     for (const auto which : ccd::stored_kinds) {
-        const fs::path path = soak::differences_path(folder, which);
+        const fs::path path = folder / ("differences-" + std::string(short_name(which)) + ".csv");
         if (fs::exists(path)) {
             std::printf("differing queries, the reference's answer as truth: ccd query %s\n",
                         path.c_str());
         }
     }
-    if (s.found.differing_queries > s.found.differences.size()) {
+    if (s.found.different > s.found.differences.size()) {
         std::printf("only the first %s of them are kept\n",
                     grouped(s.found.differences.size()).c_str());
     }
-    std::printf("state: %s\n", soak::state_path(folder).c_str());
+    std::printf("state, with all that differ: %s\n", soak::state_path(folder).c_str());
 }
 
 /// The state to go on from.
-soak::state begin(std::uint64_t seed, bool seed_given, bool resume, const fs::path& folder) {
+soak::state begin(const soak::part& of, std::uint64_t seed, bool seed_given, bool resume,
+                  const fs::path& folder) {
     const fs::path path = soak::state_path(folder);
     if (!resume) {
         if (fs::exists(path)) {
@@ -139,7 +145,7 @@ soak::state begin(std::uint64_t seed, bool seed_given, bool resume, const fs::pa
     soak::state s;
     const std::string text = errbound::support::read_whole(path);
     try {
-        s = soak::from_json(text);
+        s = soak::from_json(text, of);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     }
@@ -150,22 +156,54 @@ soak::state begin(std::uint64_t seed, bool seed_given, bool resume, const fs::pa
     return s;
 }
 
+std::vector<soak::decider> compared_with_reference() {
+    std::vector<soak::decider> all = soak::exact_deciders();
+    all.push_back(soak::unfiltered_integers());
+    return all;
+}
+
+/// Runs the part to its end or to a signal; returns the exit status.
+int run(const soak::part& part, const soak::run_options& options, const soak::state& from) {
+    struct sigaction action {};
+    action.sa_handler = ask_to_stop;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal ends the program at once
+    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+
+    std::printf("%s, seed %ju: %s of %s %s done\n", part.name.c_str(), std::uintmax_t{from.seed},
+                grouped(part.count(from.found.blocks)).c_str(),
+                grouped(part.count(options.blocks)).c_str(), part.unit.c_str());
+    std::fflush(stdout);
+    progress_display display(part, from, options.blocks);
+    const soak::state last =
+        soak::run(from, options, part, stop, [&](const soak::state& now) { display(now); });
+    display.end();
+    report(part, last, options.folder);
+    if (last.found.different > 0) return 1;
+    if (last.found.blocks < options.blocks) {
+        std::printf("stopped by signal %d; --resume goes on\n", static_cast<int>(caught_signal));
+        return 3;
+    }
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
-    CLI::App app{"The exact method, one by one and in batches, against the reference."};
+    CLI::App app{"The exact method against the reference, or against itself on symmetric images."};
     app.name("./run soak");
     std::uint64_t queries = 20'000'000, seed = 1;
-    bool resume = false;
-    soak::run_options options{.folder = "out/soak"};
+    bool resume = false, symmetries = false;
+    soak::run_options options;
+    app.add_flag("--symmetries", symmetries,
+                 "Without a reference: images of a query, by all ways of asking, have one answer");
     app.add_option("--queries", queries, "At least so many, a resumed run's earlier ones included")
         ->capture_default_str();
     CLI::Option* const seed_option =
         app.add_option("--seed", seed, "Same seed, same queries")->capture_default_str();
     app.add_flag("--resume", resume, "Go on where the last run stopped");
     app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
-    app.add_option("--folder", options.folder, "For the state and differing queries")
-        ->capture_default_str();
+    app.add_option("--folder", options.folder,
+                   "For the state and differing queries; by default out/soak/PART");
     app.footer(
         "Exit status: 0 no difference, 1 a difference or bad input, 2 bad usage, 3 stopped "
         "by a signal (go on with --resume).");
@@ -174,30 +212,12 @@ int main(int argc, char** argv) try {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal ends the program at once
-    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
-
-    options.blocks = soak::blocks_for(queries);
-    const soak::state from = begin(seed, seed_option->count() > 0, resume, options.folder);
-    std::printf("seed %ju, %s of %s queries done\n", std::uintmax_t{from.seed},
-                grouped(soak::query_count(from.found.blocks)).c_str(),
-                grouped(soak::query_count(options.blocks)).c_str());
-    std::fflush(stdout);
-
-    progress_display display(from, options.blocks);
-    const soak::state last = soak::run(from, options, soak::reference(), soak::exact_deciders(),
-                                       stop, [&](const soak::state& now) { display(now); });
-    display.end();
-    report(last, options.folder);
-    if (last.found.differing_queries > 0) return 1;
-    if (last.found.blocks < options.blocks) {
-        std::printf("stopped by signal %d; --resume goes on\n", static_cast<int>(caught_signal));
-        return 3;
-    }
-    return 0;
+    const soak::part part =
+        symmetries ? soak::symmetry_part(soak::symmetric_deciders())
+                   : soak::comparison_part(soak::reference(), compared_with_reference());
+    if (options.folder.empty()) options.folder = fs::path("out/soak") / part.name;
+    options.blocks = part.blocks_for(queries);
+    return run(part, options, begin(part, seed, seed_option->count() > 0, resume, options.folder));
 } catch (const std::exception& error) {
     std::fprintf(stderr, "soak: %s\n", error.what());
     return 1;

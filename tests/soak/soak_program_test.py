@@ -29,15 +29,17 @@ class StopAndResume(unittest.TestCase):
         del state["seconds"]
         return state
 
-    def test_signals(self):
-        whole = subprocess.run(self.command("whole", 8000), capture_output=True, text=True)
+    def stop_and_resume(self, queries, *options):
+        whole = subprocess.run(
+            self.command("whole", queries, *options), capture_output=True, text=True
+        )
         self.assertEqual(whole.returncode, 0, whole.stdout + whole.stderr)
         self.assertIn("seed 1: ", whole.stdout)
-        self.assertIn(" 0 differ", whole.stdout)
+        self.assertIn(" 0 differ, checksum ", whole.stdout)
 
         stopped, more = 0, ["--threads", "1"]
         for sent in [signal.SIGINT, signal.SIGTERM] * 50:
-            command = self.command("parts", 8000, *more)
+            command = self.command("parts", queries, *options, *more)
             part = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
             part.stdout.readline()  # only then has it started
             time.sleep(0.1)
@@ -53,6 +55,12 @@ class StopAndResume(unittest.TestCase):
         self.assertEqual(part.returncode, 0)
         self.assertGreater(stopped, 0)
         self.assertEqual(self.state("parts"), self.state("whole"))
+
+    def test_comparison(self):
+        self.stop_and_resume(8000)
+
+    def test_symmetries(self):
+        self.stop_and_resume(600000, "--symmetries")
 
     def test_unfinished_run_is_not_overwritten(self):
         command = self.command("once", 1)

@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <ccd/exact.hpp>
 #include <ccd/io/query_file.hpp>
 #include <ccd/method.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "errbound/support/output_file.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/long_run.hpp"
+#include "tests/soak/symmetries.hpp"
 
 namespace {
 
@@ -33,67 +36,96 @@ class soak_test : public testing::Test {
 
 /// The answers of another method: `tight` is uncertain at times, `float` also wrong.
 soak::decider by_method(ccd::method method) {
-    const auto decide = [method](auto queries, std::span<ccd::outcome> answers) {
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            answers[i] = ccd::decide(method, queries[i]).outcome;
-        }
-    };
-    return {std::string(ccd::info(method).name), {decide, decide}};
+    return soak::one_by_one(std::string(ccd::info(method).name), [method](const auto& q) {
+        if constexpr (requires { ccd::decide(method, q); })
+            return ccd::decide(method, q);
+        else
+            return ccd::decide_exact(q);
+    });
+}
+
+/// Faster than the reference, and right (exact_does_not_differ).
+soak::decider exact() {
+    return soak::exact_deciders().front();
+}
+
+/// Another decider's answers after `change(answers)`.
+template <class Change>
+soak::decider changed(std::string name, const soak::decider& right, const Change& change) {
+    soak::decider all{.name = std::move(name)};
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        all.decide.of<K>() = [decide = right.decide.of<K>(), change](
+                                 const auto& asked, std::span<ccd::outcome> answers) {
+            const ccd::stage_report stages = decide(asked, answers);
+            change(answers);
+            return stages;
+        };
+    });
+    return all;
 }
 
 /// One that leaves the last query of each batch undecided.
 soak::decider forgetful() {
-    const soak::decider right = soak::reference();
-    const auto all_but_last = [](const auto& decide) {
-        return [decide](auto queries, std::span<ccd::outcome> answers) {
-            decide(queries.first(queries.size() - 1), answers.first(answers.size() - 1));
-        };
-    };
-    return {"forgetful",
-            {all_but_last(right.decide.vertex_face), all_but_last(right.decide.edge_edge)}};
+    return changed("forgetful", exact(), [](std::span<ccd::outcome> answers) {
+        answers.back() = ccd::outcome::uncertain;
+    });
+}
+
+/// Part of the row of a decider.
+std::uint64_t count(const soak::findings& found, std::string_view table, std::string_view row,
+                    std::size_t column) {
+    for (const auto& [name, counts] : found.table(table).rows)
+        if (name == row) return counts.at(column);
+    ADD_FAILURE() << "no row " << row;
+    return 0;
 }
 
 constexpr std::uint64_t few_blocks = 3;
 
-soak::state run(const soak::state& from, const fs::path& folder,
-                const std::vector<soak::decider>& deciders, const std::atomic<bool>& stop = false) {
-    return soak::run(from, {.blocks = few_blocks, .threads = 2, .folder = folder},
-                     soak::reference(), deciders, stop, [](const soak::state&) {});
+soak::state run(const soak::state& from, const fs::path& folder, const soak::part& what,
+                const std::atomic<bool>& stop = false) {
+    return soak::run(from, {.blocks = few_blocks, .threads = 2, .folder = folder}, what, stop,
+                     [](const soak::state&) {});
 }
 
 TEST_F(soak_test, exact_does_not_differ) {
-    const soak::state s = run({.seed = 3}, folder, soak::exact_deciders());
+    const auto deciders = soak::exact_deciders();
+    const soak::part part = soak::comparison_part(soak::reference(), deciders);
+    const soak::state s = run({.seed = 3}, folder, part);
     EXPECT_EQ(s.found.blocks, few_blocks);
-    ASSERT_GE(s.found.deciders.size(), 3u);
-    for (const auto& d : s.found.deciders) {
-        EXPECT_EQ(d.differences, 0u) << d.name;
-        EXPECT_EQ(d.compared, soak::query_count(few_blocks)) << d.name;
+    ASSERT_GE(deciders.size(), 3u);
+    for (const auto& d : deciders) {
+        EXPECT_EQ(count(s.found, "against the reference", d.name, 1), 0u) << d.name;
+        EXPECT_EQ(count(s.found, "against the reference", d.name, 0), part.count(few_blocks))
+            << d.name;
     }
-    EXPECT_EQ(s.found.differing_queries, 0u);
-    EXPECT_FALSE(fs::exists(soak::differences_path(folder, kind::vertex_face)));
+    EXPECT_EQ(s.found.different, 0u);
+    EXPECT_FALSE(fs::exists(folder / "differences-vf.csv"));
 }
 
 TEST_F(soak_test, wrong_deciders_are_found_out) {
-    const soak::totals found =
-        soak::compare_block(1, 0, soak::reference(),
-                            std::vector{soak::reference(), by_method(ccd::method::float_),
-                                        by_method(ccd::method::tight), forgetful()});
-    ASSERT_EQ(found.deciders.size(), 4u);
-    EXPECT_EQ(found.deciders[0].differences, 0u);
-    EXPECT_GT(found.deciders[1].differences, 0u);
-    EXPECT_GT(found.deciders[2].differences, 0u);
-    EXPECT_EQ(found.deciders[3].differences, 2u);  // one of each kind
-    std::uint64_t listed = 0;
-    for (const soak::difference& d : found.differences) listed += d.wrong.size();
-    EXPECT_EQ(listed, found.deciders[1].differences + found.deciders[2].differences + 2);
-    EXPECT_EQ(found.differences.size(), found.differing_queries);
+    const soak::findings found =
+        soak::comparison_part(exact(), {exact(), by_method(ccd::method::float_),
+                                        by_method(ccd::method::tight), forgetful()})
+            .compare_block(1, 0);
+    const auto differences = [&](std::string_view name) {
+        return count(found, "against the reference", name, 1);
+    };
+    EXPECT_EQ(differences("one by one"), 0u);
+    EXPECT_GT(differences("float"), 0u);
+    EXPECT_GT(differences("tight"), 0u);
+    EXPECT_EQ(differences("forgetful"), 2u);  // one of each kind
+    EXPECT_EQ(found.differences.size(), found.different);
+    EXPECT_GE(found.different, differences("float"));
 }
 
 TEST_F(soak_test, differing_queries_are_written_to_be_replayed) {
-    const soak::state s = run({.seed = 7}, folder, {by_method(ccd::method::float_)});
+    const soak::state s =
+        run({.seed = 7}, folder, soak::comparison_part(exact(), {by_method(ccd::method::float_)}));
     std::size_t read = 0;
     for (const kind which : ccd::stored_kinds) {
-        const auto file = ccd::io::read_queries(soak::differences_path(folder, which), {}, false);
+        const auto file = ccd::io::read_queries(
+            folder / ("differences-" + std::string(short_name(which)) + ".csv"), {}, false);
         ASSERT_TRUE(file.truth.has_value());
         for (std::size_t i = 0; i < file.size(); ++i, ++read) {
             const auto [exact, wrong] = std::visit(
@@ -106,59 +138,109 @@ TEST_F(soak_test, differing_queries_are_written_to_be_replayed) {
             EXPECT_EQ((*file.truth)[i], exact.outcome == ccd::outcome::collides);
         }
     }
-    EXPECT_EQ(read, s.found.differing_queries);
+    EXPECT_EQ(read, s.found.different);
     EXPECT_GT(read, 0u);
 }
 
 TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
     const std::vector<soak::decider> deciders{by_method(ccd::method::exact),
                                               by_method(ccd::method::float_)};
-    const soak::state whole = run({.seed = 5}, folder / "whole", deciders);
+    const soak::part part = soak::comparison_part(exact(), deciders);
+    const soak::state whole = run({.seed = 5}, folder / "whole", part);
 
     // Stopped after every few queries, and resumed from the file each time.
     soak::state s{.seed = 5};
     int sittings = 0;
     for (; s.found.blocks < few_blocks; ++sittings) {
         std::atomic<bool> stop = false;
-        soak::decider stopping = deciders[0];
-        stopping.decide.edge_edge = [&stop, decide = deciders[0].decide.edge_edge](auto queries,
-                                                                                   auto answers) {
+        soak::part stopping = part;
+        stopping.compare_block = [&](std::uint64_t seed, std::uint64_t block) {
             stop = true;
-            decide(queries, answers);
+            return part.compare_block(seed, block);
         };
-        run(s, folder / "parts", {stopping, deciders[1]}, stop);
-        s = soak::from_json(errbound::support::read_whole(soak::state_path(folder / "parts")));
+        run(s, folder / "parts", stopping, stop);
+        s = soak::from_json(errbound::support::read_whole(soak::state_path(folder / "parts")),
+                            part);
     }
     EXPECT_GT(sittings, 1);
     EXPECT_EQ(s.found, whole.found);
-    for (const kind which : ccd::stored_kinds) {
-        EXPECT_EQ(errbound::support::read_whole(soak::differences_path(folder / "parts", which)),
-                  errbound::support::read_whole(soak::differences_path(folder / "whole", which)));
-    }
+    for (const char* name : {"differences-vf.csv", "differences-ee.csv"})
+        EXPECT_EQ(errbound::support::read_whole(folder / "parts" / name),
+                  errbound::support::read_whole(folder / "whole" / name));
+}
+
+TEST_F(soak_test, images_of_a_query_have_one_answer) {
+    const soak::part part = soak::symmetry_part(soak::symmetric_deciders());
+    const soak::state s = run({.seed = 3}, folder, part);
+    EXPECT_EQ(s.found.different, 0u) << s.found.differences.at(0).text;
+    std::uint64_t answers = 0;
+    for (const auto& d : soak::exact_deciders()) answers += count(s.found, "decider", d.name, 0);
+    EXPECT_EQ(answers, part.count(few_blocks));
+    // Late stages are asked, and `tight` is certain now and then.
+    EXPECT_GT(count(s.found, "decided by", "integers", 0), answers / 10);
+    EXPECT_GT(count(s.found, "decided by", "unbounded", 0), 0u);
+    EXPECT_LT(count(s.found, "decider", "tight", 1), count(s.found, "decider", "tight", 0));
+}
+
+TEST_F(soak_test, one_answer_turned_round_among_thousands_is_found) {
+    const soak::decider once = changed(
+        "wrong once", exact(),
+        [turned = std::make_shared<std::atomic<bool>>(false)](std::span<ccd::outcome> answers) {
+            if (turned->exchange(true)) return;
+            auto& answer = answers[answers.size() / 2];
+            answer =
+                answer == ccd::outcome::collides ? ccd::outcome::separate : ccd::outcome::collides;
+        });
+    const soak::findings found = soak::symmetry_part({exact(), once}).compare_block(1, 0);
+    EXPECT_EQ(found.different, 1u);
+    EXPECT_NE(found.differences.at(0).text.find("wrong once says"), std::string::npos);
+    EXPECT_NE(found.differences.at(0).text.find("0x1"), std::string::npos);  // hexadecimal floats
+}
+
+TEST_F(soak_test, rounding_methods_contradict_themselves_on_images) {
+    const soak::decider wrong = by_method(ccd::method::float_);
+    EXPECT_GT(soak::symmetry_part({wrong}).compare_block(1, 0).different, 0u);
+    // As if `float` were conservative: it is certain of what is wrong.
+    soak::decider certain = wrong;
+    certain.may_be_uncertain = true;
+    EXPECT_GT(soak::symmetry_part({exact(), certain}).compare_block(1, 0).different, 0u);
+}
+
+TEST_F(soak_test, exact_answers_uncertain_are_differences) {
+    const soak::findings found = soak::symmetry_part({exact(), forgetful()}).compare_block(1, 0);
+    EXPECT_EQ(found.different, 1u + 1 + 3 + 4);  // one for each kind, and as other kinds
 }
 
 TEST_F(soak_test, a_throwing_decider_ends_the_run) {
-    soak::decider throwing = soak::reference();
-    throwing.decide.vertex_face = [](auto, auto) { throw std::runtime_error("as asked"); };
-    EXPECT_THROW(run({.seed = 1}, folder, {throwing}), std::runtime_error);
+    soak::decider throwing = exact();
+    throwing.decide.vertex_face = [](const auto&, auto) -> ccd::stage_report {
+        throw std::runtime_error("as asked");
+    };
+    EXPECT_THROW(run({.seed = 1}, folder, soak::comparison_part(exact(), {throwing})),
+                 std::runtime_error);
 }
 
 TEST_F(soak_test, states_that_cannot_be_resumed_are_refused) {
-    const std::string good = soak::to_json({.seed = 1});
-    EXPECT_EQ(soak::from_json(good), soak::state{.seed = 1});
+    const soak::part part = soak::comparison_part(exact(), {});
+    const std::string good = soak::to_json({.seed = 1}, part);
+    EXPECT_EQ(soak::from_json(good, part), soak::state{.seed = 1});
     std::string other = good;
     other.replace(other.find("uniform"), 7, "unknown");
     for (const std::string& bad : {other, std::string("{}"), std::string(), std::string("[1]")}) {
-        EXPECT_THROW(soak::from_json(bad), std::runtime_error) << bad;
+        EXPECT_THROW(soak::from_json(bad, part), std::runtime_error) << bad;
     }
+    EXPECT_THROW(soak::from_json(good, soak::symmetry_part({})), std::runtime_error);
 }
 
 TEST_F(soak_test, as_many_blocks_as_queries_need) {
-    EXPECT_EQ(soak::blocks_for(0), 0u);
-    for (const std::uint64_t queries : {1ull, 2000ull, 100000ull, 20000000ull}) {
-        const std::uint64_t blocks = soak::blocks_for(queries);
-        EXPECT_GE(soak::query_count(blocks), queries);
-        EXPECT_LT(soak::query_count(blocks - 1), queries);
+    for (const soak::part& part :
+         {soak::comparison_part(exact(), {}), soak::symmetry_part({exact()})}) {
+        EXPECT_EQ(part.blocks_for(0), 0u);
+        for (const std::uint64_t queries : {1ull, 2000ull, 100000ull, 20000000ull}) {
+            const std::uint64_t blocks = part.blocks_for(queries);
+            EXPECT_GE(part.count(blocks), queries);
+            EXPECT_LT(part.count(blocks - 1), queries);
+        }
     }
 }
 

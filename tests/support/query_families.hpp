@@ -10,6 +10,7 @@
 #include "ccd/stress/generators/degenerate.hpp"
 #include "ccd/stress/generators/roots.hpp"
 #include "ccd/stress/generators/sheets.hpp"
+#include "tests/support/near_degenerate.hpp"
 
 namespace query_families {
 
@@ -125,6 +126,42 @@ inline constexpr family list[] = {
      [](source& r, kind k) {
          const int exponent = r.between(0, 200);
          return scale_point(r, near_contact(r, k, 1), exponent);
+     }},
+    {"grid3-nudged", [](source& r, kind) { return nudged(r, grid(r, 1)); }},
+    {"grid-0-1",
+     [](source& r, kind) { return fill([&](auto...) { return double(r.between(0, 1)); }); }},
+    {"grid-far", [](source& r, kind) { return far_grid(r); }},
+    {"grid-far-nudged", [](source& r, kind) { return nudged(r, far_grid(r)); }},
+    {"grid-subnormal",
+     [](source& r, kind) {
+         return map(grid(r, 2), [](double x, auto...) { return std::ldexp(x, -1074); });
+     }},
+    {"grid-largest",
+     [](source& r, kind) {
+         return map(grid(r, 1), [](double x, auto...) { return std::ldexp(x, 1023); });
+     }},
+    {"skew-plane", [](source& r, kind) { return in_skew_span(r, 2); }},
+    {"skew-plane-nudged", [](source& r, kind) { return nudged(r, in_skew_span(r, 2)); }},
+    {"skew-line", [](source& r, kind) { return in_skew_span(r, 1); }},
+    {"skew-line-nudged", [](source& r, kind) { return nudged(r, in_skew_span(r, 1)); }},
+    {"exact-contact", [](source& r, kind k) { return exact_contact(r, k); }},
+    {"exact-contact-nudged", [](source& r, kind k) { return nudged(r, exact_contact(r, k)); }},
+    {"crossing", [](source& r, kind) { return crossing(r, grid(r, 2)); }},
+    {"crossing-nudged", [](source& r, kind) { return nudged(r, crossing(r, grid(r, 2))); }},
+    {"mirrored", [](source& r, kind) { return mirrored(r, uniform(r)); }},
+    {"double-root-nudged",
+     [](source& r, kind k) { return nudged(r, chosen_roots(r, k, root_triple(r, 2))); }},
+    {"triple-root-nudged",
+     [](source& r, kind k) { return nudged(r, chosen_roots(r, k, root_triple(r, 3))); }},
+    {"grid-parallel-nudged",
+     [](source& r, kind k) { return nudged(r, parallel(r, k, grid(r, 1))); }},
+    {"few-values-nudged", [](source& r, kind) { return nudged(r, few_values(r)); }},
+    {"moving-1-ulp",
+     [](source& r, kind k) {
+         points p = all_frozen(near_contact(r, k, 0));
+         const points moved = jitter(r, p, 1);
+         for (std::size_t i = 0; i < p.size(); ++i) p[i].t1 = moved[i].t1;
+         return p;
      }},
 };
 

@@ -1,0 +1,90 @@
+// Images of a query under which its answer stays the same: an invertible linear map, time reversed,
+// a translation at each end of the step, all of them exact in doubles, and other names for the same
+// points.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ccd/stress/generators/query_points.hpp"
+
+namespace soak {
+
+/// Random numbers that cost next to nothing to seed (Steele, Lea, Flood 2014).
+class splitmix {
+  public:
+    explicit splitmix(std::uint64_t seed) : state_(seed) {}
+    std::uint64_t bits() {
+        std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+        return z ^ (z >> 31);
+    }
+    /// low..high
+    int between(int low, int high) {
+        const auto range = static_cast<std::uint64_t>(high - low + 1);
+        return low + static_cast<int>((bits() >> 32) * range >> 32);
+    }
+    bool one_in(int n) { return between(1, n) == 1; }
+
+  private:
+    std::uint64_t state_;
+};
+
+/// A map of the query's space and time; every axis of the image comes from one of the query's.
+struct image {
+    /// What of an axis: itself; all points moved so that one is at 0; all moved by a power of two;
+    /// another axis added or taken off. Moved differently at each end of the step.
+    enum class form : std::uint8_t { plain, at_point, moved, sheared };
+    struct axis {
+        std::uint8_t from = 0;
+        form as = form::plain;
+        bool negated = false;
+        int exponent = 0;  ///< times 2^exponent
+    };
+    std::array<axis, 3> axes{{{0}, {1}, {2}}};
+    bool reversed = false;
+};
+/// As a person reads it: "x = -y moved 2^5, ..., time reversed".
+std::string text_of(const image& m);
+
+/// The images of one query.
+class query_images {
+  public:
+    /// Of the first `count` of the points.
+    query_images(const ccd::stress::points& query, std::size_t count, splitmix& random);
+    /// A random image that is exact.
+    image draw(splitmix& random) const;
+    ccd::stress::points of(const image& m) const;
+
+  private:
+    static constexpr std::size_t form_count = 4;
+    /// The coordinates of all points at both ends on one axis, and the powers of two by which they
+    /// can be multiplied exactly, least and largest.
+    struct coordinates {
+        std::array<std::array<double, 2>, 4> at{};
+        int low = 0, high = 0;
+    };
+    struct choice {
+        std::array<coordinates, form_count> as{};
+        std::array<image::form, form_count> exact{};  ///< those that are, plain first
+        int exact_count = 1;
+    };
+
+    void add_if_exact(std::size_t axis, image::form as, std::size_t count,
+                      const std::array<std::array<double, 2>, 4>& added);
+
+    std::array<choice, 3> axes_;
+};
+
+/// Which of a query's points stand for those of an image: `image_kind` may have more points, of
+/// which some are then the same.
+using slot_map = std::array<std::uint8_t, 4>;
+/// All such of one kind in another; none if a query of the kind cannot be asked so.
+std::span<const slot_map> slot_maps(ccd::kind query, ccd::kind image);
+
+}  // namespace soak
