@@ -33,7 +33,8 @@ void findings::differ(difference d) {
 
 void findings::add(const findings& next) {
     blocks += next.blocks;
-    if (tables.empty()) tables = next.tables;
+    if (tables.empty())
+        tables = next.tables;
     else
         for (const count_table& from : next.tables) {
             count_table& into = table(from.title);

@@ -38,7 +38,8 @@ query_images::query_images(const ccd::stress::points& query, std::size_t count, 
         axes_[axis].exact_count = 0;
         add_if_exact(axis, image::form::plain, count, zero[axis]);
 
-        const auto origin = static_cast<std::size_t>(random.between(0, static_cast<int>(count) - 1));
+        const auto origin =
+            static_cast<std::size_t>(random.between(0, static_cast<int>(count) - 1));
         auto added = zero[axis];
         for (auto& ends : added) ends = {-value[axis][origin][0], -value[axis][origin][1]};
         add_if_exact(axis, image::form::at_point, count, added);
@@ -149,17 +150,18 @@ std::string text_of(const image& m) {
 }
 
 std::span<const slot_map> slot_maps(kind query, kind image) {
-    static constexpr slot_map
-        vf[] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 3, 2, 1}},
-        ee[] = {{0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 3, 2}, {1, 0, 3, 2},
-                {2, 3, 0, 1}, {2, 3, 1, 0}, {3, 2, 0, 1}, {3, 2, 1, 0}},
-        ve[] = {{0, 1, 2}, {0, 2, 1}}, vv[] = {{0, 1}, {1, 0}},
-        // A face or an edge that is less: some of its vertices are the same.
+    static constexpr slot_map vf[] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3},
+                                      {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 3, 2, 1}},
+                              ee[] = {{0, 1, 2, 3}, {1, 0, 2, 3}, {0, 1, 3, 2}, {1, 0, 3, 2},
+                                      {2, 3, 0, 1}, {2, 3, 1, 0}, {3, 2, 0, 1}, {3, 2, 1, 0}},
+                              ve[] = {{0, 1, 2}, {0, 2, 1}}, vv[] = {{0, 1}, {1, 0}},
+                              // A face or an edge that is less: some of its vertices are the same.
         ve_as_vf[] = {{0, 1, 1, 2}, {0, 1, 2, 1}, {0, 2, 1, 1},
                       {0, 2, 2, 1}, {0, 2, 1, 2}, {0, 1, 2, 2}},
-        ve_as_ee[] = {{0, 0, 1, 2}, {0, 0, 2, 1}, {1, 2, 0, 0}, {2, 1, 0, 0}},
-        vv_as_ve[] = {{0, 1, 1}, {1, 0, 0}}, vv_as_vf[] = {{0, 1, 1, 1}, {1, 0, 0, 0}},
-        vv_as_ee[] = {{0, 0, 1, 1}, {1, 1, 0, 0}};
+                              ve_as_ee[] = {{0, 0, 1, 2}, {0, 0, 2, 1}, {1, 2, 0, 0}, {2, 1, 0, 0}},
+                              vv_as_ve[] = {{0, 1, 1}, {1, 0, 0}},
+                              vv_as_vf[] = {{0, 1, 1, 1}, {1, 0, 0, 0}},
+                              vv_as_ee[] = {{0, 0, 1, 1}, {1, 1, 0, 0}};
     if (query == image) {
         switch (query) {
             case kind::vertex_face:

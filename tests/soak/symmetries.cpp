@@ -143,18 +143,17 @@ class block_of_kind {
         const std::string rows =
             query_families::csv(p, truth == ccd::outcome::collides ? ",1" : ",0");
         const family_query& of = queries_[q];
-        out_.differ(
-            {std::string(of.family->name) + " " + std::string(short_name(K)) + " " +
-                 std::to_string(of.index) + ": " + deciders_[0].name + " says " + text(right_[q]) +
-                 ", the reference " +
-                 text(ccd::decide_reference(
-                          query_families::as_query<typename questions<K>::query>(of.at))
-                          .outcome) +
-                 "\n" + query_families::csv(of.at) + "as " + std::string(short_name(asked_kind)) +
-                 ", " + text_of(as) + ": " + who + " says " + text(said) + ", the reference " +
-                 text(truth) + "\n" + rows,
-             stored ? "differences-" + std::string(short_name(asked_kind)) + ".csv" : "",
-             stored ? rows : ""});
+        out_.differ({std::string(of.family->name) + " " + std::string(short_name(K)) + " " +
+                         std::to_string(of.index) + ": " + deciders_[0].name + " says " +
+                         text(right_[q]) + ", the reference " +
+                         text(ccd::decide_reference(
+                                  query_families::as_query<typename questions<K>::query>(of.at))
+                                  .outcome) +
+                         "\n" + query_families::csv(of.at) + "as " +
+                         std::string(short_name(asked_kind)) + ", " + text_of(as) + ": " + who +
+                         " says " + text(said) + ", the reference " + text(truth) + "\n" + rows,
+                     stored ? "differences-" + std::string(short_name(asked_kind)) + ".csv" : "",
+                     stored ? rows : ""});
     }
 
     void count_stages(const ccd::stage_report& report) {
@@ -223,9 +222,8 @@ std::vector<decider> symmetric_deciders() {
 part symmetry_part(std::vector<decider> deciders) {
     part all{.name = "symmetries", .unit = "queries", .version = family_names()};
     std::uint64_t per_query[4];
-    ccd::for_each_kind([&]<kind K>() {
-        per_query[static_cast<std::size_t>(K)] = answers_per_query<K>(deciders);
-    });
+    ccd::for_each_kind(
+        [&]<kind K>() { per_query[static_cast<std::size_t>(K)] = answers_per_query<K>(deciders); });
     all.count = [per_query = std::to_array(per_query)](std::uint64_t blocks) {
         std::uint64_t count = 0;
         ccd::for_each_kind([&]<kind K>() {

@@ -94,7 +94,8 @@ inline points exact_contact(source& random, kind which) {
 
 /// Two points change places, or one passes through another, in the middle of the step or later.
 inline points crossing(source& random, points p) {
-    const int first = random.between(0, 3), turn = random.between(1, 3), ratio = random.between(1, 3);
+    const int first = random.between(0, 3), turn = random.between(1, 3),
+              ratio = random.between(1, 3);
     moving_point<double>& m = p[static_cast<std::size_t>(first)];
     const moving_point<double>& other = p[static_cast<std::size_t>((first + turn) % 4)];
     const auto beyond = [ratio](double from, double at_start, double at_end) {
