@@ -42,6 +42,11 @@ mesh read_mesh(const std::filesystem::path& path) {
     }
     if (extension == ".ply") return parse_mesh_ply(text, path.string());
     if (extension == ".obj") return parse_mesh_obj(text, path.string());
+    if (extension.empty() || !std::filesystem::is_regular_file(path)) {
+        std::string_view rest = without_byte_order_mark(text, path.string());
+        const bool is_ply = trimmed(take_line(rest).value_or("")) == "ply";
+        return is_ply ? parse_mesh_ply(text, path.string()) : parse_mesh_obj(text, path.string());
+    }
     throw file_error(path.string() + ": found extension " + excerpt(extension) +
                      ", expected .ply or .obj");
 }

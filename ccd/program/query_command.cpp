@@ -124,8 +124,10 @@ class query final : public command {
                 "FILE", files_,
                 "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
                 "is\n"
-                "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1")
-            ->required();
+                "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
+                "-: standard input")
+            ->required()
+            ->transform(errbound::support::input_named);
         line_
             .add_option("--kind", kind_,
                         "Kind of query; else the path says (vertex-face or vf, edge-edge or ee)")
@@ -134,9 +136,12 @@ class query final : public command {
             "--round", round_,
             "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
             "them (decimals always mean the nearest double)");
-        line_.add_option("--verdicts", verdicts_, "Write 0 or 1 per query (one method, one file)")
+        line_
+            .add_option("--verdicts", verdicts_,
+                        "Write 0 or 1 per query (one method, one file); -: standard output")
             ->type_name("OUT");
-        line_.add_option("--json", json_, "Write the table as JSON")->type_name("OUT");
+        line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
+            ->type_name("OUT");
     }
 
     exit_status run() override {
@@ -150,13 +155,15 @@ class query final : public command {
 
         // Nothing is printed or written unless all files are good.
         const std::vector<result> results = decide_files(methods, device);
+        std::vector<errbound::support::output> outputs;
         if (verdicts_) {
             std::string lines;
             for (const bool verdict : results.front().verdicts) lines += verdict ? "1\n" : "0\n";
-            write_whole(*verdicts_, lines);
+            outputs.push_back({*verdicts_, lines});
         }
-        if (json_) write_whole(*json_, json_of(results));
-        std::cout << text_of_results(results);
+        if (json_) outputs.push_back({*json_, json_of(results)});
+        write_whole(outputs);
+        errbound::support::stream_for_people({verdicts_, json_}) << text_of_results(results);
         return done;
     }
 

@@ -179,12 +179,18 @@ class step final : public command {
   public:
     explicit step(CLI::App& program)
         : command(program, "step", "One step of a mesh: the colliding pairs") {
-        line_.add_option("FRAME0", asked_.before, "PLY or OBJ")->required();
-        line_.add_option("FRAME1", asked_.after, "PLY or OBJ, same topology")->required();
+        line_.add_option("FRAME0", asked_.before, "PLY or OBJ; -: standard input")
+            ->required()
+            ->transform(errbound::support::input_named);
+        line_.add_option("FRAME1", asked_.after, "PLY or OBJ, same topology; -: standard input")
+            ->required()
+            ->transform(errbound::support::input_named);
         line_.add_option("--method", method_, "The method, else exact")->type_name("M");
         line_
-            .add_option("--pairs", pairs_,
-                        "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1, vertex indices")
+            .add_option(
+                "--pairs", pairs_,
+                "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 where the\n"
+                "mesh has rods or points), vertex indices; -: standard output")
             ->type_name("OUT");
         add_threads_option(line_, asked_.threads, "Threads; 0: one per core");
         line_
@@ -193,7 +199,8 @@ class step final : public command {
             ->type_name("SET");
         line_.add_flag("--explain", asked_.explain,
                        "Say what each stage of exact decided, at what cost, and what was left out");
-        line_.add_option("--json", json_, "Write counts and seconds as JSON")->type_name("OUT");
+        line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
+            ->type_name("OUT");
     }
 
     exit_status run() override {
@@ -213,9 +220,12 @@ class step final : public command {
                                                                    .set = asked_.set,
                                                                    .explain = asked_.explain});
         const std::size_t memory = peak_memory_bytes();
-        if (pairs_) write_whole(*pairs_, lines_of_pairs(result));
-        if (json_) write_whole(*json_, json_of(asked_, result, read, memory));
-        std::cout << text_of_step(asked_, before, result, read, memory);
+        std::vector<errbound::support::output> outputs;
+        if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(result)});
+        if (json_) outputs.push_back({*json_, json_of(asked_, result, read, memory)});
+        write_whole(outputs);
+        errbound::support::stream_for_people({pairs_, json_})
+            << text_of_step(asked_, before, result, read, memory);
         return done;
     }
 

@@ -57,7 +57,9 @@ class stress_run final : public command {
         if (out_.json && out_.folder)
             errbound::support::require_separate(
                 {out_.json}, {*out_.folder / "stress.csv", *out_.folder / "stress.md"});
-        return stress::run_and_write(plan_, out_, std::cout) ? done : broken_promise;
+        return stress::run_and_write(plan_, out_, errbound::support::stream_for_people({out_.json}))
+                   ? done
+                   : broken_promise;
     }
 
   private:

@@ -251,11 +251,13 @@ bool run_and_write(const plan& what, const outputs& to, std::ostream& text) {
     const std::string verdict = report_broken(broken, what, to.folder.value_or(fs::path())) +
                                 promises_of(what) +
                                 (broken.empty() ? ": kept\n" : ": BROKEN, as said above\n");
+    std::vector<errbound::support::output> files;
     if (to.folder) {
-        write_whole(*to.folder / "stress.csv", csv_of(cells, what));
-        write_whole(*to.folder / "stress.md", markdown_of(rows, what, verdict));
+        files.push_back({*to.folder / "stress.csv", csv_of(cells, what)});
+        files.push_back({*to.folder / "stress.md", markdown_of(rows, what, verdict)});
     }
-    if (to.json) write_whole(*to.json, json_of(cells, what));
+    if (to.json) files.push_back({*to.json, json_of(cells, what)});
+    write_whole(files);
     text << text_of(rows, 2) << '\n' << legend << verdict;
     return broken.empty();
 }

@@ -1,22 +1,18 @@
 // The program `errbound`: reads the command line. Exit status 0 done, 1 bad input or violations
 // found, 2 bad usage.
 #include <CLI/CLI.hpp>
-#include <errbound/support/error.hpp>
-#include <exception>
-#include <iostream>
 #include <string>
 
 #include "errbound/program/validate_command.hpp"
 #include "errbound/support/command_line.hpp"
+#include "errbound/support/program.hpp"
 
 namespace errbound::validation {
 namespace {
 
 using errbound::support::all_named;
 using errbound::support::entry_named;
-using errbound::support::file_error;
 using errbound::support::require_separate;
-using errbound::support::usage_error;
 
 enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2 };
 
@@ -56,7 +52,8 @@ struct command_line {
         validate
             ->add_option("--queries", arguments.queries,
                          "Stored queries (ccd query --help says their form): their forms and BSC")
-            ->type_name("FILE...");
+            ->type_name("FILE...")
+            ->transform(errbound::support::input_named);
         validate->add_option("--kind", kind, "Kind of queries; else the path says")
             ->check(CLI::IsMember(ccd::io::kind_names()));
         validate->add_flag("--round", arguments.round,
@@ -85,34 +82,20 @@ struct command_line {
     }
 };
 
-int main_with_status(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
     command_line line;
-    exit_status status = done;
     try {
         line.app.parse(argc, argv);
-        status = line.run();
+        return line.run();
     } catch (const CLI::ParseError& error) {
-        if (line.app.exit(error) != 0) return bad_usage;
-    } catch (const usage_error& error) {
-        std::cerr << "errbound: " << error.what() << '\n';
-        return bad_usage;
-    } catch (const file_error& error) {
-        std::cerr << "errbound: " << error.what() << '\n';
-        return bad_input;
-    } catch (const std::bad_alloc&) {
-        std::cerr << "errbound: out of memory\n";
-        return bad_input;
+        return line.app.exit(error) == 0 ? done : bad_usage;
     }
-    if (!std::cout.flush()) {
-        std::cerr << "errbound: standard output cannot be written\n";
-        return bad_input;
-    }
-    return status;
 }
 
 }  // namespace
 }  // namespace errbound::validation
 
 int main(int argc, char** argv) {
-    return errbound::validation::main_with_status(argc, argv);
+    return errbound::support::run_program(
+        "errbound", [&] { return errbound::validation::run_command_line(argc, argv); });
 }

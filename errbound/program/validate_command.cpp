@@ -6,6 +6,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/table.hpp"
@@ -167,15 +168,18 @@ bool run_validate(const validate_arguments& arguments) {
             return validate_expressions(arguments.rules, arguments.options, show);
         });
 
-    if (arguments.json) write_whole(*arguments.json, json_of(parts));
-    if (arguments.csv) write_whole(*arguments.csv, csv_of(parts));
-    std::cout << text_of_counts(parts);
+    std::vector<errbound::support::output> outputs;
+    if (arguments.json) outputs.push_back({*arguments.json, json_of(parts)});
+    if (arguments.csv) outputs.push_back({*arguments.csv, csv_of(parts)});
+    write_whole(outputs);
+    std::ostream& people = errbound::support::stream_for_people({arguments.json, arguments.csv});
+    people << text_of_counts(parts);
     if (const std::string text = text_of_tightness(parts); !text.empty())
-        std::cout << "\nlog10 of the measure:\n" << text;
-    std::cout << text_of_violations(parts);
+        people << "\nlog10 of the measure:\n" << text;
+    people << text_of_violations(parts);
     std::uint64_t violations = 0;
     for (const part& p : parts) violations += p.found.violation_count();
-    std::cout << '\n' << (violations == 0 ? "no" : std::to_string(violations)) << " violations\n";
+    people << '\n' << (violations == 0 ? "no" : std::to_string(violations)) << " violations\n";
     return violations == 0;
 }
 

@@ -1,14 +1,17 @@
-// What the programs' command lines share beyond CLI11: lists of names, and outputs that nothing is
-// lost to.
+// What the programs' command lines share beyond CLI11: lists of names, standard input and output,
+// and outputs that nothing is lost to.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "errbound/support/output_file.hpp"
 
 namespace errbound::support {
 
@@ -49,6 +52,19 @@ const auto& entry_named(const std::string& option, const std::string& wanted,
                       listed(entries, name) + remark);
 }
 
+/// The path of an input on the command line: `-` is standard input.
+inline std::string input_named(const std::string& name) {
+    return name == "-" ? "/dev/stdin" : name;
+}
+
+/// Where tables for people go: standard output, or standard error where an output is the former.
+inline std::ostream& stream_for_people(
+    const std::vector<std::optional<std::filesystem::path>>& outputs) {
+    for (const auto& output : outputs)
+        if (output && descriptor_of(*output) == 1) return std::cerr;
+    return std::cout;
+}
+
 /// An output must be neither an input nor another output: nothing is lost.
 inline void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
                              std::vector<std::filesystem::path> taken) {
@@ -56,10 +72,12 @@ inline void require_separate(const std::vector<std::optional<std::filesystem::pa
         if (!output) continue;
         for (const std::filesystem::path& other : taken) {
             std::error_code ignored;
+            const bool same_stream =
+                descriptor_of(*output) && descriptor_of(*output) == descriptor_of(other);
             const bool same = std::filesystem::equivalent(*output, other, ignored) ||
                               output->lexically_normal() == other.lexically_normal();
-            if (same && std::filesystem::status(*output, ignored).type() !=
-                            std::filesystem::file_type::character)
+            if (same_stream || (same && std::filesystem::status(*output, ignored).type() !=
+                                            std::filesystem::file_type::character))
                 throw usage_error("found the output '" + output->string() +
                                   "' among the inputs or twice, expected a file of its own");
         }

@@ -1,13 +1,21 @@
 // Whole files in and out.
 #include "errbound/support/output_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <errbound/support/error.hpp>
 #include <fstream>
+#include <iostream>
 #include <system_error>
+#include <utility>
 
 namespace errbound::support {
 namespace fs = std::filesystem;
@@ -18,53 +26,177 @@ std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
 
-void write_directly(const fs::path& path, std::string_view text, const fs::path& shown) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    if (!out) throw file_error(shown.string() + ": cannot be written" + reason());
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) throw file_error(shown.string() + ": writing failed" + reason());
+/// While one of these lives, signals that would end the program are only taken down; the destructor
+/// lets them. Beyond a limit on a file's size writing fails.
+class deferred_signals {
+  public:
+    deferred_signals() {
+        arrived = 0;
+        for (std::size_t i = 0; i < signals.size(); ++i) {
+            sigaction(signals[i], nullptr, &before_[i]);
+            if (!is_default(before_[i])) continue;
+            struct sigaction action {};
+            action.sa_handler = signals[i] == SIGXFSZ ? SIG_IGN : take_down;  // no SA_RESTART
+            sigaction(signals[i], &action, nullptr);
+        }
+    }
+    deferred_signals(const deferred_signals&) = delete;
+    deferred_signals& operator=(const deferred_signals&) = delete;
+    ~deferred_signals() {
+        for (std::size_t i = 0; i < signals.size(); ++i)
+            if (is_default(before_[i])) sigaction(signals[i], &before_[i], nullptr);
+        if (arrived != 0) std::raise(arrived);
+    }
+
+    static bool any() { return arrived != 0; }
+
+  private:
+    static constexpr std::array<int, 6> signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ};
+    static inline volatile std::sig_atomic_t arrived = 0;
+
+    static void take_down(int signal) { arrived = signal; }
+    static bool is_default(const struct sigaction& action) {
+        return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_DFL;
+    }
+
+    std::array<struct sigaction, signals.size()> before_;
+};
+
+/// Writes all to an open descriptor. `shown` is for messages.
+void write_to(int descriptor, std::string_view text, const fs::path& shown) {
+    constexpr std::size_t block = 1 << 20;
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), std::min(text.size(), block));
+        if (deferred_signals::any()) throw file_error(shown.string() + ": writing was interrupted");
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw file_error(shown.string() + ": writing failed" + reason());
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+/// The same, and closes it.
+void write_and_close(int descriptor, std::string_view text, const fs::path& shown) {
+    if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());
+    try {
+        write_to(descriptor, text, shown);
+    } catch (...) {
+        ::close(descriptor);
+        throw;
+    }
+    // Where the disk is elsewhere it may be full only now.
+    if (::close(descriptor) != 0) throw file_error(shown.string() + ": writing failed" + reason());
+}
+
+/// An output file that is written but not yet in its place.
+class temporary_file {
+  public:
+    temporary_file(fs::path target, const output& out) : target_(std::move(target)) {
+        struct stat replaced {};
+        const bool replaces = stat(target_.c_str(), &replaced) == 0;
+        if (replaces && access(target_.c_str(), W_OK) != 0)
+            throw file_error(out.path.string() + ": cannot be written" + reason());
+        const int descriptor = create();
+        try {
+            constexpr mode_t permissions = 07777;
+            if (replaces) ::fchmod(descriptor, replaced.st_mode & permissions);
+            write_and_close(descriptor, out.text, out.path);
+        } catch (...) {
+            if (descriptor >= 0) ::unlink(path_.c_str());
+            throw;
+        }
+    }
+    temporary_file(temporary_file&& other) noexcept
+        : target_(std::move(other.target_)), path_(std::exchange(other.path_, {})) {}
+    temporary_file& operator=(temporary_file&&) = delete;
+    ~temporary_file() {
+        if (!path_.empty()) ::unlink(path_.c_str());
+    }
+
+    void put_in_place() {
+        std::error_code error;
+        fs::rename(path_, target_, error);
+        if (error)
+            throw file_error(target_.string() + ": cannot be replaced (" + error.message() + ")");
+        path_.clear();
+    }
+
+  private:
+    /// Opens a file of a new name beside the target. What a killed process left stays as it is.
+    int create() {
+        static unsigned count = 0;
+        const std::string name = ".errbound-" + std::to_string(getpid()) + "-";
+        int descriptor = -1;
+        do {
+            path_ = target_;
+            path_.replace_filename(name + std::to_string(++count) + ".tmp");
+            constexpr mode_t all = 0666;  // less what the umask takes
+            descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, all);
+        } while (descriptor < 0 && errno == EEXIST);
+        return descriptor;
+    }
+
+    fs::path target_, path_;
+};
+
+/// Where the file itself is, or is to be; nothing for a pipe or a device. Throws file_error.
+std::optional<fs::path> file_behind(const fs::path& path) {
+    const auto refuse = [&path](const char* found) {
+        throw file_error("'" + path.string() + "': found " + found + ", expected a file to write");
+    };
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) refuse("a directory");
+    if (fs::exists(status)) {
+        if (!fs::is_regular_file(status)) return std::nullopt;
+        return fs::canonical(path);
+    }
+    if (fs::is_symlink(fs::symlink_status(path, error))) refuse("a symbolic link to nothing");
+    if (!path.has_filename()) refuse("no file name");
+    return path;
 }
 
 }  // namespace
 
-void write_whole(const fs::path& path, std::string_view text) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (fs::is_directory(status)) {
-        throw file_error(path.string() + ": found a directory, expected a file to write");
+std::optional<int> descriptor_of(const fs::path& path) {
+    const std::string name = path.lexically_normal().string();
+    if (name == "-" || name == "/dev/stdout") return STDOUT_FILENO;
+    if (name == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        if (!name.starts_with(folder)) continue;
+        int descriptor = 0;
+        const char* const end = name.data() + name.size();
+        const auto read = std::from_chars(name.data() + folder.size(), end, descriptor);
+        if (read.ec == std::errc{} && read.ptr == end) return descriptor;
     }
-    // A pipe or device must never be replaced by a file, and cannot be half-written either.
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-        write_directly(path, text, path);
-        return;
+    return std::nullopt;
+}
+
+void write_whole(const std::vector<output>& outputs) {
+    const deferred_signals deferred;
+    std::vector<temporary_file> files;
+    std::vector<const output*> streams;
+    files.reserve(outputs.size());
+    for (const output& out : outputs) {
+        const auto file = descriptor_of(out.path) ? std::nullopt : file_behind(out.path);
+        if (file)
+            files.emplace_back(*file, out);
+        else
+            streams.push_back(&out);
     }
-    if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(path, error))) {
-        throw file_error(path.string() +
-                         ": found a symbolic link to nothing, expected a file to write");
-    }
-    // A symbolic link to a file stays one; the file is replaced.
-    const fs::path target = fs::exists(status) ? fs::canonical(path, error) : path;
-    if (!target.has_filename()) {
-        throw file_error("'" + path.string() + "'" +
-                         ": found no file name, expected a file to write");
-    }
-    fs::path temporary = target;
-    std::string hidden = ".";
-    hidden.append(target.filename().string()).append(".").append(std::to_string(getpid()));
-    temporary.replace_filename(hidden.append(".tmp"));
-    try {
-        write_directly(temporary, text, path);
-        if (fs::exists(status)) fs::permissions(temporary, status.permissions(), error);
-        fs::rename(temporary, target, error);
-        if (error) {
-            throw file_error(path.string() + ": cannot be replaced (" + error.message() + ")");
+    for (const output* out : streams) {
+        if (const auto descriptor = descriptor_of(out->path)) {
+            std::cout.flush();
+            write_to(*descriptor, out->text, out->path);
+        } else {
+            write_and_close(::open(out->path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY), out->text,
+                            out->path);
         }
-    } catch (...) {
-        fs::remove(temporary, error);
-        throw;
     }
+    for (temporary_file& file : files) file.put_in_place();
+}
+
+void write_whole(const fs::path& path, std::string_view text) {
+    write_whole({{path, std::string(text)}});
 }
 
 std::string read_whole(const fs::path& path) {

@@ -2,12 +2,30 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace errbound::support {
 
-/// Writes `text` to a temporary file beside `path` and renames it. Throws file_error.
+/// A file to write, and all that goes into it.
+struct output {
+    std::filesystem::path path;
+    std::string text;
+};
+
+/// The open descriptor that a path stands for: `-` and /dev/stdout are 1, /dev/stderr 2,
+/// /dev/fd/N and /proc/self/fd/N are N.
+std::optional<int> descriptor_of(const std::filesystem::path& path);
+
+/// Writes all outputs, or none where one cannot be written (full disk, limit on a file's size,
+/// missing rights): each goes to a temporary file beside its path, and once all are there they are
+/// renamed. Pipes, devices and open descriptors, which can be neither replaced nor taken back, are
+/// written between the two. SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGPIPE, where the program does
+/// not handle them, wait until no temporary file is left. A file that is replaced keeps its
+/// permissions; a symbolic link stays one. Throws file_error.
+void write_whole(const std::vector<output>& outputs);
 void write_whole(const std::filesystem::path& path, std::string_view text);
 
 /// The whole file. Throws file_error (missing, a directory, unreadable).

@@ -47,7 +47,8 @@ std::optional<method> find_method(std::string_view name);
 method_info info(method m);
 
 /// By any method. (Programs that need `exact` alone call decide_exact of ccd/exact.hpp, which links
-/// no other method and can report its stages.)
+/// no other method and can report its stages.) A value that is none of methods() leaves every query
+/// `uncertain`.
 verdict decide(method m, const vertex_face<double>& query);
 verdict decide(method m, const edge_edge<double>& query);
 

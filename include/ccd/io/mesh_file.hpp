@@ -10,10 +10,11 @@
 
 namespace ccd::io {
 
-/// Reads a frame; the format is that of the extension (.ply or .obj). Faces with more than three
-/// vertices are an error. Throws errbound::support::file_error: counts that do not match, indices
-/// out of range, faces with fewer than three or repeated vertices, neither faces nor edges,
-/// coordinates that are not finite, truncated or unreadable files.
+/// Reads a frame; the format is that of the extension (.ply or .obj), or told from the content
+/// where there is none and for pipes. Faces with more than three vertices are an error. Throws
+/// errbound::support::file_error: counts that do not match, indices out of range, faces with fewer
+/// than three or repeated vertices, neither faces nor edges, coordinates that are not finite,
+/// truncated or unreadable files.
 mesh read_mesh(const std::filesystem::path& path);
 
 /// Reads a frame from the text of a PLY file: all scalar types, elements in any order, elements and

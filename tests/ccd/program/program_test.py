@@ -251,6 +251,42 @@ class Step(ProgramTest):
             expected = expected or pairs.read_text()
             self.assertEqual(pairs.read_text(), expected)
 
+    def test_rods_and_points(self):
+        """A rod falls through a face and across another rod, a point falls onto that rod's middle."""
+        def frame(z):
+            vertices = BASE + [(0.25, 0.25, z), (2, 0, z), (1, -1, 0), (1, 1, 0), (1, -0.5, z)]
+            return "".join("v %r %r %r\n" % v for v in vertices) + "f 1 2 3\nl 4 5\nl 6 7\n"
+        frames = [self.write("0.obj", frame(1)), self.write("1.obj", frame(-1))]
+        pairs, out = self.directory / "pairs", self.directory / "json"
+        for method in ("exact", "tight"):
+            text = self.good("step", *frames, "--method", method, "--pairs", pairs, "--json", out)
+            lines = pairs.read_text().splitlines()
+            self.assertEqual([line for line in lines if not line.startswith("ee")],
+                             ["vf,3,0,1,2", "ve,7,5,6"])
+            self.assertIn("ee,3,4,5,6", lines)
+            result = json.loads(out.read_text())["collisions"]
+            self.assertEqual(result, {"vertex_face": 1, "edge_edge": len(lines) - 2, "vertex_edge": 1})
+            table = {row.split()[0]: row.split()[1:] for row in text.splitlines() if row}
+            self.assertEqual(table["vertex-edge"][1], "1")
+
+    def test_faces_and_edges_given_twice_gave_pairs_twice(self):
+        def lines(faces, edges):
+            pairs = self.directory / "pairs"
+            def frame(vertices):
+                return "".join("v %r %r %r\n" % v for v in vertices) + \
+                    "".join("f %d %d %d\n" % f for f in faces) + "".join("l %d %d\n" % e for e in edges)
+            more = [(0.5, -1, 0.5), (0.5, 2, 0.5)]
+            frames = [self.write("0.obj", frame(BEFORE + more)), self.write("1.obj", frame(AFTER + more))]
+            self.good("step", *frames, "--pairs", pairs)
+            return pairs.read_text().splitlines()
+        once = lines([(1, 2, 3), (4, 5, 6)], [(7, 8)])
+        self.assertEqual(len(set(once)), len(once))
+        self.assertEqual(sum(line.startswith("vf") for line in once), 3)
+        for faces, edges in (([(1, 2, 3), (4, 5, 6), (1, 2, 3)], [(7, 8), (7, 8)]),
+                             ([(3, 2, 1), (1, 2, 3), (5, 6, 4), (4, 5, 6)], [(7, 8), (8, 7)]),
+                             ([(1, 2, 3), (4, 5, 6)], [(8, 7), (1, 2), (2, 1), (7, 8)])):
+            self.assertEqual(lines(faces, edges), once)
+
     def test_instruction_sets_agree(self):
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
         refused = self.bad_usage("step", *frames, "--instruction-set", "none-such")

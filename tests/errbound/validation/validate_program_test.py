@@ -89,6 +89,12 @@ class Validate(unittest.TestCase):
         self.assertEqual(done.stdout, "")
         self.assertFalse(out.exists())
 
+    def test_a_table_on_standard_output(self):
+        done = self.run_program("validate", "--expressions", 100, "--rules", "tight", "--csv", "-")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith("part,rule,number,"))
+        self.assertTrue(done.stderr.endswith("\nno violations\n"))
+
     def test_bad_usage(self):
         file = self.directory / "vf.csv"
         file.write_text(HIT)

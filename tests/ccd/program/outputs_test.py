@@ -1,0 +1,263 @@
+# Where the program `ccd` reads from and writes to: standard input and output, pipes, full disks,
+# limits, missing rights, signals. Outputs are whole or as they were, and nothing else is left.
+import contextlib
+import fcntl
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from program_test import AFTER, BEFORE, FACES, HIT, MISS, PROGRAM, SOURCE, ProgramTest, ply
+
+SCENE = [str(SOURCE / f"examples/scenes/cloth-over-ball/frame{i}.ply") for i in (0, 1)]
+IS_ROOT = os.geteuid() == 0
+FATAL = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def obj(vertices):
+    return "".join("v %r %r %r\n" % v for v in vertices) + \
+        "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES)
+
+
+def limit(which, size):
+    return lambda: resource.setrlimit(which, (size, size))
+
+
+class Outputs(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
+        self.good("step", *self.frames, "--pairs", self.directory / "expected")
+        self.expected = (self.directory / "expected").read_text()
+        self.before = self.files()
+
+    def files(self):
+        """All that is there, with its content."""
+        return {p.name: p.read_bytes() for p in self.directory.rglob("*") if p.is_file()}
+
+    def run_with(self, *arguments, **options):
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+        return subprocess.run([PROGRAM, *map(str, arguments)], text=True, timeout=120, **streams)
+
+    def refused(self, message, *arguments, **options):
+        """Status 1 and the message, and every file is as it was."""
+        done = self.run_with(*arguments, **options)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn(message, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertEqual(self.files(), self.before)
+
+
+class Streams(Outputs):
+    def test_a_file_was_named_dash(self):
+        for name in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
+            done = self.run_with("step", *self.frames, "--pairs", name, cwd=self.directory)
+            self.assertEqual((done.returncode, done.stdout), (0, self.expected), name)
+            self.assertIn("vertex-face", done.stderr)  # the table makes way
+        self.assertEqual(self.files(), self.before)
+        query = self.write("vf.csv", HIT + MISS)
+        done = self.run_with("query", query, "--method", "exact", "--verdicts", "-")
+        self.assertEqual((done.returncode, done.stdout), (0, "1\n0\n"))
+
+    def test_the_table_overwrote_a_redirected_dev_stdout(self):
+        for name in ("-", "/dev/stdout"):
+            out = self.directory / "redirected"
+            with open(out, "w") as stdout:
+                done = self.run_with("step", *self.frames, "--pairs", name, stdout=stdout)
+            self.assertEqual((done.returncode, out.read_text()), (0, self.expected))
+
+    def test_standard_output_twice(self):
+        for second in ("-", "/dev/stdout"):
+            self.assertIn("expected a file of its own",
+                          self.bad_usage("step", *self.frames, "--pairs", "-", "--json", second))
+
+    def test_frames_from_pipes_were_refused_for_their_extension(self):
+        for text in (ply(BEFORE, FACES), obj(BEFORE), "\ufeff" + obj(BEFORE)):
+            for name in ("-", "/dev/stdin"):
+                done = self.run_with("step", name, self.frames[1], "--pairs", "-", input=text)
+                self.assertEqual((done.returncode, done.stdout), (0, self.expected), done.stderr)
+            self.write("redirected", text)
+            with open(self.directory / "redirected") as stdin:
+                done = self.run_with("step", "-", self.frames[1], "--pairs", "-", stdin=stdin)
+            self.assertEqual((done.returncode, done.stdout), (0, self.expected), done.stderr)
+        done = self.run_with("step", "-", "-", input=ply(BEFORE, FACES))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("/dev/stdin: found an empty file", done.stderr)
+
+    def test_queries_from_a_pipe(self):
+        done = self.run_with("query", "-", "--kind", "vf", "--method", "exact", "--verdicts", "-",
+                             input=MISS + HIT)
+        self.assertEqual((done.returncode, done.stdout), (0, "0\n1\n"), done.stderr)
+
+    def test_standard_output_that_is_closed_or_full(self):
+        with open("/dev/full", "w") as full:
+            self.refused("standard output cannot be written", "step", *self.frames, stdout=full)
+            self.refused("-: writing failed (No space left on device)",
+                         "step", *self.frames, "--pairs", "-", stdout=full)
+        closed = {"stdout": None, "preexec_fn": lambda: os.close(1)}
+        self.refused("standard output cannot be written", "step", *self.frames, **closed)
+        # No file takes the number of standard output and gets the table.
+        out = self.directory / "out"
+        done = self.run_with("step", *self.frames, "--pairs", out, **closed)
+        self.assertEqual((done.returncode, out.read_text()), (1, self.expected))
+
+    def test_a_reader_that_goes_away(self):
+        for restore, status in ((True, -signal.SIGPIPE), (False, 1)):
+            reader, writer = os.pipe()
+            os.close(reader)
+            done = self.run_with("step", *self.frames, "--pairs", self.directory / "expected",
+                                 "--json", "-", stdout=writer, restore_signals=restore)
+            os.close(writer)
+            self.assertEqual(done.returncode, status)
+            self.assertEqual(self.files(), self.before)
+
+
+class Refusals(Outputs):
+    def test_a_limit_on_file_sizes_left_a_temporary_file(self):
+        old = self.write("old", "as it was\n")
+        self.before = self.files()
+        for size in (0, 1, len(self.expected) - 1):
+            for out in (self.directory / "new", old):
+                self.refused(f"{out}: writing failed (File too large)", "step", *self.frames,
+                             "--pairs", out, preexec_fn=limit(resource.RLIMIT_FSIZE, size))
+
+    def test_the_first_output_was_replaced_though_the_second_failed(self):
+        for bad in ("/dev/full", self.directory, self.directory / "none" / "out"):
+            self.refused(str(bad), "step", *self.frames, "--pairs", self.directory / "expected2",
+                         "--json", bad)
+
+    def test_a_full_disk(self):
+        disk = self.directory / "disk"
+        disk.mkdir()
+        mounted = IS_ROOT and subprocess.run(
+            ["mount", "-t", "tmpfs", "-o", "size=4k", "tmpfs", disk], capture_output=True).returncode == 0
+        if not mounted:
+            self.skipTest("no right to mount a small disk")
+        try:
+            done = self.run_with("step", *SCENE, "--pairs", disk / "out")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("No space left on device", done.stderr)
+            self.assertEqual(os.listdir(disk), [])
+        finally:
+            subprocess.run(["umount", disk], check=True)
+
+    def test_missing_rights(self):
+        self.directory.chmod(0o755)
+        locked = self.directory / "locked"
+        locked.mkdir(mode=0o555)
+        self.write("open/read-only", "as it was\n")
+        (self.directory / "open").chmod(0o777)
+        (self.directory / "open/read-only").chmod(0o444)
+        self.before = self.files()
+        nobody = {"user": 65534, "group": 65534, "extra_groups": []} if IS_ROOT else {}
+        if nobody and subprocess.run([PROGRAM, "--version"], capture_output=True, **nobody).returncode:
+            self.skipTest("the program is out of nobody's reach")
+        for out in (locked / "out", self.directory / "open/read-only"):
+            self.refused(f"{out}: cannot be written (Permission denied)", "step", *self.frames,
+                         "--pairs", out, **nobody)
+
+    def test_links(self):
+        (self.directory / "link").symlink_to("target")
+        self.refused("found a symbolic link to nothing", "step", *self.frames, "--pairs",
+                     self.directory / "link")
+        self.write("target", "old")
+        self.good("step", *self.frames, "--pairs", self.directory / "link")
+        self.assertTrue((self.directory / "link").is_symlink())
+        self.assertEqual((self.directory / "target").read_text(), self.expected)
+
+    def test_a_name_as_long_as_names_can_be(self):
+        out = self.directory / ("n" * 255)
+        self.good("step", *self.frames, "--pairs", out)
+        self.assertEqual(out.read_text(), self.expected)
+
+    @unittest.skipIf(os.environ.get("CCD_SANITIZERS"), "sanitizers need address space")
+    def test_little_memory(self):
+        """With less and less of it: done, or one line, and never an uncaught exception."""
+        statuses = set()
+        for megabytes in range(10, 120, 5):
+            done = self.run_with("step", *SCENE, "--threads", 1, "--pairs", self.directory / "out",
+                                 preexec_fn=limit(resource.RLIMIT_AS, megabytes << 20))
+            if done.returncode == 127 or "error while loading" in done.stderr:
+                continue  # not even loaded
+            statuses.add(done.returncode)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+            self.assertIn(done.stderr, ("", "ccd: out of memory\n"))
+        self.assertEqual(statuses, {0, 1})
+
+
+class Signals(Outputs):
+    @contextlib.contextmanager
+    def started(self, *arguments):
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        try:
+            yield process
+        finally:
+            process.kill()
+            process.wait()
+
+    def wait_for(self, there):
+        for _ in range(1000):
+            if there():
+                return
+            time.sleep(0.01)
+        self.fail("the program did not come so far")
+
+    def temporary_files(self):
+        return [p for p in self.directory.iterdir() if p.name.endswith(".tmp")]
+
+    def test_between_a_temporary_file_and_its_place(self):
+        old = self.write("old", "as it was\n")
+        pipe = self.directory / "pipe"
+        os.mkfifo(pipe)
+        for sent in FATAL:
+            # The program waits for a reader of the pipe, all else being written.
+            with self.started("step", *self.frames, "--pairs", old, "--json", pipe) as process:
+                self.wait_for(self.temporary_files)
+                process.send_signal(sent)
+                self.assertEqual(process.wait(30), -sent)
+            self.assertEqual(self.temporary_files(), [])
+            self.assertEqual(pathlib.Path(old).read_text(), "as it was\n")
+
+    def test_while_a_pipe_is_written(self):
+        pipe = self.directory / "pipe"
+        os.mkfifo(pipe)
+        for sent in FATAL:
+            reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+            fcntl.fcntl(reader, fcntl.F_SETPIPE_SZ, 4096)
+            with self.started("step", *SCENE, "--pairs", pipe, "--json", self.directory / "json") as process:
+                self.wait_for(self.temporary_files)
+                time.sleep(0.05)  # the pipe is full and the program waits
+                process.send_signal(sent)
+                self.assertEqual(process.wait(30), -sent)
+            os.close(reader)
+            self.assertEqual(self.temporary_files(), [])
+            self.assertFalse((self.directory / "json").exists())
+
+    def test_at_any_time(self):
+        out, json = self.directory / "out", self.directory / "json"
+        whole = {}
+        began = time.monotonic()
+        self.good("step", *SCENE, "--threads", 2, "--pairs", out, "--json", json)
+        took = time.monotonic() - began
+        whole = out.read_bytes()
+        for i in range(60):
+            for file in (out, json):
+                file.unlink(missing_ok=True)
+            with self.started("step", *SCENE, "--threads", 2, "--pairs", out, "--json", json) as process:
+                time.sleep(took * (i % 20) / 16)
+                process.send_signal(FATAL[i % 3])
+                self.assertIn(process.wait(30), (0, -FATAL[i % 3]))
+            self.assertEqual(self.temporary_files(), [])
+            if out.exists():
+                self.assertEqual(out.read_bytes(), whole)
+            if json.exists():
+                self.assertTrue(out.exists())
+                self.assertEqual(json.read_bytes()[-2:], b"}\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
