@@ -17,9 +17,10 @@ namespace soak {
 
 /// What a run repeats.
 struct part {
-    std::string name;     ///< "symmetries"
-    std::string unit;     ///< what is counted: "queries"
-    std::string version;  ///< of the questions: names of families; states of others are refused
+    std::string name;  ///< "symmetries"
+    std::string unit;  ///< what is counted: "queries"
+    std::string version =
+        {};  ///< of the questions: names of families; states of others are refused
     /// Compares all answers of one block. Called from several threads at once.
     std::function<findings(std::uint64_t seed, std::uint64_t block)> compare_block = {};
     /// How many questions that many blocks hold.

@@ -1,5 +1,5 @@
 // ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
-// against itself on images of them.
+// against itself on images of them; steps of meshes against every pair; roots against FLINT.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +18,8 @@
 #include "errbound/support/table.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/long_run.hpp"
+#include "tests/soak/meshes.hpp"
+#include "tests/soak/polynomials.hpp"
 #include "tests/soak/symmetries.hpp"
 
 namespace {
@@ -138,7 +140,7 @@ soak::state begin(const soak::part& of, std::uint64_t seed, bool seed_given, boo
         if (fs::exists(path)) {
             throw std::runtime_error(path.string() +
                                      ": found a run's state; go on with --resume, "
-                                     "or remove the file to start anew");
+                                     "or forget it with --anew");
         }
         return {.seed = seed};
     }
@@ -186,24 +188,53 @@ int run(const soak::part& part, const soak::run_options& options, const soak::st
     return 0;
 }
 
+/// Which part, and how much of it.
+struct choice {
+    std::uint64_t count = 20'000'000;
+    soak::part (*part)() = [] {
+        return soak::comparison_part(soak::reference(), compared_with_reference());
+    };
+};
+
+void add_parts(CLI::App& app, choice& chosen) {
+    app.add_option("--queries", chosen.count,
+                   "At least so many, a resumed run's earlier ones included")
+        ->capture_default_str();
+    app.add_flag_callback(
+        "--symmetries",
+        [&chosen] { chosen.part = [] { return soak::symmetry_part(soak::symmetric_deciders()); }; },
+        "Without a reference: images of a query, by all ways of asking, have one answer");
+    const auto counted = [&](const char* name, const char* what, soak::part (*part)()) {
+        const auto choose = [&chosen, part](std::uint64_t count) { chosen = {count, part}; };
+        app.add_option_function<std::uint64_t>(name, choose, what)
+            ->type_name("N")
+            ->excludes("--queries", "--symmetries");
+    };
+    counted("--meshes", "Steps of so many small meshes, by the reference on every pair",
+            [] { return soak::mesh_part(); });
+#ifdef ERRBOUND_HAS_FLINT
+    counted("--polynomials", "So many polynomials' roots, against FLINT's counts",
+            soak::polynomial_part);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
-    CLI::App app{"The exact method against the reference, or against itself on symmetric images."};
+    CLI::App app{"What is exact against a reference, or against itself."};
     app.name("./run soak");
-    std::uint64_t queries = 20'000'000, seed = 1;
-    bool resume = false, symmetries = false;
+    choice chosen;
+    std::uint64_t seed = 1;
+    bool resume = false, anew = false;
     soak::run_options options;
-    app.add_flag("--symmetries", symmetries,
-                 "Without a reference: images of a query, by all ways of asking, have one answer");
-    app.add_option("--queries", queries, "At least so many, a resumed run's earlier ones included")
-        ->capture_default_str();
+    add_parts(app, chosen);
     CLI::Option* const seed_option =
-        app.add_option("--seed", seed, "Same seed, same queries")->capture_default_str();
+        app.add_option("--seed", seed, "Same seed, same questions")->capture_default_str();
     app.add_flag("--resume", resume, "Go on where the last run stopped");
+    app.add_flag("--anew", anew, "Forget the last run")->excludes("--resume");
     app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
     app.add_option("--folder", options.folder,
-                   "For the state and differing queries; by default out/soak/PART");
+                   "For the state and what differs; by default out/soak/PART");
     app.footer(
         "Exit status: 0 no difference, 1 a difference or bad input, 2 bad usage, 3 stopped "
         "by a signal (go on with --resume).");
@@ -212,11 +243,10 @@ int main(int argc, char** argv) try {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    const soak::part part =
-        symmetries ? soak::symmetry_part(soak::symmetric_deciders())
-                   : soak::comparison_part(soak::reference(), compared_with_reference());
+    const soak::part part = chosen.part();
     if (options.folder.empty()) options.folder = fs::path("out/soak") / part.name;
-    options.blocks = part.blocks_for(queries);
+    if (anew) fs::remove(soak::state_path(options.folder));
+    options.blocks = part.blocks_for(chosen.count);
     return run(part, options, begin(part, seed, seed_option->count() > 0, resume, options.folder));
 } catch (const std::exception& error) {
     std::fprintf(stderr, "soak: %s\n", error.what());

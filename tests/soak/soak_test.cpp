@@ -17,6 +17,7 @@
 #include "errbound/support/output_file.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/long_run.hpp"
+#include "tests/soak/meshes.hpp"
 #include "tests/soak/symmetries.hpp"
 
 namespace {
@@ -209,6 +210,19 @@ TEST_F(soak_test, rounding_methods_contradict_themselves_on_images) {
 TEST_F(soak_test, exact_answers_uncertain_are_differences) {
     const soak::findings found = soak::symmetry_part({exact(), forgetful()}).compare_block(1, 0);
     EXPECT_EQ(found.different, 1u + 1 + 3 + 4);  // one for each kind, and as other kinds
+}
+
+TEST_F(soak_test, a_step_that_loses_one_pair_is_found) {
+    const auto losing = [](const brute_force::two_frames& at, int threads) {
+        ccd::step_result result = soak::exact_step(at, threads);
+        auto& pairs = result.pairs.edge_edge;
+        if (threads == 2 && pairs.size() > 3) pairs.pop_back();
+        return result;
+    };
+    EXPECT_EQ(soak::mesh_part().compare_block(1, 0).different, 0u);
+    const soak::findings found = soak::mesh_part(losing).compare_block(1, 0);
+    ASSERT_GT(found.different, 0u);
+    EXPECT_NE(found.differences[0].text.find("on 2 threads"), std::string::npos);
 }
 
 TEST_F(soak_test, a_throwing_decider_ends_the_run) {

@@ -1,16 +1,17 @@
 // What a step must report, by looking at every pair.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <array>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <random>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -112,9 +113,21 @@ bool boxes_touch(const two_frames& at, const std::array<vertex_index, A>& a,
 
 using vertices_may_collide = std::function<bool(vertex_index, vertex_index)>;
 
+/// A method's verdict on queries of all kinds, as steps ask for it.
+struct by_method {
+    ccd::method method = ccd::method::exact;
+
+    ccd::verdict operator()(const auto& query) const {
+        if constexpr (requires { ccd::decide(method, query); })
+            return ccd::decide(method, query);
+        else
+            return ccd::decide_exact(query);
+    }
+};
+
 /// Adds the pairs of one kind: make(a, b) makes one.
-template <ccd::kind K, class As, class Bs, class Make>
-void add_pairs(const two_frames& at, ccd::method method, const vertices_may_collide& may,
+template <ccd::kind K, class Decide, class As, class Bs, class Make>
+void add_pairs(const two_frames& at, const Decide& decide, const vertices_may_collide& may,
                const As& as, const Bs& bs, const Make& make, ccd::step_result& result) {
     constexpr bool within_one = std::is_same_v<As, Bs>;
     const ccd::vertex_rows rows(at.first, at.second);
@@ -128,12 +141,7 @@ void add_pairs(const two_frames& at, ccd::method method, const vertices_may_coll
                 continue;
             ++result.candidates.of<K>();
             const auto query = query_of(rows, make(a, b));
-            ccd::verdict found;
-            if constexpr (K == ccd::kind::vertex_face || K == ccd::kind::edge_edge)
-                found = ccd::decide(method, query);
-            else
-                found = ccd::decide_exact(query);
-            if (!may_collide(found)) continue;
+            if (!may_collide(decide(query))) continue;
             auto b_sorted = b;
             std::ranges::sort(b_sorted);
             result.pairs.of<K>().push_back(make(a, b_sorted));
@@ -144,49 +152,37 @@ void add_pairs(const two_frames& at, ccd::method method, const vertices_may_coll
     std::ranges::sort(result.touching_at_start.of<K>());
 }
 
-/// Every pair looked at.
-inline ccd::step_result step(const two_frames& at, ccd::method method = ccd::method::exact,
-                             const vertices_may_collide& may = {}) {
+/// Every pair looked at, and asked by decide(query).
+template <class Decide = by_method>
+ccd::step_result step(const two_frames& at, const Decide& decide = {},
+                      const vertices_may_collide& may = {}) {
     const elements of(at.first);
     ccd::step_result result;
     add_pairs<ccd::kind::vertex_face>(
-        at, method, may, of.vertices, of.faces,
+        at, decide, may, of.vertices, of.faces,
         [](const auto& v, const auto& f) {
             return ccd::vertex_face_pair{v[0], f[0], f[1], f[2]};
         },
         result);
     add_pairs<ccd::kind::edge_edge>(
-        at, method, may, of.edges, of.edges,
+        at, decide, may, of.edges, of.edges,
         [](const auto& a, const auto& b) {
             return ccd::edge_edge_pair{a[0], a[1], b[0], b[1]};
         },
         result);
     add_pairs<ccd::kind::vertex_edge>(
-        at, method, may, of.points, of.rods,
+        at, decide, may, of.points, of.rods,
         [](const auto& v, const auto& e) {
             return ccd::vertex_edge_pair{v[0], e[0], e[1]};
         },
         result);
     add_pairs<ccd::kind::vertex_vertex>(
-        at, method, may, of.points, of.points,
+        at, decide, may, of.points, of.points,
         [](const auto& v, const auto& w) {
             return ccd::vertex_vertex_pair{v[0], w[0]};
         },
         result);
     return result;
-}
-
-inline void expect_same(const ccd::step_result& found, const ccd::step_result& expected) {
-    EXPECT_EQ(found.candidates, expected.candidates);
-    EXPECT_EQ(found.pairs, expected.pairs);
-}
-
-/// Steps on one thread and more against every pair looked at.
-inline void expect_as_by_brute_force(const two_frames& at, ccd::method method) {
-    const auto expected = step(at, method);
-    for (const int threads : {1, 2, 3})
-        expect_same(ccd::step(at.first, at.second, {.method = method, .threads = threads}),
-                    expected);
 }
 
 }  // namespace brute_force

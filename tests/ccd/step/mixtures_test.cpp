@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 
 namespace {
 

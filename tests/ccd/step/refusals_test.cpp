@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <mutex>
 
-#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 
 namespace {
 
@@ -56,7 +56,7 @@ TEST(Filter, LetsThroughPairsOfWhichSomeVerticesMayCollide) {
     const auto unfiltered = ccd::step(at.first, at.second);
     const auto expect = [&](const ccd::pair_filter& filter, const auto& may) {
         const auto found = ccd::step(at.first, at.second, {.filter = filter});
-        expect_same(found, brute_force::step(at, ccd::method::exact, may));
+        expect_same(found, brute_force::step(at, brute_force::by_method(), may));
         EXPECT_LT(found.candidates.edge_edge, unfiltered.candidates.edge_edge);
         EXPECT_GT(found.candidates.edge_edge, 0U);
     };

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/ccd/step/brute_force.hpp"
+#include "tests/ccd/step/expect_steps.hpp"
 #include "tests/ccd/step/nasty_shapes.hpp"
 
 namespace {

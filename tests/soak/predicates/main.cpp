@@ -5,7 +5,7 @@
 #include <string>
 
 #include "errbound/support/table.hpp"
-#include "tests/soak/predicates.hpp"
+#include "tests/soak/predicates/predicates.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <errbound/predicate_batch.hpp>
 #include <utility>
 
-#include "tests/soak/predicate_jobs.hpp"
+#include "tests/soak/predicates/predicate_jobs.hpp"
 
 namespace soak {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/errbound/predicates/predicate_list.hpp"
-#include "tests/soak/predicates.hpp"
+#include "tests/soak/predicates/predicates.hpp"
 
 namespace soak {
 

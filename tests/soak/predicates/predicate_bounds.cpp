@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "tests/ccd/exact/audited.hpp"
-#include "tests/soak/predicate_jobs.hpp"
+#include "tests/soak/predicates/predicate_jobs.hpp"
 
 namespace soak {
 namespace {

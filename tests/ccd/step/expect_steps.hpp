@@ -1,0 +1,23 @@
+// Steps must report what brute force does.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "tests/ccd/step/brute_force.hpp"
+
+namespace brute_force {
+
+inline void expect_same(const ccd::step_result& found, const ccd::step_result& expected) {
+    EXPECT_EQ(found.candidates, expected.candidates);
+    EXPECT_EQ(found.pairs, expected.pairs);
+}
+
+/// Steps on one thread and more against every pair looked at.
+inline void expect_as_by_brute_force(const two_frames& at, ccd::method method) {
+    const auto expected = step(at, by_method{method});
+    for (const int threads : {1, 2, 3})
+        expect_same(ccd::step(at.first, at.second, {.method = method, .threads = threads}),
+                    expected);
+}
+
+}  // namespace brute_force

@@ -1,0 +1,139 @@
+#include "tests/soak/polynomials.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <errbound/polynomial.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/errbound/roots/flint_polynomial.hpp"
+#include "tests/errbound/roots/polynomial_families.hpp"
+
+namespace soak {
+namespace {
+
+using errbound::polynomial;
+using polynomial_families::family;
+using polynomial_families::generator;
+using polynomial_families::integer;
+using polynomial_families::sample;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int max_degree = 24;
+
+/// A product of equal or nearly equal factors, with one coefficient off by one at times: roots
+/// whose distance is that of the last place, or which just miss the real line.
+sample near_multiple(generator& make, int degree) {
+    std::vector<integer> c{1};
+    const integer scale = integer(1) << static_cast<unsigned>(4 + make.small(4));
+    const integer root = make.small(100);
+    while (static_cast<int>(c.size()) <= degree)
+        c = generator::product(c, {integer(-(root * scale + make.small(1))), scale});
+    c[static_cast<std::size_t>(make.small(degree) + degree) / 2] += make.small(1);
+    return {c};
+}
+
+/// The same, expanded and rounded to doubles.
+sample near_multiple_doubles(generator& make, int degree) {
+    const double root = make.uniform();
+    std::vector<double> c{1};
+    while (static_cast<int>(c.size()) <= degree) c = generator::product(c, {-root, 1.0});
+    return generator::of_doubles(c);
+}
+
+/// (ax − 1)(x^n − (ax − 1)): a rational root beside one very close to it.
+sample beside_rational(generator& make, int degree) {
+    const integer a = integer(1) << static_cast<unsigned>(20 + make.small(16));
+    std::vector<integer> second(static_cast<std::size_t>(std::max(degree, 3)));
+    second[0] = 1;
+    second[1] = -a;
+    second.back() += 1;
+    return {generator::product({-1, a}, second)};
+}
+
+struct source_of_polynomials {
+    std::string name;
+    std::function<sample(generator&, int index)> make;
+};
+
+std::vector<source_of_polynomials> all_sources() {
+    std::vector<source_of_polynomials> all;
+    for (std::size_t f = 0; f < polynomial_families::all.size(); ++f)
+        all.push_back({polynomial_families::names[f], [f](generator& make, int index) {
+                           const family of = polynomial_families::all[f];
+                           return make.make(
+                               of, polynomial_families::degree_of_sample(of, index, max_degree));
+                       }});
+    const auto degree = [](int index) { return 2 + index % (max_degree - 1); };
+    all.push_back({"near multiple", [degree](generator& make, int index) {
+                       return near_multiple(make, degree(index));
+                   }});
+    all.push_back({"near multiple, doubles", [degree](generator& make, int index) {
+                       return near_multiple_doubles(make, degree(index));
+                   }});
+    all.push_back({"beside a rational root", [degree](generator& make, int index) {
+                       return beside_rational(make, degree(index));
+                   }});
+    return all;
+}
+
+constexpr int polynomials_per_block = 5;  // of each source
+
+template <class C>
+void compare(const polynomial<C>& p, const flint_polynomial& truth,
+             std::vector<std::uint64_t>& counts, const std::string& name, findings& out) {
+    const std::size_t on_line = truth.distinct_real_roots();
+    const std::size_t positive = truth.distinct_nonnegative_roots();
+    const auto roots = errbound::isolate_roots<integer>(p, -infinity, infinity);
+    const std::size_t counted = errbound::count_roots<integer>(p, -infinity, infinity);
+    const std::size_t counted_positive = errbound::count_roots<integer>(p, 0, infinity);
+    ++counts[0];
+    counts[1] += on_line;
+    counts[2] += roots.decided_by_filter();
+    out.stir(on_line);
+    out.stir(positive);
+    if (roots.size() == on_line && counted == on_line && counted_positive == positive) return;
+    ++counts[3];
+    out.differ({name + ": isolated " + std::to_string(roots.size()) + " roots, counted " +
+                std::to_string(counted) + ", not negative " + std::to_string(counted_positive) +
+                "; FLINT " + std::to_string(on_line) + " and " + std::to_string(positive)});
+}
+
+findings compare_block(std::uint64_t seed, std::uint64_t block) {
+    findings out{
+        .blocks = 1,
+        .tables = {{"polynomials", {"polynomials", "roots", "by the filter", "differences"}}}};
+    generator make(seed * 0x100000001b3 + block);
+    for (const auto& source : all_sources()) {
+        for (int k = 0; k < polynomials_per_block; ++k) {
+            const int index = static_cast<int>(block) * polynomials_per_block + k;
+            const sample s = source.make(make, index);
+            std::string name = source.name + ", coefficients";
+            for (const integer& c : s.whole) name += " " + c.str();
+            auto& counts = out.table("polynomials")[source.name];
+            if (s.doubles.empty())
+                compare(polynomial<integer>(s.whole), flint_polynomial(s.whole), counts, name, out);
+            else
+                compare(polynomial<double>(s.doubles), flint_polynomial(s.whole), counts, name,
+                        out);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+part polynomial_part() {
+    part all{.name = "polynomials", .unit = "polynomials"};
+    const auto sources = all_sources();
+    for (const auto& source : sources) all.version += source.name + "; ";
+    all.count = [count = sources.size()](std::uint64_t blocks) {
+        return blocks * count * polynomials_per_block;
+    };
+    all.compare_block = compare_block;
+    return all;
+}
+
+}  // namespace soak
