@@ -47,6 +47,9 @@ namespace errbound {
 /// What a predicate takes: points of these dimensions. 0 is a plain number.
 template <int... Dimensions>
 struct points {
+    static_assert(sizeof...(Dimensions) > 0 && ((Dimensions >= 0) && ...),
+                  "errbound: points<2, 2, 0> are two points of two coordinates and a plain number: "
+                  "at least one, and none negative");
     static constexpr std::size_t count = sizeof...(Dimensions);
     static constexpr std::array<int, count> dimensions{Dimensions...};
     /// How many numbers these are.
@@ -72,10 +75,33 @@ struct predicate_options {
     static constexpr bool homogeneous = false;
 };
 
+namespace filters {
+
+template <class>
+inline constexpr bool is_shape = false;
+template <int... Dimensions>
+inline constexpr bool is_shape<points<Dimensions...>> = true;
+template <class Number>
+concept exact_stage_number = requires(const Number& x) {
+    Number(0.5);
+    { sign_of(x) } -> std::same_as<sign_type>;
+};
+
+}  // namespace filters
+
 template <class Shape, class F, class Options>
 class predicate_type {
+    static_assert(filters::is_shape<Shape>,
+                  "errbound: predicate's first argument says what it takes: points<2, 2, 2>");
     static_assert(std::is_empty_v<F> && std::is_default_constructible_v<F>,
-                  "errbound: a predicate's expression must not have captures or members");
+                  "errbound: a predicate's expression must not have captures or members: what "
+                  "varies is an argument, a plain number 0 in the shape");
+    static_assert(std::derived_from<Options, predicate_options>,
+                  "errbound: a predicate's options derive from errbound::predicate_options");
+    static_assert(std::is_void_v<typename Options::exact_type> ||
+                      filters::exact_stage_number<typename Options::exact_type>,
+                  "errbound: exact_type is constructible from double and has a sign_of; for "
+                  "Boost.Multiprecision's include errbound/multiprecision.hpp");
 
     using stages = filters::predicate_stages<Shape, F, Options>;
 

@@ -30,6 +30,9 @@ namespace errbound {
 /// Rule: how bounds propagate, a bound_rule (errbound/rules/rule.hpp says what that is).
 template <class T = double, class Rule = tight>
 class tracked {
+    static_assert(!std::is_integral_v<T> && std::is_same_v<T, std::remove_cvref_t<T>>,
+                  "errbound: the first argument of tracked is a floating-point type, float or "
+                  "double, or one of your own with a number_traits");
     static_assert(bound_rule<Rule, T> || sizeof(detail::rule_check<Rule, T>) == 0,
                   "errbound: the second argument of tracked is a bound rule");
 

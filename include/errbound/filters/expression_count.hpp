@@ -6,9 +6,11 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <errbound/sign.hpp>
+#include <type_traits>
 
 namespace errbound::filters {
 
@@ -23,18 +25,19 @@ struct expression_counts {
     bool complete = true;  ///< all branches were seen
 };
 
-/// Not for constant expressions: an expression that gets to one of them does not compile.
-inline void degree_that_is_too_high() {}
+/// Not for constant expressions: an expression that gets there does not compile.
 inline void too_many_signs() {}
 
 /// One run: the signs that it asks for, and the answers that it gets.
 struct counting_run {
-    static constexpr std::size_t max_signs = 256;
+    static constexpr int max_signs = 256;
 
     expression_counts counts;
     std::array<sign_type, max_signs> answers{};  ///< by default `negative`, the first of its type
     std::size_t asked = 0;
     int coordinate_bits = 0;
+    bool lacks_coordinates = false;   ///< asked for one that the points do not have
+    bool number_after_signs = false;  ///< asked for signs, and returned a number
 
     /// The next sequence of signs; false if there is none.
     constexpr bool advance() {
@@ -58,7 +61,14 @@ class expression_count {
     constexpr explicit expression_count(counting_run& run)
         : run_(&run), bits_(run.coordinate_bits), degree_(1) {}
     /// A whole number in the expression. No other type: 0.5 would become 0.
-    constexpr expression_count(std::same_as<int> auto) : bits_(32) {}
+    template <class X>
+    requires std::is_arithmetic_v<X>
+    constexpr expression_count(X) : bits_(32) {
+        static_assert(
+            std::same_as<X, int>,
+            "errbound: constants in a predicate's expression are of type int: for 0.5 * x "
+            "multiply all the rest by 2, for 2.0 write 2, for a size_t static_cast<int>");
+    }
 
     friend constexpr expression_count operator+(const expression_count& x,
                                                 const expression_count& y) {
@@ -76,6 +86,7 @@ class expression_count {
         return {x.run_ != nullptr ? x.run_ : y.run_, x.bits_ + y.bits_, x.degree_ + y.degree_,
                 x.roundings_ + y.roundings_ + 1};
     }
+    // What an expression cannot do, and what it does instead.
     template <class X>
     friend constexpr expression_count operator/(const expression_count& x, const X&) {
         static_assert(!sizeof(X),
@@ -84,23 +95,54 @@ class expression_count {
         return x;
     }
     template <class X>
-    friend constexpr bool operator<(const expression_count&, const X&) {
+    friend constexpr std::strong_ordering operator<=>(const expression_count&, const X&) {
         static_assert(!sizeof(X), "errbound: a predicate's expression compares by sign_of(a - b)");
-        return false;
+        return std::strong_ordering::equal;
     }
     template <class X>
-    friend constexpr bool operator>(const expression_count& x, const X& y) {
-        return x < y;
+    friend constexpr bool operator==(const expression_count& x, const X& y) {
+        return (x <=> y) == 0;
     }
+    constexpr expression_count(const expression_count&) = default;
+    expression_count& operator=(const expression_count&) = delete;
+    template <class X>
+    constexpr expression_count& operator=(X&&) {
+        static_assert(!sizeof(X*),
+                      "errbound: every result of a predicate's expression has a type of its own: "
+                      "write const auto sum = a + b; and never =, += or *= afterwards");
+        return *this;
+    }
+    template <class X>
+    constexpr expression_count& operator+=(const X& x) {
+        return *this = *this + x;
+    }
+    template <class X>
+    constexpr expression_count& operator-=(const X& x) {
+        return *this = *this - x;
+    }
+    template <class X>
+    constexpr expression_count& operator*=(const X& x) {
+        return *this = *this * x;
+    }
+    template <class X>
+    requires std::is_arithmetic_v<X>
+    constexpr explicit operator X() const {
+        static_assert(!sizeof(X),
+                      "errbound: a predicate's expression does not convert its numbers: keep them "
+                      "as const auto, and branch on sign_of(x)");
+        return X();
+    }
+
     constexpr expression_count operator-() const { return {run_, bits_, degree_, roundings_}; }
     friend constexpr sign_type sign_of(const expression_count& x) {
         auto& run = *x.run_;
         const int roundings = x.roundings_ == 0 ? 0 : x.roundings_ - 1;
         run.counts.roundings = larger(run.counts.roundings, roundings);
-        if (x.degree_ > expression_counts::max_degree) degree_that_is_too_high();
-        int& bits = run.counts.bits[static_cast<std::size_t>(x.degree_)];
-        bits = larger(bits, x.bits_);
         run.counts.degree = larger(run.counts.degree, x.degree_);
+        if (x.degree_ <= expression_counts::max_degree) {
+            int& bits = run.counts.bits[static_cast<std::size_t>(x.degree_)];
+            bits = larger(bits, x.bits_);
+        }
         if (run.asked == counting_run::max_signs) too_many_signs();
         return run.answers[run.asked++];
     }
@@ -120,19 +162,30 @@ class expression_count {
     int bits_ = 0, degree_ = 0, roundings_ = 0;
 };
 
-/// `run(counting_run&)` runs the expression, whose coordinates are made of that argument,
-/// and asks for its sign if it does not end in one.
+/// What the runs of an expression say of it.
+struct expression_findings {
+    expression_counts counts;
+    bool lacks_coordinates, number_after_signs;
+    bool has_one_answer = true;  ///< of all that were seen
+};
+
+/// `run(counting_run&)` runs the expression, whose coordinates are made of that argument, and
+/// returns its answer; where that is a number it asks for its sign.
 template <class Run>
-constexpr expression_counts count_expression(int coordinate_bits, const Run& run) {
+constexpr expression_findings count_expression(int coordinate_bits, const Run& run) {
     constexpr int max_runs = 250;
     counting_run state;
     state.coordinate_bits = coordinate_bits;
-    for (int i = 0; i < max_runs; ++i) {
-        run(state);
-        if (!state.advance()) return state.counts;
+    const sign_type first = run(state);
+    bool has_one_answer = true;
+    for (int runs = 1; state.advance(); ++runs) {
+        if (runs == max_runs) {
+            state.counts.complete = false;
+            break;
+        }
+        if (run(state) != first) has_one_answer = false;
     }
-    state.counts.complete = false;
-    return state.counts;
+    return {state.counts, state.lacks_coordinates, state.number_after_signs, has_one_answer};
 }
 
 }  // namespace errbound::filters

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/filters/coordinates.hpp>
+#include <errbound/filters/expression_check.hpp>
 #include <errbound/filters/expression_count.hpp>
 #include <errbound/filters/semi_static_filter.hpp>
 #include <errbound/filters/static_filter.hpp>
@@ -71,16 +72,28 @@ struct listed_scalars {
         return make(list[first + static_cast<std::size_t>(i)]);
     }
 };
-/// Not for constant expressions: an expression that gets here does not compile.
-inline void coordinate_that_the_point_lacks() {}
+/// Whether the points of a shape have this coordinate.
+template <class Shape, std::size_t Argument>
+constexpr bool has_coordinate(int i) {
+    return i == 0 || (i > 0 && i < Shape::dimensions[Argument]);
+}
 /// Coordinates that only count.
 template <class Shape>
 struct counted_scalars {
     counting_run& run;
     template <std::size_t Argument>
     constexpr expression_count at(int i) const {
-        if (i < 0 || (i > 0 && i >= Shape::dimensions[Argument])) coordinate_that_the_point_lacks();
+        if (!has_coordinate<Shape, Argument>(i)) run.lacks_coordinates = true;
         return expression_count(run);
+    }
+};
+/// Coordinates of which only their signs are supposed.
+template <class Shape>
+struct supposed_scalars {
+    supposed_signs& signs;
+    template <std::size_t Argument>
+    constexpr supposed_number at(int i) const {
+        return {signs, Shape::offset(Argument) + static_cast<std::size_t>(i)};
     }
 };
 
@@ -119,17 +132,43 @@ constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
     return conclude(evaluate<Shape>(f, listed_scalars<Shape, List, Make>{list, make}));
 }
 
-/// Not for constant expressions either: such an expression could not pass on `uncertain`.
-inline void expression_that_asks_for_signs_must_return_one() {}
+template <class Shape, class F>
+inline constexpr bool takes_points = []<std::size_t... I>(std::index_sequence<I...>) {
+    using scalars = counted_scalars<Shape>;
+    return std::is_invocable_v<const F&,
+                               decltype(view<Shape, I>(std::declval<const scalars&>()))...>;
+}
+(std::make_index_sequence<Shape::count>());
+/// The type of an expression's result over these scalars.
+template <class Shape, class F, class Scalars>
+using result_over = decltype(evaluate<Shape>(F(), std::declval<const Scalars&>()));
+/// Whether it branches: then it returns a sign.
+template <class Shape, class F>
+inline constexpr bool branches =
+    std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
+
 /// What the expression asks for coordinates of this many bits.
 template <class Shape, class F>
-constexpr expression_counts counts_of(int coordinate_bits) {
+constexpr expression_findings findings_of(int coordinate_bits) {
     return count_expression(coordinate_bits, [](counting_run& run) {
         const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run});
-        if (!std::is_same_v<decltype(x), const sign_type> && run.asked > 0)
-            expression_that_asks_for_signs_must_return_one();
-        (void)conclude(x);
+        if (!branches<Shape, F> && run.asked > 0) run.number_after_signs = true;
+        return conclude(x);
     });
+}
+
+/// What is wrong with an expression, if one supposition shows it; a constant expression for each,
+/// since compilers limit what one may take.
+template <class Shape, class F, std::size_t Supposition>
+inline constexpr expression_fault fault_by = find_fault(Supposition, [](supposed_signs& signs) {
+    return conclude(evaluate<Shape>(F(), supposed_scalars<Shape>{signs}));
+});
+template <class Shape, class F>
+constexpr bool has_fault(expression_fault fault) {
+    return [&]<std::size_t... S>(std::index_sequence<S...>) {
+        return ((fault_by<Shape, F, S> == fault) || ...);
+    }
+    (std::make_index_sequence < branches<Shape, F> ? suppositions : 1 > ());
 }
 
 }  // namespace errbound::filters

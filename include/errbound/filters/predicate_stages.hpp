@@ -21,16 +21,47 @@ namespace errbound::filters {
 
 template <class Shape, class F, class Options>
 class predicate_stages {
+    static_assert(takes_points<Shape, F>,
+                  "errbound: a predicate's expression takes one argument for each point of the "
+                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>");
+    using result = result_over<Shape, F, counted_scalars<Shape>>;
+    static_assert(std::is_same_v<result, expression_count> || std::is_same_v<result, sign_type>,
+                  "errbound: a predicate's expression returns a number made of coordinates, whose "
+                  "sign is the answer, or a sign_type; instead of bool, int or void return "
+                  "sign_of(x), which can be uncertain");
+
   public:
     /// Of coordinates that fit a word.
     static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
+
+  private:
+    static constexpr expression_findings findings = findings_of<Shape, F>(word_bits);
+    static_assert(!findings.lacks_coordinates,
+                  "errbound: the expression asks for a coordinate that the predicate's shape does "
+                  "not have: of points<2, 2> a[0] and a[1]");
+    static_assert(!findings.number_after_signs,
+                  "errbound: an expression that asks for signs returns one, so that it can pass on "
+                  "`uncertain`: write return sign_of(x)");
+    static_assert(findings.counts.degree <= expression_counts::max_degree,
+                  "errbound: the expression is of a higher degree than 63");
+    static_assert(!has_fault<Shape, F>(expression_fault::acts_on_uncertain),
+                  "errbound: the expression acts on a sign that is uncertain as if it were known: "
+                  "after const sign_type s = sign_of(x) write if (!certain(s)) return s");
+    static_assert(!has_fault<Shape, F>(expression_fault::asks_nothing),
+                  "errbound: the expression's answer is the same for all points: it asks for no "
+                  "sign, or all its terms cancel");
+    static_assert(!has_fault<Shape, F>(expression_fault::gives_up),
+                  "errbound: the expression returns `uncertain` although all signs that it asked "
+                  "for are certain: return a sign there, `zero` say, even if it never gets there");
+    static_assert(!findings.has_one_answer || !findings.counts.complete,
+                  "errbound: the expression's answer is the same whatever the signs it asks for");
+
+  public:
     /// What the expression asks for coordinates of one word.
-    static constexpr expression_counts counts = counts_of<Shape, F>(word_bits);
+    static constexpr expression_counts counts = findings.counts;
     /// Whether there is a semi-static filter: what it saves grows with the degree.
     static constexpr bool has_semi_static_filter =
-        !counts.mixed && counts.degree >= 5 &&
-        !std::is_same_v<sign_type, decltype(evaluate<Shape>(
-                                       F(), std::declval<const counted_scalars<Shape>&>()))>;
+        !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
     /// So many bits may coordinates have for no result to take more than `bits`.
     /// Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {

@@ -106,7 +106,8 @@ static_assert(!errbound::incircle.has_semi_static_filter &&
 /// Of a mass that T has not the bits for, and with a constant 0.
 template <int Factor>
 constexpr auto heavy = errbound::predicate<errbound::points<2>>([](const auto& a) {
-    return (Factor * (a[0] * a[0])) * (Factor * (a[0] * a[0])) * a[1];
+    return (Factor * (a[0] * a[0])) * (Factor * (a[0] * a[0])) * a[1] +
+           a[1] * a[1] * a[1] * a[1] * a[1];
 });
 static_assert(heavy<0>.has_semi_static_filter);
 

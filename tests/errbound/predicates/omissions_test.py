@@ -1,0 +1,69 @@
+"""The compiler finds what is left out of the predicates that branch: a check of an uncertain sign.
+
+usage: omissions_test.py SOURCE_FOLDER COMPILER
+
+Leaves out every check, and of those of several signs each sign, one at a time, and compiles.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+LEAST_FOUND = 16  # the others matter behind a dozen degenerate cases only
+PREDICATES = {"segments_intersect": "segments_intersect3d", "segment_triangle": "segment_intersects_triangle"}
+
+
+def omissions(line, before):
+    """What becomes of a line and the one before it, each way."""
+    signs = re.findall(r"!certain\(\w+\)", line)
+    loop = re.search(r"\{(.*)\}", before)
+    if len(signs) > 1:
+        for sign in signs:
+            rest = " || ".join(s for s in signs if s != sign)
+            yield re.sub(r"\(!certain.*\) return", f"({rest}) return", line), before
+    if "|| !certain(s)" in line:
+        yield line.replace(" || !certain(s)", ""), before
+        return
+    yield "(void)0;", re.sub(r"^\s*for .*", "", before)
+    if loop:
+        for sign in loop[1].split(", "):
+            rest = ", ".join(s for s in loop[1].split(", ") if s != sign)
+            yield line, before.replace(loop[1], rest)
+
+
+def is_found(text, predicate, include, compiler, folder):
+    source = folder / "omission.cpp"
+    source.write_text(f"{text}\nstatic_assert(errbound::{predicate}.counts.roundings > 0);\n")
+    done = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", f"-I{include}", source],
+                          capture_output=True, text=True)
+    refused = "acts on a sign that is uncertain" in done.stderr
+    if not refused and done.returncode != 0:
+        sys.exit(f"expected a program, but for what is left out, found\n{done.stderr}")
+    return refused
+
+
+def main():
+    root, compiler = pathlib.Path(sys.argv[1]), sys.argv[2]
+    lines = (root / "include/errbound/predicates.hpp").read_text().split("\n")
+    tried = found = 0
+    predicate = None
+    with tempfile.TemporaryDirectory() as folder:
+        for i, line in enumerate(lines):
+            form = re.match(r"constexpr sign_type (\w+)\(", line)
+            predicate = PREDICATES[form[1]] if form else predicate
+            if "!certain" not in line:
+                continue
+            for mutant, before in omissions(line, lines[i - 1]):
+                text = "\n".join([*lines[:i - 1], before, mutant, *lines[i + 1:]])
+                tried += 1
+                if is_found(text, predicate, root / "include", compiler, pathlib.Path(folder)):
+                    found += 1
+                else:
+                    print(f"not found: line {i + 1}: {(before + mutant).strip()}")
+    print(f"{tried} omissions, {found} found")
+    return found < LEAST_FOUND
+
+
+if __name__ == "__main__":
+    sys.exit(main())

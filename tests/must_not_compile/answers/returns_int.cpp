@@ -1,0 +1,11 @@
+// An answer of type int cannot say that it is uncertain.
+#include <errbound/predicate.hpp>
+
+constexpr auto predicate =
+    errbound::predicate<errbound::points<0, 0>>([](const auto& x, const auto& y) {
+        return sign_of(x - y) == errbound::sign_type::positive ? 1 : -1;
+    });
+
+int main() {
+    return predicate(1.0, 2.0) == errbound::sign_type::zero;
+}

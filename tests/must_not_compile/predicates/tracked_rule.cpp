@@ -1,0 +1,13 @@
+// A tracked stage under a type that is no bound rule.
+#include <errbound/predicates.hpp>
+
+struct options : errbound::predicate_options {
+    using tracked_rule = double;
+};
+
+constexpr auto difference = errbound::predicate<errbound::points<0, 0>, options>(
+    [](const auto& x, const auto& y) { return x - y; });
+
+int main() {
+    return difference(1.0, 2.0) == errbound::sign_type::zero;
+}
