@@ -348,7 +348,9 @@ TEST(device_flags, flushing_subnormals_would_make_a_certain_sign_wrong) {
     const unsigned mode = _mm_getcsr();
     _mm_setcsr(mode | flush_results_and_operands);
     const auto flushed = sign_of_square();
+    const bool flushes = !errbound::floating_point_environment().gradual_underflow;
     _mm_setcsr(mode);
+    if (!flushes) GTEST_SKIP() << "subnormals cannot be flushed here: valgrind does not";
     EXPECT_EQ(flushed, errbound::sign_type::zero);
 }
 #endif

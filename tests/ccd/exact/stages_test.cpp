@@ -239,9 +239,9 @@ TEST(batch, every_length_up_to_several_packs) {
 
 TEST(batch, coordinates_that_are_not_finite_are_uncertain_and_harm_no_other_query) {
     auto queries = vertex_face_set().queries;
-    queries.resize(500);
     auto truth = vertex_face_set().truth;
-    truth.resize(500);
+    queries.resize(std::min(queries.size(), std::size_t(500)));
+    truth.resize(queries.size());
     const double bad[] = {std::numeric_limits<double>::quiet_NaN(),
                           std::numeric_limits<double>::infinity(),
                           -std::numeric_limits<double>::infinity()};
