@@ -1,15 +1,16 @@
 // What the library needs of the compiler and the floating-point environment, checked where it can
-// be.
+// be. docs/guarantees.md lists what compilers' flags do to it.
 //
 // Needed: IEEE 754 binary formats with gradual underflow, operations rounded once to the format
-// (any rounding direction for `tight` and `safe`; to nearest for `sharp`, `interval`, `residual`
-// and error-free transformations), and no value-changing optimisation. Contraction to fused
-// multiply-add does not reach the values and bounds of tracked numbers (rounded.hpp); in SIMD packs
-// and plain floating-point code it makes results differ between machines: build with
+// (any rounding direction for `tight` and `safe`; to nearest for `sharp`, `interval`, `residual`,
+// error-free transformations and predicates), and no value-changing optimisation. Contraction to
+// fused multiply-add does not reach the values and bounds of tracked numbers (rounded.hpp); in SIMD
+// packs and plain floating-point code it makes results differ between machines: build with
 // -ffp-contract=off for identical results everywhere.
 #pragma once
 
 #include <cfloat>
+#include <cmath>
 #include <limits>
 
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || \
@@ -24,32 +25,116 @@
 
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559,
               "errbound: float and double must be IEEE 754 binary formats");
+static_assert(sizeof(0.1) == sizeof(double) && 0.1 != static_cast<double>(0.1F),
+              "errbound: constants must be doubles; compile without -fsingle-precision-constant");
 
 namespace errbound {
 
-/// What the calling thread's floating-point environment does. Compilers do not tell of every flag
-/// (flush-to-zero is set at start-up by code that other flags link in), so this one is asked at
-/// run time: a program that cares asserts `floating_point_environment().sound()` once.
+/// What the calling thread's floating-point environment does, and what the compiler made of the
+/// unit that asks. Compilers do not tell of every flag, and flush-to-zero is set at start-up by
+/// code that other flags link in; so all of this is asked at run time, of float, double and, but
+/// for subnormals, long double.
 struct environment_report {
     bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
-    bool no_reassociation;   ///< (a + b) − a is computed as written
-    bool nearest_even;       ///< default rounding; bounds hold in every mode, results differ
+    bool as_written;         ///< sums are in the written order, of the type's bits, no more
+    bool all_bits;           ///< and no fewer: x87 code may have been told to round long doubles
+    bool own_quotients;      ///< quotients are rounded once, and not products with reciprocals
+    bool special_values;     ///< infinity and NaN are told from numbers
+    bool nearest_even;       ///< default rounding
 
-    /// Every bound rule that promises one keeps it.
-    constexpr bool sound() const { return gradual_underflow && no_reassociation; }
+    /// The bounds of `tight` and `safe` hold, which serve every rounding direction.
+    constexpr bool sound_in_any_direction() const {
+        return gradual_underflow && as_written && all_bits && own_quotients && special_values;
+    }
+    /// Every promise of the library is kept.
+    constexpr bool sound() const { return sound_in_any_direction() && nearest_even; }
 };
 
-inline environment_report floating_point_environment() {
-    // volatile: the compiler must not answer for the machine.
-    volatile double smallest_normal = std::numeric_limits<double>::min();
-    volatile double half = 0.5, one = 1, tiny = std::numeric_limits<double>::epsilon() / 4;
-    volatile double subnormal = smallest_normal * half;
-    volatile double restored = subnormal + subnormal;
-    const double x = one, y = tiny;
-    volatile double lost = (x + y) - x;
-    volatile double up = one + 3 * tiny, down = one + tiny;
-    return {restored == smallest_normal, lost != y,
-            up == 1 + std::numeric_limits<double>::epsilon() && down == 1};
+/// Functions and function templates of each unit's own: an inline one's single copy might be that
+/// of a unit with other flags.
+namespace detail {
+
+/// x, of which the compiler knows nothing; as a result, x as it is stored.
+template <class T>
+static T unknown(T x) {
+    volatile T v = x;
+    return v;
+}
+template <class T>
+static bool has_gradual_underflow() {
+    using limits = std::numeric_limits<T>;
+    const T subnormal = unknown(unknown(limits::min()) * unknown(T(0.5)));
+    return unknown(subnormal + subnormal) == limits::min() && unknown(limits::denorm_min()) > 0;
+}
+/// Sums, against the same ones that are stored after each operation.
+template <class T>
+static bool computes_as_written() {
+    constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    const T x = unknown(T(1)), y = unknown(epsilon / 4);
+    const T sum = x + y, y_in_sum = sum - x;
+    const T stored = unknown(x + y), stored_y = unknown(stored - x);
+    bool same = unknown(sum - x) == stored_y &&
+                unknown((x - (sum - y_in_sum)) + (y - y_in_sum)) ==
+                    unknown(unknown(x - unknown(stored - stored_y)) + unknown(y - stored_y));
+    // A loop that may be vectorised.
+    T terms[64];
+    for (T& term : terms) term = y;
+    terms[0] = x;
+    T in_order = 0, total = 0;
+    for (const T& term : terms) total += term;
+    for (const T& term : terms) in_order = unknown(in_order + unknown(term));
+    return same && total == in_order;
+}
+template <class T>
+static bool has_all_bits() {
+    constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    return unknown(unknown(T(1)) + unknown(epsilon)) - 1 == epsilon;
+}
+/// Quotients that are whole: those by way of 1/41 or 1/49 are not, in double or in float.
+template <class T>
+static bool divides_once() {
+    const auto whole = [](T divisor, const auto& quotient) {
+        T numerators[8], quotients[8];
+        for (int k = 0; k < 8; ++k) numerators[k] = unknown(T(k + 1) * divisor);
+        for (int k = 0; k < 8; ++k) quotients[k] = quotient(numerators[k]);
+        bool right = true;
+        for (int k = 0; k < 8; ++k) right = right && unknown(quotients[k]) == T(k + 1);
+        return right;
+    };
+    const T a = unknown(T(41)), b = unknown(T(49));
+    return whole(41, [a](T x) { return x / a; }) && whole(41, [](T x) { return x / T(41); }) &&
+           whole(49, [b](T x) { return x / b; }) && whole(49, [](T x) { return x / T(49); });
+}
+template <class T>
+static bool tells_special_values() {
+    using limits = std::numeric_limits<T>;
+    const T infinity = unknown(limits::infinity()), nothing = infinity - infinity;
+    return std::isinf(infinity) && std::isnan(nothing) && infinity > limits::max() &&
+           !(infinity <= limits::max()) && !(nothing == nothing) && !(nothing <= 0) &&
+           !(nothing >= 0) && nothing != 0;
+}
+template <class T>
+static bool rounds_to_nearest() {
+    constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    const T one = unknown(T(1)), quarter = unknown(epsilon / 4);
+    return unknown(one + 3 * quarter) == 1 + epsilon && unknown(one + quarter) == 1;
+}
+
+}  // namespace detail
+
+/// Of the calling thread and the calling unit. A program that cares asserts .sound() once in each
+/// unit that is compiled with flags of its own. Cost: about a microsecond.
+static inline environment_report floating_point_environment() {
+    using namespace detail;
+    return {has_gradual_underflow<float>() && has_gradual_underflow<double>(),
+            computes_as_written<float>() && computes_as_written<double>() &&
+                computes_as_written<long double>(),
+            has_all_bits<float>() && has_all_bits<double>() && has_all_bits<long double>(),
+            divides_once<float>() && divides_once<double>() && divides_once<long double>(),
+            tells_special_values<float>() && tells_special_values<double>() &&
+                tells_special_values<long double>(),
+            rounds_to_nearest<float>() && rounds_to_nearest<double>() &&
+                rounds_to_nearest<long double>()};
 }
 
 }  // namespace errbound

@@ -330,10 +330,4 @@ TEST(Tracked, WhatCannotBeExactIsNotTakenForIt) {
     static_assert(!errbound::is_exact_number<boost::multiprecision::int128_t>);
 }
 
-TEST(Environment, TheTestsRunInASoundOne) {
-    const auto report = errbound::floating_point_environment();
-    EXPECT_TRUE(report.sound());
-    EXPECT_TRUE(report.nearest_even);
-}
-
 }  // namespace

@@ -1,0 +1,50 @@
+// What floating_point_environment() finds when it runs. What flags do: flags/flags_test.py.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <errbound/environment.hpp>
+#include <thread>
+#if defined(__SSE2__)
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+#endif
+
+namespace {
+
+using errbound::environment_report;
+using errbound::floating_point_environment;
+
+TEST(Environment, TheTestsRunInASoundOne) {
+    EXPECT_TRUE(floating_point_environment().sound());
+}
+
+TEST(Environment, AnotherRoundingDirectionIsFoundAndServesTightAndSafe) {
+    for (const int direction : {FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO}) {
+        std::fesetround(direction);
+        const environment_report report = floating_point_environment();
+        std::fesetround(FE_TONEAREST);
+        EXPECT_FALSE(report.nearest_even) << direction;
+        EXPECT_FALSE(report.sound()) << direction;
+        EXPECT_TRUE(report.sound_in_any_direction()) << direction;
+    }
+}
+
+#if defined(__SSE2__)
+TEST(Environment, SubnormalsThatAreFlushedOrReadAsZeroAreFound) {
+    const unsigned before = _mm_getcsr();
+    for (const unsigned mode : {unsigned{_MM_FLUSH_ZERO_ON}, unsigned{_MM_DENORMALS_ZERO_ON}}) {
+        _mm_setcsr(before | mode);
+        const environment_report report = floating_point_environment();
+        // Another thread has an environment of its own, which it takes from this one.
+        bool other_is_sound = true;
+        std::thread([&] { other_is_sound = floating_point_environment().sound(); }).join();
+        _mm_setcsr(before);
+        EXPECT_FALSE(report.gradual_underflow) << mode;
+        EXPECT_FALSE(report.sound()) << mode;
+        EXPECT_FALSE(other_is_sound) << mode;
+    }
+    EXPECT_TRUE(floating_point_environment().sound());
+}
+#endif
+
+}  // namespace

@@ -1,0 +1,84 @@
+"""What compilers' flags do to the library's promises is what docs/guarantees.md says.
+
+usage: flags_test.py SOURCE_FOLDER
+
+Compiles numbers.cpp under the flags of each row of the page's table, by each of its compilers that
+is here, and runs it. It is refused, or the flag is found when it runs, or all numbers are right.
+"""
+import concurrent.futures
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(sys.argv[1])
+HERE = ROOT / "tests/errbound/flags"
+
+
+def table():
+    """(where, flags, what the page says by compiler) of each row."""
+    compilers = []
+    for line in (ROOT / "docs/guarantees.md").read_text().splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if cells[0] == "flag":
+            compilers = cells[1:-1]
+        elif compilers and cells[0].startswith("`"):
+            flags, where = re.fullmatch(r"`(.*)`(.*)", cells[0]).groups()
+            yield where, flags.split(), dict(zip(compilers, cells[1:-1]))
+        elif compilers and not line.startswith("|"):
+            return
+
+
+def outcome(compiler, where, flags, folder):
+    """A cell of the table."""
+    common = [compiler, "-std=c++20", "-O3", f"-I{ROOT / 'include'}"]
+    for unit in "numbers", "other_unit":
+        its = flags if where == "" or (where == ", another unit") == (unit == "other_unit") else []
+        its = [] if where == ", linking" else its
+        done = subprocess.run([*common, *its, "-c", HERE / f"{unit}.cpp", "-o", folder / f"{unit}.o"],
+                              capture_output=True, text=True)
+        if "errbound: " in done.stderr:
+            return "refused"
+        if re.search(r"No such file|file not found", done.stderr):
+            return "not installed"
+        if done.returncode != 0:
+            return "unknown"
+    objects = [folder / "other_unit.o", folder / "numbers.o"]
+    link = [] if where == ", another unit" else flags
+    subprocess.run([*common, *link, *objects, "-o", folder / "numbers"], check=True)
+    ran = subprocess.run([folder / "numbers"], capture_output=True, text=True)
+    sound, other, wrong = re.search(r"(\w+), other unit (\w+), (\d+) wrong", ran.stdout).groups()
+    if where == ", another unit":
+        return "found" if (sound, other) == ("sound", "unsound") else f"numbers {sound}, other {other}"
+    if sound == "unsound":
+        return "found"
+    return "harmless" if wrong == "0" else f"not found: {ran.stdout.strip()}"
+
+
+def row_outcome(case):
+    where, flags, compiler, said = case
+    with tempfile.TemporaryDirectory() as folder:
+        return outcome(compiler, where, flags, pathlib.Path(folder))
+
+
+def main():
+    rows = list(table())
+    cases = [(where, flags, {"clang": "clang++"}.get(name, name), said[name])
+             for where, flags, said in rows for name in said]
+    cases = [case for case in cases if shutil.which(case[2])]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        found = list(pool.map(row_outcome, cases))
+    wrong = 0
+    for (where, flags, compiler, said), seen in zip(cases, found):
+        differs = seen not in (said, "not installed")
+        wrong += differs
+        print(f"{'WRONG' if differs else 'ok':6}{compiler:8} {' '.join(flags)}{where}: {seen}"
+              + (f", not {said}" if differs else ""))
+    print(f"{len(cases)} cases of {len(rows)} rows, {wrong} not as the page says")
+    return wrong > 0 or len(rows) == 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
