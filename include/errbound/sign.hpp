@@ -8,6 +8,13 @@ namespace errbound {
 /// The sign of a number known up to a bound. `uncertain` is no sign and converts to none.
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
+/// Signs have no order, in which `uncertain` would be the largest: compare by ==, or ask
+/// certainly_nonnegative(s) and the like.
+bool operator<(sign_type, sign_type) = delete;
+bool operator>(sign_type, sign_type) = delete;
+bool operator<=(sign_type, sign_type) = delete;
+bool operator>=(sign_type, sign_type) = delete;
+
 constexpr bool certain(sign_type s) {
     return s != sign_type::uncertain;
 }

@@ -134,9 +134,9 @@ constexpr sign_type sign_over(const F& f, const List& list, const Make& make) {
 
 template <class Shape, class F>
 inline constexpr bool takes_points = []<std::size_t... I>(std::index_sequence<I...>) {
-    using scalars = counted_scalars<Shape>;
-    return std::is_invocable_v<const F&,
-                               decltype(view<Shape, I>(std::declval<const scalars&>()))...>;
+    return requires(const F& f, const counted_scalars<Shape>& scalars) {
+        f(view<Shape, I>(scalars)...);
+    };
 }
 (std::make_index_sequence<Shape::count>());
 /// The type of an expression's result over these scalars.

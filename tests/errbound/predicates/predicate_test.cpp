@@ -176,6 +176,32 @@ static_assert(above_parabola(point2{0x1p600, 0x1p1000}) == sign_type::negative);
 static_assert(above_parabola(point2{0x1p-600, -1}) == sign_type::negative);
 static_assert(above_parabola(point2{-0x1p-1074, -1}) == sign_type::positive);
 
+// Ways to pass on what is uncertain that the compiler must not refuse: an answer that holds
+// whatever the uncertain sign is, at once or later; products of signs; asking a number again.
+constexpr auto in_box =
+    errbound::predicate<errbound::points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
+        sign_type inside = sign_type::positive;
+        for (int i = 0; i < 2; ++i) {
+            const sign_type low = sign_of(p[i] - a[i]), high = sign_of(b[i] - p[i]);
+            if (low == sign_type::negative || high == sign_type::negative)
+                return sign_type::negative;
+            if (!certain(low) || !certain(high)) return sign_type::uncertain;
+            inside = inside * low * high;
+        }
+        return inside;
+    });
+constexpr auto lexicographic =
+    errbound::predicate<errbound::points<2, 2>>([](const auto& a, const auto& b) {
+        const sign_type x = sign_of(a[0] - b[0]);
+        return x == sign_type::zero ? sign_of(a[1] - b[1]) : x;
+    });
+constexpr auto by_product = errbound::predicate<errbound::points<0, 0>>(
+    [](const auto& x, const auto& y) { return sign_of(x) * sign_of(x - y) * -sign_of(y - x); });
+static_assert(in_box(point2{1, 1}, point2{0, 0}, point2{2, 1}) == sign_type::zero);
+static_assert(in_box(point2{3, 1}, point2{0, 0}, point2{2, 1}) == sign_type::negative);
+static_assert(lexicographic(point2{1, 1}, point2{1, 2}) == sign_type::negative);
+static_assert(by_product(2.0, 1.0) == sign_type::positive);
+
 /// It asks for signs of several degrees, and the longest number is not of the highest.
 constexpr auto cubic_if_real =
     errbound::predicate<errbound::points<0, 0, 0>>([](const auto& a, const auto& b, const auto& c) {
