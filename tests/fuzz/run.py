@@ -26,7 +26,7 @@ def arguments():
                         help="fuzzers at a time, else one per core")
     parser.add_argument("--minimise", action="store_true",
                         help="then keep in tests/fuzz/corpus the fewest inputs that cover as much")
-    return parser.parse_args()
+    return parser.parse_intermixed_args()  # names also after options
 
 
 def fuzzers(build, names):
@@ -63,14 +63,14 @@ def run(build, name, minutes):
 
 
 def minimise(build, name):
-    """The fewest inputs of old and new ones that cover what all do."""
+    """The fewest inputs of old and new ones that cover the edges that all do."""
     fewest = FOUND / name / "fewest"
     shutil.rmtree(fewest, ignore_errors=True)
     fewest.mkdir()
     saved = SAVED / name
     saved.mkdir(exist_ok=True)
-    subprocess.run([build / "fuzz" / name, "-set_cover_merge=1", fewest, saved, FOUND / name / "corpus"],
-                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run([build / "fuzz" / name, "-set_cover_merge=1", "-use_counters=0", fewest, saved,
+                    FOUND / name / "corpus"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     shutil.rmtree(saved)
     shutil.move(fewest, saved)
 

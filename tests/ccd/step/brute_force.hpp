@@ -133,7 +133,8 @@ void add_pairs(const two_frames& at, const Decide& decide, const vertices_may_co
     const ccd::vertex_rows rows(at.first, at.second);
     for (std::size_t i = 0; i < as.size(); ++i)
         for (std::size_t j = within_one ? i + 1 : 0; j < bs.size(); ++j) {
-            const auto &a = as[i], &b = bs[j];
+            const auto& a = as[i];
+            const auto& b = bs[j];
             if (share_vertex(a, b) || !boxes_touch(at, a, b)) continue;
             if (may && std::ranges::none_of(a, [&](vertex_index v) {
                     return std::ranges::any_of(b, [&](vertex_index w) { return may(v, w); });
