@@ -123,7 +123,7 @@ static bool rounds_to_nearest() {
 }  // namespace detail
 
 /// Of the calling thread and the calling unit. A program that cares asserts .sound() once in each
-/// unit that is compiled with flags of its own. Cost: about a microsecond.
+/// unit that is compiled with flags of its own. Cost: some microseconds.
 static inline environment_report floating_point_environment() {
     using namespace detail;
     return {has_gradual_underflow<float>() && has_gradual_underflow<double>(),
