@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <ccd/exact.hpp>
 #include <ccd/io/query_file.hpp>
 #include <ccd/method.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,7 @@
 
 #include "errbound/support/output_file.hpp"
 #include "tests/soak/comparison.hpp"
+#include "tests/soak/images.hpp"
 #include "tests/soak/long_run.hpp"
 #include "tests/soak/meshes.hpp"
 #include "tests/soak/symmetries.hpp"
@@ -168,6 +171,34 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
     for (const char* name : {"differences-vf.csv", "differences-ee.csv"})
         EXPECT_EQ(errbound::support::read_whole(folder / "parts" / name),
                   errbound::support::read_whole(folder / "whole" / name));
+}
+
+// Whole numbers can be moved, sheared and scaled without rounding; any doubles are scaled alone.
+TEST_F(soak_test, images_are_of_every_form_where_they_are_exact) {
+    soak::splitmix random(1);
+    const auto forms_of = [&](std::string_view name) {
+        const auto& family =
+            *std::ranges::find(query_families::families, name, &query_families::family::name);
+        std::map<soak::image::form, int> forms;
+        int reversed = 0, scaled = 0;
+        for (std::uint64_t i = 0; i < 100; ++i) {
+            const auto query = query_families::make(family, kind::edge_edge, 1, i);
+            const soak::query_images images(query, 4, random);
+            EXPECT_EQ(images.of({}), query);
+            const soak::image m = images.draw(random);
+            reversed += m.reversed;
+            for (const auto& axis : m.axes) {
+                ++forms[axis.as];
+                scaled += axis.exponent != 0;
+            }
+        }
+        EXPECT_GT(reversed, 20);
+        EXPECT_GT(scaled, 50);
+        return forms;
+    };
+    EXPECT_EQ(forms_of("grid5").size(), 4u);
+    EXPECT_GT(forms_of("grid5")[soak::image::form::sheared], 10);
+    EXPECT_EQ(forms_of("any-bits")[soak::image::form::sheared], 0);
 }
 
 TEST_F(soak_test, images_of_a_query_have_one_answer) {
