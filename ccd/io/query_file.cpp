@@ -172,6 +172,57 @@ class query_parser {
     std::size_t line_ = 0;
 };
 
+/// Takes booleans as JSON's parser meets them. (A parsed document is not an alternative: its
+/// destructor allocates, and ends the program where there is no memory.)
+class truth_reader final : public nlohmann::json_sax<nlohmann::json> {
+  public:
+    explicit truth_reader(const std::string& name) : name_(name) {}
+
+    std::vector<bool> result() { return std::move(result_); }
+
+    bool boolean(bool value) override {
+        if (!in_array_) refuse("boolean");
+        result_.push_back(value);
+        return true;
+    }
+    bool start_array(std::size_t) override {
+        if (in_array_) refuse("array");
+        return in_array_ = true;
+    }
+    bool end_array() override { return true; }
+
+    bool null() override { refuse("null"); }
+    bool number_integer(number_integer_t) override { refuse("number"); }
+    bool number_unsigned(number_unsigned_t) override { refuse("number"); }
+    bool number_float(number_float_t, const string_t&) override { refuse("number"); }
+    bool string(string_t&) override { refuse("string"); }
+    bool binary(binary_t&) override { refuse("binary"); }
+    bool start_object(std::size_t) override { refuse("object"); }
+    bool key(string_t&) override { refuse("object"); }
+    bool end_object() override { refuse("object"); }
+
+    bool parse_error(std::size_t position, const std::string&,
+                     const nlohmann::json::exception& error) override {
+        if (dynamic_cast<const nlohmann::json::parse_error*>(&error) == nullptr)
+            throw file_error(name_ +
+                             ": found a number out of range, expected a JSON array of booleans");
+        throw file_error(name_ + ": found no JSON at byte " + std::to_string(position) +
+                         ", expected a JSON array of booleans");
+    }
+
+  private:
+    [[noreturn]] void refuse(const char* found) const {
+        if (!in_array_)
+            throw file_error(name_ + ": found " + found + ", expected a JSON array of booleans");
+        throw file_error(name_ + ": element " + std::to_string(result_.size()) + ": found " +
+                         found + ", expected true or false");
+    }
+
+    const std::string& name_;
+    std::vector<bool> result_;
+    bool in_array_ = false;
+};
+
 }  // namespace
 
 std::vector<std::string> kind_names() {
@@ -225,29 +276,9 @@ query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, boo
 }
 
 std::vector<bool> parse_truth(std::string_view text, const std::string& name) {
-    nlohmann::json document;
-    try {
-        document = nlohmann::json::parse(text);
-    } catch (const nlohmann::json::parse_error& error) {
-        throw file_error(name + ": found no JSON at byte " + std::to_string(error.byte) +
-                         ", expected a JSON array of booleans");
-    } catch (const nlohmann::json::exception&) {
-        throw file_error(name + ": found a number out of range, expected a JSON array of booleans");
-    }
-    if (!document.is_array()) {
-        throw file_error(name + ": found " + document.type_name() +
-                         ", expected a JSON array of booleans");
-    }
-    std::vector<bool> result;
-    result.reserve(document.size());
-    for (const nlohmann::json& value : document) {
-        if (!value.is_boolean()) {
-            throw file_error(name + ": element " + std::to_string(result.size()) + ": found " +
-                             value.type_name() + ", expected true or false");
-        }
-        result.push_back(value.get<bool>());
-    }
-    return result;
+    truth_reader reader(name);
+    nlohmann::json::sax_parse(text, &reader);
+    return reader.result();
 }
 
 }  // namespace ccd::io

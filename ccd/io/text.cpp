@@ -150,6 +150,7 @@ number parse_decimal(std::string_view token) {
         // nearest (zero or subnormal) value for the latter.
         std::istringstream stream{std::string(token)};
         stream.imbue(std::locale::classic());
+        stream.exceptions(std::ios::badbit);  // no memory is no overflow
         if (!(stream >> value)) return fail(number_status::overflow);
     }
     if (!std::isfinite(value)) return fail(number_status::not_finite);

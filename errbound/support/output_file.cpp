@@ -10,10 +10,13 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <errbound/support/error.hpp>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -90,7 +93,7 @@ void write_and_close(int descriptor, std::string_view text, const fs::path& show
 /// An output file that is written but not yet in its place.
 class temporary_file {
   public:
-    temporary_file(fs::path target, const output& out) : target_(std::move(target)) {
+    temporary_file(std::string target, const output& out) : target_(std::move(target)) {
         struct stat replaced {};
         const bool replaces = stat(target_.c_str(), &replaced) == 0;
         if (replaces && access(target_.c_str(), W_OK) != 0)
@@ -106,17 +109,15 @@ class temporary_file {
         }
     }
     temporary_file(temporary_file&& other) noexcept
-        : target_(std::move(other.target_)), path_(std::exchange(other.path_, {})) {}
+        : target_(std::move(other.target_)), path_(std::exchange(other.path_, std::string())) {}
     temporary_file& operator=(temporary_file&&) = delete;
     ~temporary_file() {
         if (!path_.empty()) ::unlink(path_.c_str());
     }
 
     void put_in_place() {
-        std::error_code error;
-        fs::rename(path_, target_, error);
-        if (error)
-            throw file_error(target_.string() + ": cannot be replaced (" + error.message() + ")");
+        if (std::rename(path_.c_str(), target_.c_str()) != 0)
+            throw file_error(target_ + ": cannot be replaced" + reason());
         path_.clear();
     }
 
@@ -124,22 +125,23 @@ class temporary_file {
     /// Opens a file of a new name beside the target. What a killed process left stays as it is.
     int create() {
         static unsigned count = 0;
-        const std::string name = ".errbound-" + std::to_string(getpid()) + "-";
+        const std::string beside = target_.substr(0, target_.rfind('/') + 1) + ".errbound-" +
+                                   std::to_string(getpid()) + "-";
         int descriptor = -1;
         do {
-            path_ = target_;
-            path_.replace_filename(name + std::to_string(++count) + ".tmp");
+            path_ = beside + std::to_string(++count) + ".tmp";
             constexpr mode_t all = 0666;  // less what the umask takes
             descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, all);
         } while (descriptor < 0 && errno == EEXIST);
         return descriptor;
     }
 
-    fs::path target_, path_;
+    // Strings: a std::filesystem::path of libstdc++ 12 that finds no memory never returns.
+    std::string target_, path_;
 };
 
 /// Where the file itself is, or is to be; nothing for a pipe or a device. Throws file_error.
-std::optional<fs::path> file_behind(const fs::path& path) {
+std::optional<std::string> file_behind(const fs::path& path) {
     const auto refuse = [&path](const char* found) {
         throw file_error("'" + path.string() + "': found " + found + ", expected a file to write");
     };
@@ -148,17 +150,20 @@ std::optional<fs::path> file_behind(const fs::path& path) {
     if (fs::is_directory(status)) refuse("a directory");
     if (fs::exists(status)) {
         if (!fs::is_regular_file(status)) return std::nullopt;
-        return fs::canonical(path);
+        const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
+                                                               &std::free);
+        if (!real) throw file_error(path.string() + ": cannot be written" + reason());
+        return real.get();
     }
     if (fs::is_symlink(fs::symlink_status(path, error))) refuse("a symbolic link to nothing");
-    if (!path.has_filename()) refuse("no file name");
-    return path;
+    if (path.native().empty() || path.native().ends_with('/')) refuse("no file name");
+    return path.native();
 }
 
 }  // namespace
 
 std::optional<int> descriptor_of(const fs::path& path) {
-    const std::string name = path.lexically_normal().string();
+    const std::string& name = path.native();
     if (name == "-" || name == "/dev/stdout") return STDOUT_FILENO;
     if (name == "/dev/stderr") return STDERR_FILENO;
     for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {

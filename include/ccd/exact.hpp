@@ -10,7 +10,8 @@
 // place. (Cloth scenes need 21 to 35 bits, the public benchmark's handcrafted queries up to 110.)
 // That takes a fraction of a microsecond to a few, without allocation. Else, and where fixed widths
 // cannot tell what nearly coincides, the reference decides (ccd/reference.hpp): it takes up to a
-// thousand times as long, bounded in time and memory, allocates, and throws only std::bad_alloc.
+// thousand times as long, bounded in time and memory, allocates, and throws only std::bad_alloc, or
+// aborts there if built with GMP.
 // Coordinates must be finite: otherwise the answer is `uncertain` with cause `range`, the only case
 // in which it is not certain.
 // Promised in a sound environment (errbound/environment.hpp): no flush-to-zero.

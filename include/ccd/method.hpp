@@ -1,8 +1,9 @@
 // The methods by name: what each promises, its source, and one call to decide a query with it.
 //
 // decide() allocates only inside `exact`, `bsc-exact` and `root-parity` (unbounded integers, in
-// `exact` seldom), throws only std::bad_alloc there, and may be called from any thread. Coordinates
-// must be finite: an infinity or NaN gives `uncertain` with cause `range`.
+// `exact` seldom), throws only std::bad_alloc there (or aborts if built with GMP), and may be
+// called from any thread. Coordinates must be finite: an infinity or NaN gives `uncertain` with
+// cause `range`.
 #pragma once
 
 #include <ccd/query.hpp>

@@ -3,9 +3,10 @@
 // Slow and simple, so that everything faster can be compared with it; it is the last stage of
 // `exact`. Decided in integers, one unit an axis, so nothing is rounded. Time and memory grow with
 // the spread of the coordinates' exponents (about 100 bits in ordinary scenes, 2,100 at most) and
-// are bounded. Allocates; throws only std::bad_alloc. Coordinates must be finite: otherwise the
-// answer is `uncertain` with cause `range`, the only case in which it is not certain. Promised in a
-// sound environment (errbound/environment.hpp): no flush-to-zero.
+// are bounded. Allocates; throws only std::bad_alloc. (Where the library was built with GMP,
+// integers that find no memory end the program instead: GMP aborts.) Coordinates must be finite:
+// otherwise the answer is `uncertain` with cause `range`, the only case in which it is not certain.
+// Promised in a sound environment (errbound/environment.hpp): no flush-to-zero.
 #pragma once
 
 #include <ccd/query.hpp>

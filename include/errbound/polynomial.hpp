@@ -13,8 +13,10 @@
 // same infinity); widths are positive and finite.
 //
 // Each question is asked in floating point with certified bounds first, then in integers.
-// Allocates. Time and memory are bounded by degree and size of the coefficients; where the first
-// stage decides, by some hundred additions times degree². docs/polynomials.md tells more.
+// Allocates; throws only std::bad_alloc, after which roots that were found can be asked on. (GMP's
+// integers end the program instead.) Time and memory are bounded by degree and size of the
+// coefficients; where the first stage decides, by some hundred additions times degree².
+// docs/polynomials.md tells more.
 #pragma once
 
 #include <algorithm>

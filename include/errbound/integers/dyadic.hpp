@@ -46,6 +46,13 @@ class dyadic {
             exponent_ += static_cast<int>(zeros);
         }
     }
+    dyadic(const dyadic&) = default;
+    dyadic(dyadic&&) = default;
+    /// By way of a copy: where that finds no memory, Boost's integers lose the value they had.
+    dyadic& operator=(const dyadic& other) { return *this = dyadic(other); }
+    dyadic& operator=(dyadic&&) = default;
+    ~dyadic() = default;
+
     /// x, which is finite.
     static dyadic from(double x) {
         if (x == 0) return {};

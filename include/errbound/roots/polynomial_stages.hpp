@@ -117,8 +117,10 @@ class staged_polynomial {
             int unit = std::numeric_limits<int>::max();
             for (const number& c : floating_)
                 unit = std::min(unit, integers::binary_double(c.value()).last_bit());
+            integer_form<Integer> all;  // put in its place whole: memory may run out before
             for (const number& c : floating_)
-                exact_.push_back(dyadic<Integer>::from(c.value()).in_units(unit));
+                all.push_back(dyadic<Integer>::from(c.value()).in_units(unit));
+            exact_ = std::move(all);
         }
         return exact_;
     }

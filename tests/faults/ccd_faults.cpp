@@ -1,0 +1,159 @@
+// Collision detection without memory.
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
+#include <ccd/reference.hpp>
+#include <ccd/step.hpp>
+#include <tuple>
+#include <vector>
+
+#include "tests/ccd/step/brute_force.hpp"
+#include "tests/faults/failing_heap.hpp"
+
+namespace {
+
+using namespace ccd;
+using faults::try_every_allocation;
+
+auto content(const pair_lists& lists) {
+    return std::tuple(lists.vertex_face, lists.edge_edge, lists.vertex_edge, lists.vertex_vertex);
+}
+auto content(const step_result& result) {
+    return std::tuple(content(result.pairs), content(result.touching_at_start),
+                      result.candidates.vertex_face, result.candidates.edge_edge);
+}
+/// Each kind in order: threads find candidates in any.
+auto sorted(pair_lists lists) {
+    for_each_kind([&]<kind K>() { std::ranges::sort(lists.of<K>()); });
+    return content(lists);
+}
+
+/// Faces, rods and points, some given twice; or, for several threads, many faces.
+const brute_force::two_frames& frames_for(int threads) {
+    static const auto few = brute_force::random_mixture(7),
+                      many = brute_force::random_soup(7, 120, 80);
+    return threads == 1 ? few : many;
+}
+
+step_options options_of(int threads) {
+    static const std::vector<int> few(frames_for(1).first.vertices.size(), 3),
+        many(frames_for(2).first.vertices.size(), 3);
+    step_options options;
+    options.threads = threads;
+    options.explain = options.initial_contact = true;
+    options.filter.can_collide = [](vertex_index v, vertex_index w) { return v + w != 9; };
+    options.filter.groups = threads == 1 ? few : many;
+    options.filter.rule = pair_filter::group_rule::within_groups;
+    return options;
+}
+
+TEST(CcdFaults, Meshes) {
+    const mesh& m = frames_for(1).first;
+    try_every_allocation("unique_edges", [&] { return unique_edges(m.faces, m.edges); });
+    try_every_allocation("unique_faces", [&] { return unique_faces(m.faces); });
+}
+
+TEST(CcdFaults, Steps) {
+    for (const int threads : {1, 2}) {
+        const auto& [before, after] = frames_for(threads);
+        const std::string of = ", threads: " + std::to_string(threads);
+        const step_options options = options_of(threads);
+        for (const method m : {method::exact, method::tight}) {
+            step_options by = options;
+            by.method = m;
+            by.explain = m == method::exact;
+            try_every_allocation("step by " + std::string(info(m).name) + of,
+                                 [&] { return content(step(before, after, by)); });
+        }
+        try_every_allocation("candidates" + of,
+                             [&] { return sorted(candidates(before, after, options)); });
+    }
+}
+
+TEST(CcdFaults, RepeatedSteps) {
+    for (const int threads : {1, 2}) {
+        const auto& [before, after] = frames_for(threads);
+        const vertex_rows forwards(before.vertices, after.vertices),
+            backwards(after.vertices, before.vertices);
+        const std::string of = ", threads: " + std::to_string(threads);
+        const step_options options = options_of(threads);
+        const auto used = [&, &first = before] {
+            mesh_steps steps(first);
+            steps.run(forwards, options);
+            return steps;
+        };
+        try_every_allocation("mesh_steps" + of, [&, &first = before] {
+            return content(mesh_steps(first).run(forwards, options));
+        });
+        try_every_allocation("mesh_steps::run" + of, used, [&](mesh_steps& steps) {
+            return content(steps.run(backwards, options));
+        });
+        try_every_allocation("mesh_steps::candidates" + of, used, [&](mesh_steps& steps) {
+            return sorted(steps.candidates(backwards, options));
+        });
+        try_every_allocation("mesh_steps::for_each_candidate" + of, used, [&](mesh_steps& steps) {
+            return steps.for_each_candidate(backwards, {}, options).edge_edge;
+        });
+    }
+}
+
+/// Near-degenerate queries, for all stages.
+std::vector<vertex_face<double>> hard_queries() {
+    std::vector<vertex_face<double>> queries;
+    for (int i = 0; i < 8; ++i) {
+        const double e = i < 4 ? 0 : 0x1p-52, far = i % 4 == 0 ? 0x1p900 : 1, near = i % 4 == 1 ? 0x1p-900 : 1;
+        queries.push_back({{{near / 4, 0.25, 1 + e}, {0.25, near / 4, -1}},
+                           {{0, 0, e}, {0, 0, -e}},
+                           {{far, 0, 0}, {1, 0, near}},
+                           {{0, 1, 0}, {0, far, 0}}});
+        queries.push_back({{{0.25, 0.25, near}, {0.5, 0.25, near}},
+                           {{0, 0, near}, {0, 0, near}},
+                           {{1, 0, near}, {1, 0, near}},
+                           {{0, 1, near + e}, {0, 1, near}}});
+    }
+    return queries;
+}
+
+TEST(CcdFaults, Batches) {
+    const std::vector<vertex_face<double>> queries = hard_queries();
+    for (const int threads : {1, 2}) {
+        const auto& [before, after] = frames_for(threads);
+        const vertex_rows positions(before.vertices, after.vertices);
+        const pair_lists pairs = candidates(before, after);
+        const batch_options options{.threads = threads, .explain = true};
+        const std::string of = ", threads: " + std::to_string(threads);
+        try_every_allocation("decide_batch (queries)" + of,
+                             [&] { return decide_batch(queries, options).answers; });
+        try_every_allocation("touches_at_start_batch (queries)" + of,
+                             [&] { return touches_at_start_batch(queries, options).answers; });
+        for_each_kind([&]<kind K>() {
+            const auto& of_kind = pairs.of<K>();
+            try_every_allocation("decide_batch (" + std::string(name(K)) + ")" + of, [&] {
+                return decide_batch(positions, of_kind, options).answers;
+            });
+            try_every_allocation("touches_at_start_batch (" + std::string(name(K)) + ")" + of, [&] {
+                return touches_at_start_batch(positions, of_kind, options).answers;
+            });
+        });
+    }
+}
+
+TEST(CcdFaults, OneQuery) {
+    const std::vector<vertex_face<double>> queries = hard_queries();
+    const auto all = [&queries](const auto& decide) {
+        std::vector<verdict> verdicts(queries.size());
+        std::ranges::transform(queries, verdicts.begin(), decide);
+        return verdicts;
+    };
+    for (const method_info& m : methods())
+        try_every_allocation("decide by " + std::string(m.name), [&] {
+            return all([&m](const auto& q) { return decide(m.method, q); });
+        });
+    try_every_allocation("decide_reference", [&] {
+        return all([](const auto& q) { return decide_reference(q); });
+    });
+    try_every_allocation("touches_at_start", [&] {
+        return all([](const auto& q) { return touches_at_start(q); });
+    });
+}
+
+}  // namespace
