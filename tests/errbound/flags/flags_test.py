@@ -33,10 +33,9 @@ def table():
 
 def outcome(compiler, where, flags, folder):
     """A cell of the table."""
-    common = [compiler, "-std=c++20", "-O3", f"-I{ROOT / 'include'}"]
+    common = [compiler, "-std=c++20", "-O3", "-fPIC", f"-I{ROOT / 'include'}"]
     for unit in "numbers", "other_unit":
-        its = flags if where == "" or (where == ", another unit") == (unit == "other_unit") else []
-        its = [] if where == ", linking" else its
+        its = flags if where == "" or (where, unit) == (", another unit", "other_unit") else []
         done = subprocess.run([*common, *its, "-c", HERE / f"{unit}.cpp", "-o", folder / f"{unit}.o"],
                               capture_output=True, text=True)
         if "errbound: " in done.stderr:
@@ -45,9 +44,13 @@ def outcome(compiler, where, flags, folder):
             return "not installed"
         if done.returncode != 0:
             return "unknown"
-    objects = [folder / "other_unit.o", folder / "numbers.o"]
-    link = [] if where == ", another unit" else flags
-    subprocess.run([*common, *link, *objects, "-o", folder / "numbers"], check=True)
+    other = folder / "other_unit.o"
+    if where == ", linking a shared library":
+        library = folder / "other_unit.so"
+        subprocess.run([*common, *flags, "-shared", other, "-o", library], check=True)
+        other = library
+    link = flags if where in ("", ", linking") else []
+    subprocess.run([*common, *link, folder / "numbers.o", other, "-o", folder / "numbers"], check=True)
     ran = subprocess.run([folder / "numbers"], capture_output=True, text=True)
     sound, other, wrong = re.search(r"(\w+), other unit (\w+), (\d+) wrong", ran.stdout).groups()
     if where == ", another unit":
