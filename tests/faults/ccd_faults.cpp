@@ -100,7 +100,8 @@ TEST(CcdFaults, RepeatedSteps) {
 std::vector<vertex_face<double>> hard_queries() {
     std::vector<vertex_face<double>> queries;
     for (int i = 0; i < 8; ++i) {
-        const double e = i < 4 ? 0 : 0x1p-52, far = i % 4 == 0 ? 0x1p900 : 1, near = i % 4 == 1 ? 0x1p-900 : 1;
+        const double e = i < 4 ? 0 : 0x1p-52, far = i % 4 == 0 ? 0x1p900 : 1,
+                     near = i % 4 == 1 ? 0x1p-900 : 1;
         queries.push_back({{{near / 4, 0.25, 1 + e}, {0.25, near / 4, -1}},
                            {{0, 0, e}, {0, 0, -e}},
                            {{far, 0, 0}, {1, 0, near}},
@@ -127,9 +128,8 @@ TEST(CcdFaults, Batches) {
                              [&] { return touches_at_start_batch(queries, options).answers; });
         for_each_kind([&]<kind K>() {
             const auto& of_kind = pairs.of<K>();
-            try_every_allocation("decide_batch (" + std::string(name(K)) + ")" + of, [&] {
-                return decide_batch(positions, of_kind, options).answers;
-            });
+            try_every_allocation("decide_batch (" + std::string(name(K)) + ")" + of,
+                                 [&] { return decide_batch(positions, of_kind, options).answers; });
             try_every_allocation("touches_at_start_batch (" + std::string(name(K)) + ")" + of, [&] {
                 return touches_at_start_batch(positions, of_kind, options).answers;
             });
@@ -148,12 +148,10 @@ TEST(CcdFaults, OneQuery) {
         try_every_allocation("decide by " + std::string(m.name), [&] {
             return all([&m](const auto& q) { return decide(m.method, q); });
         });
-    try_every_allocation("decide_reference", [&] {
-        return all([](const auto& q) { return decide_reference(q); });
-    });
-    try_every_allocation("touches_at_start", [&] {
-        return all([](const auto& q) { return touches_at_start(q); });
-    });
+    try_every_allocation("decide_reference",
+                         [&] { return all([](const auto& q) { return decide_reference(q); }); });
+    try_every_allocation("touches_at_start",
+                         [&] { return all([](const auto& q) { return touches_at_start(q); }); });
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ void* counted(std::size_t size, std::size_t alignment) {
         if (n >= first && n <= last_failure.load()) throw std::bad_alloc();
     }
     const std::size_t at_least_one = std::max<std::size_t>(size, 1);
-    void* const p = alignment <= alignof(std::max_align_t)
-                        ? std::malloc(at_least_one)
-                        : std::aligned_alloc(alignment, (at_least_one + alignment - 1) / alignment *
-                                                            alignment);
+    void* const p =
+        alignment <= alignof(std::max_align_t)
+            ? std::malloc(at_least_one)
+            : std::aligned_alloc(alignment, (at_least_one + alignment - 1) / alignment * alignment);
     if (p == nullptr) throw std::bad_alloc();
     ++in_use;
     return p;

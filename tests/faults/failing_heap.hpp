@@ -59,7 +59,6 @@ void try_every_allocation(const std::string& name, const Make& make, const Use& 
     std::uint64_t points = 0;
     for (const failing which : {failing::one, failing::all_from_it_on})
         for (std::uint64_t n = 1;; ++n) {
-
             SCOPED_TRACE(name + ", allocation " + std::to_string(n));
             const std::int64_t before = live();
             const bool failed = fails_at(n, which);
