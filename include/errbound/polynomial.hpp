@@ -10,7 +10,7 @@
 // or tracked numbers, with answers that say so where the coefficients' errors leave them open.
 // Intervals are closed; their ends are doubles, also infinite ones, or the same number twice.
 // Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN, and not both the
-// same infinity); widths are positive and finite.
+// same infinity). refine throws std::invalid_argument unless its width is positive and finite.
 //
 // Each question is asked in floating point with certified bounds first, then in integers.
 // Allocates; throws only std::bad_alloc, after which roots that were found can be asked on. (GMP's
@@ -59,6 +59,16 @@ struct integer_for<void, C> {
 template <class Named, class C>
 using integer_for_t = typename integer_for<Named, C>::type;
 
+/// What a function of no arguments returns, or nothing if it throws gave_up.
+template <class Find>
+auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
+    try {
+        return find();
+    } catch (const gave_up&) {
+        return {};
+    }
+}
+
 }  // namespace roots
 
 /// The distinct roots of p in [a, b], a <= b, each in an interval of its own, with multiplicities.
@@ -67,10 +77,19 @@ auto isolate_roots(const polynomial<C>& p, double a, double b) {
     using integer = roots::integer_for_t<Integer, C>;
     return real_roots<integer>(roots::staged<integer>(p), a, b);
 }
-
-/// The number of distinct roots of p in [a, b], a <= b; `infinitely_many` if p is identically zero.
+/// The same, or nothing where it would go beyond the limits.
 template <class Integer = void, class C>
-std::size_t count_roots(const polynomial<C>& p, double a, double b) {
+auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits& limits) {
+    using integer = roots::integer_for_t<Integer, C>;
+    return roots::unless_given_up(
+        [&] { return real_roots<integer>(roots::staged<integer>(p), a, b, limits); });
+}
+
+namespace roots {
+
+/// Throws gave_up beyond the limits.
+template <class Integer, class C>
+std::size_t count_within(const polynomial<C>& p, double a, double b, const root_limits& limits) {
     using integer = roots::integer_for_t<Integer, C>;
     assert(roots::is_interval(a, b));
     if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
@@ -81,11 +100,26 @@ std::size_t count_roots(const polynomial<C>& p, double a, double b) {
         if (!others.empty() && a < b) {
             const roots::root_filter<tight> filter(others, a, b);
             if (filter.decides()) return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
-            return real_roots<integer>::count(roots::staged<integer>(p), a, b, filter.parts());
+            return real_roots<integer>::count(roots::staged<integer>(p), a, b, filter.parts(),
+                                              limits);
         }
     }
-    const real_roots<integer> roots(roots::staged<integer>(p), a, b);
+    const real_roots<integer> roots(roots::staged<integer>(p), a, b, limits);
     return roots.everywhere() ? infinitely_many : roots.size();
+}
+
+}  // namespace roots
+
+/// The number of distinct roots of p in [a, b], a <= b; `infinitely_many` if p is identically zero.
+template <class Integer = void, class C>
+std::size_t count_roots(const polynomial<C>& p, double a, double b) {
+    return roots::count_within<Integer>(p, a, b, {});
+}
+/// The same, or nothing where it would go beyond the limits.
+template <class Integer = void, class C>
+std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double b,
+                                       const root_limits& limits) {
+    return roots::unless_given_up([&] { return roots::count_within<Integer>(p, a, b, limits); });
 }
 
 /// The same of a polynomial whose coefficients are known within bounds: nothing if polynomials

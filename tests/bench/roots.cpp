@@ -1,12 +1,14 @@
 // ns per polynomial for counting and isolating real roots, by family and degree, beside FLINT's
 // count of them and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not
 // isolate; arb, its companion, isolates all complex roots.
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <errbound/polynomial.hpp>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -139,6 +141,60 @@ void run(bool quick) {
               columns, rows);
 }
 
+/// What takes long: roots near each other, and high degrees.
+struct hard_case {
+    std::string name;
+    std::vector<double> doubles;
+};
+std::vector<hard_case> hard_cases(bool quick) {
+    std::vector<hard_case> cases;
+    for (const std::size_t n : {7, 30, 45, 100, 200}) {
+        if (quick && n > 30) break;
+        const double a = n > 7 ? 0x1p510 : 0x1p500;
+        cases.push_back(
+            {"(ax - 1)(x^" + std::to_string(n) + " - (ax - 1)), a = " + (n > 7 ? "2^510" : "2^500"),
+             polynomial_families::close_pair(n, a)});
+    }
+    for (const int n : {100, 500, 1000, 2000}) {
+        if (quick && n > 100) break;
+        polynomial_families::generator make(1);
+        cases.push_back({"degree " + std::to_string(n) + ", uniform coefficients",
+                         make.make(family::random, n).doubles});
+    }
+    for (const std::size_t n : {5000, 100000}) {
+        std::vector<double> c(n + 1);
+        c[0] = -2;
+        c[n / 2] = 0.5;
+        c[n] = 1;
+        cases.push_back({"x^" + std::to_string(n) + " + x^" + std::to_string(n / 2) + "/2 - 2", c});
+    }
+    return cases;
+}
+template <class Integer>
+bench::cell milliseconds(const errbound::polynomial<double>& p, int repeats) {
+    const auto isolate = [&p] {
+        bench::keep(errbound::isolate_roots<Integer>(p, -infinity, infinity).size());
+    };
+    return bench::number(1e3 * bench::race({isolate}, repeats)[0].minimum, 1);
+}
+void run_hard_cases(bool quick) {
+    bench::report out;
+    std::vector<std::vector<bench::cell>> rows;
+    for (const hard_case& c : hard_cases(quick)) {
+        const errbound::polynomial<double> p(c.doubles);
+        const std::size_t roots = errbound::count_roots<integer>(p, -infinity, infinity);
+        const int repeats = quick ? 1 : 3;
+        rows.push_back({bench::word(c.name), bench::count(roots), milliseconds<integer>(p, repeats),
+                        milliseconds<boost::multiprecision::cpp_int>(p, repeats)});
+    }
+    out.table("hard_roots", {}, "hard cases, isolated on the whole line, ms (least of some passes)",
+              {{"polynomial", "polynomial", true},
+               {"roots", "roots"},
+               {"gmp", "GMP's integers"},
+               {"boost", "Boost's"}},
+              rows);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -151,5 +207,6 @@ int main(int argc, char** argv) {
     std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
                 here.load, here.compiler.c_str(), here.flags.c_str());
     run(quick);
+    run_hard_cases(quick);
     return 0;
 }

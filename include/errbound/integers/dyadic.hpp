@@ -14,8 +14,16 @@ namespace errbound {
 /// ⌊log2 |x|⌋ for x not zero. Integer: what errbound/roots/integer_polynomial.hpp asks for.
 template <exact_number Integer>
 int floor_log2(const Integer& x) {
-    const Integer size = abs(x);
-    return static_cast<int>(msb(size));
+    return static_cast<int>(x < 0 ? msb(Integer(-x)) : msb(x));
+}
+
+/// x·2^shift, cut towards zero to a whole number. (Magnitudes are shifted: Boost 1.74 loses the
+/// sign of some negative numbers.)
+template <exact_number Integer>
+Integer shifted(const Integer& x, int shift) {
+    if (shift >= 0) return Integer(x << static_cast<unsigned>(shift));
+    const auto bits = static_cast<unsigned>(-shift);
+    return x < 0 ? Integer(-Integer(Integer(-x) >> bits)) : Integer(x >> bits);
 }
 
 /// The double nearest to n·2^e but for one ulp; infinite where none is near.
@@ -23,8 +31,8 @@ template <exact_number Integer>
 double nearby_double(const Integer& n, int e) {
     if (n == 0) return 0;
     // What is cut off is less than an ulp; negative numbers are cut towards zero, too.
-    const int excess = floor_log2(n) - 62;
     Integer head = abs(n);
+    const int excess = floor_log2(head) - 62;
     if (excess > 0) head >>= static_cast<unsigned>(excess);
     const double x = std::ldexp(static_cast<double>(static_cast<std::int64_t>(head)),
                                 excess > 0 ? e + excess : e);
@@ -111,9 +119,8 @@ class dyadic {
 template <exact_number Integer>
 dyadic<Integer> quotient(const dyadic<Integer>& a, const dyadic<Integer>& b, int bits) {
     const int shift = bits + floor_log2(b.numerator()) - floor_log2(a.numerator());
-    const Integer n = shift > 0 ? Integer(a.numerator() << static_cast<unsigned>(shift))
-                                : Integer(a.numerator() >> static_cast<unsigned>(-shift));
-    return {Integer(n / b.numerator()), a.exponent() - b.exponent() - shift};
+    return {Integer(shifted(a.numerator(), shift) / b.numerator()),
+            a.exponent() - b.exponent() - shift};
 }
 
 /// (a + b)/2

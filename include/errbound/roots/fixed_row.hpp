@@ -18,10 +18,10 @@ namespace errbound::roots {
 template <int Words>
 class fixed_row {
   public:
-    /// Of not all zero coefficients.
+    /// Of not all zero coefficients, each given within `error`.
     /// Proof: proofs/ControlValues.v, row_cut_right; proofs/FixedRow.v, row_fits.
     template <exact_number Integer>
-    explicit fixed_row(const integer_form<Integer>& b) {
+    fixed_row(const integer_form<Integer>& b, const Integer& error) {
         int bits = 0;
         for (const Integer& c : b)
             if (c != 0) bits = std::max(bits, floor_log2(c) + 1);
@@ -30,11 +30,7 @@ class fixed_row {
         const Integer word = Integer(1) << 64U;
         b_.reserve(b.size());
         for (const Integer& c : b) {
-            Integer rest = abs(c);
-            if (excess > 0)
-                rest >>= static_cast<unsigned>(excess);
-            else
-                rest <<= static_cast<unsigned>(-excess);
+            Integer rest = shifted(Integer(abs(c)), -excess);
             std::array<integers::words::word, Words> all{};
             for (auto& w : all) {
                 w = static_cast<integers::words::word>(Integer(rest % word));
@@ -44,7 +40,11 @@ class fixed_row {
             const auto cut = integers::fixed_integer<Words>::from_words(all);
             b_.push_back(c < 0 ? -cut : cut);
         }
-        error_ = excess > 0 ? 1 : 0;
+        const Integer cut_error = shifted(error, -excess) + 2;
+        if (cut_error < std::int64_t(1) << 60)
+            error_ = static_cast<std::int64_t>(cut_error);
+        else
+            std::fill(b_.begin(), b_.end(), integers::fixed_integer<Words>(0));
     }
 
     /// 1 or −1 for a certain sign, otherwise 0.
@@ -53,11 +53,7 @@ class fixed_row {
         if (b_[i].negative()) return -b_[i] > integers::fixed_integer<Words>(error_) ? -1 : 0;
         return b_[i] > integers::fixed_integer<Words>(error_) ? 1 : 0;
     }
-    bool ends_are_certain() const { return sign(0) != 0 && sign(b_.size() - 1) != 0; }
-    /// As max_sign_variations counts.
-    int max_variations() const {
-        return max_sign_variations(b_.size(), [this](std::size_t i) { return sign(i); });
-    }
+    std::size_t size() const { return b_.size(); }
 
     /// In the row's unit.
     std::vector<double> nearby_values() const {

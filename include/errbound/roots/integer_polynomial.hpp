@@ -1,4 +1,5 @@
-// Polynomials with integer coefficients, of run-time degree: values, division, common factors.
+// Polynomials with integer coefficients, of run-time degree: values, Bernstein coefficients,
+// division, common factors.
 //
 // Coefficients ascend in the power basis; the last one is not zero; empty is identically zero.
 // Integer is an exact type with + − × / % << >>, comparison, abs(), gcd(), msb() and lsb() found by
@@ -10,8 +11,10 @@
 #include <cstdint>
 #include <errbound/integers/dyadic.hpp>
 #include <errbound/roots/prime_field.hpp>
+#include <errbound/roots/work_meter.hpp>
 #include <errbound/sign.hpp>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,12 @@ namespace errbound::roots {
 
 template <exact_number Integer>
 using integer_form = std::vector<Integer>;
+
+/// −1, 0 or 1, as counts of sign changes take it.
+template <exact_number Integer>
+int sign(const Integer& x) {
+    return x == 0 ? 0 : x > 0 ? 1 : -1;
+}
 
 template <class Integer>
 void trim(integer_form<Integer>& p) {
@@ -74,19 +83,38 @@ integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Intege
     return quotient;
 }
 
+/// x^n
+template <class Integer>
+Integer power(Integer x, std::size_t n) {
+    if (n == 1) return x;
+    Integer result = 1;
+    for (;; x *= x) {
+        if (n % 2 == 1) result *= x;
+        n /= 2;
+        if (n == 0) return result;
+    }
+}
+
 /// The value at a point.
 template <class Integer>
 dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
     if (p.empty()) return {};
-    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p itself where e >= 0.
+    // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p itself where e >= 0; over
+    // coefficients that are zero at once.
     const int e = std::min(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
     Integer term;  // kept, so that it allocates once
     unsigned shift = 0;
-    for (std::size_t i = p.size() - 1; i-- > 0;) {
-        shift += static_cast<unsigned>(-e);
-        sum *= m;
+    std::size_t done = p.size() - 1;
+    for (std::size_t i = done; i-- > 0;) {
+        if (p[i] == 0 && i > 0) continue;
+        if (done - i == 1)
+            sum *= m;
+        else
+            sum *= power(m, done - i);
+        shift += static_cast<unsigned>(done - i) * static_cast<unsigned>(-e);
+        done = i;
         term = p[i];
         term <<= shift;
         sum += term;
@@ -98,6 +126,63 @@ template <class Integer>
 sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
     if (x.is_zero()) return p.empty() ? sign_type::zero : sign_of(p[0]);
     return sign_of(value_at(p, x));
+}
+
+/// The numbers 1/C(n, i), times the least common multiple of the C(n, i). For n <= 40, 64 bits hold
+/// them (the multiple is lcm(1, ..., n + 1)/(n + 1)).
+/// Proof: proofs/ControlValues.v, weights_right, weights_fit.
+template <class Number>
+std::vector<Number> inverse_binomials(std::size_t n) {
+    using std::gcd;
+    std::vector<Number> binomials{Number(1)};
+    Number multiple = 1;
+    for (std::size_t i = 1; i <= n; ++i) {
+        binomials.push_back(Number(binomials.back() * Number(n - i + 1) / Number(i)));
+        multiple *= binomials[i] / Number(gcd(multiple, binomials[i]));
+    }
+    for (Number& b : binomials) b = multiple / b;
+    return binomials;
+}
+
+/// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
+/// Proof: proofs/ControlValues.v, control_values_on_right.
+template <class Integer>
+integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
+                                        const dyadic<Integer>& high) {
+    const std::size_t n = p.size() - 1;
+    const dyadic<Integer> width = high - low;
+    const int e = std::min(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
+    // x = 2^e·(start + length·u) with u in [0, 1]: first a multiple of p(2^e·y).
+    const Integer start = low.in_units(e), length = width.in_units(e);
+    for (std::size_t i = 0; i <= n; ++i) {
+        const std::size_t power = e >= 0 ? i : n - i;
+        p[i] <<= static_cast<unsigned>(power) * static_cast<unsigned>(e >= 0 ? e : -e);
+    }
+    Integer term;  // kept, so that it allocates once
+    if (start != 0)
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = n; j-- > i;) {
+                term = p[j + 1];
+                term *= start;
+                p[j] += term;
+            }
+    // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u.
+    const auto weigh = [&](const auto& weights) {
+        Integer power = 1;
+        for (std::size_t i = 0; i <= n; ++i) {
+            p[i] *= Integer(weights[i]);
+            if (length == 1) continue;
+            p[i] *= power;
+            power *= length;
+        }
+    };
+    if (n <= 40)
+        weigh(inverse_binomials<std::uint64_t>(n));
+    else
+        weigh(inverse_binomials<Integer>(n));
+    for (std::size_t i = 1; i <= n; ++i)
+        for (std::size_t j = n; j >= i; --j) p[j] += p[j - 1];
+    return p;
 }
 
 /// x modulo the field's prime.
@@ -119,6 +204,23 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
     r.reserve(p.size());
     for (const Integer& c : p) r.push_back(residue(c, field));
     return r;
+}
+
+/// A multiple, not zero unless p is empty, of the value at x, from p's residues.
+template <class Integer>
+std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
+                       const dyadic<Integer>& x) {
+    // Horner's rule for p(m·2^e)·2^(−e·n), or for p itself where e >= 0.
+    const int e = x.exponent();
+    const std::uint64_t two = field.add(field.one(), field.one());
+    const std::uint64_t power = field.power(two, static_cast<std::uint64_t>(e < 0 ? -e : e));
+    std::uint64_t m = field.to_form(residue(x.numerator(), field)), scale = field.one(), sum = 0;
+    if (e >= 0) m = field.multiply(m, power);
+    for (std::size_t i = residues.size(); i-- > 0;) {
+        sum = field.add(field.multiply(sum, m), field.multiply(residues[i], scale));
+        if (e < 0) scale = field.multiply(scale, power);
+    }
+    return sum;
 }
 
 /// A polynomial known modulo a product of primes (Chinese remainders), by its coefficients of
@@ -152,13 +254,13 @@ struct remainders {
 
 /// Whether p, primitive, is found to have no multiple roots.
 template <class Integer>
-bool surely_squarefree(const integer_form<Integer>& p) {
+bool surely_squarefree(const integer_form<Integer>& p, work_meter& meter) {
     const prime_field field(large_prime(0));
     auto image = residues(p, field);
     if (image.back() == 0) return false;
     auto slope = derivative(field, image);
     return slope.size() + 1 == p.size() &&
-           common_factor(field, std::move(image), std::move(slope)).size() == 1;
+           common_factor(field, std::move(image), std::move(slope), meter).size() == 1;
 }
 
 /// The greatest common divisor, primitive; empty only if both are identically zero.
@@ -168,7 +270,8 @@ bool surely_squarefree(const integer_form<Integer>& p) {
 /// so coprime polynomials are found out by the first prime; a divisor put together from several is
 /// checked by division. Proof: proofs/CommonFactor.v, common_factor_right, common_factor_divides.
 template <exact_number Integer>
-integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b) {
+integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b,
+                                    work_meter& meter) {
     trim(a);
     trim(b);
     make_primitive(a);
@@ -181,7 +284,7 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
         const prime_field field(large_prime(k));
         auto a_image = residues(a, field), b_image = residues(b, field);
         if (a_image.back() == 0 || b_image.back() == 0) continue;
-        auto image = common_factor(field, std::move(a_image), std::move(b_image));
+        auto image = common_factor(field, std::move(a_image), std::move(b_image), meter);
         if (image.size() == 1) return {Integer(1)};
         if (!found.p.empty() && image.size() > found.p.size()) continue;
         if (image.size() < found.p.size()) found = {};
@@ -190,11 +293,18 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
             field.multiply(residue(lead, field), field.inverse(image.back()));
         for (auto& c : image) c = field.multiply(c, factor);
         found.add(image, field);
+        meter.spend(image.size() * (k + 1));
         if (!found.decided()) continue;
         integer_form<Integer> divisor = found.p;
         make_primitive(divisor);
+        meter.spend(a.size() * divisor.size() * (k + 1));
         if (!divided(a, divisor).empty() && !divided(b, divisor).empty()) return divisor;
     }
+}
+template <exact_number Integer>
+integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Integer> b) {
+    work_meter unlimited;
+    return common_factor(std::move(a), std::move(b), unlimited);
 }
 
 /// Square-free polynomials f_1, f_2, ... of positive degree: a root of multiplicity m of p, which
@@ -204,16 +314,16 @@ integer_form<Integer> common_factor(integer_form<Integer> a, integer_form<Intege
 /// modulo one prime. Proof: proofs/CommonFactor.v, chain_multiplicities, cofactors_rootless; that
 /// the first has all roots of p: proofs/RootIsolation.v, squarefree_part_roots.
 template <exact_number Integer>
-std::vector<integer_form<Integer>> squarefree_chain(
-    integer_form<Integer> p, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+std::vector<integer_form<Integer>> squarefree_chain(integer_form<Integer> p, std::size_t most,
+                                                    work_meter& meter) {
     make_primitive(p);
     std::vector<integer_form<Integer>> chain;
     while (p.size() > 1 && chain.size() < most) {
-        if (surely_squarefree(p)) {
+        if (surely_squarefree(p, meter)) {
             chain.push_back(std::move(p));
             break;
         }
-        auto multiple = common_factor(p, derivative(p));
+        auto multiple = common_factor(p, derivative(p), meter);
         chain.push_back(multiple.size() > 1 ? divided(p, multiple) : std::move(p));
         p = std::move(multiple);
     }

@@ -9,10 +9,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/roots/work_meter.hpp>
 #include <utility>
 #include <vector>
 
 namespace errbound::roots {
+
+/// A product modulo a prime, counted as so many operations.
+inline constexpr std::uint64_t operations_of_product = 4;
 
 class prime_field {
   public:
@@ -128,15 +132,23 @@ inline std::vector<std::uint64_t> derivative(const prime_field& field,
 /// Proof: proofs/CommonFactor.v, images_in_ideal.
 inline std::vector<std::uint64_t> common_factor(const prime_field& field,
                                                 std::vector<std::uint64_t> a,
-                                                std::vector<std::uint64_t> b) {
+                                                std::vector<std::uint64_t> b, work_meter& meter) {
     if (a.size() < b.size()) std::swap(a, b);
     while (!b.empty()) {
         if (b.size() == 1) return b;
+        // Division takes a step for each degree, and one by a monic polynomial leaves alone what it
+        // does not reach.
+        if (a.size() > b.size() + 64) {
+            const std::uint64_t inverse = field.inverse(b.back());
+            for (std::uint64_t& c : b) c = field.multiply(c, inverse);
+        }
         while (a.size() >= b.size()) {
             const std::uint64_t lead = b.back(), factor = a.back();
             const std::size_t shift = a.size() - b.size();
             a.pop_back();
-            for (std::size_t i = 0; i < shift; ++i) a[i] = field.multiply(a[i], lead);
+            meter.spend(operations_of_product * (b.size() + (lead == field.one() ? 0 : shift)));
+            if (lead != field.one())
+                for (std::size_t i = 0; i < shift; ++i) a[i] = field.multiply(a[i], lead);
             for (std::size_t i = 0; i + 1 < b.size(); ++i)
                 a[i + shift] = field.multiply_and_subtract(a[i + shift], lead, factor, b[i]);
             while (!a.empty() && a.back() == 0) a.pop_back();

@@ -18,6 +18,7 @@
 #include <errbound/tracked.hpp>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -74,11 +75,14 @@ class real_roots {
     /// Proof: proofs/RootFinder.v, found_roots_right.
     explicit real_roots(const roots::integer_form<Integer>& p) : p_(p) {
         const point zero;
-        exact().isolate(zero, exact().upper_bound(), intervals_);
+        isolate(zero, exact().upper_bound());
     }
 
-    /// The roots in [a, b], a <= b, which may be infinite.
-    real_roots(roots::staged_polynomial<Integer> p, double a, double b) : p_(std::move(p)) {
+    /// The roots in [a, b], a <= b, which may be infinite. Throws roots::gave_up beyond the limits,
+    /// which hold for this constructor alone.
+    real_roots(roots::staged_polynomial<Integer> p, double a, double b,
+               const root_limits& limits = {})
+        : p_(std::move(p)), meter_(limits) {
         assert(roots::is_interval(a, b));
         if (p_.is_zero()) {
             everywhere_ = true;
@@ -87,20 +91,23 @@ class real_roots {
         zeros_ = p_.divide_by_x();
         if (a == b) {
             if (a != 0 && possibly_zero(floating_sign_at(number(a))))
-                exact().isolate(point::from(a), point::from(a), intervals_);
+                isolate(point::from(a), point::from(a));
         } else {
             add(roots::root_filter<tight>(p_.floating(), a, b).parts());
         }
         if (a <= 0 && 0 <= b) add_zero();
+        meter_ = {};
     }
     /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
-    /// roots other than 0 and left some of these parts open.
+    /// roots other than 0 and left some of these parts open. Throws roots::gave_up.
     static std::size_t count(roots::staged_polynomial<Integer> p, double a, double b,
-                             const std::vector<roots::filtered_part>& parts) {
+                             const std::vector<roots::filtered_part>& parts,
+                             const root_limits& limits = {}) {
         real_roots roots;
         roots.p_ = std::move(p);
         const int zeros = roots.p_.divide_by_x();
-        roots.exact_.emplace(roots.p_.exact(), 1);
+        roots.meter_ = roots::work_meter(limits);
+        roots.exact_.emplace(roots.p_.exact(), 1, roots.meter_);
         roots.add(parts);
         return roots.size() + (zeros > 0 && a <= 0 && 0 <= b);
     }
@@ -115,15 +122,18 @@ class real_roots {
     /// Whether no integers were needed to isolate the roots.
     bool decided_by_filter() const { return decided_by_filter_; }
 
-    /// Narrows root k's interval to at most this width > 0.
+    /// Narrows root k's interval to at most this width. Throws std::invalid_argument unless it is
+    /// positive and finite.
     void refine(std::size_t k, const point& width) {
-        assert(k < size() && sign_of(width) == sign_type::positive);
+        assert(k < size());
+        if (sign_of(width) != sign_type::positive)
+            throw std::invalid_argument(
+                "errbound::real_roots::refine: the width is not positive and finite");
         if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
         if (width < intervals_[k].high - intervals_[k].low) exact().refine(intervals_[k], width);
     }
     void refine(std::size_t k, double width) {
-        assert(0 < width && std::isfinite(width));
-        refine(k, point::from(width));
+        refine(k, point::from(std::isfinite(width) ? width : 0));
     }
 
     /// The sign of g at root k, exactly.
@@ -166,8 +176,11 @@ class real_roots {
     real_roots() = default;
 
     const roots::root_isolation<Integer>& exact() {
-        if (!exact_) exact_.emplace(p_.exact());
+        if (!exact_) exact_.emplace(p_.exact(), std::numeric_limits<std::size_t>::max(), meter_);
         return *exact_;
+    }
+    void isolate(const point& low, const point& high) {
+        exact().isolate(low, high, intervals_, meter_);
     }
 
     void add(const std::vector<roots::filtered_part>& parts) {
@@ -189,7 +202,7 @@ class real_roots {
             if (high < next.first) break;
             high = next.second;
         }
-        exact().isolate(low, high, intervals_);
+        isolate(low, high);
     }
     /// Both in ascending order; root bounds for infinite ends, as far as they leave anything.
     std::pair<point, point> ends(const roots::filtered_part& part) {
@@ -329,6 +342,7 @@ class real_roots {
 
     roots::staged_polynomial<Integer> p_;  ///< divided by x^zeros_
     int zeros_ = 0;
+    roots::work_meter meter_;
     std::optional<roots::root_isolation<Integer>> exact_;
     std::vector<interval> intervals_;
     bool everywhere_ = false;

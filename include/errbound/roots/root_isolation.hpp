@@ -1,38 +1,18 @@
 // Real roots of polynomials with integer coefficients, exactly: isolation, refinement, signs of
 // other polynomials there. The exact stage of errbound/roots/real_roots.hpp.
 //
-// Isolation is by Descartes' rule on intervals (Vincent, Collins, Akritas; in Bernstein form: Lane,
-// Riesenfeld 1981): a square-free polynomial has no root inside an interval if its Bernstein
-// coefficients there have no sign change, and exactly one if they have one; other intervals are
-// split. That ends by the two-circle theorem (Krandick, Mehlhorn 2006).
-//
-// Allocates; time and memory are bounded by degree and size of the coefficients (the separation of
-// the roots limits the number of splits).
+// Allocates; time and memory are bounded by degree and size of the coefficients. Stack is not:
+// nothing here recurses.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/roots/fixed_row.hpp>
+#include <errbound/roots/descartes_search.hpp>
 #include <errbound/roots/integer_polynomial.hpp>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
-
-namespace errbound {
-
-/// One root: low = high is the root, or it lies strictly between them and is the only one in
-/// [low, high].
-template <exact_number Integer>
-struct isolating_interval {
-    dyadic<Integer> low, high;
-    int multiplicity = 1;
-
-    bool is_point() const { return low == high; }
-};
-
-}  // namespace errbound
 
 namespace errbound::roots {
 
@@ -57,96 +37,6 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     return exponent;
 }
 
-/// The numbers 1/C(n, i), times the least common multiple of the C(n, i). For n <= 40, 64 bits hold
-/// them (the multiple is lcm(1, ..., n + 1)/(n + 1)).
-/// Proof: proofs/ControlValues.v, weights_right, weights_fit.
-template <class Number>
-std::vector<Number> inverse_binomials(std::size_t n) {
-    using std::gcd;
-    std::vector<Number> binomials{Number(1)};
-    Number multiple = 1;
-    for (std::size_t i = 1; i <= n; ++i) {
-        binomials.push_back(Number(binomials.back() * Number(n - i + 1) / Number(i)));
-        multiple *= binomials[i] / Number(gcd(multiple, binomials[i]));
-    }
-    for (Number& b : binomials) b = multiple / b;
-    return binomials;
-}
-
-/// A positive multiple of p's control values (Bernstein coefficients) on [low, high], all integers.
-/// Proof: proofs/ControlValues.v, control_values_on_right.
-template <class Integer>
-integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
-                                        const dyadic<Integer>& high) {
-    const std::size_t n = p.size() - 1;
-    const dyadic<Integer> width = high - low;
-    const int e = std::min(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
-    // x = 2^e·(start + length·u) with u in [0, 1]: first a multiple of p(2^e·y).
-    const Integer start = low.in_units(e), length = width.in_units(e);
-    for (std::size_t i = 0; i <= n; ++i) {
-        const std::size_t power = e >= 0 ? i : n - i;
-        p[i] <<= static_cast<unsigned>(power) * static_cast<unsigned>(e >= 0 ? e : -e);
-    }
-    Integer term;  // kept, so that it allocates once
-    if (start != 0)
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = n; j-- > i;) {
-                term = p[j + 1];
-                term *= start;
-                p[j] += term;
-            }
-    // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u.
-    const auto weigh = [&](const auto& weights) {
-        Integer power = 1;
-        for (std::size_t i = 0; i <= n; ++i) {
-            p[i] *= Integer(weights[i]);
-            if (length == 1) continue;
-            p[i] *= power;
-            power *= length;
-        }
-    };
-    if (n <= 40)
-        weigh(inverse_binomials<std::uint64_t>(n));
-    else
-        weigh(inverse_binomials<Integer>(n));
-    for (std::size_t i = 1; i <= n; ++i)
-        for (std::size_t j = n; j >= i; --j) p[j] += p[j - 1];
-    return p;
-}
-
-/// The control values on the two halves, times 2^n (de Casteljau).
-/// Proof: proofs/ControlValues.v, halves_right.
-template <class Integer>
-std::pair<integer_form<Integer>, integer_form<Integer>> halves(integer_form<Integer> b) {
-    const std::size_t n = b.size() - 1;
-    integer_form<Integer> left(n + 1);
-    for (std::size_t i = 0;; ++i) {
-        left[i] = b[0] << static_cast<unsigned>(n - i);
-        if (i == n) break;
-        for (std::size_t j = 0; j < n - i; ++j) b[j] += b[j + 1];
-        b[n - i] <<= static_cast<unsigned>(n - i);
-        // b[n − i] is now final: the last entry of row i, which later rows do not touch.
-    }
-    return {std::move(left), std::move(b)};
-}
-
-/// A zero in (0, 1) of the derivative of the form with these control values, by Newton's method in
-/// plain doubles from the middle; what is not there if that leaves (0, 1).
-inline double extremum(const std::vector<double>& b) {
-    const std::size_t n = b.size() - 1;
-    std::vector<double> slopes(n);
-    double t = 0.5;
-    for (int i = 0; i < 8 && 0 < t && t < 1; ++i) {
-        for (std::size_t j = 0; j < n; ++j) slopes[j] = b[j + 1] - b[j];
-        for (std::size_t left = n; left > 2; --left)
-            for (std::size_t j = 0; j + 1 < left; ++j)
-                slopes[j] = (1 - t) * slopes[j] + t * slopes[j + 1];
-        const double bend = slopes[1] - slopes[0];
-        t -= (slopes[0] + t * bend) / (bend * static_cast<double>(n - 1));
-    }
-    return t;
-}
-
 /// The roots of one polynomial p with p(0) ≠ 0, and what is asked at them.
 template <exact_number Integer>
 class root_isolation {
@@ -154,11 +44,11 @@ class root_isolation {
     using form = integer_form<Integer>;
     using point = dyadic<Integer>;
     using interval = isolating_interval<Integer>;
+    using end = typename descartes_search<Integer>::end;
 
     /// Multiplicities are reported if they are at most this.
-    explicit root_isolation(const form& p,
-                            std::size_t multiplicities = std::numeric_limits<std::size_t>::max())
-        : chain_(squarefree_chain(p, multiplicities)) {
+    root_isolation(const form& p, std::size_t multiplicities, work_meter& meter)
+        : chain_(squarefree_chain(p, multiplicities, meter)) {
         if (chain_.empty()) chain_.push_back({Integer(1)});
         right_ = half_line(squarefree());
         left_ = half_line(mirrored(squarefree()));
@@ -168,28 +58,31 @@ class root_isolation {
     const form& squarefree() const { return chain_[0]; }
 
     /// All roots lie between these, strictly.
-    point upper_bound() const { return unlikely_root(right_.upper); }
-    point lower_bound() const { return -unlikely_root(left_.upper); }
+    point upper_bound() const { return unlikely_root<Integer>(right_.upper); }
+    point lower_bound() const { return -unlikely_root<Integer>(left_.upper); }
 
     /// Between 0 and the positive or the negative roots, strictly.
-    point least_positive() const { return unlikely_root(right_.lower - 1); }
-    point greatest_negative() const { return -unlikely_root(left_.lower - 1); }
+    point least_positive() const { return unlikely_root<Integer>(right_.lower - 1); }
+    point greatest_negative() const { return -unlikely_root<Integer>(left_.lower - 1); }
 
     /// Appends the roots in [low, high], low <= high, in ascending order.
     /// Proof: proofs/RootIsolation.v, isolate_right.
-    void isolate(const point& low, const point& high, std::vector<interval>& roots) const {
+    void isolate(const point& low, const point& high, std::vector<interval>& roots,
+                 work_meter& meter) const {
         const std::size_t first = roots.size();
-        append_if_root(low, roots);
+        meter.spend(work_of_value(low) + work_of_value(high));
+        const end from = end_at(low), to = end_at(high), zero{point(), false};
+        if (from.is_root) roots.push_back({low, low});
         if (low < high) {
-            const point zero;
-            if (low < zero) {
+            if (low < zero.at) {
                 std::vector<interval> found;
-                inside(left_, high < zero ? -high : zero, -low, found);
+                inside(left_, high < zero.at ? end{-high, to.is_root} : zero, {-low, from.is_root},
+                       found, meter);
                 for (auto r = found.rbegin(); r != found.rend(); ++r)
                     roots.push_back({-r->high, -r->low});
             }
-            if (zero < high) inside(right_, low < zero ? zero : low, high, roots);
-            append_if_root(high, roots);
+            if (zero.at < high) inside(right_, low < zero.at ? zero : from, to, roots, meter);
+            if (to.is_root) roots.push_back({high, high});
         }
         for (std::size_t k = first; k < roots.size(); ++k)
             roots[k].multiplicity = multiplicity(roots[k]);
@@ -224,11 +117,13 @@ class root_isolation {
     }
 
   private:
-    /// A square-free polynomial, and bounds 2^lower < x < 2^upper of its positive
-    /// roots x; upper < lower if there is none. Proof: proofs/ControlValues.v, half_line_right.
+    /// A square-free polynomial; bounds 2^lower < x < 2^upper of its positive roots x, upper <
+    /// lower if there is none; the number of its coefficients' sign changes, which is 1 only if
+    /// there is one (Descartes). Proof: proofs/ControlValues.v, half_line_right.
     struct half_line {
         form p;
         int lower = 1, upper = 0;
+        int variations = 0;
 
         half_line() = default;
         explicit half_line(const form& f) : p(f) {
@@ -236,6 +131,7 @@ class root_isolation {
             if (above == std::numeric_limits<int>::min()) return;
             upper = above;
             lower = -positive_root_exponent(form(f.rbegin(), f.rend()));
+            variations = sign_variations(f.size(), [&](std::size_t i) { return sign(f[i]); });
         }
     };
 
@@ -286,130 +182,32 @@ class root_isolation {
         return true;
     }
 
-    void append_if_root(const point& x, std::vector<interval>& roots) const {
-        if (sign_at(squarefree(), x) == sign_type::zero) roots.push_back({x, x});
+    /// Of Horner's rule.
+    std::uint64_t work_of_value(const point& x) const {
+        const std::uint64_t n = squarefree().size();
+        return x.is_zero()
+                   ? 0
+                   : n * (1 + n * static_cast<std::uint64_t>(floor_log2(x.numerator()) + 1) / 128);
     }
-
-    /// A point between 2^exponent and twice that, and such that halving from there hardly meets the
-    /// numbers that people choose as roots.
-    static point unlikely_root(int exponent) { return {Integer(45), exponent - 5}; }
+    end end_at(const point& x) const {
+        const bool beyond = x <= lower_bound() || upper_bound() <= x;
+        return {x, !beyond && sign_at(squarefree(), x) == sign_type::zero};
+    }
 
     /// The roots strictly between low and high, 0 <= low < high.
-    static void inside(const half_line& line, point low, point high, std::vector<interval>& roots) {
+    static void inside(const half_line& line, end low, end high, std::vector<interval>& roots,
+                       work_meter& meter) {
         if (line.upper < line.lower) return;
-        const point least = unlikely_root(line.lower - 1), greatest = unlikely_root(line.upper);
-        if (low < least) low = least;
-        if (greatest < high) high = greatest;
-        if (low < high) on_part(line.p, low, high, control_values_on(line.p, low, high), 0, roots);
-    }
-
-    /// b: control values on the part, which came of this many halvings.
-    /// Proof: proofs/RootIsolation.v, on_part_right.
-    static void on_part(const form& p, const point& low, const point& high, form b, int halvings,
-                        std::vector<interval>& roots) {
-        const int variations = sign_variations(b.size(), [&b](std::size_t i) {
-            return b[i] == 0 ? 0 : b[i] > 0 ? 1 : -1;
-        });
-        if (variations == 0) return;
-        const bool roots_at_ends = b.front() == 0 || b.back() == 0;
-        if (variations == 1 && !roots_at_ends) {
-            roots.push_back({low, high});
-            return;
+        const end least{unlikely_root<Integer>(line.lower - 1), false},
+            greatest{unlikely_root<Integer>(line.upper), false};
+        const bool above = low.at <= least.at, below = greatest.at <= high.at, all = above && below;
+        if (above) low = least;
+        if (below) high = greatest;
+        if (all && line.variations < 2) {
+            if (line.variations == 1) roots.push_back({low.at, high.at});
+        } else if (low.at < high.at) {
+            descartes_search<Integer>(line.p, meter).find(low, high, roots);
         }
-        const int low_exponent = floor_log2(low), high_exponent = floor_log2(high);
-        if (variations == 2 && !roots_at_ends && high_exponent - low_exponent < 40 &&
-            add_pair(p, low, high, nearby_values(b), sign_of(b.front()), halvings, roots))
-            return;
-        // Of wide ranges halve the exponents, so that roots far apart in size take few steps.
-        const bool by_exponent = high_exponent - low_exponent >= 12;
-        if (!by_exponent && !roots_at_ends) {
-            if (fixed_row<4> row(b); row.ends_are_certain()) {
-                b = {};
-                on_part(p, low, high, std::move(row), halvings, roots);
-                return;
-            }
-        }
-        const point half = by_exponent
-                               ? unlikely_root(low_exponent + (high_exponent - low_exponent) / 2)
-                               : middle(low, high);
-        auto parts = by_exponent ? std::pair{control_values_on(p, low, half),
-                                             control_values_on(p, half, high)}
-                                 : halves(std::move(b));
-        b = {};
-        const bool half_is_root = parts.second.front() == 0;
-        on_part(p, low, half, std::move(parts.first), halvings + 1, roots);
-        if (half_is_root) roots.push_back({half, half});
-        on_part(p, half, high, std::move(parts.second), halvings + 1, roots);
-    }
-
-    /// The same by cut coefficients; back to all their bits where those kept do not tell.
-    static void on_part(const form& p, const point& low, const point& high, fixed_row<4> row,
-                        int halvings, std::vector<interval>& roots) {
-        if (!row.ends_are_certain()) {
-            on_part(p, low, high, control_values_on(p, low, high), halvings, roots);
-            return;
-        }
-        const int variations = row.max_variations();
-        if (variations == 0) return;
-        if (variations == 1) {
-            roots.push_back({low, high});
-            return;
-        }
-        if (variations == 2 && halvings > 0 &&
-            add_pair(p, low, high, row.nearby_values(),
-                     row.sign(0) < 0 ? sign_type::negative : sign_type::positive, halvings, roots))
-            return;
-        const point half = middle(low, high);
-        auto parts = std::move(row).halves();
-        on_part(p, low, half, std::move(parts.first), halvings + 1, roots);
-        if (parts.second.sign(0) == 0 && sign_at(p, half) == sign_type::zero)
-            roots.push_back({half, half});
-        on_part(p, half, high, std::move(parts.second), halvings + 1, roots);
-    }
-
-    /// Two close roots, or two that are not real, would take many halvings to part. Where at most
-    /// two are left, the part is split at the extremum between them instead, which Newton's method
-    /// finds to more and more bits: they lie on either side of it, or in neither of the circles
-    /// that have its sides as diameters, so that no sign change is left. Tried after 0, 8, 16, 32,
-    /// ... halvings; false if nothing comes of it. b: control values in doubles, a hint; at_ends:
-    /// their sign at both ends.
-    /// Proof: proofs/SignVariations.v, two_variations_two_roots.
-    static bool add_pair(const form& p, const point& low, const point& high,
-                         const std::vector<double>& b, sign_type at_ends, int halvings,
-                         std::vector<interval>& roots) {
-        if (halvings % 8 != 0 || (halvings & (halvings - 1)) != 0) return false;
-        const double t = extremum(b);
-        if (!(0 < t && t < 1)) return false;
-        const form slope = derivative(p), curvature = derivative(slope);
-        point x = low + (high - low) * point::from(t);
-        for (int bits = 64;; bits *= 2) {
-            const point value = value_at(p, x);
-            if (value.is_zero()) return false;
-            if (sign_of(value) == -at_ends) {
-                roots.push_back({low, x});
-                roots.push_back({x, high});
-                return true;
-            }
-            const point rise = value_at(slope, x), bend = value_at(curvature, x);
-            // By its parabola, the extremum is on the same side as p(x) if p·p'' > p'²/2.
-            if (bits > 256 || rise.is_zero() || bend.is_zero() ||
-                rise * rise < magnitude(value * bend))
-                break;
-            x = x - quotient(rise, bend, bits);
-            if (!(low < x && x < high)) return false;
-        }
-        on_part(p, low, x, control_values_on(p, low, x), halvings + 1, roots);
-        on_part(p, x, high, control_values_on(p, x, high), halvings + 1, roots);
-        return true;
-    }
-    static std::vector<double> nearby_values(const form& b) {
-        int unit = 0;
-        for (const Integer& c : b)
-            if (c != 0) unit = std::max(unit, floor_log2(c));
-        std::vector<double> values;
-        values.reserve(b.size());
-        for (const Integer& c : b) values.push_back(nearby_double(c, -unit));
-        return values;
     }
 
     std::vector<form> chain_;

@@ -46,6 +46,17 @@ constexpr int degree_of_sample(family f, int k, int most) {
     return 1 + k % (f == family::wide && most > 8 ? 8 : most);
 }
 
+/// (ax − 1)(x^n − (ax − 1)), n >= 3: its roots 1/a and about 1/a + a^(−n − 1).
+inline std::vector<double> close_pair(std::size_t n, double a) {
+    std::vector<double> c(n + 2);
+    c[0] = -1;
+    c[1] = 2 * a;
+    c[2] = -a * a;
+    c[n] -= 1;
+    c[n + 1] = a;
+    return c;
+}
+
 class generator {
   public:
     explicit generator(std::uint64_t seed) : random_(seed) {}

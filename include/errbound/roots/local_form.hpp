@@ -1,0 +1,256 @@
+// A polynomial near some place: its Taylor coefficients on a part of the line, cut to as many bits
+// as are asked for, and the signs of its Bernstein coefficients there. On a short part few
+// coefficients count, so that going deeper costs less and less.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <errbound/integers/dyadic.hpp>
+#include <errbound/roots/integer_polynomial.hpp>
+#include <utility>
+#include <vector>
+
+namespace errbound::roots {
+
+/// mantissa·2^exponent, cut towards zero to some number of bits.
+template <class Integer>
+struct cut_number {
+    Integer mantissa;
+    int exponent = 0;
+
+    void cut(int bits) {
+        const int excess = mantissa == 0 ? 0 : floor_log2(mantissa) + 1 - bits;
+        if (excess <= 0) return;
+        mantissa = shifted(mantissa, -excess);
+        exponent += excess;
+    }
+};
+
+/// A row of numbers, each within `error` of what it stands for.
+template <class Integer>
+struct approximate_row {
+    integer_form<Integer> values;
+    Integer error;
+};
+
+/// p(low + width·u) = c·Σ a_j u^j for a positive c, with integers kept for the first a_j, each
+/// within `error` of it; the others are within `error` of 0.
+template <exact_number Integer>
+class local_form {
+  public:
+    using form = integer_form<Integer>;
+    using point = dyadic<Integer>;
+
+    /// 0 < low, 0 < width. The error is about 2^(−bits) of p's largest term at `low`.
+    ///
+    /// Cost: degree multiplications of numbers of so many bits, and degree additions for each
+    /// coefficient kept.
+    local_form(const form& p, const point& low, const point& width, int bits)
+        : degree_(static_cast<int>(p.size()) - 1), bits_(bits) {
+        const int count_bits = bits_of_count(p.size()), ratio = ratio_exponent(low, width);
+        const int lost = error_bits(p.size(), ratio), precision = bits + lost;
+        a_ = terms(p, low, precision, count_bits);
+        const std::size_t kept = kept_terms(p.size(), precision, ratio);
+        for (std::size_t i = 0; i < kept; ++i)
+            for (std::size_t k = p.size() - 1; k-- > i;) a_[k] += a_[k + 1];
+        a_.resize(kept);
+        scale(low, width, precision + count_bits + 3);
+        error_ = Integer(4) << static_cast<unsigned>(lost);
+    }
+
+    /// Bits of the largest numbers that this constructor computes with.
+    static int precision(std::size_t size, const point& low, const point& width, int bits) {
+        return bits + error_bits(size, ratio_exponent(low, width));
+    }
+
+    /// On u = (from + length·v)/2^depth, v in [0, 1]; 0 <= from, 0 < length, from + length <=
+    /// 2^depth.
+    local_form part(const Integer& from, const Integer& length, int depth) const {
+        local_form result = *this;
+        form& a = result.a_;
+        Integer term;  // kept, so that it allocates once
+        if (from != 0)
+            for (std::size_t i = 0; i + 1 < a.size(); ++i)
+                for (std::size_t j = a.size() - 1; j-- > i;) {
+                    term = a[j + 1];
+                    term *= from;
+                    a[j] += shifted(term, -depth);
+                }
+        Integer power = 1;
+        for (std::size_t j = 1; j < a.size(); ++j) {
+            power *= length;
+            a[j] = shifted(Integer(a[j] * power), -depth * static_cast<int>(j));
+        }
+        // What is off by e in a_i is off by at most e in each new coefficient, as from + length <=
+        // 2^depth; and so is each of the cuts.
+        result.error_ = error_ * Integer(degree_ + 1) + Integer(a.size() * a.size());
+        result.drop_small_terms();
+        return result;
+    }
+
+    /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j cut to this
+    /// many bits of the largest. The i-th is within error·C(n + 1, i), here called its margin: of
+    /// the errors of a_j there are C(n − j, i − j) in it.
+    approximate_row<Integer> scaled_coefficients(int bits) const {
+        int excess = 0;
+        for (const Integer& a : a_) excess = std::max(excess, bits_of(a) - bits);
+        return {scaled_coefficients(static_cast<std::size_t>(degree_), excess),
+                excess > 0 ? Integer(shifted(error_, -excess) + 2) : error_};
+    }
+    /// The Bernstein coefficients, up to a positive factor.
+    approximate_row<Integer> coefficients(int bits) const {
+        auto row = scaled_coefficients(bits);
+        Integer binomial = 1;
+        for (std::size_t i = 0; i < row.values.size(); ++i) {
+            row.values[i] /= binomial;
+            binomial *= Integer(row.values.size() - 1 - i);
+            binomial /= Integer(i + 1);
+        }
+        row.error = row.error * Integer(row.values.size()) + 1;
+        return row;
+    }
+    /// The signs of the Bernstein coefficients, 0 where uncertain, from the a_j cut to this many
+    /// bits of the largest.
+    std::vector<signed char> signs(int bits) const {
+        const auto h = scaled_coefficients(bits);
+        std::vector<signed char> result;
+        result.reserve(h.values.size());
+        Integer margin = h.error;
+        for (std::size_t i = 0; i < h.values.size(); ++i) {
+            const Integer& x = h.values[i];
+            result.push_back(x > margin ? 1 : -x > margin ? -1 : 0);
+            margin *= Integer(h.values.size() - i);
+            margin /= Integer(i + 1);
+        }
+        return result;
+    }
+
+    /// Whether the values on all of [0, 1] are found to be beyond the error, by the Bernstein
+    /// coefficients of what is kept: that takes few operations where little is kept.
+    bool surely_rootless() const {
+        const form h = scaled_coefficients(a_.size() - 1, 0);
+        Integer margin = error_ * Integer(degree_ + 1);
+        const bool negative = h[0] < 0;
+        for (std::size_t i = 0; i < h.size(); ++i) {
+            if ((negative ? Integer(-h[i]) : h[i]) <= margin) return false;
+            margin *= Integer(h.size() - 1 - i);
+            margin /= Integer(i + 1);
+        }
+        return true;
+    }
+
+    /// Bits by which the values at both ends exceed the error; at least 0.
+    int certain_bits() const {
+        const int least = std::min(bits_of(a_[0]), bits_of(value_at_end()));
+        return std::max(0, least - bits_of(error_));
+    }
+
+    int bits() const { return bits_; }
+    /// Whether few bits, of those asked for, are spent on the terms being larger at one end.
+    bool ends_are_alike() const { return bits_of(error_) < bits_ / 2; }
+    bool low_end_is_certain() const { return abs(a_[0]) > error_; }
+    bool high_end_is_certain() const { return abs(value_at_end()) > error_ * Integer(degree_ + 1); }
+    const Integer& value_at_start() const { return a_[0]; }
+    Integer slope_at_start() const { return a_.size() > 1 ? a_[1] : Integer(0); }
+    Integer value_at_end() const {
+        Integer sum = 0;
+        for (const Integer& a : a_) sum += a;
+        return sum;
+    }
+    Integer slope_at_end() const {
+        Integer sum = 0;
+        for (std::size_t j = 1; j < a_.size(); ++j) sum += a_[j] * Integer(j);
+        return sum;
+    }
+
+  private:
+    /// Σ a_j t^j (s + t)^(n − j) for a_j cut by some bits: the coefficients of s^(n − i) t^i.
+    form scaled_coefficients(std::size_t n, int cut) const {
+        form h{shifted(a_[0], -cut)};
+        h.reserve(n + 1);
+        for (std::size_t m = 1; m <= n; ++m) {
+            h.push_back(h.back());
+            for (std::size_t i = m - 1; i > 0; --i) h[i] += h[i - 1];
+            if (m < a_.size()) h[m] += shifted(a_[m], -cut);
+        }
+        return h;
+    }
+    static int bits_of(const Integer& x) { return x == 0 ? 0 : floor_log2(x) + 1; }
+
+    /// c_i·low^i in a common unit, the largest of about this many bits, each off by 2 at most.
+    static form terms(const form& p, const point& low, int bits, int count_bits) {
+        const int precision = bits + count_bits + 1;
+        std::vector<cut_number<Integer>> all;
+        all.reserve(p.size());
+        cut_number<Integer> power{Integer(1)};
+        const cut_number<Integer> base{low.numerator(), low.exponent()};
+        int top = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (i > 0) {
+                power.mantissa *= base.mantissa;
+                power.exponent += base.exponent;
+                power.cut(precision);
+            }
+            all.push_back(
+                {Integer(p[i] == 0 ? p[i] : Integer(p[i] * power.mantissa)), power.exponent});
+            if (p[i] == 0) continue;
+            const int high = floor_log2(all[i].mantissa) + 1 + all[i].exponent;
+            top = i == 0 ? high : std::max(top, high);
+        }
+        form result;
+        result.reserve(p.size());
+        for (const auto& x : all) result.push_back(shifted(x.mantissa, x.exponent - (top - bits)));
+        return result;
+    }
+
+    static int bits_of_count(std::size_t size) { return static_cast<int>(std::bit_width(size)); }
+    /// width < low·2^(this).
+    static int ratio_exponent(const point& low, const point& width) {
+        return floor_log2(width) - floor_log2(low) + 1;
+    }
+    /// How many of so many coefficients exceed the error, at most.
+    static std::size_t kept_terms(std::size_t size, int precision, int ratio) {
+        const int falling = -(ratio + bits_of_count(size));
+        if (falling <= 0) return size;
+        return std::min(size,
+                        static_cast<std::size_t>((precision + bits_of_count(size)) / falling + 2));
+    }
+
+    /// a_j becomes a_j·(width/low)^j.
+    void scale(const point& low, const point& width, int precision) {
+        const int shift = precision + floor_log2(low.numerator()) - floor_log2(width.numerator());
+        cut_number<Integer> ratio{shifted(width.numerator(), shift),
+                                  width.exponent() - low.exponent() - shift};
+        ratio.mantissa /= low.numerator();
+        cut_number<Integer> power = ratio;
+        for (std::size_t j = 1; j < a_.size(); ++j) {
+            a_[j] *= power.mantissa;
+            a_[j] = shifted(a_[j], power.exponent);
+            power.mantissa *= ratio.mantissa;
+            power.exponent += ratio.exponent;
+            power.cut(precision);
+        }
+    }
+
+    /// log2 of a bound of all C(n + 1, j + 1)·(width/low)^j.
+    static int error_bits(std::size_t size, int ratio) {
+        if (ratio + bits_of_count(size) <= 0) return bits_of_count(size);
+        const int count = static_cast<int>(size);
+        if (ratio >= 0) return count * (ratio + 1);
+        // (1 + x)^(n + 1)/x with x = 2^ratio, and 1 + x <= 2^(3x/2).
+        return (3 * count >> (1 - ratio)) + 1 - ratio;
+    }
+
+    void drop_small_terms() {
+        const std::size_t before = a_.size();
+        while (a_.size() > 2 && abs(a_.back()) <= error_) a_.pop_back();
+        if (a_.size() < before) error_ *= 2;
+    }
+
+    int degree_, bits_;
+    form a_;
+    Integer error_;
+};
+
+}  // namespace errbound::roots
