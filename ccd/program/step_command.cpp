@@ -169,7 +169,7 @@ std::string text_of_step(const step_question& asked, const mesh& before, const s
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
            (asked.explain
                 ? '\n' +
-                      text_of_boxes(before.vertices.size(), before.faces.size(),
+                      text_of_boxes(before.vertices.size(), unique_faces(before.faces).size(),
                                     unique_edges(before.faces, before.edges).size(), result) +
                       '\n' + text_of_stages(result)
                 : "");

@@ -286,6 +286,8 @@ class Step(ProgramTest):
                              ([(3, 2, 1), (1, 2, 3), (5, 6, 4), (4, 5, 6)], [(7, 8), (8, 7)]),
                              ([(1, 2, 3), (4, 5, 6)], [(8, 7), (1, 2), (2, 1), (7, 8)])):
             self.assertEqual(lines(faces, edges), once)
+        boxes = self.good("step", self.directory / "0.obj", self.directory / "1.obj", "--explain")
+        self.assertRegex(boxes, r"vertex-face +16 ")  # 8 vertices, 2 faces
 
     def test_instruction_sets_agree(self):
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]

@@ -66,8 +66,9 @@ ccd::mesh some_mesh(choices& choose, bool narrow) {
 std::string spelled(choices& choose, double x, bool narrow) {
     std::array<char, 400> digits;
     const auto written = [&](auto... how) {
-        const auto end = narrow ? std::to_chars(digits.begin(), digits.end(), static_cast<float>(x), how...)
-                                : std::to_chars(digits.begin(), digits.end(), x, how...);
+        const auto end =
+            narrow ? std::to_chars(digits.begin(), digits.end(), static_cast<float>(x), how...)
+                   : std::to_chars(digits.begin(), digits.end(), x, how...);
         return std::string(digits.begin(), end.ptr);
     };
     std::string text;
@@ -190,8 +191,8 @@ class ply_writer {
 
     void add_vertices() {
         const bool beside = choose_.below(2) == 1;
-        const std::string type = narrow_ ? choose_.one_of({"float", "float32"})
-                                         : choose_.one_of({"double", "float64"});
+        const std::string type =
+            narrow_ ? choose_.one_of({"float", "float32"}) : choose_.one_of({"double", "float64"});
         header_ += "element vertex " + std::to_string(mesh_.vertices.size()) + "\n";
         for (const char* axis : {"x", "y", "z"})
             header_ += "property " + type + " " + axis + "\n" +
@@ -244,9 +245,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     choices choose({data, size});
     const bool is_obj = choose.below(2) == 0, narrow = !is_obj && choose.below(2) == 1;
     const ccd::mesh m = some_mesh(choose, narrow);
-    const ccd::mesh read = is_obj
-                               ? ccd::io::parse_mesh_obj(obj_writer(choose, m).text(), "fuzz")
-                               : ccd::io::parse_mesh_ply(ply_writer(choose, m, narrow).text(), "fuzz");
+    const ccd::mesh read =
+        is_obj ? ccd::io::parse_mesh_obj(obj_writer(choose, m).text(), "fuzz")
+               : ccd::io::parse_mesh_ply(ply_writer(choose, m, narrow).text(), "fuzz");
     if (!ccd::fuzz::same_mesh(m, read)) std::abort();
     return 0;
 }
