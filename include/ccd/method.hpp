@@ -47,9 +47,11 @@ std::optional<method> find_method(std::string_view name);
 /// The entry of methods(); for any other value one of the name "unknown", which promises nothing.
 method_info info(method m);
 
-/// By any method. (Programs that need `exact` alone call decide_exact of ccd/exact.hpp, which links
-/// no other method and can report its stages.) A value that is none of methods() leaves every query
-/// `uncertain`.
+/// By any method. Worst known (./run bench --worst): a hundredth of a millisecond or two in
+/// floating point, a third of a millisecond by integers where coordinates are of 1e-3 to 1e3, a
+/// tenth of a second where they are of all magnitudes. (Programs that need `exact` alone call
+/// decide_exact of ccd/exact.hpp, which links no other method and can report its stages.) A value
+/// that is none of methods() leaves every query `uncertain`.
 verdict decide(method m, const vertex_face<double>& query);
 verdict decide(method m, const edge_edge<double>& query);
 

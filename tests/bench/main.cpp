@@ -55,7 +55,8 @@ int main(int argc, char** argv) try {
     app.name("./run bench");
     app.footer(
         "./run bench also takes, as its first argument, --predicates or --roots: those beside "
-        "other\nlibraries; and --native: these by a build for this processor beside these.");
+        "other\nlibraries; --worst: worst cases; and --native: these by a build for this processor "
+        "beside these.");
     bench::options o;
     std::string json, commit = "unknown";
     app.add_flag("--quick", o.quick, "Fewer queries and repeats: shows that all works");

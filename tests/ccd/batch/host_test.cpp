@@ -1,0 +1,90 @@
+// What a host application may do to its threads and processes, and what must hold all the same.
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+#include <ccd/batch.hpp>
+#include <ccd/exact.hpp>
+#include <errbound/predicates.hpp>
+#include <functional>
+#include <vector>
+
+#include "tests/support/query_families.hpp"
+
+namespace {
+
+using query_families::families;
+
+template <class Query>
+std::vector<Query> queries_of_every_family(unsigned of_each) {
+    std::vector<Query> all;
+    for (const auto& family : families)
+        for (unsigned i = 0; i * family.thinning < of_each; ++i)
+            all.push_back(
+                std::bit_cast<Query>(query_families::make(family, ccd::kind_of<Query>, 11, i)));
+    return all;
+}
+
+void on_stack_of(std::size_t bytes, std::function<void()> work) {
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    ASSERT_EQ(pthread_attr_setstacksize(&attributes, bytes), 0);
+    pthread_t thread;
+    const auto call = [](void* w) -> void* {
+        (*static_cast<std::function<void()>*>(w))();
+        return nullptr;
+    };
+    ASSERT_EQ(pthread_create(&thread, &attributes, call, &work), 0);
+    pthread_attr_destroy(&attributes);
+    pthread_join(thread, nullptr);
+}
+
+// A page below it is not mapped: a stack that is too small ends the program.
+TEST(SmallStacks, HoldExactAndEveryPredicateIn64KiB) {
+    const auto faces = queries_of_every_family<ccd::vertex_face<double>>(5);
+    const auto edges = queries_of_every_family<ccd::edge_edge<double>>(5);
+    std::size_t uncertain = 0, signs = 0;
+    on_stack_of(std::size_t(64) << 10, [&] {
+        for (const auto& q : faces) uncertain += decide_exact(q).outcome == ccd::outcome::uncertain;
+        for (const auto& q : edges) uncertain += decide_exact(q).outcome == ccd::outcome::uncertain;
+        for (const auto& q : faces) {
+            const auto* x = reinterpret_cast<const double*>(&q);
+            signs += certain(errbound::power_insphere(x, x + 4, x + 8, x + 12, x + 16));
+            signs += certain(errbound::insphere(x, x + 3, x + 6, x + 9, x + 12));
+            signs += certain(errbound::orient3d_line_plane(x, x + 3, x + 6, x + 9, x + 12, x + 15,
+                                                           x + 18, x + 21));
+        }
+    });
+    EXPECT_EQ(uncertain, 0U);
+    EXPECT_EQ(signs, 3 * faces.size());
+}
+
+TEST(SmallStacks, HoldBatchesIn384KiB) {
+    const auto queries = queries_of_every_family<ccd::edge_edge<double>>(5);
+    const auto expected = ccd::decide_batch(queries).answers;
+    std::vector<ccd::outcome> answers;
+    on_stack_of(std::size_t(384) << 10,
+                [&] { answers = ccd::decide_batch(queries, {.threads = 1}).answers; });
+    EXPECT_EQ(answers, expected);
+}
+
+// The parent's threads are not in the child, which must not wait for them.
+TEST(Fork, ChildOfAParentWithThreadsDecides) {
+    auto queries = queries_of_every_family<ccd::vertex_face<double>>(20);
+    const auto once = queries;
+    while (queries.size() < 20000) queries.insert(queries.end(), once.begin(), once.end());
+    const auto expected = ccd::decide_batch(queries, {.threads = 2}).answers;
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(60);
+        _exit(ccd::decide_batch(queries, {.threads = 2}).answers == expected ? 0 : 1);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status)) << "it never ended, or crashed";
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+}  // namespace
