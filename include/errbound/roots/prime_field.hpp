@@ -80,7 +80,7 @@ constexpr bool is_prime(std::uint64_t n) {
     std::uint64_t odd = n - 1;
     int twos = 0;
     for (; odd % 2 == 0; odd /= 2) ++twos;
-    for (const unsigned base : {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37}) {
+    for (const unsigned base : {2U, 3U, 5U, 7U, 11U, 13U, 17U, 19U, 23U, 29U, 31U, 37U}) {
         std::uint64_t x = field.power(field.to_form(base), odd);
         bool passed = x == field.one() || x == minus_one;
         for (int i = 1; i < twos && !passed; ++i) {
