@@ -122,7 +122,7 @@ constexpr kernels_of_kind<K> kernels_for_kind{decide_indexed<K>, decide_stored<K
 
 }  // namespace
 
-const batch_kernels kernels = {kernels_for_kind<kind::vertex_face>,
-                               kernels_for_kind<kind::edge_edge>};
+constinit const batch_kernels kernels = {kernels_for_kind<kind::vertex_face>,
+                                         kernels_for_kind<kind::edge_edge>};
 
 }  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

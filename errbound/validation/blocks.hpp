@@ -14,6 +14,14 @@
 
 namespace errbound::validation {
 
+/// What MPFR keeps for this thread is freed at the end, also by an exception.
+struct freed_mpfr_cache {
+    freed_mpfr_cache() = default;
+    freed_mpfr_cache(const freed_mpfr_cache&) = delete;
+    freed_mpfr_cache& operator=(const freed_mpfr_cache&) = delete;
+    ~freed_mpfr_cache() { mpfr_free_cache(); }
+};
+
 /// Calls work(state, block) for every block; one State per thread, made on it. Returns the states,
 /// in no particular order: what they hold must add up to the same in any. threads <= 0: one per
 /// core. An exception of `work` is rethrown once all threads have ended.
@@ -23,12 +31,12 @@ std::vector<std::unique_ptr<State>> in_blocks(int threads, std::uint64_t blocks,
     std::atomic<std::uint64_t> next = 0, done = 0;
     const auto run = [&] {
         const widest_exponents range;
+        const freed_mpfr_cache cache;
         auto state = std::make_unique<State>();
         for (std::uint64_t block = next++; block < blocks; block = next++) {
             work(*state, block);
             ++done;
         }
-        mpfr_free_cache();  // what MPFR keeps for this thread
         return state;
     };
     const unsigned count =

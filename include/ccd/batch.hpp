@@ -168,7 +168,8 @@ concept query_range =
 /// give `uncertain`. Throws std::invalid_argument if an index is out of range, positions are null
 /// or the instruction set is not one of instruction_sets().
 ///
-/// Cost: see `./run bench`; vertex/edge and vertex/vertex queries are decided one by one. Memory:
+/// Cost: see `./run bench`; the worst known of a query is decide_exact's. Vertex/edge and
+/// vertex/vertex queries are decided one by one. Memory:
 /// some 300 KB of stack a thread, and 32 bytes a vertex if there are queries for half the vertices.
 template <pair_range Pairs>
 batch_result decide_batch(const vertex_rows& positions, const Pairs& pairs,

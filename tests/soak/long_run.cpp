@@ -85,7 +85,12 @@ class comparing_threads {
                                    ? options.threads
                                    : std::max(1u, std::thread::hardware_concurrency());
         working_ = count;
-        for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
+        try {
+            for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
+        } catch (...) {  // no more threads: those begun end, too
+            ending_ = true;
+            throw;
+        }
     }
     /// Waits for the blocks that are begun.
     ~comparing_threads() { ending_ = true; }

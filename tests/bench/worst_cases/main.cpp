@@ -92,6 +92,7 @@ int main(int argc, char** argv) try {
     }
     std::vector<subject> subjects = of_queries();
     for (subject& s : of_predicates()) subjects.push_back(std::move(s));
+    for (subject& s : of_roots()) subjects.push_back(std::move(s));
     std::erase_if(subjects, [&](const subject& s) { return s.name.find(only) == s.name.npos; });
 
     inputs all;

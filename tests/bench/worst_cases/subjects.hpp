@@ -17,5 +17,6 @@ struct subject {
 
 std::vector<subject> of_queries();     ///< exact, the other methods, batches, steps
 std::vector<subject> of_predicates();  ///< errbound/predicates.hpp
+std::vector<subject> of_roots();       ///< errbound/polynomial.hpp
 
 }  // namespace worst_cases

@@ -144,11 +144,18 @@ TEST(Mixture, PairsComeOnceHoweverOftenFacesAndEdgesAreGiven) {
     for (const std::size_t v : {3, 4}) after.vertices[v].z -= 3;
     const auto once = ccd::step(before, after);
     EXPECT_EQ(once.pairs.vertex_face.size(), 2U);
+    const ccd::pair_lists candidates_once = ccd::candidates(before, after);
     for (auto* m : {&before, &after}) {
         m->faces.insert(m->faces.end(), {{2, 1, 0}, {1, 2, 0}, {0, 1, 2}});
         m->edges.insert(m->edges.end(), {{4, 3}, {0, 1}, {1, 0}});
     }
     brute_force::expect_same(ccd::step(before, after), once);
+    const ccd::vertex_rows positions(before.vertices, after.vertices);
+    ccd::mesh_steps steps(before);
+    for (int run = 0; run < 2; ++run) brute_force::expect_same(steps.run(positions), once);
+    const ccd::pair_lists found = steps.candidates(positions);
+    ccd::for_each_kind(
+        [&]<ccd::kind K>() { EXPECT_EQ(found.of<K>().size(), candidates_once.of<K>().size()); });
 }
 
 }  // namespace
