@@ -5,9 +5,9 @@
         root_exponent_right        no root of p is at or above 2^(positive_root_exponent(p))
         half_line_right            all positive roots lie strictly between the points used as bounds
         control_values_on_right    control_values_on is a positive multiple of p's control values
-        halves_right               halves: of the control values on the two halves
         found_in_integers_right    what real_roots finds of integers is found as RootIsolation.v asks
-        row_cut_right, row_signs_right, row_halves_right   fixed_row: errors, signs, halves
+        row_cut_right, row_uncertain, row_signs_right, row_halves_right
+                                   fixed_row: errors, signs, halves
         weights_right, weights_fit  inverse_binomials, and that 64 bits hold them *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool.
@@ -382,7 +382,7 @@ Proof.
   rewrite E, power_form_scaled, times_powers_value, S, U, Rmult_1_l, <- Rmult_assoc. do 2 f_equal. ring.
 Qed.
 
-(** halves: each row's first and last value, times the powers of two that make up for the halvings. *)
+(** De Casteljau: each row's first and last value, times the powers of two that make up for the halvings. *)
 Definition left_half (n : nat) (b : list R) : list R := times_descending 2 (first_of_rows (S n) b).
 Definition right_half (n : nat) (b : list R) : list R := rev (times_descending 2 (first_of_rows (S n) (rev b))).
 
@@ -407,7 +407,7 @@ Proof.
   intros L. symmetry. rewrite <- casteljau_reversed. apply casteljau_same. intros i I. symmetry. now apply rev_index.
 Qed.
 
-Theorem halves_right p lo hi n b : length b = S n -> controls b p lo hi ->
+Lemma halves_right p lo hi n b : length b = S n -> controls b p lo hi ->
   controls (left_half n b) p lo ((lo + hi) / 2) /\ controls (right_half n b) p ((lo + hi) / 2) hi.
 Proof.
   intros L (c & C & E). unfold controls, stands_for, on_unit in *.
@@ -452,6 +452,9 @@ Proof.
   intros H. specialize (IH H). destruct l as [| d l]; exact IH.
 Qed.
 
+Lemma last_reals (p : list Z) : List.last (reals_of p) (IZR 0) = IZR (List.last p 0%Z).
+Proof. induction p as [| a [| b p] IH]; [easy | easy |]. exact IH. Qed.
+
 (** f is the first of p's chain. *)
 Definition found_in_integers (p f : list Z) (found : list interval) : Prop :=
   first_of_chain (reals_of p) (reals_of f) /\ List.last f 0%Z <> 0%Z /\
@@ -467,6 +470,7 @@ Proof.
   { intros Z. apply N. apply (first_of_chain_roots _ _ (ex_intro _ 0 N) C). now rewrite V, Z. }
   destruct (half_line_right f L Hf) as (B & U). destruct (mirrored_ends f) as (Mh & Ml).
   apply isolated_roots with (half_line f) (half_line (mirrored_integers f)) (upper_bound f); auto.
+  - change 0 with (IZR 0). rewrite last_reals. now apply not_0_IZR.
   - rewrite mirrored_reals. apply half_line_right; [now apply Ml | now rewrite Mh].
   - unfold upper_bound, unlikely_root. apply Rmult_lt_0_compat; [lra | apply bpow_gt_0].
   - intros x X Z. destruct (U x X Z) as (e & E & Lt). unfold upper_bound. now rewrite E.
@@ -501,17 +505,61 @@ Proof.
     rewrite E' in *; nia.
 Qed.
 
-(** The constructor: cut by `excess` bits, or shifted by as many, exactly. *)
-Definition cut_row (excess : Z) (b : list Z) : list Z :=
-  map (fun c => if (0 <? excess)%Z then cut excess c else (c * 2 ^ (- excess))%Z) b.
-Definition cut_error (excess : Z) : Z := if (0 <? excess)%Z then 1%Z else 0%Z.
-Theorem row_cut_right excess b : within (cut_row excess b) (cut_error excess) (pow2 excess) (map IZR b).
+(** x·2^shift, cut towards zero (`shifted` of include/errbound/integers/dyadic.hpp). *)
+Definition cut_shift (shift x : Z) : Z := if (0 <=? shift)%Z then (x * 2 ^ shift)%Z else cut (- shift) x.
+Lemma pow2_integer e : (0 <= e)%Z -> IZR (2 ^ e) = pow2 e.
+Proof. exact (IZR_Zpower radix2 e). Qed.
+Lemma cut_shift_near shift x : Rabs (IZR (cut_shift shift x) - IZR x * pow2 shift) <= 1.
 Proof.
-  unfold cut_row, cut_error. destruct (Z.ltb_spec 0 excess) as [E | E]; (induction b as [| c b IH]; [constructor | constructor; [| exact IH]]).
-  - pose proof (cut_within excess c E) as H. pose proof (IZR_Zpower radix2 excess ltac:(lia)) as Q. change (radix_val radix2) with 2%Z in Q.
-    rewrite Q in H. exact H.
-  - pose proof (IZR_Zpower radix2 (- excess) ltac:(lia)) as Q. change (radix_val radix2) with 2%Z in Q. rewrite mult_IZR, Q, Rmult_assoc, <- bpow_plus.
-    replace (- excess + excess)%Z with 0%Z by ring. simpl bpow. rewrite Rmult_1_r, Rminus_diag_eq, Rabs_R0 by easy. lra.
+  unfold cut_shift. destruct (Z.leb_spec 0 shift) as [P | P].
+  - rewrite mult_IZR, pow2_integer, Rminus_diag_eq, Rabs_R0 by easy. lra.
+  - pose proof (cut_within (- shift) x ltac:(lia)) as H. rewrite pow2_integer, bpow_opp in H by lia.
+    pose proof (bpow_gt_0 radix2 shift) as Q. rewrite (Rmult_comm 1), Rmult_1_r in H.
+    replace (IZR (cut (- shift) x) - IZR x * pow2 shift) with (pow2 shift * (IZR (cut (- shift) x) * / pow2 shift - IZR x))
+      by (field; lra).
+    rewrite Rabs_mult, Rabs_pos_eq by lra. apply Rmult_le_reg_l with (/ pow2 shift); [now apply Rinv_0_lt_compat |].
+    rewrite <- Rmult_assoc, Rinv_l, Rmult_1_l, Rmult_1_r by lra. exact H.
+Qed.
+Lemma cut_shift_0 x : cut_shift 0 x = x.
+Proof. unfold cut_shift. simpl. ring. Qed.
+Lemma cut_shift_nonnegative shift x : (0 <= x)%Z -> (0 <= cut_shift shift x)%Z.
+Proof.
+  intros X. unfold cut_shift, cut. destruct (Z.leb_spec 0 shift); [apply Z.mul_nonneg_nonneg; [easy | apply Z.pow_nonneg; lia] |].
+  apply Z.mul_nonneg_nonneg; [lia |]. apply Z.div_pos; [lia | apply Z.pow_pos_nonneg; lia].
+Qed.
+Lemma cut_shift_below shift x : (0 <= x)%Z -> IZR (cut_shift shift x) <= IZR x * pow2 shift.
+Proof.
+  intros X. unfold cut_shift. destruct (Z.leb_spec 0 shift) as [P | P]; [rewrite mult_IZR, pow2_integer by easy; lra |].
+  unfold cut. assert (Q : (0 < 2 ^ (- shift))%Z) by (apply Z.pow_pos_nonneg; lia).
+  assert (E : (Z.sgn x * (Z.abs x / 2 ^ (- shift)) = x / 2 ^ (- shift))%Z).
+  { rewrite Z.abs_eq by easy. destruct (Z.eq_dec x 0) as [-> | N]; [now rewrite Z.div_0_l by lia |]. rewrite Z.sgn_pos by lia. ring. }
+  rewrite E. pose proof (Z.mul_div_le x _ Q) as H. apply IZR_le in H. rewrite mult_IZR, pow2_integer, bpow_opp in H by lia.
+  pose proof (bpow_gt_0 radix2 shift) as R. apply Rmult_le_compat_l with (r := pow2 shift) in H; [| lra].
+  rewrite <- Rmult_assoc, Rinv_r, Rmult_1_l in H by lra. lra.
+Qed.
+
+(** The constructor, of numbers given within `error`: cut by `excess` bits, or shifted by as many, exactly. *)
+Definition cut_row (excess : Z) (b : list Z) : list Z := map (cut_shift (- excess)) b.
+Definition cut_error (excess error : Z) : Z := (cut_shift (- excess) error + 2)%Z.
+Theorem row_cut_right excess error b truth : (0 <= error)%Z -> within b error 1 truth ->
+  (0 <= cut_error excess error)%Z /\ within (cut_row excess b) (cut_error excess error) (pow2 excess) truth.
+Proof.
+  intros E W. pose proof (cut_shift_nonnegative (- excess) error E) as N.
+  split; [unfold cut_error; lia |]. unfold cut_row. induction W as [| x c b truth C W IH]; constructor; auto.
+  pose proof (cut_shift_near (- excess) x) as Hx. pose proof (cut_shift_near (- excess) error) as He.
+  rewrite bpow_opp in Hx, He. pose proof (bpow_gt_0 radix2 excess) as P. unfold cut_error. rewrite plus_IZR, !Rmult_1_r in *.
+  set (u := pow2 excess) in *. set (y := IZR (cut_shift (- excess) x)) in *. set (e := IZR (cut_shift (- excess) error)) in *.
+  apply Rabs_le_inv in Hx, He, C. apply Rabs_le.
+  assert (G : forall a b, a <= b -> a * u <= b * u) by (intros; apply Rmult_le_compat_r; lra).
+  assert (Kx : IZR x * / u * u = IZR x) by (field; lra). assert (Ke : IZR error * / u * u = IZR error) by (field; lra).
+  destruct Hx as (X1 & X2), He as (E1 & E2). apply G in X1, X2, E1, E2. lra.
+Qed.
+(** Errors too large to keep: all numbers become zero, and all their signs uncertain. *)
+Theorem row_uncertain b truth : length b = length truth ->
+  Forall2 sign_seen (map (fun _ : Z => row_sign 0 0) b) (map sgn truth).
+Proof.
+  revert truth. induction b as [| x b IH]; intros [| c truth] L; try discriminate; [constructor |].
+  injection L as L. constructor; [| now apply IH]. split; [| easy]. pose proof (sgn_plain [c]) as F. now inversion_clear F.
 Qed.
 
 (** Halving: each step takes neighbours' sums without their last bit (from_bit), half a unit off. The left

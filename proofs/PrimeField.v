@@ -6,10 +6,13 @@
         constants_right           one and square are R and R^2 modulo p
         field_add, field_subtract, field_multiply, field_multiply_and_subtract, field_forms
                                   each returns the form of the result; nothing leaves 128 bits
-        nonzero_form              the form of a residue is zero exactly if the residue is *)
+        nonzero_form              the form of a residue is zero exactly if the residue is
+        power_right               power
+        value_modulo_right        a polynomial's value modulo p is not zero: nor is the value itself *)
 
-From Coq Require Import ZArith Znumtheory Lia.
+From Coq Require Import ZArith Znumtheory List Lia.
 From Errbound Require Import Words.
+Import ListNotations.
 Open Scope Z_scope.
 
 Section Field.
@@ -181,6 +184,88 @@ Proof.
   intros [A [q Q]]. split.
   - intros ->. apply cancel_R. exists (- q). lia.
   - intros [r ->]. assert (H : a = (q + r * B) * p) by lia. assert (q + r * B = 0) by nia. lia.
+Qed.
+
+(** power: a^n, n > 0, times `result`. *)
+Fixpoint power_from (result a : Z) (n : positive) : Z :=
+  match n with
+  | xH => multiply result a
+  | xO n => power_from result (multiply a a) n
+  | xI n => power_from (multiply result a) (multiply a a) n
+  end.
+Definition power (a n : Z) : Z := match n with Zpos n => power_from one a n | _ => one end.
+Theorem power_right a x n : 0 <= n -> form a x -> form (power a n) (x ^ n).
+Proof.
+  assert (G : forall n result a y x, form result y -> form a x -> form (power_from result a n) (y * x ^ Zpos n)).
+  { clear - p_range p_odd. induction n as [n IH | n IH |]; intros result a y x R A; cbn [power_from].
+    - rewrite Pos2Z.inj_xI, Z.pow_add_r, Z.pow_mul_r, Z.pow_2_r, Z.pow_1_r, (Z.mul_comm _ x), Z.mul_assoc by lia.
+      apply IH; now apply field_multiply.
+    - rewrite Pos2Z.inj_xO, Z.pow_mul_r, Z.pow_2_r by lia. apply IH; [easy | now apply field_multiply].
+    - rewrite Z.pow_1_r. now apply field_multiply. }
+  intros N A. destruct constants_right as (O & _). destruct n as [| n |]; [easy | | lia].
+  rewrite <- (Z.mul_1_l (x ^ _)). now apply G.
+Qed.
+
+(** Residues z as they are, not in the form. *)
+Definition residue_of (a z : Z) : Prop := 0 <= a < p /\ (p | a - z).
+Lemma plain_multiply a z b y : residue_of a z -> form b y -> residue_of (multiply a b) (z * y).
+Proof.
+  intros [A [q Q]] F. generalize p_range. intros PR. destruct (reduced_right a ltac:(nia)) as [R [s S]].
+  destruct (field_multiply a (reduced a) b y (conj A (ex_intro _ s S)) F) as [M [r E]]. split; [easy |].
+  exists (r - y * s + y * q).
+  replace (multiply a b - z * y) with (multiply a b - reduced a * y * B - y * (a - reduced a * B) + y * (a - z)) by ring.
+  rewrite E, S, Q. ring.
+Qed.
+Lemma plain_add a z b y : residue_of a z -> residue_of b y -> residue_of (add a b) (z + y).
+Proof.
+  intros [A [q Q]] [C [r R]]. generalize p_range. intros PR. destruct (reduced_right a ltac:(nia)) as [_ [s S]].
+  destruct (reduced_right b ltac:(nia)) as [_ [t T]].
+  destruct (field_add a (reduced a) b (reduced b) (conj A (ex_intro _ s S)) (conj C (ex_intro _ t T))) as [M [u U]].
+  split; [easy |]. exists (u - s - t + q + r).
+  replace (add a b - (z + y)) with (add a b - (reduced a + reduced b) * B - (a - reduced a * B) - (b - reduced b * B) + (a - z) + (b - y)) by ring.
+  rewrite U, S, T, Q, R. ring.
+Qed.
+
+(** The value at num/den times den^degree, by coefficients from the last to the first: in integers, and as
+    value_at of include/errbound/roots/integer_polynomial.hpp has it from their residues. *)
+Fixpoint homogeneous (num den sum scale : Z) (coefficients : list Z) : Z :=
+  match coefficients with [] => sum | c :: l => homogeneous num den (sum * num + c * scale) (scale * den) l end.
+Fixpoint value_from (m : Z) (next_scale : Z -> Z) (sum scale : Z) (residues : list Z) : Z :=
+  match residues with
+  | [] => sum
+  | r :: l => value_from m next_scale (add (multiply sum m) (multiply r scale)) (next_scale scale) l
+  end.
+Definition value_modulo (n e : Z) (coefficients : list Z) : Z :=
+  let two := power (add one one) (Z.abs e) in let m := to_form (n mod p) in
+  value_from (if 0 <=? e then multiply m two else m) (fun scale => if e <? 0 then multiply scale two else scale) 0 one
+    (map (fun c => c mod p) coefficients).
+
+Theorem value_modulo_right n e coefficients : value_modulo n e coefficients <> 0 ->
+  homogeneous (if 0 <=? e then n * 2 ^ e else n) (if 0 <=? e then 1 else 2 ^ (- e)) 0 1 coefficients <> 0.
+Proof.
+  generalize p_range. intros PR N V. apply N. clear N.
+  set (num := if 0 <=? e then n * 2 ^ e else n) in *. set (den := if 0 <=? e then 1 else 2 ^ (- e)) in *.
+  destruct constants_right as (O & _).
+  assert (Mod : forall c, residue_of (c mod p) c).
+  { intros c. split; [apply Z.mod_pos_bound; lia |]. exists (- (c / p)). pose proof (Z.div_mod c p ltac:(lia)). lia. }
+  assert (Two : form (power (add one one) (Z.abs e)) (2 ^ Z.abs e)) by (apply power_right; [lia | now apply (field_add one 1 one 1)]).
+  assert (Same : forall a x y, form a x -> (p | x - y) -> form a y).
+  { intros a x y [A [q Q]] [r R]. split; [easy |]. exists (q + r * B). replace (a - y * B) with (a - x * B + (x - y) * B) by ring. rewrite Q, R. ring. }
+  assert (M0 : form (to_form (n mod p)) n).
+  { destruct (Mod n) as (A & D). apply Same with (n mod p); [exact (proj1 (field_forms _ 0) A) | exact D]. }
+  assert (G : forall l m next_scale, form m num -> (forall s k, form s k -> form (next_scale s) (k * den)) ->
+    forall sum z scale k, residue_of sum z -> form scale k ->
+    residue_of (value_from m next_scale sum scale (map (fun c => c mod p) l)) (homogeneous num den z k l)).
+  { intros l m next_scale M Next. induction l as [| c l IH]; intros sum z scale k S K; [exact S |]. cbn [map value_from homogeneous].
+    apply IH; [| now apply Next]. apply plain_add; apply plain_multiply; auto. }
+  assert (R : residue_of (value_modulo n e coefficients) (homogeneous num den 0 1 coefficients)).
+  { apply G; [| | split; [lia | apply Z.divide_0_r] | exact O].
+    - unfold num. destruct (Z.leb_spec 0 e); [| exact M0].
+      replace (2 ^ e) with (2 ^ Z.abs e) by (f_equal; lia). now apply field_multiply.
+    - intros s k F. unfold den. destruct (Z.leb_spec 0 e), (Z.ltb_spec e 0); try lia; [now rewrite Z.mul_1_r |].
+      replace (2 ^ (- e)) with (2 ^ Z.abs e) by (f_equal; lia). now apply field_multiply. }
+  rewrite V in R. destruct R as [R [q Q]]. rewrite Z.sub_0_r in Q.
+  assert (q = 0) as -> by (clear - R Q PR; nia). lia.
 Qed.
 
 End Field.

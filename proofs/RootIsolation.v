@@ -1,7 +1,8 @@
-(** Exact real roots of polynomials of any degree (include/errbound/roots/root_isolation.hpp): where the
-    algorithm ends, its answer is right. Polynomials are lists of coefficients, ascending, in the power
-    basis. What is proved holds whatever points intervals are split at, so for every hint that the code
-    takes of floating-point numbers, and over the real numbers: the code's numbers are exact.
+(** Exact real roots of polynomials of any degree (include/errbound/roots/root_isolation.hpp,
+    descartes_search.hpp): where the algorithm ends, its answer is right. Polynomials are lists of
+    coefficients, ascending, in the power basis. What is proved holds whatever points intervals are split at,
+    so for every hint that the code takes of floating-point numbers, and over the real numbers: the code's
+    points are exact.
 
     Results:
         on_part_right        each root between two points is in exactly one of the intervals found
@@ -108,30 +109,34 @@ Definition isolated (p : list R) (where_ : R -> Prop) (found : list interval) : 
   exists roots, Forall2 (isolates p) found roots /\ StronglySorted Rlt roots /\
     forall x, In x roots <-> where_ x /\ power_form p x = 0.
 
-(** Signs as a row of cut coefficients tells them (fixed_row): 0 if uncertain. *)
+(** Signs of coefficients as the code tells them (fixed_row, or local_form; LocalForm.v): 0 if uncertain. *)
 Definition row_of (p : list R) (lo hi : R) (signs : list Z) : Prop :=
-  exists b, controls b p lo hi /\ Forall2 sign_seen signs (map sgn b).
+  exists h, stands_for h p lo hi /\ Forall2 sign_seen signs (map sgn h).
+(** What is counted: without the ends of which it is known that they are zero. *)
+Definition without_ends {A} (low_end high_end : bool) (row : list A) : list A :=
+  let row := if low_end then tl row else row in if high_end then removelast row else row.
 
 Definition point_if_root (p : list R) (x : R) : list interval :=
   if Req_EM_T (power_form p x) 0 then [Interval x x] else [].
 
-(** on_part, both versions: the cases in which it answers at once; add_pair's answer; and a split at
-    whatever point strictly between, whether the middle, one between exponents or one of Newton's
-    method. *)
+(** The sign changes that are counted of a part: of exact coefficients; or of signs seen, where those that are
+    uncertain may make more of them. *)
+Inductive counted (p : list R) (lo hi : R) : nat -> Prop :=
+| of_exact b : controls b p lo hi -> counted p lo hi (sign_variations (map sgn b))
+| of_seen signs root_at_low root_at_high : row_of p lo hi signs ->
+    (root_at_low = true -> power_form p lo = 0) -> (root_at_high = true -> power_form p hi = 0) ->
+    counted p lo hi (match without_ends root_at_low root_at_high signs with [] => 0 | inner => max_sign_variations inner end).
+
+(** descartes_search, which keeps the parts on a stack of its own: the cases in which a part is done with; and
+    the division of a part at whatever point strictly between, whether the middle, one between exponents or
+    one of Newton's method. (Where a part is narrowed, it is divided at one or two points, and what lies
+    beside them is `rootless`, by surely_rootless.) *)
 Inductive on_part (p : list R) : R -> R -> list interval -> Prop :=
-| no_variation lo hi b : controls b p lo hi -> sign_variations (map sgn b) = 0%nat -> on_part p lo hi []
-| one_variation lo hi b : controls b p lo hi -> sign_variations (map sgn b) = 1%nat ->
-    hd 0 b <> 0 -> last b 0 <> 0 -> on_part p lo hi [Interval lo hi]
-| no_variation_of_row lo hi signs : row_of p lo hi signs -> max_sign_variations signs = 0%nat ->
-    on_part p lo hi []
-| one_variation_of_row lo hi signs : row_of p lo hi signs -> max_sign_variations signs = 1%nat ->
-    hd 0%Z signs <> 0%Z -> last signs 0%Z <> 0%Z -> on_part p lo hi [Interval lo hi]
-| pair lo hi b x : controls b p lo hi -> sign_variations (map sgn b) = 2%nat ->
-    hd 0 b <> 0 -> last b 0 <> 0 -> lo < x < hi -> sgn (power_form p x) = (- sgn (hd 0%R b))%Z ->
-    on_part p lo hi [Interval lo x; Interval x hi]
-| pair_of_row lo hi signs x : row_of p lo hi signs -> max_sign_variations signs = 2%nat ->
-    hd 0%Z signs <> 0%Z -> last signs 0%Z <> 0%Z -> lo < x < hi ->
-    sgn (power_form p x) = (- hd 0 signs)%Z -> on_part p lo hi [Interval lo x; Interval x hi]
+| no_variation lo hi : counted p lo hi 0 -> on_part p lo hi []
+| rootless lo hi : (forall x, lo <= x <= hi -> power_form p x <> 0) -> on_part p lo hi []
+| one_variation lo hi : counted p lo hi 1 -> power_form p lo <> 0 -> power_form p hi <> 0 -> on_part p lo hi [Interval lo hi]
+| pair lo hi signs x : counted p lo hi 2 -> row_of p lo hi signs -> hd 0%Z signs <> 0%Z -> power_form p hi <> 0 ->
+    lo < x < hi -> sgn (power_form p x) = (- hd 0 signs)%Z -> on_part p lo hi [Interval lo x; Interval x hi]
 | parts lo x hi left right : lo < x < hi -> on_part p lo x left -> on_part p x hi right ->
     on_part p lo hi (left ++ point_if_root p x ++ right).
 
@@ -293,64 +298,73 @@ Proof.
   rewrite changes_even in E; auto; [now apply Z.eqb_eq | | apply sgn_plain].
   pose proof (sgn_plain [x]) as F. inversion_clear F as [| ? ? [V | V] _]; easy.
 Qed.
-Lemma ends_seen signs truth : Forall2 sign_seen signs truth -> hd 0%Z signs <> 0%Z -> last signs 0%Z <> 0%Z ->
-  hd 0%Z signs = hd 0%Z truth /\ last signs 0%Z = last truth 0%Z.
+(** Zeros at the ends change nothing. *)
+Lemma changes_before_0 last signs : changes_after last (signs ++ [0%Z]) = changes_after last signs.
+Proof. revert last. induction signs as [| s l IH]; intros last; [easy |]. cbn [app changes_after]. now rewrite !IH. Qed.
+Lemma variations_without_ends low_end high_end row :
+  (low_end = true -> hd 0%Z row = 0%Z) -> (high_end = true -> last row 0%Z = 0%Z) ->
+  sign_variations (without_ends low_end high_end row) = sign_variations row.
 Proof.
-  intros F H K. split; [destruct F as [| s t signs truth (_ & E) F]; [easy | now apply E] |]. clear H.
-  induction F as [| s t signs truth (T & E) F IH]; [easy |].
-  destruct F as [| s' t' signs truth S' F]; [now apply E | now apply IH].
+  intros Low High. unfold without_ends, sign_variations.
+  transitivity (changes_after 0 (if low_end then tl row else row)).
+  - destruct high_end; [| easy]. specialize (High eq_refl).
+    assert (E : last (if low_end then tl row else row) 0%Z = 0%Z)
+      by (destruct low_end; [destruct row as [| a [| b l]]; easy | easy]).
+    destruct (if low_end then tl row else row) as [| s l _] using rev_ind; [easy |].
+    rewrite last_last in E. rewrite E, removelast_last. symmetry. apply changes_before_0.
+  - destruct low_end; [| easy]. specialize (Low eq_refl). destruct row as [| s l]; [easy |].
+    simpl in Low. now rewrite Low.
+Qed.
+Lemma seen_without_ends low_end high_end signs truth : Forall2 sign_seen signs truth ->
+  Forall2 sign_seen (without_ends low_end high_end signs) (without_ends low_end high_end truth).
+Proof.
+  intros F. unfold without_ends.
+  assert (G : Forall2 sign_seen (if low_end then tl signs else signs) (if low_end then tl truth else truth))
+    by (destruct low_end; [destruct F; [constructor | easy] | easy]).
+  destruct high_end; [| exact G]. induction G as [| s t signs' truth' S G IH]; [constructor |].
+  destruct G; simpl in *; constructor; auto.
+Qed.
+
+Lemma counted_right p lo hi n : lo < hi -> counted p lo hi n -> (n < 3)%nat -> exists h, stands_for h p lo hi /\
+  (sign_variations (map sgn h) <= n)%nat /\ Nat.even (sign_variations (map sgn h)) = Nat.even n.
+Proof.
+  intros L C. destruct C as [b C | signs low_end high_end (h & C & R) Low High]; intros B.
+  - exists (scaled_coefficients b). rewrite scaled_signs. now repeat split.
+  - exists h. split; auto. destruct (ends_signs p h lo hi L C) as (Eh & El). destruct (signs_hd_last h) as (Fh & Fl).
+    rewrite <- (variations_without_ends low_end high_end (map sgn h)).
+    + apply (seen_without_ends low_end high_end) in R.
+      destruct (without_ends low_end high_end signs) as [| s l]; [now inversion_clear R |]. now apply max_variations_right.
+    + intros E. rewrite <- Fh, Eh, (Low E). apply sgn_0.
+    + intros E. rewrite <- Fl, El, (High E). apply sgn_0.
 Qed.
 
 Theorem on_part_right p lo hi found : not_zero p -> lo < hi -> on_part p lo hi found ->
   isolated p (fun x => lo < x < hi) found.
 Proof.
   intros NZ L P. revert L.
-  assert (Two : forall lo x hi, lo < x < hi -> power_form p x <> 0 ->
-    (exists r, isolates p (Interval lo x) r) /\ (exists r, isolates p (Interval x hi) r) ->
-    isolated p (fun y => lo < y < hi) [Interval lo x; Interval x hi]).
-  { clear. intros lo x hi X N ((r & A) & (q & B)).
-    apply isolated_one in A, B; try lra.
-    apply isolated_same with (fun y => lo < y < x \/ x < y < hi).
-    - intros y Z. assert (y <> x) by now intros ->. lra.
-    - apply (isolated_app p _ _ [Interval lo x] [Interval x hi]); auto. intros; lra. }
-  induction P as [lo hi b C V | lo hi b C V H K | lo hi signs (b & C & R) V | lo hi signs (b & C & R) V H K
-    | lo hi b x C V H K X O | lo hi signs x (b & C & R) V H K X O | lo x hi left right X P IHP Q IHQ]; intros L.
-  - apply isolated_none. intros x X. rewrite <- scaled_signs in V.
-    exact (no_root_part p _ lo hi L C V x NZ X).
-  - rewrite <- scaled_signs in V. destruct (scaled_ends b) as (Eh & El).
-    destruct (one_root_part p _ lo hi L C V) as (r & I).
+  induction P as [lo hi V | lo hi N | lo hi V Nl Nh | lo hi signs x V (k & Ck & R) Nl Nh X O
+    | lo x hi left right X P IHP Q IHQ]; intros L.
+  - destruct (counted_right p lo hi 0 L V) as (h & C & W & _); [lia |]. apply isolated_none. intros x X.
+    apply (no_root_part p h lo hi L C); auto. lia.
+  - apply isolated_none. intros x X. apply N. lra.
+  - destruct (counted_right p lo hi 1 L V) as (h & C & W & E); [lia |]. destruct (ends_signs p h lo hi L C) as (Eh & El).
+    destruct (one_root_part p h lo hi L C) as (r & I).
+    + destruct (sign_variations (map sgn h)) as [| [|]]; [discriminate | easy | lia].
     + apply sgn_not_0. rewrite Eh. now apply sgn_not_0.
     + apply sgn_not_0. rewrite El. now apply sgn_not_0.
     + now apply isolated_one with r.
-  - destruct (max_variations_right _ _ R) as (W & _); [lia |]. rewrite V in W.
-    rewrite <- scaled_signs in W. apply isolated_none. intros x X.
-    exact (no_root_part p _ lo hi L C ltac:(lia) x NZ X).
-  - destruct (max_variations_right _ _ R) as (W & E); [lia |]. rewrite V in W, E.
-    destruct (ends_seen _ _ R H K) as (Eh & El). rewrite <- scaled_signs in W, E, Eh, El.
-    rewrite <- (proj1 (signs_hd_last _)) in Eh. rewrite <- (proj2 (signs_hd_last _)) in El.
-    destruct (one_root_part p _ lo hi L C) as (r & I).
-    + destruct (sign_variations (map sgn (scaled_coefficients b))) as [| [|]]; [discriminate | easy | lia].
-    + apply sgn_not_0. now rewrite <- Eh.
-    + apply sgn_not_0. now rewrite <- El.
-    + now apply isolated_one with r.
-  - rewrite <- scaled_signs in V. destruct (scaled_ends b) as (Eh & El).
-    assert (Nh : sgn (hd 0 (scaled_coefficients b)) <> 0%Z) by (rewrite Eh; now apply sgn_not_0).
-    assert (Nl : sgn (last (scaled_coefficients b) 0) <> 0%Z) by (rewrite El; now apply sgn_not_0).
-    apply Two; auto.
-    + apply sgn_not_0. rewrite O. apply sgn_not_0 in H. lia.
-    + apply (two_roots_part p (scaled_coefficients b) lo hi L C x); [lia | | | easy |].
-      * now apply sgn_not_0.
-      * apply equal_ends; auto. now rewrite V.
-      * now rewrite Eh.
-  - destruct (max_variations_right _ _ R) as (W & E); [lia |]. rewrite V in W, E.
-    destruct (ends_seen _ _ R H K) as (Eh & El). rewrite <- scaled_signs in W, E, Eh, El.
-    rewrite <- (proj1 (signs_hd_last _)) in Eh. rewrite <- (proj2 (signs_hd_last _)) in El.
-    apply Two; auto.
-    + apply sgn_not_0. rewrite O. lia.
-    + apply (two_roots_part p (scaled_coefficients b) lo hi L C x); [lia | | | easy |].
-      * apply sgn_not_0. now rewrite <- Eh.
-      * apply equal_ends; [now rewrite <- Eh | now rewrite <- El | easy].
-      * now rewrite <- Eh.
+  - destruct (counted_right p lo hi 2 L V) as (h & C & W & E); [lia |]. destruct (ends_signs p h lo hi L C) as (Eh & El).
+    assert (S : hd 0%Z signs = sgn (power_form p lo)).
+    { destruct (ends_signs p k lo hi L Ck) as (<- & _). rewrite (proj1 (signs_hd_last k)).
+      destruct R as [| s t signs truth (_ & T) R]; [easy | now apply T]. }
+    rewrite S in Nl, O. apply sgn_not_0 in Nh.
+    destruct (two_roots_part p h lo hi L C x W) as ((r & A) & (q & B)); auto.
+    + apply sgn_not_0. now rewrite Eh.
+    + apply equal_ends; [now rewrite Eh | now rewrite El | easy].
+    + now rewrite Eh.
+    + apply isolated_one in A, B; try lra. apply isolated_same with (fun y => lo < y < x \/ x < y < hi).
+      * intros y Z. assert (y <> x); [| lra]. intros ->. rewrite Z, sgn_0 in O. lia.
+      * apply (isolated_app p _ _ [Interval lo x] [Interval x hi]); auto. intros; lra.
   - specialize (IHP ltac:(lra)). specialize (IHQ ltac:(lra)).
     apply isolated_same with (fun y => lo < y < x \/ (y = x \/ x < y < hi)); [intros; lra |].
     apply isolated_app; auto; [apply isolated_app; auto; [apply isolated_point | intros; lra] | intros; lra].
@@ -359,30 +373,89 @@ Qed.
 (** ** All roots *)
 
 (** The roots strictly between, 0 <= low < high: `least` and `greatest` are the points beyond the
-    bounds of the positive roots, if the code has bounds. *)
+    bounds of the positive roots, if the code has bounds. Where both are used, Descartes' rule is tried first. *)
 Inductive inside (p : list R) (bounds : option (R * R)) (lo hi : R) : list interval -> Prop :=
 | no_positive_roots : bounds = None -> inside p bounds lo hi []
 | nothing_left least greatest : bounds = Some (least, greatest) -> ~ Rmax lo least < Rmin greatest hi ->
     inside p bounds lo hi []
+| no_change least greatest : bounds = Some (least, greatest) -> sign_variations (map sgn p) = 0%nat ->
+    inside p bounds lo hi []
+| one_change least greatest : bounds = Some (least, greatest) -> lo <= least -> greatest <= hi ->
+    sign_variations (map sgn p) = 1%nat -> inside p bounds lo hi [Interval least greatest]
 | between_bounds least greatest found : bounds = Some (least, greatest) -> Rmax lo least < Rmin greatest hi ->
     on_part p (Rmax lo least) (Rmin greatest hi) found -> inside p bounds lo hi found.
 
 Definition bounds_right (p : list R) (bounds : option (R * R)) : Prop :=
   forall x, 0 < x -> power_form p x = 0 -> exists least greatest, bounds = Some (least, greatest) /\ least < x < greatest.
 
-Lemma inside_right p bounds lo hi found : not_zero p -> bounds_right p bounds -> 0 <= lo ->
+(** Descartes' rule on the positive numbers. *)
+Lemma no_change_no_root p x : sign_variations (map sgn p) = 0%nat -> hd 0 p <> 0 -> 0 < x -> power_form p x <> 0.
+Proof.
+  intros V N X Z. set (t := x / (1 + x)). assert (E : t / (1 - t) = x) by (unfold t; field; lra).
+  assert (T : 0 < t < 1).
+  { unfold t. split; [apply Rmult_lt_0_compat; [easy | apply Rinv_0_lt_compat; lra] |].
+    apply Rmult_lt_reg_r with (1 + x); [lra |]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra. }
+  destruct (on_unit_ratio p t T) as (c & C & F). apply (no_variation_no_root p t V); auto; [destruct p; [now destruct N | now left] |].
+  now rewrite F, E, Z, Rmult_0_r.
+Qed.
+Lemma one_change_one_root p u v : sign_variations (map sgn p) = 1%nat -> hd 0 p <> 0 -> last p 0 <> 0 -> 0 <= u ->
+  (forall x, 0 < x -> power_form p x = 0 -> u < x < v) ->
+  exists r, u < r < v /\ isolates p (Interval u v) r.
+Proof.
+  assert (G : forall p, sign_variations (map sgn p) = 1%nat -> 0 < hd 0 p -> last p 0 <> 0 -> 0 <= u ->
+    (forall x, 0 < x -> power_form p x = 0 -> u < x < v) ->
+    exists r, u < r < v /\ isolates p (Interval u v) r).
+  { clear p. intros p V P N U B. destruct (one_variation_one_root p V ltac:(lra) N) as (_ & t & T & Z & _).
+    destruct (on_unit_ratio p t T) as (c & C & F). set (r := t / (1 - t)) in *.
+    assert (R : 0 < r) by (unfold r; apply Rmult_lt_0_compat; [| apply Rinv_0_lt_compat]; lra).
+    assert (Zr : power_form p r = 0) by (apply Rmult_eq_reg_l with c; lra). pose proof (B r R Zr) as Br.
+    assert (Falls : forall x y, 0 < x < y -> power_form p x <= 0 -> power_form p y < 0).
+    { pose proof (first_alternation p P) as A. rewrite V in A.
+      destruct (alternates_1 p A P) as (a & b & -> & Fa & Ea & Fb & _). intros x y. now apply falls_once. }
+    assert (Only : forall x, 0 < x -> power_form p x = 0 -> x = r).
+    { intros x X Zx. destruct (Rtotal_order x r) as [H | [H | H]]; auto; exfalso;
+        [pose proof (Falls x r ltac:(lra) ltac:(lra)) | pose proof (Falls r x ltac:(lra) ltac:(lra))]; lra. }
+    assert (Low : 0 < power_form p u).
+    { destruct (Rle_lt_or_eq_dec 0 u U) as [U' | <-].
+      - destruct (Rle_lt_dec (power_form p u) 0) as [H | H]; auto. pose proof (Falls u r ltac:(lra) H). lra.
+      - destruct p as [| a l]; simpl in *; lra. }
+    pose proof (Falls r v ltac:(lra) ltac:(lra)) as High.
+    exists r. split; auto. split; auto. right. cbn [low high]. split; auto. split; [| nra].
+    intros x X Zx. apply Only; auto. destruct (Rle_lt_or_eq_dec 0 x ltac:(lra)) as [H | <-]; auto.
+    assert (u = 0) by lra. subst u. lra. }
+  intros V N L U B. destruct (Rtotal_order (hd 0 p) 0) as [H | [H | H]]; [| easy | now apply G].
+  destruct (hd_last_opp p) as (Eh & El).
+  destruct (G (map Ropp p)) as (r & R & Z & I).
+  - now rewrite variations_opp.
+  - lra.
+  - lra.
+  - easy.
+  - intros x X Zx. apply B; auto. rewrite power_form_opp in Zx. lra.
+  - exists r. split; auto. split; [rewrite power_form_opp in Z; lra |].
+    destruct I as [I | (A & O & S)]; [now left | right]. split; auto. split.
+    + intros x X Zx. apply O; auto. rewrite power_form_opp. lra.
+    + rewrite !power_form_opp in S. lra.
+Qed.
+
+Lemma inside_right p bounds lo hi found : hd 0 p <> 0 -> last p 0 <> 0 -> not_zero p -> bounds_right p bounds -> 0 <= lo ->
   inside p bounds lo hi found -> isolated p (fun x => lo < x < hi) found.
 Proof.
-  intros NZ B P I.
+  intros H0 Hn NZ B P I.
   assert (Within : forall least greatest x, bounds = Some (least, greatest) -> power_form p x = 0 ->
     (lo < x < hi <-> Rmax lo least < x < Rmin greatest hi /\ 0 < x)).
   { intros least greatest x E Z. split.
     - intros X. destruct (B x ltac:(lra) Z) as (l & g & E' & H). rewrite E in E'. injection E' as <- <-.
       split; [| lra]. split; [apply Rmax_lub_lt | apply Rmin_glb_lt]; lra.
     - intros ((X & Y) & X0). pose proof (Rmax_l lo least). pose proof (Rmin_r greatest hi). lra. }
-  destruct I as [E | least greatest E N | least greatest found E L I].
+  destruct I as [E | least greatest E N | least greatest E V | least greatest E A C V | least greatest found E L I].
   - apply isolated_none. intros x X Z. destruct (B x ltac:(lra) Z) as (l & g & E' & _). congruence.
   - apply isolated_none. intros x X Z. rewrite (Within _ _ _ E Z) in X. lra.
+  - apply isolated_none. intros x X. apply no_change_no_root; auto. lra.
+  - assert (Bounds : forall x, 0 < x -> power_form p x = 0 -> least < x < greatest).
+    { intros x X Z. destruct (B x X Z) as (l & g & E' & H). rewrite E in E'. now injection E' as -> ->. }
+    destruct (one_change_one_root p least greatest V H0 Hn ltac:(lra) Bounds) as (r & R & I).
+    apply isolated_same with (fun x => least < x < greatest); [| apply isolated_one with r; [easy | lra]].
+    intros x Z. split; intros X; [lra |]. apply Bounds; auto. lra.
   - apply isolated_same with (fun x => Rmax lo least < x < Rmin greatest hi).
     + intros x Z. rewrite (Within _ _ _ E Z). pose proof (Rmax_l lo least). split; [| tauto]. intros; split; auto; lra.
     + now apply on_part_right.
@@ -431,12 +504,22 @@ Proof.
     + intros X. exists (- x). split; [ring | easy].
 Qed.
 
-Theorem isolate_right p right left lo hi found : power_form p 0 <> 0 -> lo <= hi ->
+Lemma mirrored_ends_real p : hd 0 (mirrored p) = hd 0 p /\ (last p 0 <> 0 -> last (mirrored p) 0 <> 0).
+Proof.
+  split; [now destruct p as [| a [| b l]] |].
+  enough (G : forall n p, (length p <= n)%nat -> last p 0 <> 0 -> last (mirrored p) 0 <> 0) by (eapply G; auto).
+  clear p. induction n as [| n IH]; intros [| a [| b l]] L; try (simpl in L; lia); auto.
+  simpl in L. specialize (IH l ltac:(lia)). destruct l as [| c l]; [simpl; lra |]. intros H. specialize (IH H).
+  destruct l as [| d l]; exact IH.
+Qed.
+
+Theorem isolate_right p right left lo hi found : power_form p 0 <> 0 -> last p 0 <> 0 -> lo <= hi ->
   bounds_right p right -> bounds_right (mirrored p) left -> isolate p right left lo hi found ->
   isolated p (fun x => lo <= x <= hi) found.
 Proof.
-  intros N0 L Br Bl I.
-  assert (NZ : not_zero p) by now exists 0.
+  intros N0 Nn L Br Bl I.
+  assert (NZ : not_zero p) by now exists 0. destruct (mirrored_ends_real p) as (Mh & Ml). specialize (Ml Nn).
+  assert (Nh : hd 0 p <> 0) by (intros K; apply N0; destruct p; simpl in *; lra).
   assert (NM : not_zero (mirrored p)) by (exists 0; now rewrite mirrored_value, Ropp_0).
   destruct I as [E | negative positive H Neg Pos].
   - apply isolated_same with (fun x => x = lo); [intros; lra | apply isolated_point].
@@ -446,7 +529,7 @@ Proof.
     { unfold below. destruct (Rlt_dec lo 0).
       - apply isolated_same with (fun x => (if Rlt_dec hi 0 then - hi else 0) < - x < - lo).
         + intros x _. destruct (Rlt_dec hi 0); lra.
-        + apply (isolated_reflected p (fun x => (if Rlt_dec hi 0 then - hi else 0) < x < - lo)). apply inside_right with (bounds := left); auto. destruct (Rlt_dec hi 0); lra.
+        + apply (isolated_reflected p (fun x => (if Rlt_dec hi 0 then - hi else 0) < x < - lo)). apply inside_right with (bounds := left); auto; [now rewrite Mh | destruct (Rlt_dec hi 0); lra].
       - subst negative. apply isolated_none. intros x X. lra. }
     assert (Ip : isolated p above positive).
     { unfold above. destruct (Rlt_dec 0 hi).
@@ -724,7 +807,7 @@ Qed.
 (** real_roots of coefficients p with p(0) <> 0: the intervals found for the roots in (0, oo). `upper` is
     upper_bound(). *)
 Inductive real_roots (p f : list R) : list interval -> Prop :=
-| isolated_roots right left upper found : first_of_chain p f ->
+| isolated_roots right left upper found : first_of_chain p f -> last f 0 <> 0 ->
     bounds_right f right -> bounds_right (mirrored f) left -> 0 < upper ->
     (forall x, 0 < x -> power_form f x = 0 -> x < upper) ->
     isolate f right left 0 upper found -> real_roots p f found.
@@ -733,7 +816,7 @@ Theorem real_roots_right p f found : power_form p 0 <> 0 -> real_roots p f found
   exists roots, Forall2 (isolates f) found roots /\ StronglySorted Rlt roots /\
     forall x, In x roots <-> 0 < x /\ power_form p x = 0.
 Proof.
-  intros N [right left upper l C Br Bl U Top I].
+  intros N [right left upper l C Nf Br Bl U Top I].
   assert (NZ : not_zero p) by now exists 0. pose proof (first_of_chain_roots p f NZ C) as E.
   apply isolate_right in I; auto; [| now rewrite <- E | lra].
   destruct (isolated_same f (fun x => 0 <= x <= upper) (fun x => 0 < x) l) with (2 := I) as (roots & F & S & H).
