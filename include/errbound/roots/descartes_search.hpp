@@ -111,7 +111,8 @@ class descartes_search {
             return row ? row->sign(0) != 0 : local && local->low_end_is_certain();
         }
     };
-    static constexpr int slowest = 8, row_bits = 256, lone = 32;
+    static constexpr int slowest = 8, row_bits = 256, lone = 32, most_bits = 1 << 28,
+                         most_lost_bits = 1 << 20;
 
     /// Keeps a part to look at if it may have roots.
     void add(part p) {
@@ -145,7 +146,7 @@ class descartes_search {
             found = variations_of_row(p);
         } else if (!p.local && exact_row_is_cheap(p)) {
             const int range = floor_log2(p.high) - floor_log2(p.low) + bits_of_ends(p);
-            charge(static_cast<int>(p_.size()) * range);
+            charge(static_cast<std::int64_t>(p_.size()) * range);
             const form b = control_values_on(p_, p.low, p.high);
             found = sign_variations(b.size(), [&](std::size_t i) { return sign(b[i]); });
             if (*found > 1) {
@@ -154,6 +155,7 @@ class descartes_search {
             }
         }
         if (!found) p.row = {};
+        if (!found && !p.local && varies_too_much(p)) return;
         for (; !found; p.bits *= 2) {
             if (!p.local || p.local->bits() < p.bits) expand(p);
             if (!p.root_at_low && !p.local->low_end_is_certain()) continue;
@@ -180,13 +182,19 @@ class descartes_search {
     bool exact_row_is_cheap(const part& p) const {
         return p_.size() <= 40 && static_cast<int>(p_.size()) * bits_of_ends(p) <= 2048;
     }
+    /// Whether the coefficients' sizes differ by more bits than are worth counting: 3 changes of
+    /// sign are assumed, and the part is divided.
+    bool varies_too_much(const part& p) const {
+        return floor_log2(p.high) > floor_log2(p.low) + 1 &&
+               local_form<Integer>::precision(p_.size(), p.low, p.high - p.low, 0) > most_lost_bits;
+    }
     void expand(part& p) {
         const point width = p.high - p.low;
         charge(local_form<Integer>::precision(p_.size(), p.low, width, p.bits));
         p.local.emplace(p_, p.low, width, p.bits);
     }
     /// For a row of numbers of so many bits: products of their size, and sums.
-    void charge(int bits) {
+    void charge(std::int64_t bits) {
         const std::uint64_t n = p_.size(), words = static_cast<std::uint64_t>(bits) / 64 + 1;
         meter_.hold(8 * n * (4 * words + 8 * (parts_.size() + 1)));
         meter_.spend(n * (n + words / 4) * words);
@@ -279,7 +287,7 @@ class descartes_search {
         if (sum == 0) return {};
         const Integer roots = both / sum;
         return place{Integer((distance << static_cast<unsigned>(depth)) / sum),
-                     roots > 0 && roots < 1000000 ? static_cast<int>(roots) + 1 : 1};
+                     roots > 0 && roots < local.degree() ? static_cast<int>(roots) + 1 : 1};
     }
     /// Tries to narrow a part by Newton's method; false if nothing comes of it.
     bool narrowed(part& whole) {
@@ -289,10 +297,11 @@ class descartes_search {
         const Integer end = Integer(1) << static_cast<unsigned>(depth);
         const auto inside = [&] { return found && -1 <= found->from && found->from <= end; };
         for (int tries = 0; tries < 3 && inside(); ++tries) {
-            const int wanted = found->roots * whole.speed + 64;
+            const std::int64_t wanted = std::int64_t(found->roots) * whole.speed + 64;
             const int bits = whole.local->certain_bits();
             if (bits >= wanted) break;
-            whole.bits = whole.local->bits() + wanted - bits + 64;
+            if (wanted > most_bits) return false;
+            whole.bits = whole.local->bits() + static_cast<int>(wanted) - bits + 64;
             expand(whole);
             found = place_of_roots(*whole.local, depth);
         }
@@ -317,7 +326,7 @@ class descartes_search {
         part narrow = piece(from, to);
         narrow.halvings = whole.halvings + depth;
         narrow.lone_halvings = whole.lone_halvings;
-        narrow.speed = 2 * whole.speed;
+        narrow.speed = std::min(2 * whole.speed, most_bits);
         narrow.bits = whole.bits;
         add(std::move(narrow));
         return true;

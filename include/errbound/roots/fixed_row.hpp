@@ -19,7 +19,7 @@ template <int Words>
 class fixed_row {
   public:
     /// Of not all zero coefficients, each given within `error`.
-    /// Proof: proofs/ControlValues.v, row_cut_right; proofs/FixedRow.v, row_fits.
+    /// Proof: proofs/ControlValues.v, row_cut_right, row_uncertain; proofs/FixedRow.v, row_fits.
     template <exact_number Integer>
     fixed_row(const integer_form<Integer>& b, const Integer& error) {
         int bits = 0;

@@ -206,7 +206,9 @@ std::vector<std::uint64_t> residues(const integer_form<Integer>& p, const prime_
     return r;
 }
 
-/// A multiple, not zero unless p is empty, of the value at x, from p's residues.
+/// The residue of the value at x, times 2^(−e·n) where x is a multiple of 2^e and no higher power
+/// and e < 0, from p's residues: not zero only where the value is not.
+/// Proof: proofs/PrimeField.v, value_modulo_right.
 template <class Integer>
 std::uint64_t value_at(const std::vector<std::uint64_t>& residues, const prime_field& field,
                        const dyadic<Integer>& x) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/integers/dyadic.hpp>
 #include <errbound/roots/integer_polynomial.hpp>
 #include <utility>
@@ -45,11 +46,11 @@ class local_form {
     /// 0 < low, 0 < width. The error is about 2^(−bits) of p's largest term at `low`.
     ///
     /// Cost: degree multiplications of numbers of so many bits, and degree additions for each
-    /// coefficient kept.
+    /// coefficient kept. Proof: proofs/TaylorCoefficients.v, taylor_right.
     local_form(const form& p, const point& low, const point& width, int bits)
         : degree_(static_cast<int>(p.size()) - 1), bits_(bits) {
         const int count_bits = bits_of_count(p.size()), ratio = ratio_exponent(low, width);
-        const int lost = error_bits(p.size(), ratio), precision = bits + lost;
+        const int lost = static_cast<int>(error_bits(p.size(), ratio)), precision = bits + lost;
         a_ = terms(p, low, precision, count_bits);
         const std::size_t kept = kept_terms(p.size(), precision, ratio);
         for (std::size_t i = 0; i < kept; ++i)
@@ -60,12 +61,13 @@ class local_form {
     }
 
     /// Bits of the largest numbers that this constructor computes with.
-    static int precision(std::size_t size, const point& low, const point& width, int bits) {
+    static std::int64_t precision(std::size_t size, const point& low, const point& width,
+                                  int bits) {
         return bits + error_bits(size, ratio_exponent(low, width));
     }
 
     /// On u = (from + length·v)/2^depth, v in [0, 1]; 0 <= from, 0 < length, from + length <=
-    /// 2^depth.
+    /// 2^depth. Proof: proofs/LocalForm.v, part_right, dropped_right.
     local_form part(const Integer& from, const Integer& length, int depth) const {
         local_form result = *this;
         form& a = result.a_;
@@ -91,7 +93,7 @@ class local_form {
 
     /// The Bernstein coefficients times C(n, i), up to a positive factor, from the a_j cut to this
     /// many bits of the largest. The i-th is within error·C(n + 1, i), here called its margin: of
-    /// the errors of a_j there are C(n − j, i − j) in it.
+    /// the errors of a_j there are C(n − j, i − j) in it. Proof: proofs/LocalForm.v, cut_right.
     approximate_row<Integer> scaled_coefficients(int bits) const {
         int excess = 0;
         for (const Integer& a : a_) excess = std::max(excess, bits_of(a) - bits);
@@ -99,6 +101,7 @@ class local_form {
                 excess > 0 ? Integer(shifted(error_, -excess) + 2) : error_};
     }
     /// The Bernstein coefficients, up to a positive factor.
+    /// Proof: proofs/LocalForm.v, coefficients_right, row_signs_of_coefficients.
     approximate_row<Integer> coefficients(int bits) const {
         auto row = scaled_coefficients(bits);
         Integer binomial = 1;
@@ -111,7 +114,7 @@ class local_form {
         return row;
     }
     /// The signs of the Bernstein coefficients, 0 where uncertain, from the a_j cut to this many
-    /// bits of the largest.
+    /// bits of the largest. Proof: proofs/LocalForm.v, signs_right.
     std::vector<signed char> signs(int bits) const {
         const auto h = scaled_coefficients(bits);
         std::vector<signed char> result;
@@ -128,6 +131,7 @@ class local_form {
 
     /// Whether the values on all of [0, 1] are found to be beyond the error, by the Bernstein
     /// coefficients of what is kept: that takes few operations where little is kept.
+    /// Proof: proofs/LocalForm.v, surely_rootless_right.
     bool surely_rootless() const {
         const form h = scaled_coefficients(a_.size() - 1, 0);
         Integer margin = error_ * Integer(degree_ + 1);
@@ -146,9 +150,11 @@ class local_form {
         return std::max(0, least - bits_of(error_));
     }
 
+    int degree() const { return degree_; }
     int bits() const { return bits_; }
     /// Whether few bits, of those asked for, are spent on the terms being larger at one end.
     bool ends_are_alike() const { return bits_of(error_) < bits_ / 2; }
+    /// Proof: proofs/LocalForm.v, low_end_right, high_end_right.
     bool low_end_is_certain() const { return abs(a_[0]) > error_; }
     bool high_end_is_certain() const { return abs(value_at_end()) > error_ * Integer(degree_ + 1); }
     const Integer& value_at_start() const { return a_[0]; }
@@ -178,7 +184,8 @@ class local_form {
     }
     static int bits_of(const Integer& x) { return x == 0 ? 0 : floor_log2(x) + 1; }
 
-    /// c_i·low^i in a common unit, the largest of about this many bits, each off by 2 at most.
+    /// c_i·low^i in a common unit, the largest of about this many bits, each off by 3 at most.
+    /// Proof: proofs/TaylorCoefficients.v, terms_right.
     static form terms(const form& p, const point& low, int bits, int count_bits) {
         const int precision = bits + count_bits + 1;
         std::vector<cut_number<Integer>> all;
@@ -234,9 +241,10 @@ class local_form {
     }
 
     /// log2 of a bound of all C(n + 1, j + 1)·(width/low)^j.
-    static int error_bits(std::size_t size, int ratio) {
+    /// Proof: proofs/TaylorCoefficients.v, error_bits_right.
+    static std::int64_t error_bits(std::size_t size, int ratio) {
         if (ratio + bits_of_count(size) <= 0) return bits_of_count(size);
-        const int count = static_cast<int>(size);
+        const auto count = static_cast<std::int64_t>(size);
         if (ratio >= 0) return count * (ratio + 1);
         // (1 + x)^(n + 1)/x with x = 2^ratio, and 1 + x <= 2^(3x/2).
         return (3 * count >> (1 - ratio)) + 1 - ratio;

@@ -57,6 +57,7 @@ class prime_field {
     }
     constexpr word to_form(word a) const { return multiply(a, square_); }
     constexpr word from_form(word a) const { return multiply(a, 1); }
+    /// Proof: proofs/PrimeField.v, power_right.
     constexpr word power(word a, word n) const {
         word result = one_;
         for (; n > 0; n >>= 1) {
