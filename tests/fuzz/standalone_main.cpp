@@ -14,6 +14,11 @@
 #include <vector>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+/// Absent from most targets.
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data,
+                                                                     std::size_t size,
+                                                                     std::size_t max_size,
+                                                                     unsigned seed);
 
 namespace {
 
@@ -60,12 +65,23 @@ class mutator {
 
     std::string next() {
         std::string text = corpus_[below(corpus_.size())];
+        if (LLVMFuzzerCustomMutator != nullptr) return mutated_by_target(text);
         for (std::size_t changes = 1 + below(4); changes > 0; --changes) change(text);
         return text;
     }
 
   private:
     std::size_t below(std::size_t end) { return static_cast<std::size_t>(random_() % end); }
+
+    /// As long as libFuzzer's texts at most.
+    std::string mutated_by_target(std::string text) {
+        constexpr std::size_t longest = 4096;
+        const std::size_t size = text.size();
+        text.resize(std::max(size, longest));
+        text.resize(LLVMFuzzerCustomMutator(reinterpret_cast<std::uint8_t*>(text.data()), size,
+                                            text.size(), static_cast<unsigned>(random_())));
+        return text;
+    }
 
     /// A random piece of some text.
     std::string piece(const std::string& text) {

@@ -1,0 +1,20 @@
+// Small meshes and the many legal spellings of OBJ and PLY for them, chosen by bytes.
+#pragma once
+
+#include <ccd/mesh.hpp>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace ccd::fuzz {
+
+struct spelling {
+    mesh meant;
+    std::string text;
+};
+
+/// What the bytes choose, one after the other; zeros after the last.
+spelling spelled_obj(std::span<const std::uint8_t> bytes);
+spelling spelled_ply(std::span<const std::uint8_t> bytes);
+
+}  // namespace ccd::fuzz
