@@ -35,7 +35,8 @@ inline constexpr std::size_t suppositions = 64;
 /// Signs of numbers, given as they are asked for. In every other supposition the first are zero:
 /// cases where much is zero are the deepest.
 struct supposed_signs {
-    static constexpr std::uint64_t prime = (std::uint64_t{1} << 31) - 1;
+    /// Beyond any int, so that no number of an expression is a multiple; residues' products fit.
+    static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
 
     std::uint64_t supposition;
     std::array<std::uint64_t, counting_run::max_signs> numbers{};  ///< residues up to prime/2

@@ -62,9 +62,11 @@ class predicate_stages {
     /// Whether there is a semi-static filter: what it saves grows with the degree.
     static constexpr bool has_semi_static_filter =
         !counts.mixed && counts.degree >= 5 && !branches<Shape, F>;
-    /// So many bits may coordinates have for no result to take more than `bits`.
+    /// So many bits may coordinates have for no result to take more than `bits`; 0 where results
+    /// may have been missed.
     /// Proof: proofs/Widths.v, coordinate_bits_enough.
     static constexpr int coordinate_bits(int bits) {
+        if (!counts.complete) return 0;
         int least = word_bits;
         for (int degree = 0; degree <= expression_counts::max_degree; ++degree) {
             const int excess = counts.bits[static_cast<std::size_t>(degree)] - bits;

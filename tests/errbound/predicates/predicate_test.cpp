@@ -249,6 +249,36 @@ TYPED_TEST(Predicates, OfAnyDegree) {
     }
 }
 
+// Multiples of the largest int were taken for zero where the expression is checked.
+TEST(Predicates, OfTheLargestConstants) {
+    const auto order = errbound::predicate<errbound::points<0, 0>>(
+        [](const auto& a, const auto& b) { return 2147483647 * a - 2147483647 * b; });
+    EXPECT_EQ(order(1.0, 0.0), sign_type::positive);
+    EXPECT_EQ(order(-0x1p1000, 0x1p-1000), sign_type::negative);
+}
+
+/// More sequences of signs than are counted, and what is not is longer.
+constexpr auto behind_many_signs =
+    errbound::predicate<errbound::points<3, 3>>([](const auto& a, const auto& b) {
+        using errbound::sign_of;
+        const auto d = [&](int i) { return (a[i] - b[i]) * (a[(i + 1) % 3] - b[i]); };
+        const sign_type first = sign_of(a[0]);
+        if (!certain(first)) return first;
+        if (first == sign_type::positive) return sign_of(d(0) * d(1) * d(2) - d(1) * d(1) * d(0));
+        const sign_type second = sign_of(d(0) * a[0] - d(1) * a[1]);
+        if (!certain(second)) return second;
+        for (const int i : {1, 2}) {
+            const sign_type s = sign_of(d(i)), t = sign_of(b[i]);
+            if (!certain(s)) return s;
+            if (!certain(t)) return t;
+        }
+        return sign_of(d(2) * d(0) - d(1) * d(2));
+    });
+static_assert(!behind_many_signs.counts.complete);
+TEST(Predicates, WithBranchesThatAreNotCounted) {
+    compare<double, 3, 2>(behind_many_signs, over_rationals(behind_many_signs), surface::flat);
+}
+
 struct tracked_options : errbound::predicate_options {
     using tracked_rule = errbound::tight;
 };

@@ -17,8 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {
     constexpr std::array<std::string_view, 24> words{
-        "v",     "f",      "l",      "p",   "vn",  "vt",  "g a", "o b", "s 1", "usemtl m", "fo",
-        "V",     "curv",   "mtllib m", "vp", "#",  "# c", "1/1", "2//2", "3/3/3", "-1/-1", "1/0",
-        "f 1 2 3", "l 1 2"};
+        "v",   "f",        "l",    "p",     "vn",    "vt",       "g a",     "o b",
+        "s 1", "usemtl m", "fo",   "V",     "curv",  "mtllib m", "vp",      "#",
+        "# c", "1/1",      "2//2", "3/3/3", "-1/-1", "1/0",      "f 1 2 3", "l 1 2"};
     return ccd::peers::mutate_tokens(data, size, max_size, seed, words, ccd::fuzz::spelled_obj);
 }

@@ -26,8 +26,7 @@ bool any_line(std::string_view text, const Predicate& predicate) {
     while (std::optional<std::string_view> line = io::take_line(text)) {
         std::string_view rest = line->substr(0, line->find('#'));
         words of_line;
-        for (std::string_view word = io::take_word(rest); !word.empty();
-             word = io::take_word(rest))
+        for (std::string_view word = io::take_word(rest); !word.empty(); word = io::take_word(rest))
             of_line.emplace_back(word);
         if (!of_line.empty() && predicate(of_line)) return true;
     }
@@ -77,7 +76,8 @@ bool is_extreme(const std::string& word) {
                                 std::abs(std::strtod(word.c_str(), nullptr)) > 1.79e308);
 }
 
-/// The numbers of v, v/vt, v//vn or v/vt/vn: 1 to 3, absent ones as 1. None where one is no integer.
+/// The numbers of v, v/vt, v//vn or v/vt/vn: 1 to 3, absent ones as 1. None where one is no
+/// integer.
 std::optional<std::array<std::int64_t, 3>> corner(std::string_view word) {
     std::array<std::int64_t, 3> parts{1, 1, 1};
     for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -116,7 +116,7 @@ bool has_control(std::string_view text) {
 }
 
 bool has_unknown_keyword(std::string_view text) {
-    constexpr std::array<std::string_view, 11> common{"v", "vt", "vn", "f", "l",      "p",
+    constexpr std::array<std::string_view, 11> common{"v", "vt", "vn", "f",      "l",     "p",
                                                       "g", "o",  "s",  "usemtl", "mtllib"};
     return any_line(text, [&](const words& line) {
         return std::ranges::find(common, line[0]) == common.end();
@@ -277,9 +277,8 @@ constexpr std::array rewritings{
               "v 0 0 0x1p0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
     rewriting{"fo, an old word for f, is skipped",
               [](std::string_view text) {
-                  return exchange_words(text, [](const std::string& word) {
-                      return word == "fo" ? "f" : word;
-                  });
+                  return exchange_words(
+                      text, [](const std::string& word) { return word == "fo" ? "f" : word; });
               },
               "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nfo 2 1 3\n"},
 };

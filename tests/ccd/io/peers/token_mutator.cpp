@@ -11,9 +11,9 @@ namespace ccd::peers {
 namespace {
 
 constexpr std::array<std::string_view, 24> numbers{
-    "0",    "1",     "-1",     "2",      "3",       "-0",     "+1",        "1.",
-    ".5",   "1e5",   "-2.5E-3", "1e308", "4.9e-324", "1e999",  "0.1",       "00003",
-    "255",  "65536", "nan",    "inf",    "1.5x",    "0x1p-2", "4294967296", "0.30000000000000004"};
+    "0",   "1",     "-1",      "2",     "3",        "-0",     "+1",         "1.",
+    ".5",  "1e5",   "-2.5E-3", "1e308", "4.9e-324", "1e999",  "0.1",        "00003",
+    "255", "65536", "nan",     "inf",   "1.5x",     "0x1p-2", "4294967296", "0.30000000000000004"};
 
 class token_mutator {
   public:
@@ -66,8 +66,8 @@ class token_mutator {
             }
             case 2: {
                 if (other.begin == at.begin) return;
-                const auto [first, second] = at.begin < other.begin ? std::pair(at, other)
-                                                                    : std::pair(other, at);
+                const auto [first, second] =
+                    at.begin < other.begin ? std::pair(at, other) : std::pair(other, at);
                 const std::string early = part(first), late = part(second);
                 text_.replace(second.begin, second.size, early);
                 text_.replace(first.begin, first.size, late);
