@@ -206,12 +206,18 @@ class ply_writer {
     }
 
     void add_faces() {
+        const std::string type = choose_.one_of({"ushort", "int", "uint32"});
         header_ += "element face " + std::to_string(mesh_.faces.size()) + "\nproperty list " +
-                   choose_.one_of({"uchar", "int8"}) + " ushort " +
+                   choose_.one_of({"uchar", "int8"}) + " " + type + " " +
                    choose_.one_of({"vertex_indices", "vertex_index"}) + "\n";
         for (const auto& f : mesh_.faces) {
             add(std::uint8_t{3});
-            for (const vertex_index i : f) add(static_cast<std::uint16_t>(i));
+            for (const vertex_index i : f) {
+                if (type == "ushort")
+                    add(static_cast<std::uint16_t>(i));
+                else
+                    add(i);
+            }
             end_element();
         }
     }

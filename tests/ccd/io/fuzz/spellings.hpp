@@ -13,7 +13,7 @@ struct spelling {
     std::string text;
 };
 
-/// What the bytes choose, one after the other; zeros after the last.
+/// A mesh and a spelling of it, as the bytes choose, one after the other; zeros after the last.
 spelling spelled_obj(std::span<const std::uint8_t> bytes);
 spelling spelled_ply(std::span<const std::uint8_t> bytes);
 

@@ -21,7 +21,7 @@ class token_mutator {
         : text_(std::move(text)), random_(seed), words_(words) {}
 
     std::string mutated() {
-        for (std::size_t changes = 1 + below(4); changes > 0; --changes) {
+        for (std::size_t changes = 1 + below(2); changes > 0; --changes) {
             if (below(3) == 0)
                 change(pieces("\r\n"));
             else if (below(16) == 0)
@@ -108,7 +108,7 @@ std::size_t mutate_tokens(std::uint8_t* data, std::size_t size, std::size_t max_
                           fuzz::spelling (*spelled)(std::span<const std::uint8_t>)) {
     std::string text(reinterpret_cast<const char*>(data), size);
     std::minstd_rand random(seed);
-    if (text.empty() || random() % 16 == 0) {
+    if (text.empty() || random() % 4 == 0) {
         std::array<std::uint8_t, 512> bytes;
         std::ranges::generate(bytes, [&] { return static_cast<std::uint8_t>(random() >> 8); });
         text = spelled(bytes).text;
