@@ -16,9 +16,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t max_size, unsigned seed) {
-    constexpr std::array<std::string_view, 24> words{
-        "ply", "format", "ascii", "binary_little_endian", "binary_big_endian", "1.0", "element",
-        "vertex", "face", "edge", "property", "list", "char", "uint8", "short", "ushort", "int32",
-        "uint", "float", "double", "x", "vertex_index", "property uchar red", "end_header"};
+    constexpr std::array<std::string_view, 24> words{"ply",
+                                                     "format",
+                                                     "ascii",
+                                                     "binary_little_endian",
+                                                     "binary_big_endian",
+                                                     "1.0",
+                                                     "element",
+                                                     "vertex",
+                                                     "face",
+                                                     "edge",
+                                                     "property",
+                                                     "list",
+                                                     "char",
+                                                     "uint8",
+                                                     "short",
+                                                     "ushort",
+                                                     "int32",
+                                                     "uint",
+                                                     "float",
+                                                     "double",
+                                                     "x",
+                                                     "vertex_index",
+                                                     "property uchar red",
+                                                     "end_header"};
     return ccd::peers::mutate_tokens(data, size, max_size, seed, words, ccd::fuzz::spelled_ply);
 }

@@ -195,8 +195,7 @@ bool is_odd_header_line(const words& line) {
     if (keyword == "format") return line.size() != 3 || line[2] != "1.0";
     if (keyword == "element")
         return line.size() != 3 || line[2].find_first_not_of("0123456789") != std::string::npos;
-    return keyword != "property" ||
-           line.size() != (line.size() > 1 && line[1] == "list" ? 5u : 3u);
+    return keyword != "property" || line.size() != (line.size() > 1 && line[1] == "list" ? 5u : 3u);
 }
 
 bool has_doubled_name(std::string_view text) {
@@ -207,8 +206,8 @@ bool has_doubled_name(std::string_view text) {
                 return true;
         return false;
     };
-    const auto formats =
-        std::ranges::count_if(o.lines, [](const words& l) { return !l.empty() && l[0] == "format"; });
+    const auto formats = std::ranges::count_if(
+        o.lines, [](const words& l) { return !l.empty() && l[0] == "format"; });
     return formats != 1 || doubled(o.elements) ||
            std::ranges::any_of(o.elements, [&](const element& e) { return doubled(e.properties); });
 }
@@ -221,7 +220,8 @@ bool has_plural_name(std::string_view text) {
 constexpr outcome refused = outcome::we_refuse, read = outcome::peer_differs;
 
 constexpr std::array differences{
-    difference{refused, "header lines that it does not know, versions and words too many are skipped",
+    difference{refused,
+               "header lines that it does not know, versions and words too many are skipped",
                [](std::string_view text) { return any_header_line(text, is_odd_header_line); },
                "ply\nformat ascii 2.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -291,9 +291,7 @@ constexpr std::array differences{
                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                "end_header\n0 0 0\n1 0 0\n0 1 0\n259 0 1 2\n"},
     difference{refused, "carriage returns, vertical tabs and form feeds are blanks",
-               [](std::string_view text) {
-                   return text.find_first_of("\r\v\f") != text.npos;
-               },
+               [](std::string_view text) { return text.find_first_of("\r\v\f") != text.npos; },
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                "end_header\n0 0 0\v\n1 0 0\n0 1 0\n3 0 1 2\n"},
@@ -310,9 +308,9 @@ constexpr std::array differences{
                [](std::string_view text) {
                    return any_element(text, [](const element& e) {
                        const auto list = std::ranges::find_if(e.properties, is_index_list);
-                       return e.name == "face" && (list == e.properties.end() ||
-                                                   (list->value->name != "int" &&
-                                                    list->value->name != "uint"));
+                       return e.name == "face" &&
+                              (list == e.properties.end() ||
+                               (list->value->name != "int" && list->value->name != "uint"));
                    });
                },
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -365,7 +363,8 @@ std::string with_line_feeds(std::string_view text) {
         return result;
     const std::size_t last = std::min(text.find("\rend_header\r"), text.size());
     std::replace(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(last), '\r', '\n');
-    if (last < text.size()) result[last] = result[last + std::string_view("\rend_header").size()] = '\n';
+    if (last < text.size())
+        result[last] = result[last + std::string_view("\rend_header").size()] = '\n';
     return result;
 }
 
@@ -400,8 +399,9 @@ bool harms_cgal(std::string_view text, bool is_taken_by_us) {
                                (o.lines[1][0] == "element" || o.lines[1][0] == "end_header");
     return o.has_stray_property || mistakes_line ||
            std::ranges::any_of(o.elements, [&](const element& e) {
-               const bool may_be_long = std::ranges::any_of(
-                   e.properties, [](const property& p) { return p.count && p.count->highest > 1e5; });
+               const bool may_be_long = std::ranges::any_of(e.properties, [](const property& p) {
+                   return p.count && p.count->highest > 1e5;
+               });
                return (e.properties.empty() && e.count > 1000) || (may_be_long && !is_taken_by_us);
            });
 }
@@ -443,8 +443,8 @@ outcome compare_ply(std::string_view text, std::string_view given) {
     const std::optional<mesh> peers = read_by_cgal(given);
     if (!ours) return peers && !peers->faces.empty() ? outcome::we_refuse : outcome::same;
     ours->edges.clear();
-    const bool agree = peers && ours->vertices.size() == peers->vertices.size() &&
-                       fuzz::same_mesh(*ours, *peers);
+    const bool agree =
+        peers && ours->vertices.size() == peers->vertices.size() && fuzz::same_mesh(*ours, *peers);
     return agree ? outcome::same : outcome::peer_differs;
 }
 
