@@ -125,7 +125,7 @@ bool is_of_type(const std::string& word, const type& t) {
     const char* begin = word.c_str();
     char* end = nullptr;
     const double value = std::strtod(begin, &end);
-    return end != begin && *end == '\0' && value >= t.lowest && value <= t.highest &&
+    return end == begin + word.size() && end != begin && value >= t.lowest && value <= t.highest &&
            word.find_first_of("xXnN") == std::string::npos;
 }
 
@@ -135,6 +135,7 @@ template <class Show>
 bool show_values(const outline& o, const Show& show) {
     std::string_view body = o.body;
     for (const element& e : o.elements) {
+        if (e.properties.empty()) continue;
         for (std::uint64_t i = 0; i < e.count; ++i) {
             words line;
             while (line.empty()) {
@@ -235,6 +236,15 @@ constexpr std::array differences{
                [](std::string_view text) { return outline(text).has_odd_type; },
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nproperty half w\nelement face 1\n"
+               "property list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+    difference{refused, "elements without properties are counted through",
+               [](std::string_view text) {
+                   return any_element(
+                       text, [](const element& e) { return e.count > 0 && e.properties.empty(); });
+               },
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement nothing 5\nelement face 1\n"
                "property list uchar int vertex_indices\n"
                "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
     difference{refused, "vertices and faces are elements as vertex and face", has_plural_name,

@@ -33,7 +33,7 @@ inline std::string in_decimal(const std::string& word) {
     if (word.compare(sign, 2, "0x") != 0 && word.compare(sign, 2, "0X") != 0) return word;
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    if (*end != '\0') return word;
+    if (end != word.c_str() + word.size()) return word;
     std::array<char, 32> digits;
     return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};
 }
