@@ -207,9 +207,11 @@ bool has_doubled_name(std::string_view text) {
                 return true;
         return false;
     };
-    const auto formats = std::ranges::count_if(
-        o.lines, [](const words& l) { return !l.empty() && l[0] == "format"; });
-    return formats != 1 || doubled(o.elements) ||
+    const auto lines_of = [&](const char* keyword) {
+        return std::ranges::count_if(
+            o.lines, [&](const words& line) { return !line.empty() && line[0] == keyword; });
+    };
+    return lines_of("ply") != 1 || lines_of("format") != 1 || doubled(o.elements) ||
            std::ranges::any_of(o.elements, [&](const element& e) { return doubled(e.properties); });
 }
 
@@ -227,7 +229,8 @@ constexpr std::array differences{
                "ply\nformat ascii 2.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
-    difference{refused, "elements, properties and formats may come twice", has_doubled_name,
+    difference{refused, "elements, properties and lines of ply or format may come twice",
+               has_doubled_name,
                "ply\nformat ascii 1.0\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
                "property float y\nproperty float z\nelement face 1\n"
                "property list uchar int vertex_indices\n"
