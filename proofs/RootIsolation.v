@@ -373,7 +373,8 @@ Qed.
 (** ** All roots *)
 
 (** The roots strictly between, 0 <= low < high: `least` and `greatest` are the points beyond the
-    bounds of the positive roots, if the code has bounds. Where both are used, Descartes' rule is tried first. *)
+    bounds of the positive roots, if the code has bounds. Descartes' rule on the positive numbers is tried first:
+    where it leaves one root, the signs at both ends tell whether that is between. *)
 Inductive inside (p : list R) (bounds : option (R * R)) (lo hi : R) : list interval -> Prop :=
 | no_positive_roots : bounds = None -> inside p bounds lo hi []
 | nothing_left least greatest : bounds = Some (least, greatest) -> ~ Rmax lo least < Rmin greatest hi ->
@@ -382,6 +383,15 @@ Inductive inside (p : list R) (bounds : option (R * R)) (lo hi : R) : list inter
     inside p bounds lo hi []
 | one_change least greatest : bounds = Some (least, greatest) -> lo <= least -> greatest <= hi ->
     sign_variations (map sgn p) = 1%nat -> inside p bounds lo hi [Interval least greatest]
+| one_change_between least greatest : bounds = Some (least, greatest) -> sign_variations (map sgn p) = 1%nat ->
+    Rmax lo least < Rmin greatest hi -> power_form p (Rmax lo least) <> 0 -> power_form p (Rmin greatest hi) <> 0 ->
+    sgn (power_form p (Rmax lo least)) <> sgn (power_form p (Rmin greatest hi)) ->
+    inside p bounds lo hi [Interval (Rmax lo least) (Rmin greatest hi)]
+| one_change_beside least greatest : bounds = Some (least, greatest) -> sign_variations (map sgn p) = 1%nat ->
+    Rmax lo least < Rmin greatest hi ->
+    power_form p (Rmax lo least) = 0 \/ power_form p (Rmin greatest hi) = 0 \/
+      sgn (power_form p (Rmax lo least)) = sgn (power_form p (Rmin greatest hi)) ->
+    inside p bounds lo hi []
 | between_bounds least greatest found : bounds = Some (least, greatest) -> Rmax lo least < Rmin greatest hi ->
     on_part p (Rmax lo least) (Rmin greatest hi) found -> inside p bounds lo hi found.
 
@@ -437,6 +447,32 @@ Proof.
     + rewrite !power_form_opp in S. lra.
 Qed.
 
+(** On either side of its root the sign is that of the end there. *)
+Lemma sign_beside p u v r x : isolates p (Interval u v) r -> u < v -> u <= x <= v ->
+  (x < r -> 0 < power_form p u * power_form p x) /\ (r < x -> 0 < power_form p x * power_form p v).
+Proof.
+  intros (Z & [(A & B) | (A & Only & S)]) L X; cbn [low high] in *; [lra |]. split; intros H.
+  - assert (Nu : power_form p u <> 0) by (intros F; pose proof (Only u ltac:(lra) F); lra).
+    assert (Nx : power_form p x <> 0) by (intros F; pose proof (Only x ltac:(lra) F); lra).
+    destruct (Rle_lt_or_eq_dec u x (proj1 X)) as [U | <-]; [| nra].
+    destruct (Rtotal_order (power_form p u * power_form p x) 0) as [F | [F | F]]; auto; exfalso.
+    + destruct (root_between (power_form p) u x) as (q & Q & Zq); auto; [apply continuous_power_form |].
+      pose proof (Only q ltac:(lra) Zq). lra.
+    + apply Rmult_integral in F. tauto.
+  - assert (Nv : power_form p v <> 0) by (intros F; pose proof (Only v ltac:(lra) F); lra).
+    assert (Nx : power_form p x <> 0) by (intros F; pose proof (Only x ltac:(lra) F); lra).
+    destruct (Rle_lt_or_eq_dec x v (proj2 X)) as [U | ->]; [| nra].
+    destruct (Rtotal_order (power_form p x * power_form p v) 0) as [F | [F | F]]; auto; exfalso.
+    + destruct (root_between (power_form p) x v) as (q & Q & Zq); auto; [apply continuous_power_form |].
+      pose proof (Only q ltac:(lra) Zq). lra.
+    + apply Rmult_integral in F. tauto.
+Qed.
+Lemma equal_signs x y z : 0 < x * z -> 0 < y * z -> sgn x = sgn y.
+Proof.
+  intros H K. destruct (sgn_cases x) as [(A & ->) | [(A & ->) | (A & ->)]],
+    (sgn_cases y) as [(B & ->) | [(B & ->) | (B & ->)]]; auto; exfalso; try (subst; lra); nra.
+Qed.
+
 Lemma inside_right p bounds lo hi found : hd 0 p <> 0 -> last p 0 <> 0 -> not_zero p -> bounds_right p bounds -> 0 <= lo ->
   inside p bounds lo hi found -> isolated p (fun x => lo < x < hi) found.
 Proof.
@@ -447,7 +483,17 @@ Proof.
     - intros X. destruct (B x ltac:(lra) Z) as (l & g & E' & H). rewrite E in E'. injection E' as <- <-.
       split; [| lra]. split; [apply Rmax_lub_lt | apply Rmin_glb_lt]; lra.
     - intros ((X & Y) & X0). pose proof (Rmax_l lo least). pose proof (Rmin_r greatest hi). lra. }
-  destruct I as [E | least greatest E N | least greatest E V | least greatest E A C V | least greatest found E L I].
+  assert (One : forall least greatest, bounds = Some (least, greatest) -> sign_variations (map sgn p) = 1%nat ->
+    exists r, Rmax 0 least < r < greatest /\ isolates p (Interval (Rmax 0 least) greatest) r).
+  { intros least greatest E V.
+    destruct (one_change_one_root p (Rmax 0 least) greatest V H0 Hn (Rmax_l 0 least)) as (r & R & J); [| now exists r].
+    intros x X Z. destruct (B x ltac:(lra) Z) as (l & g & E' & K). rewrite E in E'. injection E' as <- <-.
+    split; [apply Rmax_lub_lt |]; lra. }
+  assert (Ends : forall least greatest, Rmax 0 least <= Rmax lo least /\ Rmin greatest hi <= greatest).
+  { intros least greatest. split; [| apply Rmin_l]. pose proof (Rmax_l lo least). pose proof (Rmax_r lo least).
+    apply Rmax_lub; lra. }
+  destruct I as [E | least greatest E N | least greatest E V | least greatest E A C V | least greatest E V L Na Nb Sg
+    | least greatest E V L C | least greatest found E L I].
   - apply isolated_none. intros x X Z. destruct (B x ltac:(lra) Z) as (l & g & E' & _). congruence.
   - apply isolated_none. intros x X Z. rewrite (Within _ _ _ E Z) in X. lra.
   - apply isolated_none. intros x X. apply no_change_no_root; auto. lra.
@@ -456,6 +502,36 @@ Proof.
     destruct (one_change_one_root p least greatest V H0 Hn ltac:(lra) Bounds) as (r & R & I).
     apply isolated_same with (fun x => least < x < greatest); [| apply isolated_one with r; [easy | lra]].
     intros x Z. split; intros X; [lra |]. apply Bounds; auto. lra.
+  - destruct (One _ _ E V) as (r & R & J), (Ends least greatest) as (Ea & Eb).
+    set (a := Rmax lo least) in *. set (b := Rmin greatest hi) in *. set (u := Rmax 0 least) in *.
+    destruct (sign_beside p u greatest r a J ltac:(lra) ltac:(lra)) as (_ & Aa).
+    destruct (sign_beside p u greatest r b J ltac:(lra) ltac:(lra)) as (Bb & Ab).
+    destruct (sign_beside p u greatest r a J ltac:(lra) ltac:(lra)) as (Ba & _).
+    destruct J as (Z & [(P1 & P2) | (P1 & Only & S)]); cbn [low high] in *; [lra |].
+    assert (Lr : a < r < b).
+    { assert (a <> r) by (intros ->; lra). assert (b <> r) by (intros K; rewrite K in Nb; lra). split.
+      - destruct (Rtotal_order a r) as [K | [K | K]]; auto; [lra |]. exfalso. apply Sg.
+        apply equal_signs with (power_form p greatest); [apply Aa; lra | apply Ab; lra].
+      - destruct (Rtotal_order b r) as [K | [K | K]]; auto; [| lra]. exfalso. apply Sg.
+        apply equal_signs with (power_form p u); rewrite Rmult_comm; [apply Ba; lra | apply Bb; lra]. }
+    specialize (Ba ltac:(lra)). specialize (Ab ltac:(lra)).
+    apply isolated_same with (fun x => a < x < b).
+    + intros x X. rewrite (Within _ _ _ E X). fold a b. split; [| tauto]. intros; split; auto. pose proof (Rmax_l lo least). fold a in H1. lra.
+    + apply isolated_one with r; [| lra]. split; auto. right. cbn [low high]. split; auto. split; [intros x X; apply Only; lra |].
+      nra.
+  - destruct (One _ _ E V) as (r & R & J), (Ends least greatest) as (Ea & Eb).
+    apply isolated_none. intros x X Z. rewrite (Within _ _ _ E Z) in X. destruct X as (X & X0).
+    set (a := Rmax lo least) in *. set (b := Rmin greatest hi) in *. set (u := Rmax 0 least) in *.
+    destruct (sign_beside p u greatest r a J ltac:(lra) ltac:(lra)) as (Ba & _).
+    destruct (sign_beside p u greatest r b J ltac:(lra) ltac:(lra)) as (_ & Ab).
+    destruct J as (Zr & [(P1 & P2) | (P1 & Only & S)]); cbn [low high] in *; [lra |].
+    pose proof (Only x ltac:(lra) Z) as ->. destruct C as [C | [C | C]].
+    + pose proof (Only a ltac:(lra) C). lra.
+    + pose proof (Only b ltac:(lra) C). lra.
+    + specialize (Ba ltac:(lra)). specialize (Ab ltac:(lra)).
+      assert (O : 0 < power_form p a * power_form p b).
+      { apply sgn_equal; [| easy]. apply sgn_not_0. intros K. rewrite K in Ba. lra. }
+      nra.
   - apply isolated_same with (fun x => Rmax lo least < x < Rmin greatest hi).
     + intros x Z. rewrite (Within _ _ _ E Z). pose proof (Rmax_l lo least). split; [| tauto]. intros; split; auto; lra.
     + now apply on_part_right.

@@ -203,10 +203,14 @@ class root_isolation {
         const bool above = low.at <= least.at, below = greatest.at <= high.at, all = above && below;
         if (above) low = least;
         if (below) high = greatest;
-        if (all && line.variations < 2) {
-            if (line.variations == 1) roots.push_back({low.at, high.at});
-        } else if (low.at < high.at) {
+        if (!(low.at < high.at)) return;
+        if (line.variations > 1) {
             descartes_search<Integer>(line.p, meter).find(low, high, roots);
+        } else if (line.variations == 1 && !low.is_root && !high.is_root) {
+            // The only positive root is between if the signs say so.
+            // Proof: proofs/RootIsolation.v, isolate_right.
+            if (all || sign_at(line.p, low.at) != sign_at(line.p, high.at))
+                roots.push_back({low.at, high.at});
         }
     }
 

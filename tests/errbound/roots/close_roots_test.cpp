@@ -93,6 +93,21 @@ TEST(CloseRoots, SparsePolynomialsOfHighDegree) {
     }
 }
 
+// On a part of the line it once took time as the degree's cube.
+TEST(CloseRoots, OneSignChangeOnAPartOfTheLine) {
+    std::vector<double> c(20001);
+    c[0] = -2;
+    c[20000] = 1;
+    const polynomial<double> p(c);
+    EXPECT_EQ(count_roots<integer>(p, 0.5, 1.5), 1U);
+    EXPECT_EQ(count_roots<integer>(p, -1.5, 1.5), 2U);
+    EXPECT_EQ(count_roots<integer>(p, 1, 1 + 0x1p-10), 1U);
+    EXPECT_EQ(count_roots<integer>(p, 1 + 0x1p-10, 2), 0U);
+    EXPECT_EQ(count_roots<integer>(p, -2, 1), 1U);
+    EXPECT_EQ(count_roots<integer>(polynomial<double>{-1, 0, 0, 1}, 0.5, 1), 1U);
+    EXPECT_EQ(count_roots<integer>(polynomial<double>{-1, 0, 0, 1}, 1, 3), 1U);
+}
+
 /// Roots (start + k)/(3·2^bits) for the k named, near each other and to no dyadic number.
 form cluster(const integer& start, unsigned bits, const std::vector<int>& steps) {
     form p{1};
