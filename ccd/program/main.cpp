@@ -17,7 +17,7 @@ exit_status run(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     for (const auto& c : commands)
         if (c->was_given()) return c->run();
-    return done;
+    throw CLI::RequiredError("A subcommand");
 }
 
 int run_command_line(int argc, char** argv) {
@@ -26,7 +26,7 @@ int run_command_line(int argc, char** argv) {
         "Exit status: 0 done, 1 bad input, 2 bad usage; of stress and report also 1: a promise was "
         "broken.",
         "ccd"};
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);  // none is told from an unknown one, which is named
     app.set_version_flag("--version", std::string("ccd ") + ERRBOUND_VERSION);
     try {
         return run(app, argc, argv);

@@ -249,6 +249,8 @@ class step final : public command {
                     "--device cpu");
         }
         errbound::support::require_separate({pairs_, json_}, {asked_.before, asked_.after});
+        if (asked_.before == "/dev/stdin" && asked_.after == "/dev/stdin")
+            throw usage_error("FRAME0 and FRAME1: found standard input twice, expected once");
     }
 
     step_question asked_;

@@ -30,7 +30,7 @@ struct command_line {
     CLI::App* validate = nullptr;
 
     command_line() {
-        app.require_subcommand(1);
+        app.require_subcommand(0, 1);  // none is told from an unknown one, which is named
         app.set_version_flag("--version", std::string("errbound ") + ERRBOUND_VERSION);
 
         validate = app.add_subcommand(
@@ -86,6 +86,7 @@ int run_command_line(int argc, char** argv) {
     command_line line;
     try {
         line.app.parse(argc, argv);
+        if (!*line.validate) throw CLI::RequiredError("A subcommand");
         return line.run();
     } catch (const CLI::ParseError& error) {
         return line.app.exit(error) == 0 ? done : bad_usage;

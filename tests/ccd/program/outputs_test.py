@@ -84,8 +84,8 @@ class Streams(Outputs):
                 done = self.run_with("step", "-", self.frames[1], "--pairs", "-", stdin=stdin)
             self.assertEqual((done.returncode, done.stdout), (0, self.expected), done.stderr)
         done = self.run_with("step", "-", "-", input=ply(BEFORE, FACES))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("/dev/stdin: found an empty file", done.stderr)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("found standard input twice", done.stderr)
 
     def test_queries_from_a_pipe(self):
         done = self.run_with("query", "-", "--kind", "vf", "--method", "exact", "--verdicts", "-",

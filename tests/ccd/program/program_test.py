@@ -191,7 +191,8 @@ class Query(ProgramTest):
     def test_bad_usage(self):
         file = self.write("vf.csv", HIT)
         self.bad_usage()
-        self.bad_usage("decide")
+        self.assertIn("decide", self.bad_usage("decide"))
+        self.assertIn("standard input twice", self.bad_usage("step", "-", "-"))
         self.bad_usage("query")
         self.bad_usage("query", file, "--kind", "vertex")
         self.bad_usage("query", file, "--no-such-option")
