@@ -16,7 +16,10 @@
 // Allocates; throws only std::bad_alloc, after which roots that were found can be asked on. (GMP's
 // integers end the program instead.) Time and memory are bounded by degree and size of the
 // coefficients; where the first stage decides, by some hundred additions times degree².
-// docs/polynomials.md tells more.
+//
+// Worst known (./run bench --worst) of count_roots of doubles of 1e-3 to 1e3, and of all
+// magnitudes: degree 3 9 and 80 µs, 8 40 µs and 1.3 ms, 20 80 µs and 4 ms. docs/polynomials.md
+// tells more.
 #pragma once
 
 #include <algorithm>
