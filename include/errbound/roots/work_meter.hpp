@@ -11,7 +11,8 @@ struct root_limits {
     static constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
     std::uint64_t operations = none;  ///< on words of 64 bits: about a nanosecond each
-    std::uint64_t bytes = none;       ///< of numbers held at a time, as estimated from above
+    std::uint64_t bytes =
+        none;  ///< of rows of numbers held at a time, estimated; p and its copies beside
 };
 
 }  // namespace errbound
