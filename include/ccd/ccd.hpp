@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/kind.hpp>
@@ -18,5 +19,6 @@
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
 #include <ccd/reference.hpp>
+#include <ccd/separation.hpp>
 #include <ccd/step.hpp>
 #include <ccd/verdict.hpp>
