@@ -1,0 +1,256 @@
+// The oracle itself: instants, intervals and distances that a person can check, and its shortcuts.
+#include "tests/support/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "tests/support/first_time_faults.hpp"
+#include "tests/support/query_families.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using ccd::first_time;
+using ccd::outcome;
+using ccd::point;
+using oracle::interval;
+using oracle::shortcuts;
+using query_families::families;
+using query_families::kind;
+using query_families::points;
+using moving = ccd::moving_point<double>;
+
+moving rest(double x, double y, double z) {
+    return {{x, y, z}, {x, y, z}};
+}
+double before(double t) {
+    return std::nextafter(t, 0);
+}
+double after(double t) {
+    return std::nextafter(t, std::numeric_limits<double>::max());
+}
+template <class Query>
+bool touches(const Query& q, const interval& when) {
+    const bool with = oracle::collides(q, shortcuts::on, when);
+    EXPECT_EQ(oracle::collides(q, shortcuts::off, when), with);
+    return with;
+}
+template <class Query>
+bool near(const Query& q, double d, const interval& when = interval()) {
+    const bool with = oracle::within(q, d, 0, shortcuts::on, when);
+    EXPECT_EQ(oracle::within(q, d, 0, shortcuts::off, when), with);
+    return with;
+}
+
+// Contact at `t` and at no other time, asked of all that ends or begins there.
+template <class Query>
+void expect_contact_only_at(double t, const Query& q) {
+    EXPECT_TRUE(touches(q, {}));
+    EXPECT_TRUE(touches(q, interval::instant(t)));
+    EXPECT_FALSE(touches(q, interval::instant(before(t))));
+    EXPECT_FALSE(touches(q, interval::instant(after(t))));
+    EXPECT_TRUE(touches(q, {0, t}));
+    EXPECT_TRUE(touches(q, {t, 1}));
+    EXPECT_FALSE(touches(q, {.high = t, .with_high = false}));
+    EXPECT_FALSE(touches(q, {.low = t, .with_low = false}));
+    EXPECT_TRUE(touches(q, {before(t), after(t), false, false}));
+    EXPECT_FALSE(touches(q, {before(t), t, false, false}));
+    EXPECT_FALSE(touches(q, {t, after(t), false, false}));
+}
+
+// Two edges of which one turns, so that they touch without crossing, at s = 0.
+ccd::edge_edge<double> grazing(double s0, double s1) {
+    return {{{-4, 0, s0}, {-4, 0, s1}},
+            {{4, 0, -s0}, {4, 0, -s1}},
+            {{4 * s0, -1, 0}, {4 * s1, -1, 0}},
+            {{4 * s0, 1, 0}, {4 * s1, 1, 0}}};
+}
+
+TEST(instants, contact_at_one_double) {
+    expect_contact_only_at(0.5,
+                           ccd::vertex_vertex<double>{rest(0, 0, 0), {{1, 2, 3}, {-1, -2, -3}}});
+    expect_contact_only_at(
+        0.25, ccd::vertex_edge<double>{{{0, 1, 0}, {0, -3, 0}}, rest(-1, 0, 0), rest(1, 0, 0)});
+    expect_contact_only_at(
+        0.25, ccd::vertex_face<double>{
+                  {{0, 0, 1}, {0, 0, -3}}, rest(-1, -1, 0), rest(1, -1, 0), rest(0, 1, 0)});
+    expect_contact_only_at(
+        0.75,
+        ccd::edge_edge<double>{
+            rest(-1, 0, 0), rest(1, 0, 0), {{0, -1, 3}, {0, -1, -1}}, {{0, 1, 3}, {0, 1, -1}}});
+    expect_contact_only_at(0.5, grazing(-1, 1));
+}
+
+TEST(instants, contact_between_neighbouring_doubles) {
+    for (const double s1 : {2.0, 6.0}) {  // at 1/3 and 1/7
+        const auto q = grazing(-1, s1);
+        const double near_t = 1 / (1 + s1);
+        const double low = std::fma(near_t, 1 + s1, -1) > 0 ? before(near_t) : near_t;
+        EXPECT_FALSE(touches(q, {0, low}));
+        EXPECT_TRUE(touches(q, {low, after(low), false, false}));
+        EXPECT_FALSE(touches(q, {after(low), 1}));
+    }
+}
+
+TEST(instants, contact_throughout_shows_where_nothing_changes) {
+    // A vertex in the triangle's plane, inside it from t = 1/2 on.
+    const ccd::vertex_face<double> q{
+        {{-2, 0.5, 0}, {2, 0.5, 0}}, rest(0, 0, 0), rest(4, 0, 0), rest(0, 4, 0)};
+    EXPECT_FALSE(touches(q, {.high = 0.5, .with_high = false}));
+    EXPECT_TRUE(touches(q, interval::instant(0.5)));
+    EXPECT_TRUE(touches(q, {0.5, 0.625, false, false}));
+    EXPECT_TRUE(touches(q, {0.6, 0.7, false, false}));
+    EXPECT_FALSE(touches(q, {0.1, 0.2, false, false}));
+}
+
+TEST(instants, times_below_the_least_double) {
+    // w leaves from 2^-1074 to -2^900: contact at about 2^-1974.
+    const ccd::vertex_vertex<double> q{rest(0, 0, 0), {{0x1p-1074, 0, 0}, {-0x1p900, 0, 0}}};
+    EXPECT_FALSE(touches(q, interval::instant(0)));
+    EXPECT_TRUE(touches(q, {0, 0x1p-1074, false, false}));
+}
+
+TEST(instants, no_time_at_all) {
+    const ccd::vertex_vertex<double> q{rest(1, 1, 1), rest(1, 1, 1)};
+    EXPECT_TRUE(touches(q, interval::instant(0.5)));
+    EXPECT_FALSE(touches(q, {0, 0, true, false}));
+    EXPECT_FALSE(touches(q, {0.5, 0.5, false, true}));
+}
+
+// Near at distance d, and not at the next smaller double.
+template <class Query>
+void expect_distance(double d, const Query& q, const interval& when = interval()) {
+    EXPECT_TRUE(near(q, d, when));
+    EXPECT_TRUE(near(q, after(d), when));
+    EXPECT_FALSE(near(q, before(d), when));
+}
+
+TEST(distance, of_a_vertex_that_passes) {
+    const ccd::vertex_vertex<double> q{rest(0, 0, 0), {{-12, 3, 4}, {12, 3, 4}}};
+    expect_distance(5, q);
+    expect_distance(5, q, interval::instant(0.5));
+    expect_distance(13, q, interval::instant(0));
+    EXPECT_FALSE(near(q, 5, {.high = 0.5, .with_high = false}));
+    EXPECT_TRUE(oracle::within(q, 2, 3));
+    // Sums that are no doubles.
+    EXPECT_TRUE(oracle::within(q, 5, 0x1p-1074, shortcuts::on, {.high = 0.5, .with_high = false}));
+    EXPECT_FALSE(oracle::within(q, before(5), 0x1p-60));
+}
+
+TEST(distance, from_each_part_of_a_face) {
+    const auto expect = [](double d, double x, double y, double z) {
+        expect_distance(d, ccd::vertex_face<double>{rest(x, y, z), rest(0, 0, 0), rest(8, 0, 0),
+                                                    rest(0, 8, 0)});
+    };
+    expect(3, 1, 2, 3);      // inside
+    expect(5, 3, -3, 4);     // f0 f1
+    expect(5, -4, 3, -3);    // f0 f2
+    expect(13, -3, -4, 12);  // f0
+    expect(13, 11, -4, 12);  // f1
+    expect(13, -3, 12, 12);  // f2
+}
+
+TEST(distance, from_faces_that_are_none) {
+    const auto line = [](moving v) {
+        return ccd::vertex_face<double>{v, rest(0, 0, 0), rest(2, 0, 0), rest(8, 0, 0)};
+    };
+    expect_distance(5, line(rest(5, 3, 4)));
+    expect_distance(5, line(rest(1, 3, 4)));
+    expect_distance(13, line(rest(11, 4, 12)));
+    expect_distance(
+        13, ccd::vertex_face<double>{rest(3, 4, 12), rest(0, 0, 0), rest(0, 0, 0), rest(0, 0, 0)});
+}
+
+TEST(distance, of_edges) {
+    const auto from_x = [](moving b0, moving b1) {
+        return ccd::edge_edge<double>{rest(-4, 0, 0), rest(4, 0, 0), b0, b1};
+    };
+    expect_distance(3, from_x(rest(1, -2, 3), rest(1, 2, 3)));    // crossing
+    expect_distance(5, from_x(rest(1, 3, 4), rest(1, 6, 8)));     // an end and an inside
+    expect_distance(13, from_x(rest(7, 4, 12), rest(9, 8, 12)));  // ends
+    expect_distance(5, from_x(rest(-9, 3, 4), rest(9, 3, 4)));    // parallel, side by side
+    expect_distance(13, from_x(rest(7, 4, 12), rest(9, 4, 12)));  // parallel, apart
+    expect_distance(3, from_x(rest(7, 0, 0), rest(9, 0, 0)));     // on a line
+    expect_distance(5, from_x(rest(1, 3, 4), rest(1, 3, 4)));     // one is a point
+    expect_distance(
+        13, ccd::edge_edge<double>{rest(0, 0, 0), rest(0, 0, 0), rest(3, 4, 12), rest(3, 4, 12)});
+}
+
+TEST(faults, of_brackets) {
+    const auto q = grazing(-1, 2);  // at 1/3
+    const double low = 1 / 3.0, high = after(low);
+    const auto fault = [&](double a, double b, double t_max = 1) {
+        return support::fault_of(q, first_time{outcome::collides, a, b}, t_max);
+    };
+    EXPECT_EQ(fault(low, high), "");
+    EXPECT_EQ(fault(low, high, high), "");
+    EXPECT_EQ(fault(low, high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(before(low), low), "it does not hold between");
+    EXPECT_EQ(fault(high, after(high)), "it holds at low or before");
+    EXPECT_EQ(fault(before(low), high), "the ends are no neighbours");
+    EXPECT_EQ(fault(high, low), "it is not within the times asked");
+    EXPECT_EQ(fault(low, low), "it does not hold at that instant");
+    EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}), "there is one");
+    EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, low), "");
+    EXPECT_EQ(support::fault_of(q, first_time{outcome::separate}, -1), "");
+    EXPECT_EQ(support::fault_of(q, first_time{}), "it is uncertain");
+}
+
+TEST(faults, of_times_that_are_doubles) {
+    const auto q = grazing(-1, 3);  // at 1/4
+    const auto fault = [&](double a, double b) {
+        return support::fault_of(q, first_time{outcome::collides, a, b});
+    };
+    EXPECT_EQ(fault(0.25, 0.25), "");
+    EXPECT_EQ(fault(0.25, after(0.25)), "it holds at low or before");
+    EXPECT_EQ(fault(before(0.25), 0.25), "it does not hold between");
+    const ccd::vertex_vertex<double> stays{rest(1, 1, 1), rest(1, 1, 1)};
+    EXPECT_EQ(support::fault_of(stays, first_time{outcome::collides, 0, 0}), "");
+    EXPECT_EQ(support::fault_of(stays, first_time{outcome::collides, 1, 1}), "it holds before");
+    const ccd::vertex_vertex<double> passes{rest(0, 0, 0), {{-12, 3, 4}, {12, 3, 4}}};
+    EXPECT_EQ(support::fault_of(passes, {2, 3}, first_time{outcome::collides, 0.5, 0.5}), "");
+    EXPECT_EQ(support::fault_of(passes, {2, 3}, first_time{outcome::separate}), "there is one");
+}
+
+// check(query, what it is) for some queries of all families and kinds.
+template <class Check>
+void for_some_queries(std::uint64_t per_family, const Check& check) {
+    for (const kind which :
+         {kind::vertex_face, kind::edge_edge, kind::vertex_edge, kind::vertex_vertex}) {
+        for (const auto& f : families) {
+            for (std::uint64_t i = 0; i * f.thinning < per_family; ++i) {
+                const points p = query_families::make(f, which, 5, i);
+                const std::string text = std::string(f.name) + " " + std::to_string(i) + " " +
+                                         std::string(path_name(which)) + "\n" +
+                                         query_families::csv(p);
+                query_families::visit_query(which, p, [&](const auto& q) { check(q, text); });
+            }
+        }
+    }
+}
+
+TEST(families, distance_0_is_contact) {
+    for_some_queries(support::scaled(30), [](const auto& q, const std::string& text) {
+        for (const interval when : {interval{}, interval{0, 0.5, true, false},
+                                    interval{0.25, 0.75, false, false}, interval::instant(0.5)})
+            EXPECT_EQ(oracle::within(q, 0, 0, shortcuts::on, when),
+                      oracle::collides(q, shortcuts::on, when))
+                << text;
+    });
+}
+
+TEST(families, shortcuts_of_distances_change_nothing) {
+    for_some_queries(support::scaled(6), [](const auto& q, const std::string& text) {
+        for (const double d : {0.0, 0.125, 1.0})
+            for (const interval when : {interval{}, interval{0.25, 0.75, false, false}})
+                EXPECT_EQ(oracle::within(q, d, 0, shortcuts::on, when),
+                          oracle::within(q, d, 0, shortcuts::off, when))
+                    << d << " " << text;
+    });
+}
+
+}  // namespace

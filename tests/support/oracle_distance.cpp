@@ -1,0 +1,177 @@
+// The oracle's decision of distance. That of two features is the distance of the origin from the
+// hull of the differences of their vertices: a point, a segment, a triangle, or for two edges a
+// parallelogram. Which of its points is nearest at an instant is a question of signs: x is, if and
+// only if (c - x).x >= 0 for every corner c.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+#include "tests/support/instants.hpp"
+#include "tests/support/oracle.hpp"
+#include "tests/support/whole_points.hpp"
+
+namespace oracle {
+namespace {
+
+using namespace detail;
+
+// A corner, a side without its ends, or the inside of the hull.
+struct region {
+    // The hull's nearest point lies in it if these are >= 0 and > 0.
+    std::vector<polynomial> at_least_0 = {}, above_0 = {};
+    // Then this has the sign of that point's distance less the distance asked.
+    polynomial excess = {};
+
+    bool has_nearest(const instant& t) const {
+        const auto sign = [&](const polynomial& p) { return t.sign(p); };
+        return std::ranges::all_of(
+                   above_0, [](int s) { return s > 0; }, sign) &&
+               std::ranges::all_of(
+                   at_least_0, [](int s) { return s >= 0; }, sign);
+    }
+};
+
+// The hull of corners in their order around it; the origin, and a distance's square.
+template <std::size_t count>
+class hull {
+  public:
+    hull(const std::array<vector, count>& corners, const integer& square)
+        : corners_(corners), square_({square}) {
+        trim(square_);
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < count; ++j) products_[i][j] = dot(corners[i], corners[j]);
+        for (std::size_t i = 0; i < count; ++i) regions_.push_back(corner(i));
+        if (count >= 2) regions_.push_back(side(0, 1));
+        if (count >= 3) {
+            for (std::size_t i = 1; i < count; ++i) regions_.push_back(side(i, (i + 1) % count));
+            regions_.push_back(inside());
+        }
+        // Where no other region has the nearest point the last one has.
+        regions_.back().at_least_0.clear();
+        regions_.back().above_0.clear();
+    }
+
+    bool is_near(const instant& t) const {
+        const auto region = std::ranges::find_if(
+            regions_, [&](const auto& candidate) { return candidate.has_nearest(t); });
+        return t.sign(region->excess) <= 0;
+    }
+
+    // Times at which the features are near are closed intervals: the distance is continuous. On the
+    // far side of such an interval's end one region has the nearest point for a while (a polynomial
+    // changes its sign a few times at most), and there its excess is positive: at that end it is 0,
+    // a root of one of the excesses. So those are enough, and the stretch's own ends, or its middle
+    // if neither belongs to it. Without this shortcut: no sign changes but at the roots of all.
+    bool is_near_somewhere(const stretch& when, shortcuts use) const {
+        std::vector<polynomial> roots_of;
+        for (const region& r : regions_) {
+            roots_of.push_back(r.excess);
+            if (use == shortcuts::on) continue;
+            roots_of.insert(roots_of.end(), r.at_least_0.begin(), r.at_least_0.end());
+            roots_of.insert(roots_of.end(), r.above_0.begin(), r.above_0.end());
+        }
+        return holds_somewhere(when, roots_of, [this](const instant& t) { return is_near(t); });
+    }
+
+  private:
+    region corner(std::size_t i) const {
+        region r{.excess = products_[i][i] - square_};
+        for (std::size_t j = 0; j < count; ++j)
+            if (j != i) r.at_least_0.push_back(products_[i][j] - products_[i][i]);
+        return r;
+    }
+
+    // The origin's projection on the line through two corners is their mean with weights w over the
+    // sum of the weights, the square of the side's length; it is a corner where one is 0.
+    region side(std::size_t i, std::size_t j) const {
+        const polynomial& ij = products_[i][j];
+        const polynomial wi = products_[j][j] - ij, wj = products_[i][i] - ij;
+        const polynomial area = products_[i][i] * products_[j][j] - ij * ij;
+        region r{.above_0 = {wi, wj}, .excess = area - square_ * (wi + wj)};
+        for (std::size_t k = 0; k < count; ++k)
+            if (k != i && k != j)
+                r.at_least_0.push_back(wi * products_[i][k] + wj * products_[j][k] - area);
+        return r;
+    }
+
+    region inside() const {
+        const vector normal = cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
+        const polynomial height = dot(normal, corners_[0]);
+        return {.excess = height * height - square_ * dot(normal, normal)};
+    }
+
+    std::array<vector, count> corners_;
+    std::array<std::array<polynomial, count>, count> products_;
+    polynomial square_;
+    std::vector<region> regions_;
+};
+
+// On an axis all corners are farther from the origin than that, on one side of it, at both ends of
+// the step.
+template <std::size_t count>
+bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& distance) {
+    const auto all_above = [&](std::size_t axis, int side) {
+        return std::ranges::all_of(corners, [&](const vector& c) {
+            integer at = 0;
+            const auto above = [&](const integer& coefficient) {
+                at += coefficient;  // the position at the start, then at the end
+                return side * at > distance;
+            };
+            return !c[axis].empty() && std::ranges::all_of(c[axis], above);
+        });
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (all_above(axis, 1) || all_above(axis, -1)) return true;
+    return false;
+}
+
+// `differences(points)`: the hull's corners.
+template <std::size_t count, class Differences>
+bool decide_within(const std::array<moving, count>& points, double d1, double d2, shortcuts use,
+                   const interval& when, const Differences& differences) {
+    if (is_empty(when)) return false;
+    const int unit = std::min({unit_of(points, 0), unit_of(points, 1), unit_of(points, 2),
+                               scaled(d1).exponent, scaled(d2).exponent});
+    const integer distance = scaled(d1).in_units_of(unit) + scaled(d2).in_units_of(unit);
+    const auto corners = differences(in_units(points, {unit, unit, unit}));
+    constexpr std::size_t size =
+        std::tuple_size_v<decltype(differences(std::array<vector, count>()))>;
+    if (use == shortcuts::on && beyond_on_an_axis<size>(corners, distance)) return false;
+    return hull<size>(corners, distance * distance).is_near_somewhere(stretch_of(when), use);
+}
+
+}  // namespace
+
+bool within(const ccd::vertex_face<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    return decide_within(std::array{query.v, query.f0, query.f1, query.f2}, d1, d2, use, when,
+                         [](const auto& p) {
+                             return std::array<vector, 3>{p[1] - p[0], p[2] - p[0], p[3] - p[0]};
+                         });
+}
+
+bool within(const ccd::edge_edge<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    return decide_within(
+        std::array{query.a0, query.a1, query.b0, query.b1}, d1, d2, use, when, [](const auto& p) {
+            return std::array<vector, 4>{p[2] - p[0], p[3] - p[0], p[3] - p[1], p[2] - p[1]};
+        });
+}
+
+bool within(const ccd::vertex_edge<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    return decide_within(std::array{query.v, query.e0, query.e1}, d1, d2, use, when,
+                         [](const auto& p) {
+                             return std::array<vector, 2>{p[1] - p[0], p[2] - p[0]};
+                         });
+}
+
+bool within(const ccd::vertex_vertex<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    return decide_within(std::array{query.v, query.w}, d1, d2, use, when,
+                         [](const auto& p) { return std::array<vector, 1>{p[1] - p[0]}; });
+}
+
+}  // namespace oracle
