@@ -32,7 +32,7 @@ LAYERS = [
     ("all of ccd", r"include/ccd/"),
     ("support of programs", r"errbound/support/"),
     ("validation", r"(include/)?errbound/validation/"),
-    ("ccd: one query", r"ccd/exact/"),
+    ("ccd: one query", r"ccd/(exact|contact)/"),
     ("ccd: other methods", r"ccd/methods/"),
     ("ccd: batches", r"ccd/batch/"),
     ("ccd: steps", r"ccd/step/"),
@@ -43,7 +43,7 @@ LAYERS = [
     ("programs", r"(ccd|errbound)/program/"),
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
-INTERNAL = r"(errbound/(detail|integers|filters|roots)|ccd/(exact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
+INTERNAL = r"(errbound/(detail|integers|filters|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
 PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/(methods/)?)\w+\.hpp$"
 
 

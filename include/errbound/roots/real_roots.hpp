@@ -9,7 +9,9 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/bernstein.hpp>
+#include <errbound/roots/double_order.hpp>
 #include <errbound/roots/integer_polynomial.hpp>
 #include <errbound/roots/polynomial_stages.hpp>
 #include <errbound/roots/root_filter.hpp>
@@ -134,6 +136,25 @@ class real_roots {
     }
     void refine(std::size_t k, double width) {
         refine(k, point::from(std::isfinite(width) ? width : 0));
+    }
+
+    /// Root k as doubles tell it: the one that it is, twice, or the two neighbours between which it
+    /// lies (one of them infinite beyond the largest). Narrows its interval.
+    std::pair<double, double> neighbouring_doubles(std::size_t k) {
+        constexpr std::int64_t few = 64, of_one_exponent = std::int64_t(1) << 52;
+        assert(k < size());
+        interval& root = intervals_[k];
+        narrow(root);
+        for (;;) {
+            const std::int64_t low = roots::order_at_or_below(root.low),
+                               high = roots::order_at_or_above(root.high);
+            // Low = high only for a point: else the root is strictly between root.low and high.
+            if (high - low <= 1) return {roots::double_of_order(low), roots::double_of_order(high)};
+            if (high - low <= few || high - low > of_one_exponent)
+                exact().cut(root, point::from(roots::double_of_order(low + (high - low) / 2)));
+            else
+                exact().refine(root, quarter_ulp(root));
+        }
     }
 
     /// The sign of g at root k, exactly.
@@ -269,6 +290,14 @@ class real_roots {
     }
     sign_type floating_sign_at(const number& x) const {
         return sign_of(roots::value_at(p_.floating(), x));
+    }
+
+    /// A quarter of the distance of doubles near the interval's larger end, or less.
+    static point quarter_ulp(const interval& root) {
+        using limits = std::numeric_limits<double>;
+        const int exponent = floor_log2(std::max(magnitude(root.low), magnitude(root.high)));
+        return point::power_of_two(std::max(exponent, limits::min_exponent - 1) - limits::digits -
+                                   1);
     }
 
     /// Narrows a root's interval to about double's precision, without integers. False on failure.

@@ -97,6 +97,15 @@ class root_isolation {
             bits = keep_part(root, bits) ? 2 * bits : std::max(1, bits / 2);
     }
 
+    /// Keeps the side of x, strictly inside the interval, on which the root is, or x if it is that.
+    void cut(interval& root, const point& x) const {
+        const sign_type s = sign_at(squarefree(), x);
+        if (s == sign_type::zero)
+            root.low = root.high = x;
+        else
+            (s == sign_at(squarefree(), root.low) ? root.low : root.high) = x;
+    }
+
     /// The sign of g at the root; refines it. Zero is decided by a common factor, any other sign
     /// when all of g's control values on the interval have it.
     /// Proof: proofs/RootIsolation.v, sign_at_root_right.

@@ -1,0 +1,95 @@
+#include "ccd/contact/condition.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <errbound/roots/real_roots.hpp>
+#include <optional>
+#include <utility>
+
+namespace ccd::detail {
+namespace {
+
+using errbound::sign_type;
+using roots_in_time = errbound::real_roots<integer>;
+
+template <class SignThere>
+bool sides_hold(condition& c, const SignThere& sign_there) {
+    for (auto& p : c.nonnegative)
+        if (sign_there(p) == sign_type::negative) return false;
+    const auto is_zero = [&](auto& p) { return sign_there(p) == sign_type::zero; };
+    return c.not_all_zero.empty() ||
+           !std::all_of(c.not_all_zero.begin(), c.not_all_zero.end(), is_zero);
+}
+
+template <class SignThere>
+bool holds(condition& c, const SignThere& sign_there) {
+    const auto is_met = [&](auto& p) {
+        const sign_type s = sign_there(p);
+        return s == sign_type::zero || (c.also_below && s == sign_type::negative);
+    };
+    return std::all_of(c.vanishing.begin(), c.vanishing.end(), is_met) && sides_hold(c, sign_there);
+}
+
+bool holds_at_start(condition& c) {
+    return holds(c, [](staged_polynomial& p) {
+        return p.is_zero() ? sign_type::zero : errbound::sign_of(p.exact().front());
+    });
+}
+
+/// The polynomials among whose roots the condition's first time is, if it is not 0.
+std::vector<staged_polynomial> candidates(condition& c) {
+    if (c.vanishing.empty()) return {};
+    const auto is_zero = [](const staged_polynomial& p) { return p.is_zero(); };
+    if (std::all_of(c.vanishing.begin(), c.vanishing.end(), is_zero)) return c.nonnegative;
+    if (c.vanishing.size() == 1) return c.vanishing;
+    errbound::roots::integer_form<integer> common;
+    for (auto& p : c.vanishing) common = errbound::roots::common_factor(common, p.exact());
+    return {staged_polynomial(std::move(common))};
+}
+
+first_time at_root(roots_in_time& roots, std::size_t k) {
+    const auto [low, high] = roots.neighbouring_doubles(k);
+    return {outcome::collides, low, high};
+}
+
+constexpr first_time never{outcome::separate, 0, 0};
+
+}  // namespace
+
+first_time first_time_of(std::vector<condition> conditions, double t_max) {
+    for (condition& c : conditions)
+        if (holds_at_start(c)) return {outcome::collides, 0, 0};
+    first_time first = never;
+    double end = std::min(t_max, 1.0);
+    for (condition& c : conditions) {
+        for (staged_polynomial& p : candidates(c)) {
+            if (p.is_zero()) continue;
+            roots_in_time roots(std::move(p), 0, end);
+            for (std::size_t k = 0; k < roots.size(); ++k) {
+                if (!sides_hold(c, [&](auto& side) { return roots.sign_at(side, k); })) continue;
+                // Of another root in the same bracket it does not matter which is the first.
+                const first_time found = at_root(roots, k);
+                if (first.outcome == outcome::separate || found.low < first.low ||
+                    found.high < first.high)
+                    first = found;
+                end = first.high;
+                break;
+            }
+        }
+    }
+    return first;
+}
+
+first_time first_time_at_roots(const staged_polynomial& y,
+                               const std::function<std::vector<condition>()>& conditions,
+                               double t_max) {
+    roots_in_time roots(y, 0, std::min(t_max, 1.0));
+    if (roots.size() == 0) return never;
+    std::vector<condition> all = conditions();
+    for (std::size_t k = 0; k < roots.size(); ++k)
+        for (condition& c : all)
+            if (holds(c, [&](auto& p) { return roots.sign_at(p, k); })) return at_root(roots, k);
+    return never;
+}
+
+}  // namespace ccd::detail

@@ -1,0 +1,46 @@
+// Conditions on times, and the first time in [0, 1] at which one of them holds. Internal.
+//
+// A question is a list of conditions, asked by polynomials in t. The set of times at which one of
+// them holds must be closed, as that of contacts and that of distances <= d are; the set of a
+// single one need not be (where the normal vanishes, a face's own condition does not hold). So
+// there is a first time t*, if any. Let t* > 0, and let a condition hold there:
+//  * If its `vanishing` are not all identically zero, t* is a root of their common factor.
+//  * If they are, t* is a root of some `nonnegative`: what is not zero at t* is not zero near it,
+//    so just before t*, where the condition does not hold, some `nonnegative` was negative.
+//  * With `also_below` it holds where Z, its only `vanishing`, is <= 0. Where this first holds, Z
+//  is
+//    0: the distance is continuous in t, and the condition says that it is <= d (contact.md's
+//    table, section 2); Z < 0 is distance < d, which began earlier.
+// A condition without `vanishing` is one that another condition covers where it begins to hold
+// after t = 0, so it is asked at 0 only.
+#pragma once
+
+#include <ccd/contact.hpp>
+#include <errbound/roots/polynomial_stages.hpp>
+#include <functional>
+#include <vector>
+
+#include "ccd/exact/unbounded_integers.hpp"
+
+namespace ccd::detail {
+
+using staged_polynomial = errbound::roots::staged_polynomial<integer>;
+
+/// Holds where all of `vanishing` are 0, none of `nonnegative` is negative, and not all of
+/// `not_all_zero` are 0, if there are any.
+struct condition {
+    std::vector<staged_polynomial> vanishing, nonnegative, not_all_zero;
+    /// It also holds where its only vanishing one is negative.
+    bool also_below = false;
+};
+
+/// The first time in [0, min(t_max, 1)]; t_max >= 0.
+first_time first_time_of(std::vector<condition> conditions, double t_max);
+
+/// The same where all conditions hold at roots of y alone, which is not identically zero. They are
+/// made if there are such roots.
+first_time first_time_at_roots(const staged_polynomial& y,
+                               const std::function<std::vector<condition>()>& conditions,
+                               double t_max);
+
+}  // namespace ccd::detail

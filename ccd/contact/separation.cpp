@@ -1,0 +1,91 @@
+// Separation: see include/ccd/separation.hpp for what it promises.
+#include <algorithm>
+#include <ccd/exact.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
+#include <ccd/reference.hpp>
+#include <ccd/separation.hpp>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "ccd/exact/finite.hpp"
+
+namespace ccd {
+namespace {
+
+using moving_points = std::span<const moving_point<double>>;
+
+/// Whether all of p are above all of q, by more than `distance`, at both ends of the step and so
+/// throughout. Rounding is monotone: a difference that exceeds a double when rounded does so
+/// itself.
+bool above(moving_points p, moving_points q, double point<double>::*axis, double distance) {
+    return std::all_of(p.begin(), p.end(), [&](const moving_point<double>& x) {
+        return std::all_of(q.begin(), q.end(), [&](const moving_point<double>& y) {
+            return x.t0.*axis - y.t0.*axis > distance && x.t1.*axis - y.t1.*axis > distance;
+        });
+    });
+}
+
+/// Whether a coordinate axis separates the features by more than d throughout.
+template <class Query>
+bool separated_by_coordinates(const Query& query, separation d) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr auto first = kind_traits<detail::kind_constant<Query>::value>::first_vertices;
+    const auto points = points_of(query);
+    const moving_points p = std::span(points).first(first), q = std::span(points).subspan(first);
+    const double distance = std::nextafter(d.first + d.second, infinity);
+    for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z})
+        if (above(p, q, axis, distance) || above(q, p, axis, distance)) return true;
+    return false;
+}
+
+bool is_distance(separation d) {
+    return std::isfinite(d.first) && std::isfinite(d.second) && d.first >= 0 && d.second >= 0;
+}
+
+template <class Query>
+verdict decide_distance(const Query& query, separation d) {
+    if (!is_distance(d) || !detail::is_finite(query)) return {outcome::uncertain, cause::range};
+    if (d.first == 0 && d.second == 0) return decide_exact(query);
+    if (separated_by_coordinates(query, d)) return {outcome::separate, cause::none};
+    return decide_within_reference(query, d);
+}
+
+template <class Query>
+first_time first_within(const Query& query, separation d, double t_max) {
+    if (!is_distance(d) || !detail::is_finite(query) || !std::isfinite(t_max)) return {};
+    if (d.first == 0 && d.second == 0) return time_of_impact(query, t_max);
+    if (separated_by_coordinates(query, d)) return {outcome::separate, 0, 0};
+    return time_within_reference(query, d, t_max);
+}
+
+}  // namespace
+
+verdict decide_within(const vertex_face<double>& q, separation d) {
+    return decide_distance(q, d);
+}
+verdict decide_within(const edge_edge<double>& q, separation d) {
+    return decide_distance(q, d);
+}
+verdict decide_within(const vertex_edge<double>& q, separation d) {
+    return decide_distance(q, d);
+}
+verdict decide_within(const vertex_vertex<double>& q, separation d) {
+    return decide_distance(q, d);
+}
+
+first_time time_within(const vertex_face<double>& q, separation d, double t_max) {
+    return first_within(q, d, t_max);
+}
+first_time time_within(const edge_edge<double>& q, separation d, double t_max) {
+    return first_within(q, d, t_max);
+}
+first_time time_within(const vertex_edge<double>& q, separation d, double t_max) {
+    return first_within(q, d, t_max);
+}
+first_time time_within(const vertex_vertex<double>& q, separation d, double t_max) {
+    return first_within(q, d, t_max);
+}
+
+}  // namespace ccd

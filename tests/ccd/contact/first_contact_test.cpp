@@ -1,0 +1,206 @@
+// First contacts made by hand, one of each degenerate kind: time_of_impact and the reference.
+#include <gtest/gtest.h>
+
+#include <ccd/contact.hpp>
+#include <ccd/reference.hpp>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using ccd::first_time;
+using ccd::outcome;
+using point = ccd::point<double>;
+using moving = ccd::moving_point<double>;
+using vertex_face = ccd::vertex_face<double>;
+using edge_edge = ccd::edge_edge<double>;
+using vertex_edge = ccd::vertex_edge<double>;
+using vertex_vertex = ccd::vertex_vertex<double>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+moving still(point p) {
+    return {p, p};
+}
+moving from_to(point a, point b) {
+    return {a, b};
+}
+
+/// By both, which agree.
+template <class Query>
+first_time contact(const Query& query, double t_max = 1) {
+    const first_time found = ccd::time_of_impact(query, t_max);
+    EXPECT_EQ(found, ccd::time_of_impact_reference(query, t_max));
+    return found;
+}
+
+first_time at(double t) {
+    return {outcome::collides, t, t};
+}
+first_time between(double low, double high) {
+    return {outcome::collides, low, high};
+}
+constexpr first_time never{outcome::separate, 0, 0};
+
+/// Over the resting triangle (0,0,0), (1,0,0), (0,1,0).
+vertex_face over_triangle(point v0, point v1) {
+    return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
+}
+
+TEST(first_contact, that_is_a_double_is_that_double) {
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -1})), at(0.5));
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 3}, {0.25, 0.25, -1})), at(0.75));
+}
+TEST(first_contact, that_is_no_double_lies_between_its_neighbours) {
+    const double third = 1.0 / 3;  // rounded down
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -2})),
+              between(third, std::nextafter(third, 1)));
+}
+TEST(first_contact, at_the_start_and_at_the_end) {
+    const first_time start = contact(over_triangle({0.25, 0.25, 0}, {0.25, 0.25, 1}));
+    EXPECT_EQ(start, at(0));
+    EXPECT_TRUE(start.at_start());
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, 0})), at(1));
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, least})), never);
+}
+TEST(first_contact, below_the_least_double_is_not_at_the_start) {
+    // At t = 2^-1074/(2^-1074 + 1), less than 2^-1074.
+    const first_time found = contact(over_triangle({0.25, 0.25, least}, {0.25, 0.25, -1}));
+    EXPECT_EQ(found, between(0, least));
+    EXPECT_FALSE(found.at_start());
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, least}, {0.25, 0.25, -1}), 0), never);
+}
+TEST(first_contact, after_t_max_is_none) {
+    const auto query = over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -1});
+    EXPECT_EQ(contact(query, 0.5), at(0.5));
+    EXPECT_EQ(contact(query, std::nextafter(0.5, 0)), never);
+    EXPECT_EQ(contact(query, -0.5), never);
+    EXPECT_EQ(contact(query, 7), at(0.5));
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -2}), 1.0 / 3), never);
+}
+TEST(first_contact, of_what_is_not_finite_is_uncertain) {
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, infinity}, {0.25, 0.25, 1})), first_time{});
+    EXPECT_EQ(contact(over_triangle({2, 2, 2}, {2, 2, 2}), infinity), first_time{});
+    EXPECT_EQ(contact(over_triangle({2, 2, 2}, {2, 2, 2}), std::nan("")), first_time{});
+}
+
+TEST(first_contact, in_the_plane_is_at_an_edge) {
+    // Enters over x = 0 at a quarter of the way.
+    EXPECT_EQ(contact(over_triangle({-0.25, 0.25, 0}, {0.75, 0.25, 0})), at(0.25));
+    EXPECT_EQ(contact(over_triangle({-0.25, 2, 0}, {0.75, 2, 0})), never);
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, 0}, {2, 2, 0})), at(0));
+}
+TEST(first_contact, in_the_plane_along_an_edge_s_line_is_at_its_end) {
+    EXPECT_EQ(contact(over_triangle({-1, 0, 0}, {3, 0, 0})), at(0.25));
+    EXPECT_EQ(contact(over_triangle({3, 0, 0}, {-1, 0, 0})), at(0.5));
+}
+TEST(first_contact, at_a_double_root_is_found_though_nothing_crosses) {
+    // With u = 2t − 1, edge b is (0, −1 − u, −u) + s·(0, 2, 2u): Y = 4u².
+    const moving a0 = still({-1, 0, 0}), a1 = still({1, 0, 0});
+    const edge_edge halfway{a0, a1, from_to({0, 0, 1}, {0, -2, -1}),
+                            from_to({0, 2, -1}, {0, 0, 1})};
+    EXPECT_EQ(contact(halfway), at(0.5));
+    // The same with u = 3t − 1.
+    const edge_edge turning{a0, a1, from_to({0, 0, 1}, {0, -3, -2}),
+                            from_to({0, 2, -1}, {0, -1, 2})};
+    const double third = 1.0 / 3;
+    EXPECT_EQ(contact(turning), between(third, std::nextafter(third, 1)));
+}
+TEST(first_contact, at_a_triple_root_is_found) {
+    // b, c and p are along the axes, times 1 − 3t: the figure shrinks to a point at 1/3.
+    const vertex_face query{from_to({0, 0, 1}, {0, 0, -2}), still({0, 0, 0}),
+                            from_to({1, 0, 0}, {-2, 0, 0}), from_to({0, 1, 0}, {0, -2, 0})};
+    const double third = 1.0 / 3;
+    EXPECT_EQ(contact(query), between(third, std::nextafter(third, 1)));
+}
+TEST(first_contact, is_at_the_second_root_where_the_first_is_outside) {
+    // With u = 2t − 1, N = (0, −u, 1) and Y = (1 − 4u²)/8; at u = −1/2, v is at y = −1/4.
+    const vertex_face query{from_to({0.25, -0.5, 0.125}, {0.25, 0.5, 0.125}), still({0, 0, 0}),
+                            still({1, 0, 0}), from_to({0, 1, -1}, {0, 1, 1})};
+    EXPECT_EQ(contact(query), at(0.75));
+}
+
+TEST(first_contact, of_parallel_edges_is_an_end_s) {
+    const edge_edge sideways{from_to({0, 0, 1}, {0, 0, -1}), from_to({1, 0, 1}, {1, 0, -1}),
+                             still({0.5, 0, 0}), still({1.5, 0, 0})};
+    EXPECT_EQ(contact(sideways), at(0.5));
+    const edge_edge apart{from_to({0, 0, 1}, {0, 0, -1}), from_to({1, 0, 1}, {1, 0, -1}),
+                          still({1.5, 0, 0}), still({2.5, 0, 0})};
+    EXPECT_EQ(contact(apart), never);
+}
+TEST(first_contact, of_edges_on_one_line_is_where_ends_meet) {
+    const edge_edge query{from_to({0, 0, 0}, {4, 4, 4}), from_to({1, 1, 1}, {5, 5, 5}),
+                          still({2, 2, 2}), still({3, 3, 3})};
+    EXPECT_EQ(contact(query), at(0.25));
+}
+TEST(first_contact, of_edges_that_cross_in_their_plane_at_the_start) {
+    const edge_edge query{still({-1, 0, 0}), still({1, 0, 0}), still({0, -1, 0}), still({0, 1, 0})};
+    EXPECT_EQ(contact(query), at(0));
+    const edge_edge later{from_to({-4, 0, 0}, {0, 0, 0}), from_to({-2, 0, 0}, {2, 0, 0}),
+                          still({0, -1, 0}), still({0, 1, 0})};
+    EXPECT_EQ(contact(later), at(0.5));
+}
+TEST(first_contact, with_a_triangle_that_is_a_segment_or_a_point) {
+    const vertex_face segment{from_to({0.5, 0, 1}, {0.5, 0, -1}), still({0, 0, 0}),
+                              still({1, 0, 0}), still({2, 0, 0})};
+    EXPECT_EQ(contact(segment), at(0.5));
+    const vertex_face spot{from_to({0, 0, 1}, {0, 0, -3}), still({0, 0, 0}), still({0, 0, 0}),
+                           still({0, 0, 0})};
+    EXPECT_EQ(contact(spot), at(0.25));
+    const vertex_face missed{from_to({0, 1, 1}, {0, 1, -3}), still({0, 0, 0}), still({0, 0, 0}),
+                             still({0, 0, 0})};
+    EXPECT_EQ(contact(missed), never);
+}
+TEST(first_contact, with_a_triangle_that_is_a_segment_at_that_time_alone) {
+    // f2 comes down onto the line of f0 f1, and v with it, at t = 1/2.
+    const vertex_face query{from_to({0.5, -1, 0}, {0.5, 1, 0}), still({0, 0, 0}), still({1, 0, 0}),
+                            from_to({0, 0, 1}, {0, 0, -1})};
+    EXPECT_EQ(contact(query), at(0.5));
+}
+
+TEST(first_contact, of_a_vertex_and_an_edge) {
+    const vertex_edge crossing{from_to({0.5, 1, 0}, {0.5, -1, 0}), still({0, 0, 0}),
+                               still({1, 0, 0})};
+    EXPECT_EQ(contact(crossing), at(0.5));
+    const vertex_edge beside{from_to({0.5, 1, 1}, {0.5, -1, 1}), still({0, 0, 0}),
+                             still({1, 0, 0})};
+    EXPECT_EQ(contact(beside), never);
+    const vertex_edge along{from_to({-1, 0, 0}, {1, 0, 0}), still({0.5, 0, 0}), still({2, 0, 0})};
+    EXPECT_EQ(contact(along), at(0.75));
+    const vertex_edge point_edge{from_to({-1, 0, 0}, {1, 0, 0}), still({0, 0, 0}),
+                                 still({0, 0, 0})};
+    EXPECT_EQ(contact(point_edge), at(0.5));
+}
+TEST(first_contact, along_the_line_of_an_edge_that_grows_from_a_point) {
+    // The edge grows from (1, 0, 0) both ways while v comes from 0: v = t, edge [1 − t, 1 + t].
+    const vertex_edge query{from_to({0, 0, 0}, {1, 0, 0}), from_to({1, 0, 0}, {0, 0, 0}),
+                            from_to({1, 0, 0}, {2, 0, 0})};
+    EXPECT_EQ(contact(query), at(0.5));
+}
+TEST(first_contact, at_an_irrational_time) {
+    // In y and z: v = (2t, 1) and the edge from 0 to (2, 2t), so 4t² = 2.
+    const vertex_edge query{from_to({0, 0, 1}, {0, 2, 1}), still({0, 0, 0}),
+                            from_to({0, 2, 0}, {0, 2, 2})};
+    const double root = std::sqrt(0.5);  // rounded up
+    EXPECT_EQ(contact(query), between(std::nextafter(root, 0), root));
+}
+TEST(first_contact, of_two_vertices) {
+    const vertex_vertex meeting{from_to({0, 0, 0}, {1, 2, 3}), from_to({1, 2, 3}, {0, 0, 0})};
+    EXPECT_EQ(contact(meeting), at(0.5));
+    const vertex_vertex missing{from_to({0, 0, 0}, {1, 2, 3}), from_to({1, 2, 3}, {0, 0, least})};
+    EXPECT_EQ(contact(missing), never);
+    EXPECT_EQ(contact(vertex_vertex{still({1, 2, 3}), still({1, 2, 3})}), at(0));
+    const vertex_vertex third{from_to({1, 1, 1}, {-2, -2, -2}), still({0, 0, 0})};
+    EXPECT_EQ(contact(third), between(1.0 / 3, std::nextafter(1.0 / 3, 1)));
+}
+TEST(first_contact, of_coordinates_of_all_magnitudes) {
+    const double huge = std::numeric_limits<double>::max();
+    EXPECT_EQ(contact(over_triangle({0.25, 0.25, huge}, {0.25, 0.25, -huge})), at(0.5));
+    const first_time near_end = contact(over_triangle({0.25, 0.25, huge}, {0.25, 0.25, -least}));
+    EXPECT_EQ(near_end, between(std::nextafter(1.0, 0), 1));
+    const vertex_vertex tiny{from_to({least, 0, 0}, {-huge, 0, 0}), still({0, 0, 0})};
+    EXPECT_EQ(contact(tiny), between(0, least));
+}
+
+}  // namespace

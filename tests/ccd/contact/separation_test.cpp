@@ -1,0 +1,174 @@
+// Distances made by hand, one of each degenerate kind: decide_within, time_within and the
+// reference.
+#include <gtest/gtest.h>
+
+#include <ccd/reference.hpp>
+#include <ccd/separation.hpp>
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using ccd::first_time;
+using ccd::outcome;
+using ccd::separation;
+using point = ccd::point<double>;
+using moving = ccd::moving_point<double>;
+using vertex_face = ccd::vertex_face<double>;
+using edge_edge = ccd::edge_edge<double>;
+using vertex_edge = ccd::vertex_edge<double>;
+using vertex_vertex = ccd::vertex_vertex<double>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+moving still(point p) {
+    return {p, p};
+}
+moving from_to(point a, point b) {
+    return {a, b};
+}
+
+/// By both, which agree, as the decision does with the time.
+template <class Query>
+first_time within(const Query& query, separation d, double t_max = 1) {
+    const first_time found = ccd::time_within(query, d, t_max);
+    EXPECT_EQ(found, ccd::time_within_reference(query, d, t_max));
+    EXPECT_EQ(ccd::decide_within(query, d), ccd::decide_within_reference(query, d));
+    if (t_max >= 1 && std::isfinite(t_max)) {
+        EXPECT_EQ(ccd::decide_within(query, d).outcome, found.outcome);
+    }
+    return found;
+}
+
+first_time at(double t) {
+    return {outcome::collides, t, t};
+}
+first_time between(double low, double high) {
+    return {outcome::collides, low, high};
+}
+constexpr first_time never{outcome::separate, 0, 0};
+
+vertex_face over_triangle(point v0, point v1) {
+    return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};
+}
+
+TEST(separation, above_a_face) {
+    const auto query = over_triangle({0.25, 0.25, 1}, {0.25, 0.25, 0.5});
+    EXPECT_EQ(within(query, {0.75}), at(0.5));
+    EXPECT_EQ(within(query, {0.5, 0.25}), at(0.5));
+    EXPECT_EQ(within(query, {0.5}), at(1));
+    EXPECT_EQ(within(query, {std::nextafter(0.5, 0)}), never);
+    EXPECT_EQ(within(query, {1}), at(0));
+    EXPECT_EQ(within(query, {4}), at(0));
+    EXPECT_EQ(within(query, {0.75}, 0.5), at(0.5));
+    EXPECT_EQ(within(query, {0.75}, 0.25), never);
+    EXPECT_EQ(within(query, {0.75}, -1), never);
+}
+TEST(separation, of_no_distance_is_contact) {
+    EXPECT_EQ(within(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, -1}), {0}), at(0.5));
+    EXPECT_EQ(within(over_triangle({0.25, 0.25, 1}, {0.25, 0.25, least}), {0, 0}), never);
+}
+TEST(separation, of_two_parts_is_their_exact_sum) {
+    // 1 + 2^-60 is no double; the distance at the end is 1 + 2^-60 on one axis and less on another.
+    const vertex_vertex query{from_to({3, 0, 0}, {1, 0, 0}), from_to({0, 0, 0}, {-0x1p-60, 0, 0})};
+    EXPECT_EQ(within(query, {1, 0x1p-60}), at(1));
+    EXPECT_EQ(within(query, {1, std::nextafter(0x1p-60, 0)}), never);
+    EXPECT_EQ(within(query, {1, 0x1p-61}), never);
+}
+TEST(separation, that_is_no_distance_is_uncertain) {
+    const auto query = over_triangle({2, 2, 2}, {3, 3, 3});
+    EXPECT_EQ(within(query, {-1}), first_time{});
+    EXPECT_EQ(within(query, {2, -1}), first_time{});
+    EXPECT_EQ(within(query, {infinity}), first_time{});
+    EXPECT_EQ(within(query, {0, std::nan("")}), first_time{});
+    EXPECT_EQ(within(over_triangle({2, 2, infinity}, {3, 3, 3}), {1}), first_time{});
+    EXPECT_EQ(within(query, {0.5}, infinity), first_time{});
+    EXPECT_EQ(ccd::decide_within(query, {-1}).cause, ccd::cause::range);
+}
+
+TEST(separation, beside_a_face_is_from_its_edge) {
+    // Comes along y = 1/4, z = 0 from x = −2: within 1/2 of the edge x = 0 at x = −1/2.
+    EXPECT_EQ(within(over_triangle({-2, 0.25, 0}, {0, 0.25, 0}), {0.5}), at(0.75));
+    // At a height of 3, within 5 at x = −4.
+    EXPECT_EQ(within(over_triangle({-8, 0.25, 3}, {0, 0.25, 3}), {5}), at(0.5));
+}
+TEST(separation, beside_a_face_is_from_its_corner) {
+    // From (−3, −4, 0) on: 5 from the corner at the start; moving away from farther.
+    EXPECT_EQ(within(over_triangle({-6, -8, 0}, {0, 0, 0}), {5}), at(0.5));
+    // A box of 4 on each axis holds (−3, −3, 0), which is 3√2 from the corner.
+    EXPECT_EQ(within(over_triangle({-3, -3, 0}, {-3, -3, 0}), {4}), never);
+}
+TEST(separation, sliding_at_exactly_that_height) {
+    // N·P is d|N| throughout: d is reached where v comes over the edge x = 0.
+    EXPECT_EQ(within(over_triangle({-1, 0.25, 2}, {1, 0.25, 2}), {2}), at(0.5));
+    EXPECT_EQ(within(over_triangle({-1, 0.25, 2}, {1, 0.25, 2}), {std::nextafter(2.0, 0)}), never);
+    // Along an edge's line: so is |E × W| = d|E|, and where v comes beside its end it is within d.
+    const vertex_edge beside{from_to({-1, 2, 0}, {1, 2, 0}), still({0, 0, 0}), still({4, 0, 0})};
+    EXPECT_EQ(within(beside, {2}), at(0.5));
+    // A vertex that keeps its distance has it at the start.
+    const vertex_vertex kept{from_to({0, 0, 2}, {5, 5, 7}), from_to({0, 0, 0}, {5, 5, 5})};
+    EXPECT_EQ(within(kept, {2}), at(0));
+    EXPECT_EQ(within(kept, {1.5}), never);
+}
+TEST(separation, whose_sphere_is_touched_at_once) {
+    // Passes a vertex at distance 3: a double root.
+    const vertex_vertex passing{from_to({-4, 3, 0}, {12, 3, 0}), still({0, 0, 0})};
+    EXPECT_EQ(within(passing, {3}), at(0.25));
+    EXPECT_EQ(within(passing, {std::nextafter(3.0, 0)}), never);
+    EXPECT_EQ(within(passing, {5}), at(0));
+    // Passes an edge.
+    const vertex_edge beside{from_to({0.5, 3, -4}, {0.5, 3, 12}), still({0, 0, 0}),
+                             still({1, 0, 0})};
+    EXPECT_EQ(within(beside, {3}), at(0.25));
+}
+TEST(separation, at_a_time_that_is_no_double) {
+    // |1 − 3t| = √2 has no root there; 2 − 3t = 1 has: t = 1/3.
+    const vertex_vertex query{from_to({2, 0, 0}, {-1, 0, 0}), still({0, 0, 0})};
+    EXPECT_EQ(within(query, {1}), between(1.0 / 3, std::nextafter(1.0 / 3, 1)));
+}
+TEST(separation, after_a_time_below_the_least_double) {
+    const vertex_vertex query{from_to({1 + 0x1p-52, 0, 0}, {-0x1p+1023, 0, 0}), still({0, 0, 0})};
+    const first_time found = within(query, {1});
+    EXPECT_EQ(found, between(0, least));
+    EXPECT_FALSE(found.at_start());
+}
+
+TEST(separation, of_edges) {
+    const edge_edge crossing{from_to({-1, 0, 4}, {-1, 0, 0}), from_to({1, 0, 4}, {1, 0, 0}),
+                             still({0, -1, 0}), still({0, 1, 0})};
+    EXPECT_EQ(within(crossing, {1}), at(0.75));
+    const edge_edge parallel{from_to({0, 0, 4}, {0, 0, 0}), from_to({1, 0, 4}, {1, 0, 0}),
+                             still({0.5, 0, 0}), still({1.5, 0, 0})};
+    EXPECT_EQ(within(parallel, {1}), at(0.75));
+    // Ends 3 apart along the line: within 5 at a height of 4.
+    const edge_edge in_line{from_to({0, 0, 8}, {0, 0, 0}), from_to({1, 0, 8}, {1, 0, 0}),
+                            still({4, 0, 0}), still({9, 0, 0})};
+    EXPECT_EQ(within(in_line, {5}), at(0.5));
+    const edge_edge spots{from_to({0, 0, 8}, {0, 0, 0}), from_to({0, 0, 8}, {0, 0, 0}),
+                          still({3, 0, 0}), still({3, 0, 0})};
+    EXPECT_EQ(within(spots, {5}), at(0.5));
+}
+TEST(separation, of_a_triangle_that_is_a_segment_or_a_point) {
+    const vertex_face segment{from_to({0.5, 0, 4}, {0.5, 0, 0}), still({0, 0, 0}), still({1, 0, 0}),
+                              still({2, 0, 0})};
+    EXPECT_EQ(within(segment, {1}), at(0.75));
+    const vertex_face spot{from_to({3, 0, 8}, {3, 0, 0}), still({0, 0, 0}), still({0, 0, 0}),
+                           still({0, 0, 0})};
+    EXPECT_EQ(within(spot, {5}), at(0.5));
+}
+TEST(separation, of_all_magnitudes) {
+    const double huge = std::numeric_limits<double>::max();
+    const vertex_vertex query{from_to({huge, huge, 0}, {0, 0, 0}), still({-huge, -huge, 0})};
+    EXPECT_EQ(within(query, {huge, huge}).outcome, outcome::collides);
+    EXPECT_EQ(within(query, {huge}), never);
+    const vertex_vertex tiny{still({least, 0, 0}), still({0, 0, 0})};
+    EXPECT_EQ(within(tiny, {least}), at(0));
+    const vertex_vertex corner{still({least, least, 0}), still({0, 0, 0})};
+    EXPECT_EQ(within(corner, {least}), never);
+    EXPECT_EQ(within(corner, {least, least}), at(0));
+    const auto far = over_triangle({0.25, 0.25, huge}, {0.25, 0.25, 0});
+    EXPECT_EQ(within(far, {least}), between(std::nextafter(1.0, 0), 1));
+}
+
+}  // namespace

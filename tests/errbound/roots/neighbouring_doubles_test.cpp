@@ -1,0 +1,132 @@
+// The double that a root is, or the two between which it lies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/multiprecision.hpp>
+#include <errbound/polynomial.hpp>
+#include <errbound/roots/double_order.hpp>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using integer = boost::multiprecision::cpp_int;
+using rational = boost::multiprecision::cpp_rational;
+using polynomial = errbound::polynomial<integer>;
+using bracket = std::pair<double, double>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+constexpr double most = std::numeric_limits<double>::max();
+
+std::vector<bracket> brackets(const polynomial& p, double a = -infinity, double b = infinity) {
+    auto roots = errbound::isolate_roots(p, a, b);
+    std::vector<bracket> all;
+    for (std::size_t k = 0; k < roots.size(); ++k) all.push_back(roots.neighbouring_doubles(k));
+    return all;
+}
+integer power_of_two(unsigned n) {
+    return integer(1) << n;
+}
+polynomial product(const polynomial& p, const polynomial& q) {
+    std::vector<integer> r(p.coefficients().size() + q.coefficients().size() - 1);
+    for (std::size_t i = 0; i < p.coefficients().size(); ++i)
+        for (std::size_t j = 0; j < q.coefficients().size(); ++j)
+            r[i + j] += p.coefficients()[i] * q.coefficients()[j];
+    return polynomial(r);
+}
+
+TEST(double_order, neighbours_differ_by_one) {
+    using errbound::roots::double_of_order;
+    using errbound::roots::order_of;
+    for (const double x : {-infinity, -most, -1.0, -least, 0.0, least, 0.1, 0x1p-1022, 1.0, most}) {
+        EXPECT_EQ(order_of(std::nextafter(x, infinity)), order_of(x) + 1) << x;
+        EXPECT_EQ(double_of_order(order_of(x)), x);
+    }
+    EXPECT_EQ(order_of(-0.0), 0);
+    EXPECT_FALSE(std::signbit(double_of_order(0)));
+}
+
+TEST(neighbouring_doubles, of_a_root_that_is_a_double_are_that_one) {
+    EXPECT_EQ(brackets({-3, 4}), std::vector<bracket>({{0.75, 0.75}}));
+    EXPECT_EQ(brackets({-4, 0, 1}), std::vector<bracket>({{-2, -2}, {2, 2}}));
+    EXPECT_EQ(brackets({0, 0, 1}), std::vector<bracket>({{0, 0}}));
+    EXPECT_EQ(brackets({-1, power_of_two(1074)}), std::vector<bracket>({{least, least}}));
+    // x³ − x + 2^-1074·(…): three roots, of which one is the least double.
+    EXPECT_EQ(brackets(product({-1, power_of_two(1074)}, {-1, 0, 1})),
+              std::vector<bracket>({{-1, -1}, {least, least}, {1, 1}}));
+}
+TEST(neighbouring_doubles, of_an_irrational_root) {
+    const double root = std::sqrt(2.0);  // rounded up
+    const double below = std::nextafter(root, 0);
+    EXPECT_EQ(brackets({-2, 0, 1}), std::vector<bracket>({{-root, -below}, {below, root}}));
+    EXPECT_EQ(brackets({-2, 0, 1}, 0, 4), std::vector<bracket>({{below, root}}));
+}
+TEST(neighbouring_doubles, of_a_multiple_root) {
+    const double third = 1.0 / 3;  // rounded down
+    const bracket around{third, std::nextafter(third, 1)};
+    const polynomial linear{-1, 3}, twice = product(linear, linear);
+    EXPECT_EQ(brackets(twice), std::vector<bracket>({around}));
+    EXPECT_EQ(brackets(product(linear, twice), 0, 1), std::vector<bracket>({around}));
+    EXPECT_EQ(brackets(product({0, 0, 1}, twice), 0, 1), std::vector<bracket>({{0, 0}, around}));
+    EXPECT_EQ(brackets(product({-1, 2}, product({-1, 2}, twice))),
+              std::vector<bracket>({around, {0.5, 0.5}}));
+}
+TEST(neighbouring_doubles, of_a_root_below_the_least_or_beyond_the_largest) {
+    EXPECT_EQ(brackets({-1, power_of_two(1075)}), std::vector<bracket>({{0, least}}));
+    EXPECT_EQ(brackets({1, power_of_two(5000)}), std::vector<bracket>({{-least, 0}}));
+    EXPECT_EQ(brackets({-1, power_of_two(5000)}, 0, 1), std::vector<bracket>({{0, least}}));
+    EXPECT_EQ(brackets({-power_of_two(5000), 1}), std::vector<bracket>({{most, infinity}}));
+    EXPECT_EQ(brackets({power_of_two(1024), 1}), std::vector<bracket>({{-infinity, -most}}));
+    EXPECT_EQ(brackets({-2, 0, power_of_two(3000)}),
+              std::vector<bracket>({{-least, 0}, {0, least}}));
+}
+TEST(neighbouring_doubles, of_two_roots_between_the_same_doubles) {
+    // 1 + 1/3 and 1 + 2/3 of an ulp.
+    const integer three_ulps = 3 * power_of_two(52);
+    const bracket around{1, std::nextafter(1.0, 2)};
+    EXPECT_EQ(brackets(product({-three_ulps - 1, three_ulps}, {-three_ulps - 2, three_ulps})),
+              std::vector<bracket>({around, around}));
+}
+
+TEST(neighbouring_doubles, of_rational_roots_hold_them) {
+    std::mt19937_64 random(27);
+    for (int i = 0; i < support::scaled(2000); ++i) {
+        // Up to three roots n/m, some of them doubles or near such, some twice.
+        std::vector<rational> roots;
+        polynomial p{1};
+        for (auto count = 1 + random() % 3; count > 0; --count) {
+            const auto shift = static_cast<unsigned>(random() % 130);
+            integer n = random() >> random() % 64, m = 1 + (random() >> random() % 64);
+            if (random() % 3 == 0) m = power_of_two(shift);
+            if (random() % 4 == 0) n = n * power_of_two(shift) + 1;
+            if (random() % 2 == 0) n = -n;
+            roots.emplace_back(n, m);
+            for (auto times = 1 + random() % 2; times > 0; --times) p = product(p, {-n, m});
+        }
+        std::sort(roots.begin(), roots.end());
+        roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+        const auto found = brackets(p);
+        ASSERT_EQ(found.size(), roots.size());
+        for (std::size_t k = 0; k < roots.size(); ++k) {
+            const auto [low, high] = found[k];
+            if (low == high) {
+                EXPECT_EQ(rational(low), roots[k]);
+            } else {
+                EXPECT_EQ(std::nextafter(low, infinity), high);
+                EXPECT_LT(rational(low), roots[k]);
+                EXPECT_LT(roots[k], rational(high));
+            }
+        }
+    }
+}
+
+}  // namespace
