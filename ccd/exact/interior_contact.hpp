@@ -66,7 +66,7 @@ class interior_contact {
         return by_halving(whole);
     }
 
-  private:
+  protected:
     template <int W>
     using number = errbound::integers::fixed_integer<W>;
     using sign_type = errbound::sign_type;
@@ -81,26 +81,35 @@ class interior_contact {
         return std::all_of(g.begin(), g.end(), [](const auto& form) { return form[0] > 0; });
     }
 
-    /// Asks at a multiple root of Y, if there is one inside, and finds out whether there are other
-    /// roots to ask at, in which case the answer is `uncertain`. The Hessian's discriminant has 12W
-    /// words (2^20.2·D^12), G at its root 28W (2^47·D^28).
-    /// Proof: proofs/CubicRoots.v, one_real_root, double_root_place, triple_root_place.
-    constexpr outcome at_multiple_root() {
+    /// The multiple root of Y, if there is one inside, as that of c0·s + c1·t with c0 <= 0 < c1.
+    /// Finds out whether there are other roots. The Hessian's discriminant has 12W words
+    /// (2^20.2·D^12). Proof: proofs/CubicRoots.v, one_real_root, double_root_place,
+    /// triple_root_place.
+    constexpr std::optional<errbound::bernstein<number<6 * Words>, 1>> multiple_root() {
         const auto h = hessian(y_);
         const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
         distinct_ = discriminant != sign_type::zero;
         three_real_roots_ = discriminant == sign_type::positive;
-        if (distinct_) return outcome::uncertain;
-        if (h[2] == 0) {
-            // Triple, of 3·y3·t + y2·s, and inside as there are sign changes.
-            const auto s = thrice(y_[3]);
-            const bool contact = s.negative() ? all_positive(forms_at(forms_, -s, y_[2]))
-                                              : all_positive(forms_at(forms_, s, -y_[2]));
-            return contact ? outcome::collides : outcome::separate;
+        if (distinct_) return {};
+        triple_ = h[2] == 0;
+        if (triple_) {
+            // Of 3·y3·t + y2·s, and inside as there are sign changes.
+            const auto c1 = thrice(y_[3]);
+            if (c1.negative()) return {{{-y_[2], -c1}}};
+            return {{{y_[2], c1}}};
         }
         // h is h2·(t − xs)² with h2 > 0 for the double root x, which lies inside if x > 0.
-        if (h[1] < 0 && all_positive(forms_at(forms_, h[2] << 1, -h[1]))) return outcome::collides;
-        return outcome::uncertain;
+        if (h[1] < 0) return {{{h[1], h[2] << 1}}};
+        return {};
+    }
+
+    /// Asks at a multiple root of Y, if there is one inside; `uncertain` if there may be others. G
+    /// has 28W words there (2^47·D^28).
+    constexpr outcome at_multiple_root() {
+        const auto root = multiple_root();
+        if (root && all_positive(forms_at(forms_, (*root)[1], -(*root)[0])))
+            return outcome::collides;
+        return triple_ ? outcome::separate : outcome::uncertain;
     }
 
     /// Whether there are roots on the part that are not a double root. An odd number of sign
@@ -234,6 +243,7 @@ class interior_contact {
     const Forms<errbound::integers::fixed_integer<Words>, 1>& forms_;
     const cubic_form<3 * Words>& y_;
     const integer_units& units_;
+    bool triple_ = false;            ///< Y has a triple root, and no other
     bool distinct_ = true;           ///< no root of Y is known to be multiple
     bool three_real_roots_ = false;  ///< Y may have a pair of roots between equal signs
 };

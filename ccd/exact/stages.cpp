@@ -21,7 +21,9 @@ namespace {
 /// Proof: proofs/FilterStages.v, filter_face_separate, filter_face_collides, filter_edges_separate,
 /// filter_edges_collide, filter_bounded.
 template <template <class> class Forms, template <class> class Query>
-[[gnu::flatten]] verdict axes_to_subdivision(const Query<double>& query, stage_report* report) {
+[[gnu::flatten]] verdict axes_to_subdivision(const Query<double>& query, stage_report* report,
+                                             static_filter::contact_part* found,
+                                             std::size_t deepest) {
     constexpr verdict separate{outcome::separate, cause::none};
     if (!is_finite(query)) return {outcome::uncertain, cause::range};
     const Forms<double> forms(query);
@@ -57,7 +59,7 @@ template <template <class> class Forms, template <class> class Query>
     if (outside) return separate;
 
     stage_timer timer(report, stage::subdivision);
-    const outcome answer = static_filter::subdivide(whole);
+    const outcome answer = static_filter::subdivide(whole, found, deepest);
     timer.count(1, answer == outcome::separate, answer == outcome::collides);
     return {answer, answer == outcome::uncertain ? cause::inside : cause::none};
 }
@@ -78,11 +80,13 @@ verdict integers_to_unbounded(const Query& query, stage_report* report) {
 
 }  // namespace
 
-verdict decide_in_floating_point(const vertex_face<double>& query, stage_report* report) {
-    return axes_to_subdivision<linear_vertex_face_forms>(query, report);
+verdict decide_in_floating_point(const vertex_face<double>& query, stage_report* report,
+                                 static_filter::contact_part* found, std::size_t deepest) {
+    return axes_to_subdivision<linear_vertex_face_forms>(query, report, found, deepest);
 }
-verdict decide_in_floating_point(const edge_edge<double>& query, stage_report* report) {
-    return axes_to_subdivision<linear_edge_edge_forms>(query, report);
+verdict decide_in_floating_point(const edge_edge<double>& query, stage_report* report,
+                                 static_filter::contact_part* found, std::size_t deepest) {
+    return axes_to_subdivision<linear_edge_edge_forms>(query, report, found, deepest);
 }
 
 verdict decide_exactly(const vertex_face<double>& query, stage_report* report) {

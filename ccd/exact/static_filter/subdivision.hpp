@@ -10,26 +10,45 @@
 
 namespace ccd::static_filter {
 
+/// Where contact was found: inside the part from `low` to `high` of the step, and certainly nowhere
+/// before `low`.
+struct contact_part {
+    double low = 0, high = 1;
+    errbound::roots::control_values<double, 3> y{};  ///< of Y there, as computed
+    bool one_root = false;                           ///< Y certainly has but one root there
+};
+
 /// Parts of the step that wait for their turn, the earliest last.
 template <std::size_t Constraints>
 struct waiting_parts {
     struct part {
         part_forms<double, Constraints> forms;
         std::size_t depth;
+        std::size_t index;  ///< it begins at index/2^depth
     };
     // Every halving takes one part and leaves two.
     std::array<part, max_depth + 2> parts;
     std::size_t size = 0;
 };
 
-/// `separate` and `collides` are certain; `uncertain` where halving further would not help.
+/// The signs at the ends are certainly opposite: between them one inner value has, certainly, the
+/// sign of the end beside it. So signs change once, whatever those are that are not certain.
+constexpr bool changes_sign_once(const errbound::roots::control_values<double, 3>& y,
+                                 double error) {
+    return y[0] > 0 ? y[1] > error || y[2] < -error : y[1] < -error || y[2] > error;
+}
+
+/// `separate` and `collides` are certain; `uncertain` where halving further would not help, or
+/// `deepest` <= max_depth halvings do not tell. If it is `collides`, `found` says where, if it is
+/// not null.
 /// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides.
 template <template <class> class Forms>
-constexpr outcome subdivide(const whole_step<double, Forms>& whole) {
+constexpr outcome subdivide(const whole_step<double, Forms>& whole, contact_part* found = nullptr,
+                            std::size_t deepest = max_depth) {
     constexpr std::size_t constraints = whole_step<double, Forms>::constraints;
     const auto& errors = whole.errors;
     waiting_parts<constraints> waiting;
-    waiting.parts[waiting.size++] = {whole.forms, 0};
+    waiting.parts[waiting.size++] = {whole.forms, 0, 0};
     while (waiting.size > 0) {
         auto& part = waiting.parts[waiting.size - 1];
         const auto& [y, g] = part.forms;
@@ -43,8 +62,15 @@ constexpr outcome subdivide(const whole_step<double, Forms>& whole) {
             --waiting.size;
             continue;
         }
-        if (collides) return outcome::collides;
-        if (part.depth == max_depth || (part.depth >= patient_depth && within_error(y, errors.y)))
+        if (collides) {
+            if (found != nullptr) {
+                const double length = 1.0 / static_cast<double>(std::size_t{1} << part.depth);
+                const double low = static_cast<double>(part.index) * length;
+                *found = {low, low + length, y, changes_sign_once(y, errors.y)};
+            }
+            return outcome::collides;
+        }
+        if (part.depth == deepest || (part.depth >= patient_depth && within_error(y, errors.y)))
             return outcome::uncertain;
         auto& next = waiting.parts[waiting.size++];
         const auto [left, right] = errbound::roots::halves(y);
@@ -54,6 +80,8 @@ constexpr outcome subdivide(const whole_step<double, Forms>& whole) {
             part.forms.g[i] = g_right, next.forms.g[i] = g_left;
         }
         next.depth = ++part.depth;
+        next.index = 2 * part.index;
+        part.index = next.index + 1;
     }
     return outcome::separate;
 }

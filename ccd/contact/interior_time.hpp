@@ -1,0 +1,145 @@
+// The first contact inside a face or inside both edges, in integers of fixed width.
+//
+// As ccd/exact/interior_contact.hpp, which decides whether there is one, with the roots of Y asked
+// in their order. Vertex/edge contacts may be there, too, from a known time on: contact inside is
+// asked for before it only, where all that holds without vertex/edge contacts does.
+#pragma once
+
+#include <ccd/methods/forms.hpp>
+#include <ccd/verdict.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/integers/fixed_integer.hpp>
+#include <optional>
+#include <utility>
+
+#include "ccd/contact/time_bracket.hpp"
+#include "ccd/contact/vertex_edge_time.hpp"
+#include "ccd/exact/interior_contact.hpp"
+
+namespace ccd::detail {
+
+template <int Words, template <class, int> class Forms>
+class interior_time : interior_contact<Words, Forms> {
+    using base = interior_contact<Words, Forms>;
+    using typename base::part;
+    using typename base::sign_type;
+
+  public:
+    /// y = forms.y(). No vertex/edge contact is earlier than `end`.
+    constexpr interior_time(const Forms<errbound::integers::fixed_integer<Words>, 1>& forms,
+                            const cubic_form<3 * Words>& y, const integer_units& units,
+                            const time_bracket& end)
+        : base(forms, y, units), search_(y), first_(end) {}
+
+    /// The first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`.
+    constexpr found_time find() {
+        if (y_[0] == 0) consider(time_bracket{0, 0}, [this] { return at_end(0); });
+        if (y_[3] == 0) consider(time_bracket{1, 1}, [this] { return at_end(1); });
+        const inner_sign_changes roots(y_);
+        if (roots.count > 1) {
+            if (const auto root = this->multiple_root())
+                consider(bracket_of_linear_root(*root), [&] {
+                    return strict(forms_at(forms_, (*root)[1], -(*root)[0]));
+                });
+        }
+        if (roots.count > 0 && !this->triple_) in_parts(roots);
+        if (unplaced_) return outcome::uncertain;
+        return found_ == outcome::collides ? found_time(first_) : found_time(found_);
+    }
+
+  private:
+    using base::forms_, base::y_;
+
+    /// A root of Y, and whether there is contact: asked if it is earlier than what is known.
+    template <class Contact>
+    constexpr void consider(const std::optional<time_bracket>& root, const Contact& contact) {
+        if (root && !(*root < first_)) return;
+        const outcome answer = contact();
+        if (answer == outcome::separate) return;
+        if (!root) {
+            unplaced_ = true;
+            return;
+        }
+        first_ = *root;
+        found_ = answer;
+    }
+
+    template <class Values>
+    static constexpr outcome strict(const Values& forms_at_a_time) {
+        return base::all_positive(forms_at_a_time) ? outcome::collides : outcome::separate;
+    }
+    constexpr outcome at_end(int end) const { return strict(forms_at_end(forms_, end)); }
+
+    /// Parts wait as in interior_contact::by_halving, the earliest last.
+    constexpr void in_parts(const inner_sign_changes& roots) {
+        std::array<part, 3> waiting;
+        std::size_t count = 0;
+        waiting[count] = {{}, roots, 0, 0};
+        std::copy(y_.h.begin(), y_.h.end(), waiting[count++].y.h.begin());
+        while (count > 0) {
+            const part last = waiting[--count];
+            const double start = place(last.index, last.level);
+            if (!(start < first_.low) || root_of(last)) continue;
+            if (last.level == part::max_halvings) {
+                consider({}, [] { return outcome::uncertain; });
+                continue;
+            }
+            if (last.y[0] + last.y[1] + last.y[2] + last.y[3] == 0) {
+                const double middle = place(2 * last.index + 1, last.level + 1);
+                consider(time_bracket{middle, middle},
+                         [&] { return at(2 * last.index + 1, last.level + 1); });
+            }
+            const auto wait = [&](const cubic_form<3 * Words + 2>& y, std::int64_t index) {
+                const inner_sign_changes changes(y);
+                if (this->any_root(changes)) waiting[count++] = {y, changes, index, last.level + 1};
+            };
+            wait(reversed(left_half(reversed(last.y))), 2 * last.index + 1);
+            wait(left_half(last.y), 2 * last.index);
+        }
+    }
+    static constexpr double place(std::int64_t index, int level) {
+        return std::ldexp(static_cast<double>(index), -level);
+    }
+    constexpr outcome at(std::int64_t index, int level) const {
+        const auto end = errbound::integers::fixed_integer<1>::shifted(1, level);
+        const errbound::integers::fixed_integer<1> t(index);
+        return strict(forms_at(forms_, end - t, t));
+    }
+
+    /// Considers the part's root if it has one that can be told from others; false if not.
+    constexpr bool root_of(const part& whole) {
+        if (!whole.roots.opposite || (whole.roots.count > 1 && this->three_real_roots_))
+            return false;
+        const auto estimate = estimated_place(whole);
+        const auto root = search_.between(
+            place(whole.index, whole.level), place(whole.index + 1, whole.level),
+            whole.roots.first,
+            std::ldexp(static_cast<double>(estimate.numerator.low_word()), -estimate.bits));
+        if (root && root->low == root->high && is_multiple(root->low)) return false;
+        consider(root, [&] {
+            auto answer = this->near(whole, estimate);
+            if (!answer && root) answer = this->near(whole, place_of(root->low, estimate.bits));
+            return answer.value_or(outcome::uncertain);
+        });
+        return true;
+    }
+    static constexpr dyadic_point<1> place_of(double t, int bits) {
+        return {static_cast<std::int64_t>(std::ldexp(t, bits)), bits};
+    }
+    /// Whether a root of Y that is a double is its double root.
+    constexpr bool is_multiple(double root) const {
+        if (this->distinct_) return false;
+        const quadratic_form<3 * Words> slope{
+            {y_[1] - thrice(y_[0]), (y_[2] - y_[1]) << 1, thrice(y_[3]) - y_[2]}};
+        return root_search<3 * Words, 2>(slope).sign_at(root) == errbound::sign_type::zero;
+    }
+
+    const root_search<3 * Words, 3> search_;
+    time_bracket first_;                  ///< what is later is not asked
+    outcome found_ = outcome::separate;   ///< at `first_`
+    bool unplaced_ = false;               ///< of some root that matters, time or place is unknown
+};
+
+}  // namespace ccd::detail

@@ -1,0 +1,193 @@
+// The neighbouring doubles between which a root of a polynomial lies, by its exact signs at doubles.
+//
+// The polynomial has coefficients of fixed width and one sign change in a given interval. Where the
+// root is estimated to be decides how many signs are asked, never the answer: with a good estimate
+// two or three, else some dozens. Internal; the bracket of a root is the same whoever finds it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/bernstein.hpp>
+#include <errbound/integers/binary_double.hpp>
+#include <errbound/integers/fixed_integer.hpp>
+#include <optional>
+
+#include "ccd/exact/cubic_roots.hpp"
+
+namespace ccd::detail {
+
+/// A time: the double that it is if low == high, else the neighbouring doubles that it lies between.
+/// Of two different brackets the lesser, by low and then by high, has the earlier time.
+struct time_bracket {
+    double low = 0, high = 0;
+    friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
+};
+
+/// Doubles from 0 on, in their order.
+constexpr std::int64_t rank_of(double x) {
+    return std::bit_cast<std::int64_t>(x);
+}
+constexpr double of_rank(std::int64_t rank) {
+    return std::bit_cast<double>(rank);
+}
+
+/// x·2^exponent, but for a few units in the last place.
+template <int Words>
+constexpr double approximated(const errbound::integers::fixed_integer<Words>& x, int exponent) {
+    const int cut = std::max(0, x.bit_length() - 63);
+    return std::ldexp(static_cast<double>(x.template from_bit<1>(cut).low_word()), cut + exponent);
+}
+
+/// A polynomial of degree N on [0, 1] with coefficients h_i of `Words` words (errbound/bernstein.hpp),
+/// so small that Words words hold their sum's double.
+template <int Words, int N>
+class root_search {
+  public:
+    using form = errbound::bernstein<errbound::integers::fixed_integer<Words>, N>;
+
+    explicit constexpr root_search(const form& p) : p_(p) {
+        for (const auto& h : p.h) unit_ = std::max(unit_, h.bit_length());
+        for (int i = 0; i <= N; ++i) floating_[i] = approximated(p[i], -unit_);
+        slope_ = derivative(floating_);
+    }
+
+    /// Its coefficients in floating point, times one power of two.
+    constexpr const std::array<double, N + 1>& floating() const { return floating_.h; }
+
+    /// Its only root in the open interval from low to high, where it changes its sign, which is
+    /// `before` just above low; or another of its roots there that is a double itself. Nothing if
+    /// the root is so near to 0 that fixed widths cannot tell.
+    constexpr std::optional<time_bracket> between(double low, double high,
+                                                  errbound::sign_type before,
+                                                  double estimate) const {
+        if (!(estimate > low && estimate < high)) estimate = estimate_from_start(low, high);
+        std::int64_t a = rank_of(low), b = rank_of(high), x = rank_of(estimate), step = 1;
+        int corrections = 0;
+        while (b - a > 1) {
+            if (x <= a || x >= b) x = step == 1 ? std::clamp(x, a + 1, b - 1) : a + (b - a) / 2;
+            const double t = of_rank(x);
+            const auto value = value_at(t);
+            if (!value) return {};
+            if (value->sign == errbound::sign_type::zero) return time_bracket{t, t};
+            const bool earlier = value->sign == before;
+            (earlier ? a : b) = x;
+            // A Newton step, as long as it tells more than on which side the root is.
+            const double next = t - value->size / errbound::value_at(slope_, t);
+            if (corrections++ < max_corrections && next > of_rank(a) && next < of_rank(b)) {
+                x = rank_of(next);
+                continue;
+            }
+            x += earlier ? step : -step;
+            step *= 4;
+        }
+        return time_bracket{of_rank(a), of_rank(b)};
+    }
+
+    /// Its sign at a double in [0, 1]; nothing if fixed widths cannot tell.
+    constexpr std::optional<errbound::sign_type> sign_at(double t) const {
+        const auto value = value_at(t);
+        if (!value) return {};
+        return value->sign;
+    }
+
+  private:
+    static constexpr int max_corrections = 3;
+
+    struct value_type {
+        errbound::sign_type sign;
+        double size;  ///< near the value, in the unit of the floating-point coefficients
+    };
+
+    /// For roots near 0, where what was known of the place has no digit left; else the middle.
+    constexpr double estimate_from_start(double low, double high) const {
+        const double step = floating_[0] / -slope_[0];
+        return low == 0 && step > 0 && step < high ? step : low + (high - low) / 2;
+    }
+
+    constexpr std::optional<value_type> value_at(double t) const {
+        const errbound::integers::binary_double d(t);
+        if (d.magnitude == 0) return of_exact(p_[0], 0);
+        const int zeros = std::countr_zero(d.magnitude), bits = -(d.exponent + zeros);
+        if (bits <= 62) return value_in_words<1>(d.magnitude >> zeros, bits);
+        if (bits <= 126) return value_in_words<2>(d.magnitude >> zeros, bits);
+        return {};
+    }
+    /// At numerator/2^bits: s + t = 2^bits, so that the form's value, below 2^(N·bits) times its
+    /// coefficients' sum, fits.
+    template <int T>
+    constexpr value_type value_in_words(std::uint64_t numerator, int bits) const {
+        using number = errbound::integers::fixed_integer<T>;
+        const number t(static_cast<std::int64_t>(numerator));
+        return of_exact(errbound::value_at(p_, number::shifted(1, bits) - t, t), N * bits);
+    }
+    template <int W>
+    constexpr value_type of_exact(const errbound::integers::fixed_integer<W>& value,
+                                  int bits) const {
+        return {sign_of(value), approximated(value, -bits - unit_)};
+    }
+
+    const form& p_;
+    int unit_ = 0;
+    errbound::bernstein<double, N> floating_;
+    errbound::bernstein<double, N - 1> slope_;
+};
+
+/// The root of p0·s + p1·t, whose coefficients have opposite signs or one of which is zero, but not
+/// both.
+template <int Words>
+constexpr std::optional<time_bracket> bracket_of_linear_root(
+    const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>& p) {
+    if (p[0] == 0) return time_bracket{0, 0};
+    if (p[1] == 0) return time_bracket{1, 1};
+    const root_search<Words, 1> search(p);
+    const auto& [start, end] = search.floating();
+    return search.between(0, 1, sign_of(p[0]), start / (start - end));
+}
+
+/// Where the roots of a quadratic in (0, 1) are, which are simple: an only one, or the first or
+/// second of two. Its coefficients tell: the ends are not zero, their signs differ or the
+/// discriminant is positive and the middle coefficient has the other sign.
+enum class quadratic_root { only, first, second };
+
+/// Estimates of the roots t/(s + t) of f0 s² + f1 st + f2 t², the lesser first.
+constexpr std::array<double, 2> estimated_roots(const std::array<double, 3>& f) {
+    const double root = std::sqrt(std::max(0.0, f[1] * f[1] - 4 * f[0] * f[2]));
+    // x = t/s; q is the sum of two numbers of one sign.
+    const double q = -(f[1] + (f[1] < 0 ? -root : root)) / 2;
+    const auto place = [](double t, double s) { return t / (s + t); };
+    const double x = place(q, f[2]), y = place(f[0], q);
+    return {std::min(x, y), std::max(x, y)};
+}
+
+template <int Words>
+constexpr std::optional<time_bracket> bracket_of_quadratic_root(
+    const errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>& f,
+    quadratic_root which) {
+    const root_search<Words, 2> search(f);
+    const auto first = sign_of(f[0]);
+    const auto estimates = estimated_roots(search.floating());
+    if (which == quadratic_root::only) {
+        const double estimate = estimates[0] > 0 ? estimates[0] : estimates[1];
+        return search.between(0, 1, first, estimate);
+    }
+    // Between the two roots f is extreme, where its slope is zero.
+    const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1> slope{
+        {f[1] - (f[0] << 1), (f[2] << 1) - f[1]}};
+    const auto extreme = bracket_of_linear_root(slope);
+    if (!extreme) return {};
+    const bool earlier = which == quadratic_root::first;
+    const double beside = earlier ? extreme->low : extreme->high;
+    const auto sign = search.sign_at(beside);
+    if (!sign) return {};
+    if (*sign == errbound::sign_type::zero) return time_bracket{beside, beside};
+    if (*sign == first) return extreme;  // the root lies between this double and the extreme
+    return earlier ? search.between(0, beside, first, estimates[0])
+                   : search.between(beside, 1, -first, estimates[1]);
+}
+
+}  // namespace ccd::detail
