@@ -54,7 +54,8 @@ template <int Words, template <class> class Query>
 found_time root_in_words(const Query<double>& query, const integer_units& units,
                          const static_filter::contact_part& part) {
     const auto y = forms_of(units.converted<Words>(query)).y();
-    const auto before = part.y[0] > 0 ? errbound::sign_type::positive : errbound::sign_type::negative;
+    const auto before =
+        part.y[0] > 0 ? errbound::sign_type::positive : errbound::sign_type::negative;
     const double place = estimated_root({part.y[0], 3 * part.y[1], 3 * part.y[2], part.y[3]});
     return root_search(y).between(part.low, part.high, before,
                                   part.low + place * (part.high - part.low));

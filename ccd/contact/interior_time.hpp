@@ -40,9 +40,8 @@ class interior_time : interior_contact<Words, Forms> {
         const inner_sign_changes roots(y_);
         if (roots.count > 1) {
             if (const auto root = this->multiple_root())
-                consider(bracket_of_linear_root(*root), [&] {
-                    return strict(forms_at(forms_, (*root)[1], -(*root)[0]));
-                });
+                consider(bracket_of_linear_root(*root),
+                         [&] { return strict(forms_at(forms_, (*root)[1], -(*root)[0])); });
         }
         if (roots.count > 0 && !this->triple_) in_parts(roots);
         if (unplaced_) return outcome::uncertain;
@@ -114,8 +113,7 @@ class interior_time : interior_contact<Words, Forms> {
             return false;
         const auto estimate = estimated_place(whole);
         const auto root = search_.between(
-            place(whole.index, whole.level), place(whole.index + 1, whole.level),
-            whole.roots.first,
+            place(whole.index, whole.level), place(whole.index + 1, whole.level), whole.roots.first,
             std::ldexp(static_cast<double>(estimate.numerator.low_word()), -estimate.bits));
         if (root && root->low == root->high && is_multiple(root->low)) return false;
         consider(root, [&] {
@@ -137,9 +135,9 @@ class interior_time : interior_contact<Words, Forms> {
     }
 
     const root_search<3 * Words, 3> search_;
-    time_bracket first_;                  ///< what is later is not asked
-    outcome found_ = outcome::separate;   ///< at `first_`
-    bool unplaced_ = false;               ///< of some root that matters, time or place is unknown
+    time_bracket first_;                 ///< what is later is not asked
+    outcome found_ = outcome::separate;  ///< at `first_`
+    bool unplaced_ = false;              ///< of some root that matters, time or place is unknown
 };
 
 }  // namespace ccd::detail

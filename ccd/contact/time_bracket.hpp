@@ -1,4 +1,5 @@
-// The neighbouring doubles between which a root of a polynomial lies, by its exact signs at doubles.
+// The neighbouring doubles between which a root of a polynomial lies, by its exact signs at
+// doubles.
 //
 // The polynomial has coefficients of fixed width and one sign change in a given interval. Where the
 // root is estimated to be decides how many signs are asked, never the answer: with a good estimate
@@ -15,26 +16,19 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/fixed_integer.hpp>
+#include <errbound/roots/double_order.hpp>
 #include <optional>
 
 #include "ccd/exact/cubic_roots.hpp"
 
 namespace ccd::detail {
 
-/// A time: the double that it is if low == high, else the neighbouring doubles that it lies between.
-/// Of two different brackets the lesser, by low and then by high, has the earlier time.
+/// A time: the double that it is if low == high, else the neighbouring doubles that it lies
+/// between. Of two different brackets the lesser, by low and then by high, has the earlier time.
 struct time_bracket {
     double low = 0, high = 0;
     friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
 };
-
-/// Doubles from 0 on, in their order.
-constexpr std::int64_t rank_of(double x) {
-    return std::bit_cast<std::int64_t>(x);
-}
-constexpr double of_rank(std::int64_t rank) {
-    return std::bit_cast<double>(rank);
-}
 
 /// x·2^exponent, but for a few units in the last place.
 template <int Words>
@@ -43,8 +37,8 @@ constexpr double approximated(const errbound::integers::fixed_integer<Words>& x,
     return std::ldexp(static_cast<double>(x.template from_bit<1>(cut).low_word()), cut + exponent);
 }
 
-/// A polynomial of degree N on [0, 1] with coefficients h_i of `Words` words (errbound/bernstein.hpp),
-/// so small that Words words hold their sum's double.
+/// A polynomial of degree N on [0, 1] with coefficients h_i of `Words` words
+/// (errbound/bernstein.hpp), so small that Words words hold their sum's double.
 template <int Words, int N>
 class root_search {
   public:
@@ -65,12 +59,13 @@ class root_search {
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
                                                   double estimate) const {
+        using errbound::roots::double_of_order, errbound::roots::order_of;
         if (!(estimate > low && estimate < high)) estimate = estimate_from_start(low, high);
-        std::int64_t a = rank_of(low), b = rank_of(high), x = rank_of(estimate), step = 1;
+        std::int64_t a = order_of(low), b = order_of(high), x = order_of(estimate), step = 1;
         int corrections = 0;
         while (b - a > 1) {
             if (x <= a || x >= b) x = step == 1 ? std::clamp(x, a + 1, b - 1) : a + (b - a) / 2;
-            const double t = of_rank(x);
+            const double t = double_of_order(x);
             const auto value = value_at(t);
             if (!value) return {};
             if (value->sign == errbound::sign_type::zero) return time_bracket{t, t};
@@ -78,14 +73,15 @@ class root_search {
             (earlier ? a : b) = x;
             // A Newton step, as long as it tells more than on which side the root is.
             const double next = t - value->size / errbound::value_at(slope_, t);
-            if (corrections++ < max_corrections && next > of_rank(a) && next < of_rank(b)) {
-                x = rank_of(next);
+            if (corrections++ < max_corrections && next > double_of_order(a) &&
+                next < double_of_order(b)) {
+                x = order_of(next);
                 continue;
             }
             x += earlier ? step : -step;
             step *= 4;
         }
-        return time_bracket{of_rank(a), of_rank(b)};
+        return time_bracket{double_of_order(a), double_of_order(b)};
     }
 
     /// Its sign at a double in [0, 1]; nothing if fixed widths cannot tell.

@@ -1,8 +1,8 @@
 // The first contact of a vertex with an edge, and of two vertices, in integers of fixed width.
 //
 // The algebra and the widths are those of ccd/exact/vertex_edge_contact.hpp, which decides whether
-// there is one: it comes at t = 0, at a rational time, or at the root of a quadratic. Here the times
-// are told in their order.
+// there is one: it comes at t = 0, at a rational time, or at the root of a quadratic. Here the
+// times are told in their order.
 #pragma once
 
 #include <array>
@@ -65,8 +65,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
     };
     const auto first_root = two_roots ? quadratic_root::first : quadratic_root::only;
     const auto everywhere = sign_inside(l);
-    if (certain(everywhere))
-        return nonpositive(everywhere) ? root(first_root) : outcome::separate;
+    if (certain(everywhere)) return nonpositive(everywhere) ? root(first_root) : outcome::separate;
     // l changes its sign at t = |l0|, s = |l1|.
     const auto s = magnitude(l[1]), t = magnitude(l[0]);
     const auto there = sign_of(value_at(f, s, t));

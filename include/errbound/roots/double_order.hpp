@@ -10,13 +10,13 @@
 namespace errbound::roots {
 
 /// The number of x, which is not NaN: that of both zeros is 0.
-inline std::int64_t order_of(double x) {
+constexpr std::int64_t order_of(double x) {
     const auto size =
         static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffffU);
     return x < 0 ? -size : size;
 }
 /// The double of that number; its zero is positive.
-inline double double_of_order(std::int64_t number) {
+constexpr double double_of_order(std::int64_t number) {
     const double size =
         std::bit_cast<double>(static_cast<std::uint64_t>(number < 0 ? -number : number));
     return number < 0 ? -size : size;
