@@ -17,6 +17,7 @@
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/table.hpp"
 #include "tests/soak/comparison.hpp"
+#include "tests/soak/first_times.hpp"
 #include "tests/soak/long_run.hpp"
 #include "tests/soak/meshes.hpp"
 #include "tests/soak/polynomials.hpp"
@@ -197,19 +198,31 @@ struct choice {
 };
 
 void add_parts(CLI::App& app, choice& chosen) {
-    app.add_option("--queries", chosen.count,
-                   "At least so many, a resumed run's earlier ones included")
-        ->capture_default_str();
-    app.add_flag_callback(
-        "--symmetries",
-        [&chosen] { chosen.part = [] { return soak::symmetry_part(soak::symmetric_deciders()); }; },
-        "Without a reference: images of a query, by all ways of asking, have one answer");
+    CLI::Option* const queries =
+        app.add_option("--queries", chosen.count,
+                       "At least so many, a resumed run's earlier ones included")
+            ->capture_default_str();
+    CLI::Option_group& parts = *app.add_option_group("Instead");
+    parts.require_option(0, 1);
+    const auto of_queries = [&](const char* name, const char* what, soak::part (*part)()) {
+        parts.add_flag_callback(
+            name, [&chosen, part] { chosen.part = part; }, what);
+    };
     const auto counted = [&](const char* name, const char* what, soak::part (*part)()) {
         const auto choose = [&chosen, part](std::uint64_t count) { chosen = {count, part}; };
-        app.add_option_function<std::uint64_t>(name, choose, what)
+        parts.add_option_function<std::uint64_t>(name, choose, what)
             ->type_name("N")
-            ->excludes("--queries", "--symmetries");
+            ->excludes(queries);
     };
+    of_queries("--symmetries",
+               "Without a reference: images of a query, by all ways of asking, have one answer",
+               [] { return soak::symmetry_part(soak::symmetric_deciders()); });
+#ifdef ERRBOUND_HAS_ORACLE
+    of_queries("--times", "First times of contact, against an oracle",
+               [] { return soak::contact_time_part(soak::contact_deciders()); });
+    of_queries("--separation", "First times within distances, against an oracle",
+               [] { return soak::distance_time_part(soak::distance_deciders()); });
+#endif
     counted("--meshes", "Steps of so many small meshes, by the reference on every pair",
             [] { return soak::mesh_part(); });
 #ifdef ERRBOUND_HAS_FLINT

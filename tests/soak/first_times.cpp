@@ -1,0 +1,217 @@
+#include "tests/soak/first_times.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <ccd/exact.hpp>
+#include <ccd/reference.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <string_view>
+
+#include "tests/soak/comparison.hpp"
+#include "tests/support/distance_families.hpp"
+#include "tests/support/first_time_faults.hpp"
+
+namespace soak {
+namespace {
+
+using ccd::first_time;
+using ccd::outcome;
+using ccd::separation;
+using query_families::families;
+using query_families::kind;
+using query_families::source;
+
+constexpr std::uint64_t queries_per_block = 8;  // of a family and kind
+
+bool is_double(const first_time& t) {
+    return t.outcome == outcome::collides && t.low == t.high;
+}
+
+std::string text_of(const first_time& t) {
+    if (t.outcome != outcome::collides) return std::string(ccd::name(t.outcome));
+    char text[80];
+    std::snprintf(text, sizeof text, "[%a, %a]", t.low, t.high);
+    return text;
+}
+std::string text_of(separation d, double t_max) {
+    char text[120];
+    std::snprintf(text, sizeof text, "distance %a + %a, t_max %a", d.first, d.second, t_max);
+    return text;
+}
+
+/// Ends of time to ask about: near the first time, or any.
+double some_end(source& random, const first_time& right) {
+    switch (random.between(0, 7)) {
+        case 0:
+            return right.low;
+        case 1:
+            return right.high;
+        case 2:
+            return std::nextafter(right.low, -1);
+        case 3:
+            return std::nextafter(right.high, 2);
+        case 4:
+            return right.high * random.unit();
+        case 5:
+            return 2 * random.symmetric();
+        default:
+            return random.unit();
+    }
+}
+
+/// The first time in [0, t_max], from that in [0, 1].
+first_time until(const first_time& right, double t_max) {
+    return right.outcome == outcome::collides && right.high <= t_max
+               ? right
+               : first_time{.outcome = outcome::separate};
+}
+
+struct question {
+    std::string name;  ///< of the query: kind, family, index
+    separation d = {};
+    bool of_distance = false;
+};
+
+void count(count_table& table, std::string_view row, const first_time& right) {
+    auto& counts = table[row];
+    ++counts[0];
+    counts[1] += right.outcome == outcome::collides;
+    counts[2] += right.at_start();
+    counts[3] += is_double(right) && !right.at_start();
+}
+
+/// Asks all deciders, and the oracle about the first of them, whose answer it returns.
+template <class Query>
+first_time ask(const std::vector<time_decider>& deciders, const Query& query,
+               const query_families::points& at, source& random, const question& asked,
+               findings& out) {
+    constexpr kind K = ccd::kind_of<Query>;
+    const auto differ = [&](const time_decider& by, double t_max, const std::string& what) {
+        ++out.table("decider")[by.name][1];
+        out.differ({asked.name + ", " + text_of(asked.d, t_max) + ": " + by.name + " says " + what +
+                    "\n" + query_families::csv(at)});
+    };
+    const first_time right = deciders[0].when.template of<K>()(query, asked.d, 1);
+    const std::string fault = asked.of_distance ? support::fault_of(query, asked.d, right)
+                                                : support::fault_of(query, right);
+    if (!fault.empty()) differ(deciders[0], 1, text_of(right) + ", but " + fault);
+
+    const double t_max = some_end(random, right);
+    for (const time_decider& by : deciders) {
+        auto& counts = out.table("decider")[by.name];
+        if (by.whether.template of<K>()) {
+            ++counts[0];
+            const outcome said = by.whether.template of<K>()(query, asked.d);
+            if (said != right.outcome) differ(by, 1, std::string(ccd::name(said)));
+            continue;
+        }
+        for (const double end : {1.0, t_max}) {
+            ++counts[0];
+            if (&by == &deciders[0] && end == 1) continue;  // said already
+            const first_time said = by.when.template of<K>()(query, asked.d, end);
+            const first_time expected = until(right, end);
+            if (said != expected) differ(by, end, text_of(said) + ", not " + text_of(expected));
+        }
+    }
+    return right;
+}
+
+template <kind K>
+void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_decider>& deciders,
+             bool of_distance, findings& out) {
+    for (const family_query& q : block_queries(seed, block, queries_per_block, K)) {
+        source random = query_families::source_of(
+            q.family->name, {static_cast<std::uint64_t>(K), seed, q.index, /*of times*/ 8});
+        question asked{.name = std::string(short_name(K)) + " " + std::string(q.family->name) +
+                               " " + std::to_string(q.index),
+                       .of_distance = of_distance};
+        const auto& distance = distance_families::draw(random);
+        if (of_distance) asked.d = distance.make(random, K, q.at);
+        const first_time right = ask(
+            deciders,
+            query_families::as_query<typename ccd::kind_traits<K>::template query<double>>(q.at),
+            q.at, random, asked, out);
+        count(out.table("family"), row_name(*q.family), right);
+        count(out.table("kind"), short_name(K), right);
+        if (of_distance) count(out.table("distance"), distance.name, right);
+        out.stir(static_cast<std::uint64_t>(right.outcome));
+        out.stir(std::bit_cast<std::uint64_t>(right.low));
+        out.stir(std::bit_cast<std::uint64_t>(right.high));
+    }
+}
+
+/// Tables with all their rows, whatever a block has of them.
+findings empty_findings(const std::vector<time_decider>& deciders, bool of_distance) {
+    const std::vector<std::string> columns{"queries", "with a time", "at the start",
+                                           "at another double"};
+    findings out{.blocks = 1, .tables = {{"family", columns}, {"kind", columns}}};
+    for (const auto& f : families) out.table("family")[row_name(f)];
+    ccd::for_each_kind([&]<kind K>() { out.table("kind")[short_name(K)]; });
+    if (of_distance) {
+        out.tables.push_back({"distance", columns});
+        for (const auto& f : distance_families::families) out.table("distance")[f.name];
+    }
+    out.tables.push_back({"decider", {"answers", "differences"}});
+    for (const time_decider& d : deciders) out.table("decider")[d.name];
+    return out;
+}
+
+part part_of(std::string name, std::vector<time_decider> deciders, bool of_distance) {
+    part all{.name = std::move(name), .unit = "queries", .version = family_names()};
+    all.count = [](std::uint64_t blocks) {
+        std::uint64_t count = 0;
+        for (const auto& f : families) count += 4 * family_end(f, blocks, queries_per_block);
+        return count;
+    };
+    all.compare_block = [deciders = std::move(deciders), of_distance](std::uint64_t seed,
+                                                                      std::uint64_t block) {
+        findings out = empty_findings(deciders, of_distance);
+        ccd::for_each_kind([&]<kind K>() { compare<K>(seed, block, deciders, of_distance, out); });
+        return out;
+    };
+    return all;
+}
+
+}  // namespace
+
+std::vector<time_decider> contact_deciders() {
+    return {by_time("time_of_impact", [](const auto& q, separation,
+                                         double t_max) { return ccd::time_of_impact(q, t_max); }),
+            by_time("its reference",
+                    [](const auto& q, separation, double t_max) {
+                        return ccd::time_of_impact_reference(q, t_max);
+                    }),
+            by_outcome("decide_exact",
+                       [](const auto& q, separation) { return ccd::decide_exact(q).outcome; })};
+}
+
+std::vector<time_decider> distance_deciders() {
+    return {
+        by_time("time_within", [](const auto& q, separation d,
+                                  double t_max) { return ccd::time_within(q, d, t_max); }),
+        by_time("its reference",
+                [](const auto& q, separation d, double t_max) {
+                    return ccd::time_within_reference(q, d, t_max);
+                }),
+        by_outcome(
+            "decide_within",
+            [](const auto& q, separation d) {
+                return ccd::decide_within(q, {d.second, d.first}).outcome;  // a sum has no order
+            }),
+        by_outcome("its reference's", [](const auto& q, separation d) {
+            return ccd::decide_within_reference(q, d).outcome;
+        })};
+}
+
+part contact_time_part(std::vector<time_decider> deciders) {
+    return part_of("times", std::move(deciders), false);
+}
+
+part distance_time_part(std::vector<time_decider> deciders) {
+    return part_of("separation", std::move(deciders), true);
+}
+
+}  // namespace soak

@@ -1,0 +1,113 @@
+// The soak of first times: it sees a time that is a last place off or lost, a distance that was
+// rounded, and nearest points left out.
+#include "tests/soak/first_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using ccd::first_time;
+using ccd::outcome;
+using ccd::separation;
+
+const soak::time_decider contacts = soak::contact_deciders().front();
+const soak::time_decider distances = soak::distance_deciders().front();
+
+/// `right` after `change(query, first_time)`.
+template <class Change>
+soak::time_decider changed(std::string name, const soak::time_decider& right,
+                           const Change& change) {
+    soak::time_decider all{.name = std::move(name)};
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        all.when.of<K>() = [when = right.when.of<K>(), change](const auto& query, separation d,
+                                                               double t_max) {
+            return change(query, when(query, d, t_max));
+        };
+    });
+    return all;
+}
+
+first_time a_double_later(first_time t) {
+    t.low = t.high;
+    t.high = std::nextafter(t.high, 2);
+    return t;
+}
+
+/// Differences of a decider by itself, against the oracle, and as the second of two.
+void expect_found_out(soak::part (*part)(std::vector<soak::time_decider>),
+                      const soak::time_decider& right, const soak::time_decider& wrong,
+                      std::string_view fault) {
+    const auto found = part({wrong}).compare_block(1, 0);
+    EXPECT_GT(found.different, 0u);
+    EXPECT_TRUE(std::ranges::any_of(found.differences, [&](const soak::difference& d) {
+        return d.text.find(fault) != std::string::npos && d.text.find("0x1") != std::string::npos;
+    })) << found.differences.at(0).text;
+    EXPECT_GT(part({right, wrong}).compare_block(1, 0).different, 0u);
+}
+
+TEST(times, right_ones_do_not_differ) {
+    const soak::part part = soak::contact_time_part(soak::contact_deciders());
+    const soak::findings found = part.compare_block(2, 0);
+    EXPECT_EQ(found.different, 0u) << found.differences.at(0).text;
+    std::uint64_t queries = 0;
+    for (const auto& row : found.table("kind").rows) {
+        queries += row.counts.at(0);
+        EXPECT_GT(row.counts.at(1), row.counts.at(2) + row.counts.at(3)) << row.name;
+        EXPECT_GT(row.counts.at(2), 0u) << row.name;
+        EXPECT_GT(row.counts.at(3), 0u) << row.name;
+    }
+    EXPECT_EQ(queries, part.count(1));
+}
+
+TEST(times, late_by_a_double) {
+    const auto late = changed("late", contacts, [](const auto&, first_time t) {
+        return t.outcome == outcome::collides ? a_double_later(t) : t;
+    });
+    expect_found_out(soak::contact_time_part, contacts, late, "it holds at low or before");
+}
+
+TEST(times, lost_where_edges_touch_at_a_double) {
+    const auto lost = changed("forgetful", contacts, []<class Query>(const Query&, first_time t) {
+        return t.low == t.high && ccd::kind_of<Query> == ccd::kind::edge_edge
+                   ? first_time{.outcome = outcome::separate}
+                   : t;
+    });
+    expect_found_out(soak::contact_time_part, contacts, lost, "there is one");
+}
+
+TEST(distances, right_ones_do_not_differ) {
+    const soak::findings found =
+        soak::distance_time_part(soak::distance_deciders()).compare_block(2, 0);
+    EXPECT_EQ(found.different, 0u) << found.differences.at(0).text;
+    for (const auto& row : found.table("distance").rows)
+        EXPECT_GT(row.counts.at(0), 0u) << row.name;
+}
+
+TEST(distances, rounded_sum) {
+    const auto rounded = soak::by_time("rounded", [](const auto& q, separation d, double t_max) {
+        const double sum = d.first + d.second;
+        return std::isfinite(sum) ? ccd::time_within(q, {sum, 0}, t_max)
+                                  : ccd::time_within(q, d, t_max);
+    });
+    expect_found_out(soak::distance_time_part, distances, rounded, "it");
+}
+
+TEST(distances, of_one_end_instead_of_the_edge) {
+    const auto of_end =
+        soak::by_time("end", []<class Query>(const Query& q, separation d, double t_max) {
+            if constexpr (ccd::kind_of<Query> == ccd::kind::vertex_edge)
+                return ccd::time_within(ccd::vertex_vertex<double>{q.v, q.e0}, d, t_max);
+            else
+                return ccd::time_within(q, d, t_max);
+        });
+    expect_found_out(soak::distance_time_part, distances, of_end, "it");
+}
+
+}  // namespace
