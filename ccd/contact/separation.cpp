@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 
+#include "ccd/contact/separation_filter.hpp"
 #include "ccd/exact/finite.hpp"
 
 namespace ccd {
@@ -49,6 +50,8 @@ verdict decide_distance(const Query& query, separation d) {
     if (!is_distance(d) || !detail::is_finite(query)) return {outcome::uncertain, cause::range};
     if (d.first == 0 && d.second == 0) return decide_exact(query);
     if (separated_by_coordinates(query, d)) return {outcome::separate, cause::none};
+    const outcome answer = detail::separation_filter::features(query, d).decide();
+    if (answer != outcome::uncertain) return {answer, cause::none};
     return decide_within_reference(query, d);
 }
 
