@@ -138,6 +138,7 @@ condition distance_condition_inside(const Forms& forms, const time_polynomial& s
 }
 
 /// Distance² <= D, all axes in one unit.
+/// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union.
 template <kind K>
 std::vector<condition> distance_conditions(const paths<K>& q, const time_polynomial& squared) {
     if constexpr (K == kind::vertex_vertex) {
