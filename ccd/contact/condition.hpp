@@ -7,8 +7,8 @@
 //  * If its `vanishing` are not all identically zero, t* is a root of their common factor.
 //  * If they are, t* is a root of some `nonnegative`: what is not zero at t* is not zero near it,
 //    so just before t*, where the condition does not hold, some `nonnegative` was negative.
-//  * With `also_below` it holds where Z, its only `vanishing`, is <= 0. Where this first holds, Z is
-//    0: the distance is continuous in t, and the condition says that it is <= d (contact.md's
+//  * With `also_below` it holds where Z, its only `vanishing`, is <= 0. Where this first holds, Z
+//    is 0: the distance is continuous in t, and the condition says that it is <= d (contact.md's
 //    table, section 2); Z < 0 is distance < d, which began earlier. Proof: proofs/Separation.v,
 //    vertices_first_within, vertex_edge_first_within, face_first_within, edges_first_within.
 // A condition without `vanishing` is one that another condition covers where it begins to hold
