@@ -2,18 +2,34 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <errbound/roots/polynomial_stages.hpp>
 #include <errbound/roots/real_roots.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace ccd::detail {
 namespace {
 
 using errbound::sign_type;
 using roots_in_time = errbound::real_roots<integer>;
+using staged_polynomial = errbound::roots::staged_polynomial<integer>;
+using staged_condition = condition<staged_polynomial>;
+
+std::vector<staged_condition> staged(const exact_conditions& conditions) {
+    const auto all = [](const std::vector<time_polynomial>& polynomials) {
+        std::vector<staged_polynomial> r;
+        for (const auto& p : polynomials) r.emplace_back(p.coefficients());
+        return r;
+    };
+    std::vector<staged_condition> r;
+    for (const auto& c : conditions)
+        r.push_back({all(c.vanishing), all(c.nonnegative), all(c.not_all_zero), c.also_below});
+    return r;
+}
 
 template <class SignThere>
-bool sides_hold(condition& c, const SignThere& sign_there) {
+bool sides_hold(staged_condition& c, const SignThere& sign_there) {
     for (auto& p : c.nonnegative)
         if (sign_there(p) == sign_type::negative) return false;
     const auto is_zero = [&](auto& p) { return sign_there(p) == sign_type::zero; };
@@ -22,7 +38,7 @@ bool sides_hold(condition& c, const SignThere& sign_there) {
 }
 
 template <class SignThere>
-bool holds(condition& c, const SignThere& sign_there) {
+bool holds(staged_condition& c, const SignThere& sign_there) {
     const auto is_met = [&](auto& p) {
         const sign_type s = sign_there(p);
         return s == sign_type::zero || (c.also_below && s == sign_type::negative);
@@ -30,14 +46,14 @@ bool holds(condition& c, const SignThere& sign_there) {
     return std::all_of(c.vanishing.begin(), c.vanishing.end(), is_met) && sides_hold(c, sign_there);
 }
 
-bool holds_at_start(condition& c) {
+bool holds_at_start(staged_condition& c) {
     return holds(c, [](staged_polynomial& p) {
         return p.is_zero() ? sign_type::zero : errbound::sign_of(p.exact().front());
     });
 }
 
 /// The polynomials among whose roots the condition's first time is, if it is not 0.
-std::vector<staged_polynomial> candidates(condition& c) {
+std::vector<staged_polynomial> candidates(staged_condition& c) {
     if (c.vanishing.empty()) return {};
     const auto is_zero = [](const staged_polynomial& p) { return p.is_zero(); };
     if (std::all_of(c.vanishing.begin(), c.vanishing.end(), is_zero)) return c.nonnegative;
@@ -56,12 +72,13 @@ constexpr first_time never{outcome::separate, 0, 0};
 
 }  // namespace
 
-first_time first_time_of(std::vector<condition> conditions, double t_max) {
-    for (condition& c : conditions)
+first_time first_time_of(const exact_conditions& conditions, double t_max) {
+    std::vector<staged_condition> all = staged(conditions);
+    for (staged_condition& c : all)
         if (holds_at_start(c)) return {outcome::collides, 0, 0};
     first_time first = never;
     double end = std::min(t_max, 1.0);
-    for (condition& c : conditions) {
+    for (staged_condition& c : all) {
         for (staged_polynomial& p : candidates(c)) {
             if (p.is_zero()) continue;
             roots_in_time roots(std::move(p), 0, end);
@@ -80,14 +97,13 @@ first_time first_time_of(std::vector<condition> conditions, double t_max) {
     return first;
 }
 
-first_time first_time_at_roots(const staged_polynomial& y,
-                               const std::function<std::vector<condition>()>& conditions,
-                               double t_max) {
-    roots_in_time roots(y, 0, std::min(t_max, 1.0));
+first_time first_time_at_roots(const time_polynomial& y,
+                               const std::function<exact_conditions()>& conditions, double t_max) {
+    roots_in_time roots(staged_polynomial(y.coefficients()), 0, std::min(t_max, 1.0));
     if (roots.size() == 0) return never;
-    std::vector<condition> all = conditions();
+    std::vector<staged_condition> all = staged(conditions());
     for (std::size_t k = 0; k < roots.size(); ++k)
-        for (condition& c : all)
+        for (staged_condition& c : all)
             if (holds(c, [&](auto& p) { return roots.sign_at(p, k); })) return at_root(roots, k);
     return never;
 }

@@ -16,31 +16,34 @@
 #pragma once
 
 #include <ccd/contact.hpp>
-#include <errbound/roots/polynomial_stages.hpp>
+#include <ccd/methods/forms.hpp>
 #include <functional>
 #include <vector>
 
-#include "ccd/exact/unbounded_integers.hpp"
+#include "ccd/contact/time_polynomial.hpp"
 
 namespace ccd::detail {
 
-using staged_polynomial = errbound::roots::staged_polynomial<integer>;
+/// A point, or a difference of points, in motion: coordinates in a ring R of polynomials in t.
+template <class R>
+using path = vector_form<R, 0>;
 
 /// Holds where all of `vanishing` are 0, none of `nonnegative` is negative, and not all of
 /// `not_all_zero` are 0, if there are any.
+template <class R>
 struct condition {
-    std::vector<staged_polynomial> vanishing, nonnegative, not_all_zero;
+    std::vector<R> vanishing, nonnegative, not_all_zero;
     /// It also holds where its only vanishing one is negative.
     bool also_below = false;
 };
+using exact_conditions = std::vector<condition<time_polynomial>>;
 
 /// The first time in [0, min(t_max, 1)]; t_max >= 0.
-first_time first_time_of(std::vector<condition> conditions, double t_max);
+first_time first_time_of(const exact_conditions& conditions, double t_max);
 
 /// The same where all conditions hold at roots of y alone, which is not identically zero. They are
 /// made if there are such roots.
-first_time first_time_at_roots(const staged_polynomial& y,
-                               const std::function<std::vector<condition>()>& conditions,
-                               double t_max);
+first_time first_time_at_roots(const time_polynomial& y,
+                               const std::function<exact_conditions()>& conditions, double t_max);
 
 }  // namespace ccd::detail

@@ -1,6 +1,6 @@
 // The conditions of contact and of distance, for each kind of query: those of the head of
 // ccd/exact/reference.cpp, and for distance Z <= 0 between features of each dimension, where the
-// nearest points are inside both. Internal.
+// nearest points are inside both. Over any ring R of polynomials in t. Internal.
 //
 // The least distance of two features is attained inside both, or on an edge, or at a vertex; where
 // N = 0, or an edge has no length, in a lower dimension. So the union is complete; and each
@@ -8,143 +8,166 @@
 #pragma once
 
 #include <array>
+#include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/methods/forms.hpp>
 #include <cstddef>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "ccd/contact/condition.hpp"
-#include "ccd/contact/time_polynomial.hpp"
 
 namespace ccd::detail {
 
 /// The moving points of a query.
-template <kind K>
+template <kind K, class R>
 struct paths;
-template <>
-struct paths<kind::vertex_face> {
-    path v, f0, f1, f2;
+template <class R>
+struct paths<kind::vertex_face, R> {
+    path<R> v, f0, f1, f2;
 };
-template <>
-struct paths<kind::edge_edge> {
-    path a0, a1, b0, b1;
+template <class R>
+struct paths<kind::edge_edge, R> {
+    path<R> a0, a1, b0, b1;
 };
-template <>
-struct paths<kind::vertex_edge> {
-    path v, e0, e1;
+template <class R>
+struct paths<kind::vertex_edge, R> {
+    path<R> v, e0, e1;
 };
-template <>
-struct paths<kind::vertex_vertex> {
-    path v, w;
+template <class R>
+struct paths<kind::vertex_vertex, R> {
+    path<R> v, w;
 };
 
-inline staged_polynomial staged(const errbound::bernstein<time_polynomial, 0>& p) {
-    return staged_polynomial(p[0].coefficients());
+/// `path_of` applied to each of the query's points, in the order of points_of.
+template <kind K, class R, class PathOf>
+paths<K, R> paths_of(std::span<const curve> points, const PathOf& path_of) {
+    constexpr std::size_t count = kind_traits<K>::first_vertices + kind_traits<K>::second_vertices;
+    if constexpr (count == 4)
+        return {path_of(points[0]), path_of(points[1]), path_of(points[2]), path_of(points[3])};
+    else if constexpr (count == 3)
+        return {path_of(points[0]), path_of(points[1]), path_of(points[2])};
+    else
+        return {path_of(points[0]), path_of(points[1])};
 }
-inline std::vector<staged_polynomial> staged(const path& p) {
-    return {staged(p.x), staged(p.y), staged(p.z)};
+
+template <class R>
+using vertex_face_paths = paths<kind::vertex_face, R>;
+template <class R>
+using edge_edge_paths = paths<kind::edge_edge, R>;
+template <class R>
+using vertex_edge_paths = paths<kind::vertex_edge, R>;
+template <class R>
+using vertex_vertex_paths = paths<kind::vertex_vertex, R>;
+
+template <class R>
+path<R> operator-(const path<R>& p, const path<R>& q) {
+    return {p.x - q.x, p.y - q.y, p.z - q.z};
 }
-template <std::size_t N>
-std::vector<staged_polynomial> staged(
-    const std::array<errbound::bernstein<time_polynomial, 0>, N>& all) {
-    std::vector<staged_polynomial> r;
-    for (const auto& p : all) r.push_back(staged(p));
+
+template <class R>
+std::vector<R> list(const errbound::bernstein<R, 0>& p) {
+    return {p[0]};
+}
+template <class R>
+std::vector<R> list(const path<R>& p) {
+    return {p.x[0], p.y[0], p.z[0]};
+}
+template <class R, std::size_t N>
+std::vector<R> list(const std::array<errbound::bernstein<R, 0>, N>& all) {
+    std::vector<R> r;
+    for (const auto& p : all) r.push_back(p[0]);
     return r;
 }
 
-inline auto forms_of(const paths<kind::vertex_face>& q) {
-    const auto& [v, f0, f1, f2] = q;
-    return vertex_face_forms<time_polynomial, 0>(f1 - f0, f2 - f0, v - f0);
+template <class R>
+auto forms_of(const vertex_face_paths<R>& q) {
+    return vertex_face_forms<R, 0>(q.f1 - q.f0, q.f2 - q.f0, q.v - q.f0);
 }
-inline auto forms_of(const paths<kind::edge_edge>& q) {
-    const auto& [a0, a1, b0, b1] = q;
-    return edge_edge_forms<time_polynomial, 0>(a1 - a0, b1 - b0, b0 - a0);
+template <class R>
+auto forms_of(const edge_edge_paths<R>& q) {
+    return edge_edge_forms<R, 0>(q.a1 - q.a0, q.b1 - q.b0, q.b0 - q.a0);
 }
 
-/// The vertex/edge pairs at the border of both features, the first of each the vertex.
-inline std::array<paths<kind::vertex_edge>, 3> edges_of(const paths<kind::vertex_face>& q) {
-    const auto& [v, f0, f1, f2] = q;
-    return {{{v, f0, f1}, {v, f1, f2}, {v, f2, f0}}};
+/// The vertex/edge pairs at the border of both features.
+template <class R>
+std::array<vertex_edge_paths<R>, 3> edges_of(const vertex_face_paths<R>& q) {
+    return {{{q.v, q.f0, q.f1}, {q.v, q.f1, q.f2}, {q.v, q.f2, q.f0}}};
 }
-inline std::array<paths<kind::vertex_edge>, 4> edges_of(const paths<kind::edge_edge>& q) {
-    const auto& [a0, a1, b0, b1] = q;
-    return {{{a0, b0, b1}, {a1, b0, b1}, {b0, a0, a1}, {b1, a0, a1}}};
+template <class R>
+std::array<vertex_edge_paths<R>, 4> edges_of(const edge_edge_paths<R>& q) {
+    return {{{q.a0, q.b0, q.b1}, {q.a1, q.b0, q.b1}, {q.b0, q.a0, q.a1}, {q.b1, q.a0, q.a1}}};
 }
 /// The vertex/vertex pairs.
-inline std::array<paths<kind::vertex_vertex>, 3> corners_of(const paths<kind::vertex_face>& q) {
-    const auto& [v, f0, f1, f2] = q;
-    return {{{v, f0}, {v, f1}, {v, f2}}};
+template <class R>
+std::array<vertex_vertex_paths<R>, 3> corners_of(const vertex_face_paths<R>& q) {
+    return {{{q.v, q.f0}, {q.v, q.f1}, {q.v, q.f2}}};
 }
-inline std::array<paths<kind::vertex_vertex>, 4> corners_of(const paths<kind::edge_edge>& q) {
-    const auto& [a0, a1, b0, b1] = q;
-    return {{{a0, b0}, {a0, b1}, {a1, b0}, {a1, b1}}};
+template <class R>
+std::array<vertex_vertex_paths<R>, 4> corners_of(const edge_edge_paths<R>& q) {
+    return {{{q.a0, q.b0}, {q.a0, q.b1}, {q.a1, q.b0}, {q.a1, q.b1}}};
 }
-inline std::array<paths<kind::vertex_vertex>, 2> corners_of(const paths<kind::vertex_edge>& q) {
-    const auto& [v, e0, e1] = q;
-    return {{{v, e0}, {v, e1}}};
+template <class R>
+std::array<vertex_vertex_paths<R>, 2> corners_of(const vertex_edge_paths<R>& q) {
+    return {{{q.v, q.e0}, {q.v, q.e1}}};
 }
 
 /// W = 0.
-inline condition contact_condition(const paths<kind::vertex_vertex>& q) {
-    return {staged(q.v - q.w), {}, {}};
+template <class R>
+condition<R> contact_condition(const vertex_vertex_paths<R>& q) {
+    return {list(q.v - q.w), {}, {}};
 }
 /// W × E = 0 and W·(E − W) >= 0: of an edge without length it asks W = 0.
-inline condition contact_condition(const paths<kind::vertex_edge>& q) {
-    const auto& [v, e0, e1] = q;
-    const path w = v - e0;
-    return {staged(cross(w, e1 - e0)), {staged(dot(w, e1 - v))}, {}};
+template <class R>
+condition<R> contact_condition(const vertex_edge_paths<R>& q) {
+    const path<R> w = q.v - q.e0;
+    return {list(cross(w, q.e1 - q.e0)), list(dot(w, q.e1 - q.v)), {}};
 }
 
 /// Of VF and EE at times at which Y = 0.
-template <kind K>
-std::vector<condition> contact_conditions(const paths<K>& q) {
+template <kind K, class R>
+std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     if constexpr (K == kind::vertex_vertex || K == kind::vertex_edge) {
         return {contact_condition(q)};
     } else {
         const auto forms = forms_of(q);
-        std::vector<condition> all{{{}, staged(forms.inside()), staged(forms.n)}};
+        std::vector<condition<R>> all{{{}, list(forms.inside()), list(forms.n)}};
         for (const auto& edge : edges_of(q)) all.push_back(contact_condition(edge));
         return all;
     }
 }
 
 /// |W|² − D
-inline condition distance_condition(const paths<kind::vertex_vertex>& q,
-                                    const time_polynomial& squared) {
-    const path w = q.v - q.w;
-    return {{staged(dot(w, w) - errbound::bernstein<time_polynomial, 0>{{squared}})}, {}, {}, true};
+template <class R>
+condition<R> distance_condition(const vertex_vertex_paths<R>& q, const R& squared) {
+    const path<R> w = q.v - q.w;
+    return {{dot(w, w)[0] - squared}, {}, {}, true};
 }
 /// |E × W|² − D E·E, on an edge that has a length, with the nearest point between its ends.
-inline condition distance_condition(const paths<kind::vertex_edge>& q,
-                                    const time_polynomial& squared) {
-    const auto& [v, e0, e1] = q;
-    const path w = v - e0, e = e1 - e0, moment = cross(e, w);
-    const errbound::bernstein<time_polynomial, 0> d{{squared}};
-    return {{staged(dot(moment, moment) - d * dot(e, e))},
-            {staged(dot(w, e)), staged(dot(e1 - v, e))},
-            staged(e),
+template <class R>
+condition<R> distance_condition(const vertex_edge_paths<R>& q, const R& squared) {
+    const path<R> w = q.v - q.e0, e = q.e1 - q.e0, moment = cross(e, w);
+    return {{dot(moment, moment)[0] - squared * dot(e, e)[0]},
+            {dot(w, e)[0], dot(q.e1 - q.v, e)[0]},
+            list(e),
             true};
 }
 /// (N·P)² − D N·N, where the plane or the pair of lines is one, and the nearest points inside.
-template <class Forms>
-condition distance_condition_inside(const Forms& forms, const time_polynomial& squared) {
-    const errbound::bernstein<time_polynomial, 0> d{{squared}};
-    const auto y = forms.y();
-    return {{staged(y * y - d * forms.normal_squared())},
-            staged(forms.inside()),
-            staged(forms.n),
-            true};
+template <class Forms, class R>
+condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
+    const R y = forms.y()[0];
+    return {
+        {y * y - squared * forms.normal_squared()[0]}, list(forms.inside()), list(forms.n), true};
 }
 
 /// Distance² <= D, all axes in one unit.
 /// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union.
-template <kind K>
-std::vector<condition> distance_conditions(const paths<K>& q, const time_polynomial& squared) {
+template <kind K, class R>
+std::vector<condition<R>> distance_conditions(const paths<K, R>& q, const R& squared) {
     if constexpr (K == kind::vertex_vertex) {
         return {distance_condition(q, squared)};
     } else {
-        std::vector<condition> all;
+        std::vector<condition<R>> all;
         for (const auto& corner : corners_of(q)) all.push_back(distance_condition(corner, squared));
         if constexpr (K == kind::vertex_edge) {
             all.push_back(distance_condition(q, squared));

@@ -2,51 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <type_traits>
+#include <errbound/integers/binary_double.hpp>
 
 #include "ccd/contact/condition.hpp"
 #include "ccd/contact/feature_conditions.hpp"
+#include "ccd/contact/time_polynomial.hpp"
 
 namespace ccd::detail {
 namespace {
 
 template <kind K>
-paths<K> paths_of(std::span<const control_polygon> points, const axis_exponents& unit) {
-    const auto at = [&](std::size_t i) { return path_of(points[i], unit); };
-    constexpr std::size_t count = kind_traits<K>::first_vertices + kind_traits<K>::second_vertices;
-    if constexpr (count == 4)
-        return {at(0), at(1), at(2), at(3)};
-    else if constexpr (count == 3)
-        return {at(0), at(1), at(2)};
-    else
-        return {at(0), at(1)};
-}
-
-bool are_finite(std::span<const control_polygon> points) {
-    return std::all_of(points.begin(), points.end(), [](const control_polygon& p) {
-        return std::all_of(p.begin(), p.end(), [](const point<double>& x) {
-            return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
-        });
+paths<K, time_polynomial> in_units(std::span<const curve> points, const axis_exponents& unit) {
+    return paths_of<K, time_polynomial>(points, [&](const curve& p) -> path<time_polynomial> {
+        return {{{coordinate_in_time(p, &point<double>::x, unit.x)}},
+                {{coordinate_in_time(p, &point<double>::y, unit.y)}},
+                {{coordinate_in_time(p, &point<double>::z, unit.z)}}};
     });
 }
 
-/// The answer that needs no algebra, if there is one.
-bool is_answered(std::span<const control_polygon> points, double t_max, first_time& answer) {
-    if (!are_finite(points) || !std::isfinite(t_max)) return true;
-    if (t_max < 0) answer.outcome = outcome::separate;
-    return t_max < 0;
-}
-
-}  // namespace
-
+/// Each axis has a unit of its own: contact does not depend on them.
 template <kind K>
-first_time first_contact_of(std::span<const control_polygon> points, double t_max) {
-    first_time answer;
-    if (is_answered(points, t_max, answer)) return answer;
-    const auto q = paths_of<K>(points, whole_exponents(points));
+first_time first_contact(std::span<const curve> points, double t_max) {
+    const auto q = in_units<K>(points, whole_exponents(points));
     if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
-        const staged_polynomial y = staged(forms_of(q).y());
+        const time_polynomial y = forms_of(q).y()[0];
         if (!y.is_zero())
             return first_time_at_roots(
                 y, [&] { return contact_conditions<K>(q); }, t_max);
@@ -54,34 +33,47 @@ first_time first_contact_of(std::span<const control_polygon> points, double t_ma
     return first_time_of(contact_conditions<K>(q), t_max);
 }
 
+/// One unit for all axes and for d.
 template <kind K>
-first_time first_within_of(std::span<const control_polygon> points, separation d, double t_max) {
-    first_time answer;
-    if (!std::isfinite(d.first) || !std::isfinite(d.second) || d.first < 0 || d.second < 0)
-        return answer;
-    if (d.first == 0 && d.second == 0) return first_contact_of<K>(points, t_max);
-    if (is_answered(points, t_max, answer)) return answer;
-    // One unit for all axes and for d: distance is not what it is if they differ.
+first_time first_at_distance(std::span<const curve> points, separation d, double t_max) {
     const axis_exponents own = whole_exponents(points);
     const auto last_bit = [](double x) { return errbound::integers::binary_double(x).last_bit(); };
     const int unit = std::min({own.x, own.y, own.z, last_bit(d.first), last_bit(d.second)});
     const integer distance = whole(d.first, unit) + whole(d.second, unit);
+    const auto q = in_units<K>(points, {unit, unit, unit});
     const time_polynomial squared({integer(distance * distance)});
-    return first_time_of(distance_conditions<K>(paths_of<K>(points, {unit, unit, unit}), squared),
-                         t_max);
+    return first_time_of(distance_conditions<K>(q, squared), t_max);
 }
 
-template first_time first_contact_of<kind::vertex_face>(std::span<const control_polygon>, double);
-template first_time first_contact_of<kind::edge_edge>(std::span<const control_polygon>, double);
-template first_time first_contact_of<kind::vertex_edge>(std::span<const control_polygon>, double);
-template first_time first_contact_of<kind::vertex_vertex>(std::span<const control_polygon>, double);
-template first_time first_within_of<kind::vertex_face>(std::span<const control_polygon>, separation,
-                                                       double);
-template first_time first_within_of<kind::edge_edge>(std::span<const control_polygon>, separation,
-                                                     double);
-template first_time first_within_of<kind::vertex_edge>(std::span<const control_polygon>, separation,
-                                                       double);
-template first_time first_within_of<kind::vertex_vertex>(std::span<const control_polygon>,
-                                                         separation, double);
+}  // namespace
+
+bool is_distance(separation d) {
+    return std::isfinite(d.first) && std::isfinite(d.second) && d.first >= 0 && d.second >= 0;
+}
+
+bool is_question(std::span<const curve> points, separation d, double t_max) {
+    const auto is_finite = [](const point<double>& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    };
+    const auto is_curve = [&](const curve& p) {
+        return !p.empty() && std::all_of(p.begin(), p.end(), is_finite);
+    };
+    return is_distance(d) && std::isfinite(t_max) &&
+           std::all_of(points.begin(), points.end(), is_curve);
+}
+
+template <kind K>
+first_time first_within_of(std::span<const curve> points, separation d, double t_max) {
+    if (!is_question(points, d, t_max)) return {};
+    if (t_max < 0) return {outcome::separate, 0, 0};
+    return d.first == 0 && d.second == 0 ? first_contact<K>(points, t_max)
+                                         : first_at_distance<K>(points, d, t_max);
+}
+
+template first_time first_within_of<kind::vertex_face>(std::span<const curve>, separation, double);
+template first_time first_within_of<kind::edge_edge>(std::span<const curve>, separation, double);
+template first_time first_within_of<kind::vertex_edge>(std::span<const curve>, separation, double);
+template first_time first_within_of<kind::vertex_vertex>(std::span<const curve>, separation,
+                                                         double);
 
 }  // namespace ccd::detail

@@ -6,21 +6,23 @@
 #pragma once
 
 #include <ccd/contact.hpp>
+#include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/separation.hpp>
 #include <span>
 
-#include "ccd/contact/time_polynomial.hpp"
-
 namespace ccd::detail {
 
-/// When the features of a query of this kind first touch, in [0, t_max]: what ccd/contact.hpp
-/// promises. `points` are those of points_of, in its order, each of one control point or more.
-template <kind K>
-first_time first_contact_of(std::span<const control_polygon> points, double t_max);
+/// Whether d is a distance: finite and not negative.
+bool is_distance(separation d);
+/// Whether the question has an answer: all is finite, every curve has a control point, and d is a
+/// distance.
+bool is_question(std::span<const curve> points, separation d, double t_max);
 
-/// When they first come within d: what ccd/separation.hpp promises.
+/// When the features of a query of this kind first come within d, in [0, t_max]; of d = 0, when
+/// they first touch: what ccd/separation.hpp promises. `points` are those of points_of, in its
+/// order.
 template <kind K>
-first_time first_within_of(std::span<const control_polygon> points, separation d, double t_max);
+first_time first_within_of(std::span<const curve> points, separation d, double t_max);
 
 }  // namespace ccd::detail

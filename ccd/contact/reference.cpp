@@ -1,6 +1,7 @@
 // First times in unbounded integers: see include/ccd/reference.hpp for what they promise.
-#include <algorithm>
 #include <array>
+#include <ccd/curves.hpp>
+#include <ccd/kind.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/reference.hpp>
 #include <cstddef>
@@ -10,34 +11,29 @@
 namespace ccd {
 namespace {
 
-/// The query's points as control polygons of two points.
+/// The query's points as curves of degree 1.
 template <class Query>
-struct control_polygons {
+struct query_curves {
     static constexpr kind query_kind = detail::kind_constant<Query>::value;
     static constexpr std::size_t count =
         kind_traits<query_kind>::first_vertices + kind_traits<query_kind>::second_vertices;
     std::array<std::array<point<double>, 2>, count> ends;
-    std::array<detail::control_polygon, count> all;
+    std::array<curve, count> all;
 
-    explicit control_polygons(const Query& query) {
+    explicit query_curves(const Query& query) {
         const auto points = points_of(query);
         for (std::size_t i = 0; i < count; ++i) {
             ends[i] = {points[i].t0, points[i].t1};
             all[i] = ends[i];
         }
     }
-    control_polygons(const control_polygons&) = delete;
-    control_polygons& operator=(const control_polygons&) = delete;
+    query_curves(const query_curves&) = delete;
+    query_curves& operator=(const query_curves&) = delete;
 };
 
 template <class Query>
-first_time first_contact(const Query& query, double t_max) {
-    const control_polygons<Query> points(query);
-    return detail::first_contact_of<points.query_kind>(points.all, t_max);
-}
-template <class Query>
 first_time first_within(const Query& query, separation d, double t_max) {
-    const control_polygons<Query> points(query);
+    const query_curves<Query> points(query);
     return detail::first_within_of<points.query_kind>(points.all, d, t_max);
 }
 template <class Query>
@@ -50,16 +46,16 @@ verdict decide_distance(const Query& query, separation d) {
 }  // namespace
 
 first_time time_of_impact_reference(const vertex_face<double>& q, double t_max) {
-    return first_contact(q, t_max);
+    return first_within(q, {}, t_max);
 }
 first_time time_of_impact_reference(const edge_edge<double>& q, double t_max) {
-    return first_contact(q, t_max);
+    return first_within(q, {}, t_max);
 }
 first_time time_of_impact_reference(const vertex_edge<double>& q, double t_max) {
-    return first_contact(q, t_max);
+    return first_within(q, {}, t_max);
 }
 first_time time_of_impact_reference(const vertex_vertex<double>& q, double t_max) {
-    return first_contact(q, t_max);
+    return first_within(q, {}, t_max);
 }
 
 verdict decide_within_reference(const vertex_face<double>& q, separation d) {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 
+#include "ccd/contact/first_times.hpp"
 #include "ccd/contact/separation_filter.hpp"
 #include "ccd/exact/finite.hpp"
 
@@ -42,13 +43,10 @@ bool separated_by_coordinates(const Query& query, separation d) {
     return false;
 }
 
-bool is_distance(separation d) {
-    return std::isfinite(d.first) && std::isfinite(d.second) && d.first >= 0 && d.second >= 0;
-}
-
 template <class Query>
 verdict decide_distance(const Query& query, separation d) {
-    if (!is_distance(d) || !detail::is_finite(query)) return {outcome::uncertain, cause::range};
+    if (!detail::is_distance(d) || !detail::is_finite(query))
+        return {outcome::uncertain, cause::range};
     if (d.first == 0 && d.second == 0) return decide_exact(query);
     if (separated_by_coordinates(query, d)) return {outcome::separate, cause::none};
     const outcome answer = detail::separation_filter::features(query, d).decide();
@@ -58,7 +56,7 @@ verdict decide_distance(const Query& query, separation d) {
 
 template <class Query>
 first_time first_within(const Query& query, separation d, double t_max) {
-    if (!is_distance(d) || !detail::is_finite(query) || !std::isfinite(t_max)) return {};
+    if (!detail::is_distance(d) || !detail::is_finite(query) || !std::isfinite(t_max)) return {};
     if (d.first == 0 && d.second == 0) return time_of_impact(query, t_max);
     if (separated_by_coordinates(query, d)) return {outcome::separate, 0, 0};
     return time_within_reference(query, d, t_max);

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <ccd/methods/forms.hpp>
+#include <ccd/curves.hpp>
 #include <ccd/query.hpp>
 #include <cstddef>
 #include <errbound/integers/binary_double.hpp>
@@ -29,6 +28,7 @@ class time_polynomial {
         errbound::roots::trim(c_);
     }
 
+    bool is_zero() const { return c_.empty(); }
     const form& coefficients() const { return c_; }
 
     friend time_polynomial operator+(const time_polynomial& p, const time_polynomial& q) {
@@ -58,31 +58,20 @@ class time_polynomial {
     form c_;
 };
 
-/// A point, or a difference of points, in motion.
-using path = vector_form<time_polynomial, 0>;
-
-inline path operator-(const path& p, const path& q) {
-    return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-
-/// A point's motion as control points in Bernstein form of degree size() − 1; two for motion along
-/// a line at constant speed.
-using control_polygon = std::span<const point<double>>;
-
 /// Exponents of the powers of two in which the axes' coordinates are whole numbers.
 struct axis_exponents {
     int x, y, z;
 };
 
 /// The greatest such exponent of one axis, or any where all coordinates are zero.
-inline int whole_exponent(std::span<const control_polygon> points, double point<double>::*axis) {
+inline int whole_exponent(std::span<const curve> points, double point<double>::*axis) {
     int last = std::numeric_limits<int>::max();
-    for (const control_polygon& p : points)
+    for (const curve& p : points)
         for (const point<double>& position : p)
             last = std::min(last, errbound::integers::binary_double(position.*axis).last_bit());
     return last;
 }
-inline axis_exponents whole_exponents(std::span<const control_polygon> points) {
+inline axis_exponents whole_exponents(std::span<const curve> points) {
     return {whole_exponent(points, &point<double>::x), whole_exponent(points, &point<double>::y),
             whole_exponent(points, &point<double>::z)};
 }
@@ -93,8 +82,8 @@ inline integer whole(double x, int exponent) {
 }
 
 /// The coefficient of t^j is C(m, j) times the j-th forward difference of the m + 1 control values.
-inline time_polynomial coordinate_in_time(const control_polygon& points,
-                                          double point<double>::*axis, int exponent) {
+inline time_polynomial coordinate_in_time(const curve& points, double point<double>::*axis,
+                                          int exponent) {
     time_polynomial::form values;
     for (const point<double>& p : points) values.push_back(whole(p.*axis, exponent));
     const std::size_t degree = points.size() - 1;
@@ -106,12 +95,6 @@ inline time_polynomial coordinate_in_time(const control_polygon& points,
         binomial = binomial * integer(degree - j) / integer(j + 1);
     }
     return time_polynomial(std::move(coefficients));
-}
-
-inline path path_of(const control_polygon& points, const axis_exponents& unit) {
-    return {{{coordinate_in_time(points, &point<double>::x, unit.x)}},
-            {{coordinate_in_time(points, &point<double>::y, unit.y)}},
-            {{coordinate_in_time(points, &point<double>::z, unit.z)}}};
 }
 
 }  // namespace ccd::detail

@@ -3,6 +3,7 @@
 
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
+#include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/kind.hpp>

@@ -85,18 +85,20 @@ struct planar_contact {
     }
 };
 
-// What decides at once: no time at all, or boxes that swept features stay in and that are disjoint.
-// Comparing doubles is exact.
+// What decides at once: no time at all, or boxes of control points, which swept features stay in,
+// and that are disjoint. Comparing doubles is exact.
 template <std::size_t count>
-bool separate_at_once(const std::array<moving, count>& points, std::size_t first, shortcuts use,
+bool separate_at_once(const std::array<ccd::curve, count>& points, std::size_t first, shortcuts use,
                       const interval& when) {
     if (is_empty(when)) return true;
     if (use == shortcuts::off) return false;
     const auto range = [&](std::size_t from, std::size_t to, double ccd::point<double>::*axis) {
-        double low = points[from].t0.*axis, high = low;
+        double low = points[from].front().*axis, high = low;
         for (std::size_t i = from; i < to; ++i) {
-            low = std::min({low, points[i].t0.*axis, points[i].t1.*axis});
-            high = std::max({high, points[i].t0.*axis, points[i].t1.*axis});
+            for (const ccd::point<double>& c : points[i]) {
+                low = std::min(low, c.*axis);
+                high = std::max(high, c.*axis);
+            }
         }
         return std::pair{low, high};
     };
@@ -110,13 +112,13 @@ bool separate_at_once(const std::array<moving, count>& points, std::size_t first
 // Every axis gets a unit of its own: stretching an axis moves no point into or out of a segment or
 // a triangle.
 template <std::size_t count>
-std::array<vector, count> place(const std::array<moving, count>& points) {
+std::array<vector, count> place(const std::array<ccd::curve, count>& points) {
     return in_units(points, {unit_of(points, 0), unit_of(points, 1), unit_of(points, 2)});
 }
 
 }  // namespace
 
-bool collides(const ccd::vertex_face<double>& query, shortcuts use, const interval& when) {
+bool collides(const ccd::vertex_face_curves& query, shortcuts use, const interval& when) {
     const std::array points{query.v, query.f0, query.f1, query.f2};
     if (separate_at_once(points, 1, use, when)) return false;
     const auto [v, f0, f1, f2] = place(points);
@@ -133,7 +135,7 @@ bool collides(const ccd::vertex_face<double>& query, shortcuts use, const interv
         .holds(stretch_of(when));
 }
 
-bool collides(const ccd::edge_edge<double>& query, shortcuts use, const interval& when) {
+bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval& when) {
     const std::array points{query.a0, query.a1, query.b0, query.b1};
     if (separate_at_once(points, 2, use, when)) return false;
     const auto [a0, a1, b0, b1] = place(points);
@@ -152,7 +154,7 @@ bool collides(const ccd::edge_edge<double>& query, shortcuts use, const interval
         .holds(stretch_of(when));
 }
 
-bool collides(const ccd::vertex_edge<double>& query, shortcuts use, const interval& when) {
+bool collides(const ccd::vertex_edge_curves& query, shortcuts use, const interval& when) {
     const std::array points{query.v, query.e0, query.e1};
     if (separate_at_once(points, 1, use, when)) return false;
     const auto [v, e0, e1] = place(points);
@@ -160,7 +162,7 @@ bool collides(const ccd::vertex_edge<double>& query, shortcuts use, const interv
     return contact_somewhere(stretch_of(when), touches.line, {&touches.between, 1}, touches);
 }
 
-bool collides(const ccd::vertex_vertex<double>& query, shortcuts use, const interval& when) {
+bool collides(const ccd::vertex_vertex_curves& query, shortcuts use, const interval& when) {
     const std::array points{query.v, query.w};
     if (separate_at_once(points, 1, use, when)) return false;
     const auto [v, w] = place(points);
@@ -168,6 +170,30 @@ bool collides(const ccd::vertex_vertex<double>& query, shortcuts use, const inte
     return contact_somewhere(stretch_of(when), gap, {}, [&](const instant& t) {
         return std::ranges::all_of(gap, [&](const polynomial& p) { return t.sign(p) == 0; });
     });
+}
+
+bool collides(const ccd::vertex_face<double>& query, shortcuts use, const interval& when) {
+    const lines motion(std::array{query.v, query.f0, query.f1, query.f2});
+    const auto [v, f0, f1, f2] = motion.curves();
+    return collides(ccd::vertex_face_curves{v, f0, f1, f2}, use, when);
+}
+
+bool collides(const ccd::edge_edge<double>& query, shortcuts use, const interval& when) {
+    const lines motion(std::array{query.a0, query.a1, query.b0, query.b1});
+    const auto [a0, a1, b0, b1] = motion.curves();
+    return collides(ccd::edge_edge_curves{a0, a1, b0, b1}, use, when);
+}
+
+bool collides(const ccd::vertex_edge<double>& query, shortcuts use, const interval& when) {
+    const lines motion(std::array{query.v, query.e0, query.e1});
+    const auto [v, e0, e1] = motion.curves();
+    return collides(ccd::vertex_edge_curves{v, e0, e1}, use, when);
+}
+
+bool collides(const ccd::vertex_vertex<double>& query, shortcuts use, const interval& when) {
+    const lines motion(std::array{query.v, query.w});
+    const auto [v, w] = motion.curves();
+    return collides(ccd::vertex_vertex_curves{v, w}, use, when);
 }
 
 }  // namespace oracle

@@ -2,6 +2,7 @@
 // but the query types. Tests hold the library against it.
 #pragma once
 
+#include <ccd/curves.hpp>
 #include <ccd/query.hpp>
 
 namespace oracle {
@@ -38,6 +39,24 @@ bool within(const ccd::edge_edge<double>& query, double d1, double d2,
 bool within(const ccd::vertex_edge<double>& query, double d1, double d2,
             shortcuts use = shortcuts::on, const interval& when = {});
 bool within(const ccd::vertex_vertex<double>& query, double d1, double d2,
+            shortcuts use = shortcuts::on, const interval& when = {});
+
+/// The same of motion along curves, with one control point or more each.
+bool collides(const ccd::vertex_face_curves& query, shortcuts use = shortcuts::on,
+              const interval& when = {});
+bool collides(const ccd::edge_edge_curves& query, shortcuts use = shortcuts::on,
+              const interval& when = {});
+bool collides(const ccd::vertex_edge_curves& query, shortcuts use = shortcuts::on,
+              const interval& when = {});
+bool collides(const ccd::vertex_vertex_curves& query, shortcuts use = shortcuts::on,
+              const interval& when = {});
+bool within(const ccd::vertex_face_curves& query, double d1, double d2,
+            shortcuts use = shortcuts::on, const interval& when = {});
+bool within(const ccd::edge_edge_curves& query, double d1, double d2, shortcuts use = shortcuts::on,
+            const interval& when = {});
+bool within(const ccd::vertex_edge_curves& query, double d1, double d2,
+            shortcuts use = shortcuts::on, const interval& when = {});
+bool within(const ccd::vertex_vertex_curves& query, double d1, double d2,
             shortcuts use = shortcuts::on, const interval& when = {});
 
 }  // namespace oracle

@@ -109,7 +109,7 @@ class hull {
 };
 
 // On an axis all corners are farther from the origin than that, on one side of it, at both ends of
-// the step.
+// the step, and so throughout if they move along lines.
 template <std::size_t count>
 bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& distance) {
     const auto all_above = [&](std::size_t axis, int side) {
@@ -119,7 +119,7 @@ bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& 
                 at += coefficient;  // the position at the start, then at the end
                 return side * at > distance;
             };
-            return !c[axis].empty() && std::ranges::all_of(c[axis], above);
+            return !c[axis].empty() && c[axis].size() <= 2 && std::ranges::all_of(c[axis], above);
         });
     };
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -129,7 +129,7 @@ bool beyond_on_an_axis(const std::array<vector, count>& corners, const integer& 
 
 // `differences(points)`: the hull's corners.
 template <std::size_t count, class Differences>
-bool decide_within(const std::array<moving, count>& points, double d1, double d2, shortcuts use,
+bool decide_within(const std::array<ccd::curve, count>& points, double d1, double d2, shortcuts use,
                    const interval& when, const Differences& differences) {
     if (is_empty(when)) return false;
     const int unit = std::min({unit_of(points, 0), unit_of(points, 1), unit_of(points, 2),
@@ -144,7 +144,7 @@ bool decide_within(const std::array<moving, count>& points, double d1, double d2
 
 }  // namespace
 
-bool within(const ccd::vertex_face<double>& query, double d1, double d2, shortcuts use,
+bool within(const ccd::vertex_face_curves& query, double d1, double d2, shortcuts use,
             const interval& when) {
     return decide_within(std::array{query.v, query.f0, query.f1, query.f2}, d1, d2, use, when,
                          [](const auto& p) {
@@ -152,7 +152,7 @@ bool within(const ccd::vertex_face<double>& query, double d1, double d2, shortcu
                          });
 }
 
-bool within(const ccd::edge_edge<double>& query, double d1, double d2, shortcuts use,
+bool within(const ccd::edge_edge_curves& query, double d1, double d2, shortcuts use,
             const interval& when) {
     return decide_within(
         std::array{query.a0, query.a1, query.b0, query.b1}, d1, d2, use, when, [](const auto& p) {
@@ -160,7 +160,7 @@ bool within(const ccd::edge_edge<double>& query, double d1, double d2, shortcuts
         });
 }
 
-bool within(const ccd::vertex_edge<double>& query, double d1, double d2, shortcuts use,
+bool within(const ccd::vertex_edge_curves& query, double d1, double d2, shortcuts use,
             const interval& when) {
     return decide_within(std::array{query.v, query.e0, query.e1}, d1, d2, use, when,
                          [](const auto& p) {
@@ -168,10 +168,38 @@ bool within(const ccd::vertex_edge<double>& query, double d1, double d2, shortcu
                          });
 }
 
-bool within(const ccd::vertex_vertex<double>& query, double d1, double d2, shortcuts use,
+bool within(const ccd::vertex_vertex_curves& query, double d1, double d2, shortcuts use,
             const interval& when) {
     return decide_within(std::array{query.v, query.w}, d1, d2, use, when,
                          [](const auto& p) { return std::array<vector, 1>{p[1] - p[0]}; });
+}
+
+bool within(const ccd::vertex_face<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    const lines motion(std::array{query.v, query.f0, query.f1, query.f2});
+    const auto [v, f0, f1, f2] = motion.curves();
+    return within(ccd::vertex_face_curves{v, f0, f1, f2}, d1, d2, use, when);
+}
+
+bool within(const ccd::edge_edge<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    const lines motion(std::array{query.a0, query.a1, query.b0, query.b1});
+    const auto [a0, a1, b0, b1] = motion.curves();
+    return within(ccd::edge_edge_curves{a0, a1, b0, b1}, d1, d2, use, when);
+}
+
+bool within(const ccd::vertex_edge<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    const lines motion(std::array{query.v, query.e0, query.e1});
+    const auto [v, e0, e1] = motion.curves();
+    return within(ccd::vertex_edge_curves{v, e0, e1}, d1, d2, use, when);
+}
+
+bool within(const ccd::vertex_vertex<double>& query, double d1, double d2, shortcuts use,
+            const interval& when) {
+    const lines motion(std::array{query.v, query.w});
+    const auto [v, w] = motion.curves();
+    return within(ccd::vertex_vertex_curves{v, w}, d1, d2, use, when);
 }
 
 }  // namespace oracle

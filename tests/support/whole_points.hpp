@@ -3,41 +3,78 @@
 
 #include <algorithm>
 #include <array>
+#include <ccd/curves.hpp>
 #include <ccd/query.hpp>
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "tests/support/instants.hpp"
 #include "tests/support/oracle.hpp"
 
 namespace oracle::detail {
 
-using moving = ccd::moving_point<double>;
-
 inline constexpr std::array axes{&ccd::point<double>::x, &ccd::point<double>::y,
                                  &ccd::point<double>::z};
 
-/// The largest exponent of which all the points' coordinates on an axis are whole multiples.
-inline int unit_of(std::span<const moving> points, std::size_t axis) {
+/// Linear motion as curves, which are not kept longer than this.
+template <std::size_t count>
+class lines {
+  public:
+    explicit lines(const std::array<ccd::moving_point<double>, count>& points) {
+        for (std::size_t i = 0; i < count; ++i) {
+            ends_[i] = {points[i].t0, points[i].t1};
+            curves_[i] = ends_[i];
+        }
+    }
+    lines(const lines&) = delete;
+    lines& operator=(const lines&) = delete;
+    const std::array<ccd::curve, count>& curves() const { return curves_; }
+
+  private:
+    std::array<std::array<ccd::point<double>, 2>, count> ends_;
+    std::array<ccd::curve, count> curves_;
+};
+
+/// The largest exponent of which all the control points' coordinates on an axis are whole
+/// multiples.
+inline int unit_of(std::span<const ccd::curve> points, std::size_t axis) {
     int unit = std::numeric_limits<int>::max();
-    for (const moving& m : points)
-        unit =
-            std::min({unit, scaled(m.t0.*axes[axis]).exponent, scaled(m.t1.*axes[axis]).exponent});
+    for (const ccd::curve& control : points)
+        for (const ccd::point<double>& c : control)
+            unit = std::min(unit, scaled(c.*axes[axis]).exponent);
     return unit;
+}
+
+/// p(t) from its control values, by de Casteljau's rule with t left as it is.
+inline polynomial from_control_values(const std::vector<integer>& values) {
+    std::vector<polynomial> p;
+    for (const integer& value : values) {
+        p.push_back({value});
+        trim(p.back());
+    }
+    for (; p.size() > 1; p.pop_back()) {
+        for (std::size_t i = 0; i + 1 < p.size(); ++i) {
+            polynomial slope = p[i + 1] - p[i];
+            if (!slope.empty()) slope.insert(slope.begin(), integer(0));
+            p[i] = p[i] + slope;
+        }
+    }
+    return p[0];
 }
 
 /// The points, in units of 2^units[axis].
 template <std::size_t count>
-std::array<vector, count> in_units(const std::array<moving, count>& points,
+std::array<vector, count> in_units(const std::array<ccd::curve, count>& points,
                                    const std::array<int, 3>& units) {
     std::array<vector, count> out;
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const integer t0 = scaled(points[i].t0.*axes[axis]).in_units_of(units[axis]);
-            const integer t1 = scaled(points[i].t1.*axes[axis]).in_units_of(units[axis]);
-            out[i][axis] = {t0, t1 - t0};
-            trim(out[i][axis]);
+            std::vector<integer> values;
+            for (const ccd::point<double>& c : points[i])
+                values.push_back(scaled(c.*axes[axis]).in_units_of(units[axis]));
+            out[i][axis] = from_control_values(values);
         }
     }
     return out;

@@ -1,0 +1,104 @@
+#include "ccd/contact/curve_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <vector>
+
+#include "ccd/contact/control_polynomial.hpp"
+#include "ccd/contact/feature_conditions.hpp"
+
+namespace ccd::detail {
+namespace {
+
+using errbound::sign_type;
+using number = errbound::tracked<double>;
+using polynomial = control_polynomial<number>;
+
+/// Whether all control points of p are above all of q by more than `distance`. Rounding is
+/// monotone: a difference that exceeds a double when rounded does so itself.
+bool above(std::span<const curve> p, std::span<const curve> q, double point<double>::*axis,
+           double distance) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const curve& points : p)
+        for (const point<double>& x : points) low = std::min(low, x.*axis);
+    for (const curve& points : q)
+        for (const point<double>& x : points) high = std::max(high, x.*axis);
+    return low - high > distance;
+}
+
+template <kind K>
+bool boxes_are_separate(std::span<const curve> points, double distance) {
+    constexpr std::size_t first = kind_traits<K>::first_vertices;
+    const auto p = points.first(first), q = points.subspan(first);
+    for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z})
+        if (above(p, q, axis, distance) || above(q, p, axis, distance)) return true;
+    return false;
+}
+
+/// Distances from `origin`; scaled by binomials, which doubles hold up to this degree.
+constexpr std::size_t max_degree = 50;
+polynomial coordinate(const curve& points, double origin, double point<double>::*axis) {
+    const std::size_t degree = points.size() - 1;
+    std::vector<number> h;
+    double binomial = 1;
+    for (std::size_t i = 0; i <= degree; ++i) {
+        h.push_back((number(points[i].*axis) - number(origin)) * number(binomial));
+        binomial = binomial * static_cast<double>(degree - i) / static_cast<double>(i + 1);
+    }
+    return polynomial(std::move(h));
+}
+path<polynomial> path_of(const curve& points, const point<double>& origin) {
+    return {{{coordinate(points, origin.x, &point<double>::x)}},
+            {{coordinate(points, origin.y, &point<double>::y)}},
+            {{coordinate(points, origin.z, &point<double>::z)}}};
+}
+
+/// Whether the condition holds nowhere in [0, 1].
+bool is_excluded(const condition<polynomial>& c) {
+    const auto excludes = [&](const polynomial& p) {
+        const sign_type s = p.sign_throughout();
+        return s == sign_type::positive || (s == sign_type::negative && !c.also_below);
+    };
+    const auto is_negative = [](const polynomial& p) {
+        return p.sign_throughout() == sign_type::negative;
+    };
+    return std::any_of(c.nonnegative.begin(), c.nonnegative.end(), is_negative) ||
+           std::any_of(c.vanishing.begin(), c.vanishing.end(), excludes);
+}
+bool are_excluded(const std::vector<condition<polynomial>>& conditions) {
+    return std::all_of(conditions.begin(), conditions.end(), is_excluded);
+}
+
+}  // namespace
+
+template <kind K>
+bool certainly_separate(std::span<const curve> points, separation d) {
+    const bool contact = d.first == 0 && d.second == 0;
+    const double infinity = std::numeric_limits<double>::infinity();
+    if (boxes_are_separate<K>(points, contact ? 0 : std::nextafter(d.first + d.second, infinity)))
+        return true;
+    const auto is_high = [](const curve& p) { return p.size() - 1 > max_degree; };
+    if (std::any_of(points.begin(), points.end(), is_high)) return false;
+    const point<double> origin = points[0][0];
+    const auto q =
+        paths_of<K, polynomial>(points, [&](const curve& p) { return path_of(p, origin); });
+    if (!contact) {
+        const number distance = number(d.first) + number(d.second);
+        return are_excluded(distance_conditions<K>(q, polynomial({distance * distance})));
+    }
+    if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+        const sign_type s = forms_of(q).y()[0].sign_throughout();
+        if (s == sign_type::positive || s == sign_type::negative) return true;
+    }
+    return are_excluded(contact_conditions<K>(q));
+}
+
+template bool certainly_separate<kind::vertex_face>(std::span<const curve>, separation);
+template bool certainly_separate<kind::edge_edge>(std::span<const curve>, separation);
+template bool certainly_separate<kind::vertex_edge>(std::span<const curve>, separation);
+template bool certainly_separate<kind::vertex_vertex>(std::span<const curve>, separation);
+
+}  // namespace ccd::detail
