@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <string_view>
 
 #include "tests/soak/comparison.hpp"
@@ -42,6 +43,24 @@ std::string text_of(separation d, double t_max) {
     return text;
 }
 
+/// A query's motion from about its first time on, many times as fast: its first time is about 0,
+/// down to below the least double, or 0.
+query_families::points hastened(const query_families::points& at, double first, int exponent) {
+    const auto moved = [&](double t0, double t1, double& from, double& to) {
+        constexpr double largest = std::numeric_limits<double>::max();
+        from = std::lerp(t0, t1, first);
+        to = std::clamp(from + std::ldexp(t1 - t0, exponent), -largest, largest);
+    };
+    query_families::points out = at;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const auto& [t0, t1] = at[i];
+        moved(t0.x, t1.x, out[i].t0.x, out[i].t1.x);
+        moved(t0.y, t1.y, out[i].t0.y, out[i].t1.y);
+        moved(t0.z, t1.z, out[i].t0.z, out[i].t1.z);
+    }
+    return out;
+}
+
 /// Ends of time to ask about: near the first time, or any.
 double some_end(source& random, const first_time& right) {
     switch (random.between(0, 7)) {
@@ -71,6 +90,7 @@ first_time until(const first_time& right, double t_max) {
 
 struct question {
     std::string name;  ///< of the query: kind, family, index
+    query_families::points at;
     separation d = {};
     bool of_distance = false;
 };
@@ -81,20 +101,26 @@ void count(count_table& table, std::string_view row, const first_time& right) {
     counts[1] += right.outcome == outcome::collides;
     counts[2] += right.at_start();
     counts[3] += is_double(right) && !right.at_start();
+    counts[4] += right.high > 0 && right.high < 0x1p-60;
+    counts[5] += right.low == 0 && right.high > 0;
+}
+
+template <kind K>
+auto query_of(const query_families::points& at) {
+    return query_families::as_query<typename ccd::kind_traits<K>::template query<double>>(at);
 }
 
 /// Asks all deciders, and the oracle about the first of them, whose answer it returns.
-template <class Query>
-first_time ask(const std::vector<time_decider>& deciders, const Query& query,
-               const query_families::points& at, source& random, const question& asked,
+template <kind K>
+first_time ask(const std::vector<time_decider>& deciders, const question& asked, source& random,
                findings& out) {
-    constexpr kind K = ccd::kind_of<Query>;
+    const auto query = query_of<K>(asked.at);
     const auto differ = [&](const time_decider& by, double t_max, const std::string& what) {
         ++out.table("decider")[by.name][1];
         out.differ({asked.name + ", " + text_of(asked.d, t_max) + ": " + by.name + " says " + what +
-                    "\n" + query_families::csv(at)});
+                    "\n" + query_families::csv(asked.at)});
     };
-    const first_time right = deciders[0].when.template of<K>()(query, asked.d, 1);
+    const first_time right = deciders[0].when.of<K>()(query, asked.d, 1);
     const std::string fault = asked.of_distance ? support::fault_of(query, asked.d, right)
                                                 : support::fault_of(query, right);
     if (!fault.empty()) differ(deciders[0], 1, text_of(right) + ", but " + fault);
@@ -102,16 +128,16 @@ first_time ask(const std::vector<time_decider>& deciders, const Query& query,
     const double t_max = some_end(random, right);
     for (const time_decider& by : deciders) {
         auto& counts = out.table("decider")[by.name];
-        if (by.whether.template of<K>()) {
+        if (by.whether.of<K>()) {
             ++counts[0];
-            const outcome said = by.whether.template of<K>()(query, asked.d);
+            const outcome said = by.whether.of<K>()(query, asked.d);
             if (said != right.outcome) differ(by, 1, std::string(ccd::name(said)));
             continue;
         }
         for (const double end : {1.0, t_max}) {
             ++counts[0];
             if (&by == &deciders[0] && end == 1) continue;  // said already
-            const first_time said = by.when.template of<K>()(query, asked.d, end);
+            const first_time said = by.when.of<K>()(query, asked.d, end);
             const first_time expected = until(right, end);
             if (said != expected) differ(by, end, text_of(said) + ", not " + text_of(expected));
         }
@@ -127,13 +153,18 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
             q.family->name, {static_cast<std::uint64_t>(K), seed, q.index, /*of times*/ 8});
         question asked{.name = std::string(short_name(K)) + " " + std::string(q.family->name) +
                                " " + std::to_string(q.index),
+                       .at = q.at,
                        .of_distance = of_distance};
         const auto& distance = distance_families::draw(random);
         if (of_distance) asked.d = distance.make(random, K, q.at);
-        const first_time right = ask(
-            deciders,
-            query_families::as_query<typename ccd::kind_traits<K>::template query<double>>(q.at),
-            q.at, random, asked, out);
+        if (random.one_in(32)) {
+            const first_time t = deciders[0].when.of<K>()(query_of<K>(q.at), asked.d, 1);
+            const bool little = of_distance || !random.one_in(4);  // of much distances take long
+            asked.at =
+                hastened(q.at, t.low, little ? random.between(0, 100) : random.between(960, 1023));
+            asked.name += ", hastened";
+        }
+        const first_time right = ask<K>(deciders, asked, random, out);
         count(out.table("family"), row_name(*q.family), right);
         count(out.table("kind"), short_name(K), right);
         if (of_distance) count(out.table("distance"), distance.name, right);
@@ -145,8 +176,8 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
 
 /// Tables with all their rows, whatever a block has of them.
 findings empty_findings(const std::vector<time_decider>& deciders, bool of_distance) {
-    const std::vector<std::string> columns{"queries", "with a time", "at the start",
-                                           "at another double"};
+    const std::vector<std::string> columns{"queries",           "with a time", "at the start",
+                                           "at another double", "below 2^-60", "below 2^-1074"};
     findings out{.blocks = 1, .tables = {{"family", columns}, {"kind", columns}}};
     for (const auto& f : families) out.table("family")[row_name(f)];
     ccd::for_each_kind([&]<kind K>() { out.table("kind")[short_name(K)]; });
