@@ -1,5 +1,6 @@
-// Points on curves in time: a ball's centre on its way under gravity, of degree 2, against a face that
-// turns, of degree 3; then the same on a spline of two pieces, and what such queries cost.
+// Points on curves in time: a ball's centre on its way under gravity, of degree 2, against a face
+// of which one vertex bulges out, of degree 3; then the same on a spline of two pieces, and what
+// such queries cost.
 #include <array>
 #include <ccd/curves.hpp>
 #include <chrono>
@@ -12,7 +13,8 @@ namespace {
 
 using control_points = std::vector<ccd::point<double>>;
 
-/// Mean microseconds of first contacts between cubics all over the unit cube, and how many there are.
+/// Mean microseconds of first contacts between cubics all over the unit cube, and how many there
+/// are.
 void time_random_queries() {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> coordinate(0, 1);
@@ -50,8 +52,8 @@ int main() {
 
     // Pieces as a spline has them, with their knots: here the ball waits for a second.
     const control_points rest{ball.front()};
-    const std::vector<ccd::spline_piece<ccd::vertex_face_curves>> pieces{
-        {0, 1, {rest, f0, f1, f2}}, {1, 3, query}};
+    const std::vector<ccd::spline_piece<ccd::vertex_face_curves>> pieces{{0, 1, {rest, f0, f1, f2}},
+                                                                         {1, 3, query}};
     const ccd::spline_contact contact = ccd::time_of_impact_of_pieces(pieces);
     std::printf("on the spline: in piece %zu, at time %.6f\n", contact.piece, contact.low);
 

@@ -1,9 +1,11 @@
-// Whether two features come within a distance, in floating point: certain answers or none. Internal.
+// Whether two features come within a distance, in floating point: certain answers or none.
+// Internal.
 //
-// On ever smaller parts of the step: the direction between the points that are nearest at its middle
-// is an axis. What it separates by more than d at both ends of a part, it separates throughout; the
-// two points themselves, if they are certainly nearer than d, are an answer, too. Where the points
-// are has no part in what is certain. Proof that ends are enough: proofs/Decisions.v, face_separated.
+// On ever smaller parts of the step: the direction between the points that are nearest at its
+// middle is an axis. What it separates by more than d at both ends of a part, it separates
+// throughout; the two points themselves, if they are certainly nearer than d, are an answer, too.
+// Where the points are has no part in what is certain. Proof that ends are enough:
+// proofs/Decisions.v, face_separated.
 #pragma once
 
 #include <algorithm>
@@ -44,9 +46,9 @@ inline vector from_segment(const vector& p, const vector& e) {
     return p + part_of(-dot(p, e), dot(e, e)) * e;
 }
 
-/// A vector from a point of the first feature to one of the second, both about as near to each other
-/// as any: of points in the order of points_of. Every one is the exact vector between two points of
-/// the features, but for rounding.
+/// A vector from a point of the first feature to one of the second, both about as near to each
+/// other as any: of points in the order of points_of. Every one is the exact vector between two
+/// points of the features, but for rounding.
 inline vector nearest(const std::array<vector, 2>& x) {
     return x[1] - x[0];
 }
@@ -73,8 +75,7 @@ vector nearest(const std::array<vector, 4>& x) {
     } else {
         // Ericson 2005, 5.1.9.
         const vector a = x[1] - x[0], b = x[3] - x[2], p = x[2] - x[0];
-        const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), ap = dot(a, p),
-                     bp = dot(b, p);
+        const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), ap = dot(a, p), bp = dot(b, p);
         double s = part_of(ap * bb - ab * bp, aa * bb - ab * ab);
         const double on_b = s * ab - bp;
         const double u = part_of(on_b, bb);
@@ -147,7 +148,7 @@ class features {
   private:
     static constexpr int max_depth = 10;
     static constexpr double largest_distance = 0x1p300;  ///< in units of size_
-    static constexpr double tiny = 0x1p-500;  ///< above the root of what products lose
+    static constexpr double tiny = 0x1p-500;             ///< above the root of what products lose
 
     /// Whether two points are certainly nearer than d where `between`, that is nearest_at(t), would
     /// be shortest if it went on as it does at t, or a second such step later.
@@ -163,8 +164,8 @@ class features {
     }
 
     /// Off by at most 40ε·size_ in length: positions by 2ε of a coordinate's largest size m, their
-    /// differences by 5ε, multiples by up to 1 of these by 6ε, and all sums of vectors of at most 2m
-    /// to 6m together by 23ε. The root's own rounding is left to below_'s 24ε.
+    /// differences by 5ε, multiples by up to 1 of these by 6ε, and all sums of vectors of at most
+    /// 2m to 6m together by 23ε. The root's own rounding is left to below_'s 24ε.
     vector nearest_at(double t) const {
         std::array<vector, count> x;
         for (std::size_t i = 0; i < count; ++i) x[i] = (1 - t) * start_[i] + t * end_[i];
@@ -174,9 +175,10 @@ class features {
             return nearest(x);
     }
 
-    /// Whether the features are apart by more than d along the axis, of about unit length, at t = low
-    /// and at t = high, the same way. A projection is off by 2.1ε·size_, between the ends of the step
-    /// by 3.1ε·size_, a difference of two by 7.3ε·size_; the axis is longer than 1 by 4ε at most.
+    /// Whether the features are apart by more than d along the axis, of about unit length, at t =
+    /// low and at t = high, the same way. A projection is off by 2.1ε·size_, between the ends of
+    /// the step by 3.1ε·size_, a difference of two by 7.3ε·size_; the axis is longer than 1 by 4ε
+    /// at most.
     bool separated(const vector& axis, double low, double high) const {
         const auto gap = [&](double t) {
             const auto at = [&](std::size_t i) {
