@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
+#include "ccd/batch/checks.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/exact/finite.hpp"
@@ -56,20 +57,6 @@ void check_lengths(std::size_t queries, std::size_t answers) {
                                     " answers");
 }
 
-template <class Pair>
-void check_indices(std::span<const Pair> queries, std::size_t first, std::size_t vertices) {
-    vertex_index largest = 0;
-    for (const Pair& q : queries)
-        for (const vertex_index v : vertices_of(q)) largest = std::max(largest, v);
-    if (largest < vertices) return;
-    for (std::size_t i = 0; i < queries.size(); ++i)
-        for (const vertex_index v : vertices_of(queries[i]))
-            if (v >= vertices)
-                throw std::invalid_argument("ccd::decide_batch: query " +
-                                            std::to_string(first + i) + " names vertex " +
-                                            std::to_string(v) + " of " + std::to_string(vertices));
-}
-
 /// Calls decide(first, count) for the runs of finite queries; the others are uncertain.
 template <class IsFinite, class Decide>
 void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
@@ -106,8 +93,7 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     check_lengths(pairs.size(), answers.size());
     vertex_rows rows = positions;
     if (asked == question::contact_at_start) rows.after = rows.before;
-    if (rows.vertices > 0 && (rows.before == nullptr || rows.after == nullptr))
-        throw std::invalid_argument("ccd::decide_batch: found a null pointer, expected positions");
+    check_pointers("ccd::decide_batch", rows);
     // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
     // and saves some 10 ns a query.
     const bool many = has_kernels<Pair> && 2 * pairs.size() > rows.vertices;
@@ -130,7 +116,7 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     return for_each_chunk(
         pairs.size(), options, [&](batch_worker& worker, std::size_t first, std::size_t count) {
             const auto part = pairs.subspan(first, count);
-            check_indices(part, first, rows.vertices);
+            check_indices("ccd::decide_batch", part, first, rows.vertices);
             decide_finite(
                 count, &answers[first], all_are_finite,
                 [&](std::size_t i) {

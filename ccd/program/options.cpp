@@ -1,7 +1,9 @@
 #include "ccd/program/options.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
+#include "ccd/io/text.hpp"
 #include "errbound/support/command_line.hpp"
 
 namespace ccd::program {
@@ -51,6 +53,27 @@ void require_on_device(ccd::method m) {
     const auto name = [](ccd::method known) { return std::string(info(known).name); };
     throw usage_error("--method: found '" + name(m) + "' with --device cuda, expected one of " +
                       errbound::support::listed(possible, name));
+}
+
+number_option::number_option(CLI::App& line, const std::string& name,
+                             const std::string& description)
+    : name_(name), option_(line.add_option(name, text_, description)->type_name("NUMBER")) {}
+
+double number_option::value(double otherwise, double most) const {
+    if (!was_given()) return otherwise;
+    const io::number number = io::parse_double(text_, false);
+    if (number.status != io::number_status::ok)
+        throw usage_error(name_ + ": " + io::describe(number.status, text_));
+    if (number.value >= 0 && number.value <= most) return number.value;
+    throw usage_error(name_ + ": found " + io::excerpt(text_) + ", expected a number from 0" +
+                      (most == 1 ? " to 1" : ""));
+}
+
+std::string text_of_time(const first_time& time) {
+    if (time.outcome != outcome::collides) return "-";
+    char text[64];
+    std::snprintf(text, sizeof text, "%a,%a", time.low, time.high);
+    return text;
 }
 
 void add_threads_option(CLI::App& line, int& threads, const std::string& description) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/method.hpp>
 #include <string>
 #include <vector>
@@ -39,6 +40,24 @@ class device_options {
 
 /// Throws usage_error unless the method runs on devices.
 void require_on_device(ccd::method m);
+
+/// An option whose value is a number, which is taken exactly: the double nearest to a decimal
+/// number, or equal to a hexadecimal float.
+class number_option {
+  public:
+    number_option(CLI::App& line, const std::string& name, const std::string& description);
+    bool was_given() const { return option_->count() > 0; }
+    /// `otherwise` where it was not given. Throws usage_error unless it is from 0 to `most`, which
+    /// is 1 or the largest double.
+    double value(double otherwise, double most) const;
+
+  private:
+    std::string name_, text_;
+    CLI::Option* option_;
+};
+
+/// A first time as two fields of a line, `low,high`, hexadecimal floats; `-` where there is none.
+std::string text_of_time(const first_time& time);
 
 /// --threads, from 0, which is one per core.
 void add_threads_option(CLI::App& line, int& threads, const std::string& description);

@@ -1,5 +1,6 @@
 // `ccd query`: decides stored queries with some methods, compares with the truth, times them.
 #include <algorithm>
+#include <ccd/first_times.hpp>
 #include <ccd/io/query_file.hpp>
 #include <chrono>
 #include <cstdio>
@@ -21,6 +22,7 @@ namespace {
 using errbound::support::progress_line;
 using errbound::support::table;
 using errbound::support::text_of;
+using errbound::support::usage_error;
 using errbound::support::write_whole;
 
 using std::chrono::steady_clock;
@@ -36,6 +38,7 @@ struct result {
     ccd::method method{};
     std::vector<bool> verdicts;  ///< true: may collide
     std::optional<std::size_t> false_positives, false_negatives;
+    std::vector<first_time> times;  ///< if asked for
     double ns_per_query = 0;
 
     std::size_t collisions() const {
@@ -43,8 +46,28 @@ struct result {
     }
 };
 
+/// What `exact` is asked beyond contact in the whole step.
+struct time_question {
+    bool times = false;
+    double t_max = 1;
+    std::optional<double> distance = {};
+
+    /// Whether the files' truth, of contact in the whole step, is another question's.
+    bool is_another() const { return t_max < 1 || distance; }
+};
+
 template <class Query>
-void decide_all(const std::vector<Query>& queries, const device_choice& device, result& out) {
+outcome decide_one(const Query& query, ccd::method method, const time_question& asked) {
+    if (asked.t_max < 1)
+        return asked.distance ? time_within(query, {*asked.distance, 0}, asked.t_max).outcome
+                              : time_of_impact(query, asked.t_max).outcome;
+    return asked.distance ? decide_within(query, {*asked.distance, 0}).outcome
+                          : decide(method, query).outcome;
+}
+
+template <class Query>
+void decide_all(const std::vector<Query>& queries, const device_choice& device,
+                const time_question& asked, result& out) {
     // Made into bits afterwards, since that is work which is not the method's.
     std::vector<outcome> outcomes(queries.size());
     double fastest = std::numeric_limits<double>::infinity();
@@ -55,22 +78,25 @@ void decide_all(const std::vector<Query>& queries, const device_choice& device, 
             decide_on_device<Query>(queries, outcomes, out.method, device.precision);
         else
             for (std::size_t i = 0; i < queries.size(); ++i)
-                outcomes[i] = decide(out.method, queries[i]).outcome;
+                outcomes[i] = decide_one(queries[i], out.method, asked);
         fastest = std::min(fastest, seconds_since(pass));
     } while (seconds_since(start) < 0.02);
     out.verdicts.clear();
     for (const outcome o : outcomes) out.verdicts.push_back(o != outcome::separate);
     out.ns_per_query = fastest * 1e9 / static_cast<double>(queries.size());
+    if (asked.times)
+        out.times =
+            first_times(queries, {.t_max = asked.t_max, .distances = {asked.distance.value_or(0)}});
 }
 
 result decide_file(const io::query_file& queries, const std::string& file, ccd::method method,
-                   const device_choice& device) {
+                   const device_choice& device, const time_question& asked) {
     result out;
     out.file = file;
     out.kind = queries.kind();
     out.method = method;
-    std::visit([&](const auto& all) { decide_all(all, device, out); }, queries.queries);
-    if (queries.truth) {
+    std::visit([&](const auto& all) { decide_all(all, device, asked, out); }, queries.queries);
+    if (queries.truth && !asked.is_another()) {
         std::size_t positives = 0, negatives = 0;
         for (std::size_t i = 0; i < out.verdicts.size(); ++i) {
             if (out.verdicts[i] && !(*queries.truth)[i]) ++positives;
@@ -140,35 +166,67 @@ class query final : public command {
             .add_option("--verdicts", verdicts_,
                         "Write 0 or 1 per query (one method, one file); -: standard output")
             ->type_name("OUT");
+        line_
+            .add_option(
+                "--toi", toi_,
+                "Write low,high per query, between which the first contact is (hexadecimal\n"
+                "floats; both 0 at the start, equal where the time is a double), or - where\n"
+                "there is none (method exact, one file); -: standard output")
+            ->type_name("OUT");
         line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
             ->type_name("OUT");
     }
 
     exit_status run() override {
         const device_choice device = device_.chosen();
+        const time_question asked = time_asked();
         const std::vector<ccd::method> methods = methods_on(device);
-        if (verdicts_ && (files_.size() != 1 || methods.size() != 1))
-            throw errbound::support::usage_error(
-                "--verdicts: found " + std::to_string(files_.size()) + " files and " +
-                std::to_string(methods.size()) + " methods, expected one FILE and one --method");
-        errbound::support::require_separate({verdicts_, json_}, files_);
+        for (const auto& [option, output] : {std::pair("--verdicts", &verdicts_), {"--toi", &toi_}})
+            if (*output && (files_.size() != 1 || methods.size() != 1))
+                throw usage_error(std::string(option) + ": found " + std::to_string(files_.size()) +
+                                  " files and " + std::to_string(methods.size()) +
+                                  " methods, expected one FILE and one --method");
+        errbound::support::require_separate({verdicts_, toi_, json_}, files_);
 
         // Nothing is printed or written unless all files are good.
-        const std::vector<result> results = decide_files(methods, device);
+        const std::vector<result> results = decide_files(methods, device, asked);
         std::vector<errbound::support::output> outputs;
         if (verdicts_) {
             std::string lines;
             for (const bool verdict : results.front().verdicts) lines += verdict ? "1\n" : "0\n";
             outputs.push_back({*verdicts_, lines});
         }
+        if (toi_) {
+            std::string lines;
+            for (const first_time& time : results.front().times) lines += text_of_time(time) + '\n';
+            outputs.push_back({*toi_, lines});
+        }
         if (json_) outputs.push_back({*json_, json_of(results)});
         write_whole(outputs);
-        errbound::support::stream_for_people({verdicts_, json_}) << text_of_results(results);
+        errbound::support::stream_for_people({verdicts_, toi_, json_}) << text_of_results(results);
         return done;
     }
 
   private:
+    time_question time_asked() const {
+        constexpr double most = std::numeric_limits<double>::max();
+        time_question asked{.times = toi_.has_value(), .t_max = t_max_.value(1, 1)};
+        if (separation_.was_given()) asked.distance = separation_.value(0, most);
+        return asked;
+    }
+    /// Whether something is asked that only `exact` answers, on this machine's processor.
+    bool asks_exact_alone() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
+
     std::vector<ccd::method> methods_on(const device_choice& device) const {
+        if (asks_exact_alone()) {
+            const bool exact_given =
+                !methods_.was_given() || methods_.methods() == std::vector{method::exact};
+            if (device.cuda || !exact_given)
+                throw usage_error(
+                    "--toi, --separation and --t-max: expected --method exact and "
+                    "--device cpu");
+            return {method::exact};
+        }
         if (device.cuda && !methods_.was_given()) return methods_on_device();
         std::vector<ccd::method> methods = methods_.methods();
         if (device.cuda)
@@ -177,7 +235,8 @@ class query final : public command {
     }
 
     std::vector<result> decide_files(const std::vector<ccd::method>& methods,
-                                     const device_choice& device) const {
+                                     const device_choice& device,
+                                     const time_question& asked) const {
         std::vector<result> results;
         progress_line progress;
         for (std::size_t i = 0; i < files_.size(); ++i) {
@@ -185,7 +244,7 @@ class query final : public command {
             progress.show(i, files_.size(), file);
             const io::query_file queries = io::read_queries(files_[i], find_kind(kind_), round_);
             for (const ccd::method m : methods)
-                results.push_back(decide_file(queries, file, m, device));
+                results.push_back(decide_file(queries, file, m, device, asked));
         }
         return results;
     }
@@ -193,7 +252,10 @@ class query final : public command {
     std::vector<std::filesystem::path> files_;
     std::string kind_;  ///< empty: from each path
     bool round_ = false;
-    std::optional<std::filesystem::path> verdicts_, json_;
+    std::optional<std::filesystem::path> verdicts_, toi_, json_;
+    number_option separation_{line_, "--separation",
+                              "Ask for a distance of at most that, in place of contact"};
+    number_option t_max_{line_, "--t-max", "Ask about times from 0 to that, in place of 1"};
     methods_option methods_{line_};
     device_options device_{line_};
 };

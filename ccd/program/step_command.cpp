@@ -2,11 +2,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <ccd/advance.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -43,18 +45,47 @@ struct step_question {
     int threads = 0;
     std::optional<instruction_set> set;
     bool explain = false;
+    bool times = false, advance = false;
+    double distance = 0;
+
+    step_options options() const {
+        return {.method = method,
+                .threads = threads,
+                .set = set,
+                .explain = explain,
+                .first_contact = times || advance,
+                .times = times,
+                .distances = {distance}};
+    }
 };
 
-std::string lines_of_pairs(const step_result& result) {
+/// What came out: of the step, and of the one that is free, if asked for.
+struct step_outcome {
+    step_result result;
+    std::optional<advance_result> advance;
+    double read_seconds = 0;
+    std::size_t memory = 0;
+};
+
+/// With their times if those are wanted, which the result must have.
+std::string lines_of_pairs(const step_result& result, bool with_times) {
     std::string lines;
     for_each_kind([&]<kind K>() {
-        for (const auto& pair : result.pairs.of<K>()) {
+        for (std::size_t i = 0; i < result.pairs.of<K>().size(); ++i) {
             lines += short_name(K);
-            for (const vertex_index v : vertices_of(pair)) lines += ',' + std::to_string(v);
+            for (const vertex_index v : vertices_of(result.pairs.of<K>()[i]))
+                lines += ',' + std::to_string(v);
+            if (with_times) lines += ',' + text_of_time(result.times.of<K>()[i]);
             lines += '\n';
         }
     });
     return lines;
+}
+
+std::size_t number_of(const pair_lists& pairs) {
+    std::size_t number = 0;
+    for_each_kind([&]<kind K>() { number += pairs.of<K>().size(); });
+    return number;
 }
 
 /// Vertex/edge and vertex/vertex pairs are reported where there are any.
@@ -63,25 +94,36 @@ bool is_shown(const step_result& result) {
     return K == kind::vertex_face || K == kind::edge_edge || result.candidates.of<K>() > 0;
 }
 
-std::string json_of(const step_question& asked, const step_result& result, double read,
-                    std::size_t memory) {
+void add_contacts(const step_question& asked, const step_outcome& found,
+                  nlohmann::ordered_json& document) {
+    if (!asked.times && !asked.advance) return;
+    const first_time& first = found.result.first_contact;
+    document["touching_at_start"] = number_of(found.result.touching_at_start);
+    document["first_contact"] = nullptr;
+    if (first.outcome == outcome::collides) document["first_contact"] = {first.low, first.high};
+    if (found.advance) document["advance"] = found.advance->fraction;
+}
+
+std::string json_of(const step_question& asked, const step_outcome& found) {
+    const step_result& result = found.result;
     nlohmann::ordered_json document = {{"method", info(asked.method).name},
                                        {"candidates", nlohmann::ordered_json::object()},
                                        {"collisions", nlohmann::ordered_json::object()},
                                        {"seconds",
-                                        {{"read", read},
+                                        {{"read", found.read_seconds},
                                          {"prepare", result.prepare_seconds},
                                          {"broad", result.broad_phase_seconds},
                                          {"narrow", result.narrow_phase_seconds},
                                          {"sort", result.sort_seconds},
                                          {"total", result.total_seconds}}},
                                        {"threads", result.threads},
-                                       {"peak_memory_bytes", memory}};
+                                       {"peak_memory_bytes", found.memory}};
     for_each_kind([&]<kind K>() {
         if (!is_shown<K>(result)) return;
         document["candidates"][std::string(name(K))] = result.candidates.of<K>();
         document["collisions"][std::string(name(K))] = result.pairs.of<K>().size();
     });
+    add_contacts(asked, found, document);
     if (asked.explain) {
         document["stages"] = nlohmann::ordered_json::array();
         for (const stage_info& stage : exact_stages) {
@@ -151,8 +193,25 @@ std::string text_of_stages(const step_result& result) {
            notes;
 }
 
-std::string text_of_step(const step_question& asked, const mesh& before, const step_result& result,
-                         double read, std::size_t memory) {
+/// What touches when, and how far a free step goes.
+std::string text_of_contacts(const step_question& asked, const step_outcome& found) {
+    if (!asked.times && !asked.advance) return "";
+    const first_time& first = found.result.first_contact;
+    table rows = {{"touching at start", "first contact"},
+                  {std::to_string(number_of(found.result.touching_at_start)),
+                   first.outcome == outcome::collides
+                       ? fixed(first.low, "%.17g") + " to " + fixed(first.high, "%.17g")
+                       : "-"}};
+    if (found.advance) {
+        rows[0].push_back("free to");
+        rows[1].push_back(fixed(found.advance->fraction, "%.17g"));
+    }
+    return '\n' + text_of(rows, 0);
+}
+
+std::string text_of_step(const step_question& asked, const mesh& before,
+                         const step_outcome& found) {
+    const step_result& result = found.result;
     table pairs = {{std::string(info(asked.method).name), "candidates", "collisions"}};
     for_each_kind([&]<kind K>() {
         if (is_shown<K>(result))
@@ -161,12 +220,12 @@ std::string text_of_step(const step_question& asked, const mesh& before, const s
     });
     const table costs = {
         {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
-        {fixed(1e3 * read, "%.1f ms"), fixed(1e3 * result.prepare_seconds, "%.1f ms"),
+        {fixed(1e3 * found.read_seconds, "%.1f ms"), fixed(1e3 * result.prepare_seconds, "%.1f ms"),
          fixed(1e3 * result.broad_phase_seconds, "%.1f ms"),
          fixed(1e3 * result.narrow_phase_seconds, "%.1f ms"),
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
-         fixed(static_cast<double>(memory) / (1 << 20), "%.1f MiB")}};
-    return text_of(pairs, 1) + '\n' + text_of(costs, 0) +
+         fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
+    return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(asked, found) +
            (asked.explain
                 ? '\n' +
                       text_of_boxes(before.vertices.size(), unique_faces(before.faces).size(),
@@ -192,6 +251,17 @@ class step final : public command {
                 "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 where the\n"
                 "mesh has rods or points), vertex indices; -: standard output")
             ->type_name("OUT");
+        line_
+            .add_option("--toi", toi_,
+                        "Write the lines of --pairs, each followed by ,low,high: between these\n"
+                        "times is the first contact (see ccd query --help); -: standard output")
+            ->type_name("OUT");
+        line_
+            .add_option(
+                "--advance", advance_,
+                "Write a frame (PLY, in doubles), as far on the way to FRAME1 as is free: a\n"
+                "step to it has no pairs but those that touch at the start")
+            ->type_name("OUT.ply");
         add_threads_option(line_, asked_.threads, "Threads; 0: one per core");
         line_
             .add_option("--instruction-set", set_,
@@ -209,27 +279,49 @@ class step final : public command {
         const mesh before = io::read_mesh(asked_.before);
         const mesh after = io::read_mesh(asked_.after);
         io::require_same_topology(before, asked_.before.string(), after, asked_.after.string());
-        const double read =
+        step_outcome found;
+        found.read_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-        const step_result result = asked_.device.cuda ? step_on_device(before, after, asked_.method,
-                                                                       asked_.device.precision)
-                                                      : ccd::step(before, after,
-                                                                  {.method = asked_.method,
-                                                                   .threads = asked_.threads,
-                                                                   .set = asked_.set,
-                                                                   .explain = asked_.explain});
-        const std::size_t memory = peak_memory_bytes();
-        std::vector<errbound::support::output> outputs;
-        if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(result)});
-        if (json_) outputs.push_back({*json_, json_of(asked_, result, read, memory)});
-        write_whole(outputs);
-        errbound::support::stream_for_people({pairs_, json_})
-            << text_of_step(asked_, before, result, read, memory);
+        found.result = asked_.device.cuda
+                           ? step_on_device(before, after, asked_.method, asked_.device.precision)
+                           : ccd::step(before, after, asked_.options());
+        if (advance_)
+            found.advance = ccd::advance(
+                before, after,
+                {.distances = {asked_.distance}, .threads = asked_.threads, .set = asked_.set});
+        found.memory = peak_memory_bytes();
+        write(before, found);
+        errbound::support::stream_for_people({pairs_, toi_, advance_, json_})
+            << text_of_step(asked_, before, found);
         return done;
     }
 
   private:
+    void write(const mesh& before, step_outcome& found) const {
+        std::vector<errbound::support::output> outputs;
+        if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.result, false)});
+        if (toi_) outputs.push_back({*toi_, lines_of_pairs(found.result, true)});
+        if (advance_)
+            outputs.push_back({*advance_, io::ply_of({std::move(found.advance->positions),
+                                                      before.faces, before.edges})});
+        if (json_) outputs.push_back({*json_, json_of(asked_, found)});
+        write_whole(outputs);
+    }
+
+    void check_times() {
+        asked_.times = toi_.has_value();
+        asked_.advance = advance_.has_value();
+        asked_.distance = separation_.value(0, std::numeric_limits<double>::max());
+        if (!asked_.times && !asked_.advance && !separation_.was_given()) return;
+        if (asked_.method != method::exact || asked_.device.cuda)
+            throw usage_error(
+                "--toi, --separation and --advance: expected --method exact and --device cpu");
+        if (asked_.explain && asked_.distance != 0)
+            throw usage_error(
+                "--explain: found --separation, expected contact, which alone has stages");
+    }
+
     void check_options() {
         asked_.method = method_named(method_);
         if (line_.count("--instruction-set") > 0)
@@ -248,14 +340,18 @@ class step final : public command {
                     "--explain, --instruction-set and --threads: found --device cuda, expected "
                     "--device cpu");
         }
-        errbound::support::require_separate({pairs_, json_}, {asked_.before, asked_.after});
+        check_times();
+        errbound::support::require_separate({pairs_, toi_, advance_, json_},
+                                            {asked_.before, asked_.after});
         if (asked_.before == "/dev/stdin" && asked_.after == "/dev/stdin")
             throw usage_error("FRAME0 and FRAME1: found standard input twice, expected once");
     }
 
     step_question asked_;
     std::string method_ = "exact", set_;
-    std::optional<std::filesystem::path> pairs_, json_;
+    std::optional<std::filesystem::path> pairs_, toi_, advance_, json_;
+    number_option separation_{line_, "--separation",
+                              "Report pairs that come within that distance, in place of contacts"};
     device_options device_{line_};
 };
 

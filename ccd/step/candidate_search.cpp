@@ -95,9 +95,10 @@ std::size_t candidate_search::find_kind(const question& asked, First& first, Sec
                : find_by<K>(in_floats_, asked, first, second);
 }
 
-pair_counts candidate_search::find(const batch_positions& positions, const pair_filter& filter,
+pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
                                    const candidate_visitor& visitor) {
-    const swept_boxes boxes(positions);
+    const swept_boxes boxes(positions, options.distances);
+    const pair_filter& filter = options.filter;
     const question asked{boxes, lets_all_through(filter) ? nullptr : &filter, visitor};
     pair_counts counts;
     counts.edge_edge = find_kind<kind::edge_edge>(asked, edges_, edges_);

@@ -51,8 +51,8 @@ class candidate_search {
     std::size_t vertices() const { return vertices_.size(); }
 
     /// Hands all candidates of the kinds that have a visitor to it, each once, as
-    /// candidate_visitor tells. Positions must be finite.
-    pair_counts find(const batch_positions& positions, const pair_filter& filter,
+    /// candidate_visitor tells. Positions must be finite, distances valid.
+    pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor);
 
   private:

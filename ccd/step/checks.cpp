@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "ccd/batch/checks.hpp"
 #include "ccd/exact/finite.hpp"
 
 namespace ccd::detail {
@@ -82,6 +83,14 @@ void check_options(const step_options& options, std::size_t vertices) {
         throw std::invalid_argument("ccd::step: found group rule " +
                                     std::to_string(static_cast<int>(options.filter.rule)) +
                                     ", expected between_groups or within_groups");
+    check_t_max("ccd::step", options.t_max);
+    check_distances("ccd::step", options.distances, vertices);
+    const bool first_times = options.times || options.first_contact || options.t_max < 1 ||
+                             !options.distances.ask_for_contact();
+    if (first_times && options.method != method::exact)
+        throw std::invalid_argument("ccd::step: found method " +
+                                    std::string(info(options.method).name) +
+                                    ", expected exact, which alone has times and distances");
     check_length("groups", options.filter.groups.size(), vertices);
     check_length("pinned flags", options.filter.pinned.size(), vertices);
 }

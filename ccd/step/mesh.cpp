@@ -12,6 +12,8 @@
 #include <span>
 #include <utility>
 
+#include "ccd/step/vertex_groups.hpp"
+
 namespace ccd {
 namespace {
 
@@ -112,6 +114,22 @@ std::vector<face> unique_faces(std::span<const face> faces) {
     for (std::size_t i = 0; i < faces.size(); ++i)
         if (!repeated[i]) unique.push_back(faces[i]);
     return unique;
+}
+
+std::vector<int> connected_parts(std::span<const face> faces, std::span<const edge> edges,
+                                 std::size_t vertices) {
+    detail::vertex_groups groups(vertices);
+    for (const face& f : faces)
+        for (const vertex_index v : f) groups.join(f[0], v);
+    for (const edge& e : edges) groups.join(e[0], e[1]);
+    std::vector<int> part_of(vertices), part_of_root(vertices, -1);
+    int parts = 0;
+    for (vertex_index v = 0; v < vertices; ++v) {
+        int& part = part_of_root[groups.root_of(v)];
+        if (part < 0) part = parts++;
+        part_of[v] = part;
+    }
+    return part_of;
 }
 
 }  // namespace ccd

@@ -6,6 +6,7 @@
 
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/separation.hpp>
 #include <ccd/step.hpp>
 #include <span>
 #include <vector>
@@ -47,19 +48,25 @@ class narrow_phase {
     narrow_phase(const batch_positions& positions, const step_options& options)
         : positions_(positions),
           method_(options.method),
+          distances_(options.distances),
           parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
 
     /// From any thread.
     void decide(std::span<const pair> candidates) {
         stopwatch watch;
         part& local = parts_.local();
-        if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+        if (!distances_.ask_for_contact()) {
+            keep(local, candidates, [this](const auto& q, const pair& p) {
+                return decide_within(q, distances_.of(p));
+            });
+        } else if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
             if (method_ == method::exact)
                 decide_block(local, candidates);
             else
-                keep(local, candidates, [this](const auto& q) { return ccd::decide(method_, q); });
+                keep(local, candidates,
+                     [this](const auto& q, const pair&) { return ccd::decide(method_, q); });
         } else {
-            keep(local, candidates, [](const auto& q) { return decide_exact(q); });
+            keep(local, candidates, [](const auto& q, const pair&) { return decide_exact(q); });
         }
         local.seconds += watch.lap();
     }
@@ -98,12 +105,13 @@ class narrow_phase {
     template <class Decide>
     void keep(part& local, std::span<const pair> candidates, const Decide& decide) {
         for (const pair& c : candidates)
-            if (ccd::may_collide(decide(query_of(positions_.exact, c))))
+            if (ccd::may_collide(decide(query_of(positions_.exact, c), c)))
                 local.pairs.push_back(canonical(c));
     }
 
     batch_positions positions_;
     method method_;
+    pair_distances distances_;
     tbb::enumerable_thread_specific<part> parts_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ namespace {
 template <kind K>
 using phase = detail::narrow_phase<K>;
 
-/// All but touching_at_start, on the threads of the arena.
+/// All but first times and what touches at the start, on the threads of the arena.
 step_result run_step(detail::candidate_search& search, const vertex_rows& positions,
                      const step_options& options) {
     detail::stopwatch watch;
@@ -41,7 +42,7 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
             phases.of<K>().decide(block);
         };
     });
-    result.candidates = search.find(at, options.filter, visitor);
+    result.candidates = search.find(at, options, visitor);
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
     result.broad_phase_seconds = watch.lap() - result.narrow_phase_seconds;
@@ -54,14 +55,79 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
     return result;
 }
 
-template <class Pair>
-std::vector<Pair> touching_at_start(const vertex_rows& positions, const std::vector<Pair>& pairs,
-                                    const batch_options& options) {
-    const auto answers = touches_at_start_batch(positions, pairs, options).answers;
-    std::vector<Pair> found;
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (answers[i] == outcome::collides) found.push_back(pairs[i]);
-    return found;
+/// Those of `items` whose number is asked for by is_wanted(i).
+template <class Item, class IsWanted>
+std::vector<Item> those_of(const std::vector<Item>& items, const IsWanted& is_wanted) {
+    std::vector<Item> wanted;
+    for (std::size_t i = 0; i < items.size(); ++i)
+        if (is_wanted(i)) wanted.push_back(items[i]);
+    return wanted;
+}
+
+bool is_earlier(const first_time& a, const first_time& b) {
+    return std::tuple(a.low, a.high) < std::tuple(b.low, b.high);
+}
+
+/// Of each reported pair: times, and from them what touches at the start and what is first. Drops
+/// pairs whose time is after t_max.
+template <kind K>
+void find_times(const vertex_rows& positions, const time_options& asked, bool keep_times,
+                step_result& result) {
+    auto& pairs = result.pairs.of<K>();
+    std::vector<first_time> times = first_times(positions, pairs, asked);
+    const auto in_time = [&](std::size_t i) { return times[i].outcome == outcome::collides; };
+    pairs = those_of(pairs, in_time);
+    times = those_of(times, in_time);
+    result.touching_at_start.of<K>() =
+        those_of(pairs, [&](std::size_t i) { return times[i].at_start(); });
+    for (const first_time& time : times)
+        if (!time.at_start() && (result.first_contact.outcome != outcome::collides ||
+                                 is_earlier(time, result.first_contact)))
+            result.first_contact = time;
+    if (keep_times) result.times.of<K>() = std::move(times);
+}
+
+/// The first contact alone, and what touches at the start.
+template <kind K>
+void find_first(const vertex_rows& positions, time_options asked, step_result& result) {
+    const auto& pairs = result.pairs.of<K>();
+    const bool any = result.first_contact.outcome == outcome::collides;
+    if (any) asked.t_max = result.first_contact.high;
+    const earliest_time found = earliest(positions, pairs, asked);
+    if (!found.queries.empty() && (!any || is_earlier(found.time, result.first_contact)))
+        result.first_contact = found.time;
+    for (const std::size_t i : found.at_start) result.touching_at_start.of<K>().push_back(pairs[i]);
+}
+
+template <kind K>
+void find_touching_at_start(const vertex_rows& positions, time_options asked, step_result& result) {
+    const auto& pairs = result.pairs.of<K>();
+    asked.t_max = 0;
+    std::vector<outcome> answers;
+    if (asked.distances.ask_for_contact())
+        answers =
+            touches_at_start_batch(positions, pairs, {.threads = asked.threads, .set = asked.set})
+                .answers;
+    else
+        for (const first_time& time : first_times(positions, pairs, asked))
+            answers.push_back(time.outcome);
+    result.touching_at_start.of<K>() =
+        those_of(pairs, [&](std::size_t i) { return answers[i] == outcome::collides; });
+}
+
+/// What is asked of the reported pairs.
+void ask_pairs(const vertex_rows& positions, const step_options& options, step_result& result) {
+    const time_options asked{options.t_max, options.distances, options.threads, options.set};
+    if (options.times || options.first_contact || options.t_max < 1)
+        result.first_contact = {outcome::separate};
+    for_each_kind([&]<kind K>() {
+        if (options.times || options.t_max < 1)
+            find_times<K>(positions, asked, options.times, result);
+        else if (options.first_contact)
+            find_first<K>(positions, asked, result);
+        else if (options.initial_contact)
+            find_touching_at_start<K>(positions, asked, result);
+    });
 }
 
 }  // namespace
@@ -95,14 +161,9 @@ step_result mesh_steps::run(const vertex_rows& positions, const step_options& op
         options.threads, [&] { result = run_step(state_->search, positions, options); });
     result.threads = threads;
     result.prepare_seconds += check_seconds;
-    if (options.initial_contact) {
-        watch.lap();
-        for_each_kind([&]<kind K>() {
-            result.touching_at_start.of<K>() = touching_at_start(
-                positions, result.pairs.of<K>(), {.threads = options.threads, .set = options.set});
-        });
-        result.initial_contact_seconds = watch.lap();
-    }
+    watch.lap();
+    ask_pairs(positions, options, result);
+    result.contact_seconds = watch.lap();
     result.total_seconds = total.lap();
     return result;
 }
@@ -114,7 +175,7 @@ pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
     pair_counts counts;
     detail::on_threads(options.threads, [&] {
         const detail::rounded_positions rounded(positions);
-        counts = state_->search.find({positions, rounded.data()}, options.filter, visitor);
+        counts = state_->search.find({positions, rounded.data()}, options, visitor);
     });
     return counts;
 }

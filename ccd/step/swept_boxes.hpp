@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <ccd/batch.hpp>
+#include <ccd/first_times.hpp>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -21,9 +23,13 @@ constexpr std::size_t sampling_stride(std::size_t count) {
 class swept_boxes {
   public:
     /// Of finite positions and what they are rounded to, whose memory must outlive this.
-    explicit swept_boxes(const batch_positions& positions) : positions_(positions) {}
+    /// `distances` must be valid, and outlive it too.
+    swept_boxes(const batch_positions& positions, const pair_distances& distances)
+        : positions_(positions), distances_(distances) {}
 
-    /// The box that an element (1, 2 or 3 vertices) sweeps. In doubles it is exact. In floats it is
+    /// The box that an element (1, 2 or 3 vertices) sweeps. In doubles it is exact, or, where pairs
+    /// have a distance, wider by the element's part of it, rounded outwards: boxes of elements that
+    /// come within their distance touch. In floats, which must not be asked for then, it is
     /// that of the rounded positions, which keep their order though not strictly: boxes that touch
     /// still do, and boxes that touch without a common end did so before. Where ends coincide, ask
     /// touch().
@@ -42,6 +48,8 @@ class swept_boxes {
                     all.high[k] = std::max(all.high[k], x[k]);
                 }
             }
+        if constexpr (std::is_same_v<Real, double>)
+            if (!distances_.ask_for_contact()) widen(all, part_of_distance(element));
         return all;
     }
 
@@ -56,8 +64,10 @@ class swept_boxes {
 
     /// Whether floats would confuse the boxes: of a sample, more than one in sixteen have an axis
     /// on which only doubles tell their ends apart. So it is where small parts are very far apart.
+    /// And whether they are to be widened, which floats would not round outwards.
     template <std::size_t N>
     bool need_doubles(std::span<const std::array<vertex_index, N>> elements) const {
+        if (!distances_.ask_for_contact()) return true;
         std::size_t confused = 0, samples = 0;
         for (std::size_t i = 0; i < elements.size();
              i += sampling_stride(elements.size()), ++samples) {
@@ -72,6 +82,25 @@ class swept_boxes {
     }
 
   private:
+    /// What an element brings to the distance of its pairs, or more.
+    template <std::size_t N>
+    double part_of_distance(const std::array<vertex_index, N>& element) const {
+        if (!distances_.thickness.empty()) return distances_.thickest(element);
+        return above(distances_.all / 2);
+    }
+    /// No less than what was rounded to x, nor more than the largest double, in every rounding
+    /// direction.
+    static double above(double x) {
+        constexpr double most = std::numeric_limits<double>::max();
+        return std::min(std::nextafter(x, std::numeric_limits<double>::infinity()), most);
+    }
+    static void widen(box<double>& b, double by) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.low[k] = -above(by - b.low[k]);
+            b.high[k] = above(b.high[k] + by);
+        }
+    }
+
     /// The coordinates of a vertex at one end of the step.
     template <class Real>
     const Real* row(vertex_index v, std::size_t end) const {
@@ -83,6 +112,7 @@ class swept_boxes {
     }
 
     batch_positions positions_;
+    const pair_distances& distances_;
 };
 
 }  // namespace ccd::detail

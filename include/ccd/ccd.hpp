@@ -1,11 +1,13 @@
 // All of collision detection but devices (ccd/cuda.hpp).
 #pragma once
 
+#include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
+#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>

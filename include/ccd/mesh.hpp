@@ -4,6 +4,7 @@
 #include <array>
 #include <ccd/kind.hpp>
 #include <ccd/query.hpp>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -31,5 +32,10 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
 /// The faces, in their order, without those that have the same three vertices, in any order, as one
 /// before. Cost and memory: as unique_edges.
 std::vector<face> unique_faces(std::span<const face> faces);
+
+/// Of each vertex, the number of the connected part of the mesh that it belongs to: bodies, if they
+/// share no vertex. Numbered in the order of their first vertices. Indices must be in range.
+std::vector<int> connected_parts(std::span<const face> faces, std::span<const edge> edges,
+                                 std::size_t vertices);
 
 }  // namespace ccd

@@ -17,6 +17,8 @@
 #pragma once
 
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
+#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
@@ -55,6 +57,12 @@ struct step_options {
     std::optional<instruction_set> set = {};  ///< for `exact`; by default the strongest
     bool explain = false;                     ///< fill step_result::stages; other methods have none
     bool initial_contact = false;             ///< fill step_result::touching_at_start
+    bool first_contact = false;  ///< fill step_result::first_contact, and touching_at_start
+    bool times = false;          ///< fill step_result::times, and both of these
+    double t_max = 1;            ///< report pairs with a contact in [0, t_max] alone
+    /// Report, in place of those in contact, pairs that come within a distance; times and what is
+    /// there at the start are then of that.
+    pair_distances distances = {};
     pair_filter filter = {};
 };
 
@@ -63,6 +71,8 @@ template <kind K>
 using count_of_kind = std::size_t;
 template <kind K>
 using list_of_kind = std::vector<pair_of_kind<K>>;
+template <kind K>
+using times_of_kind = std::vector<first_time>;
 template <kind K>
 using block_visitor = std::function<void(std::span<const pair_of_kind<K>>)>;
 }  // namespace detail
@@ -75,6 +85,9 @@ using pair_counts = by_kind<detail::count_of_kind>;
 /// with the edge ascending, a vertex_vertex_pair {v, w} with v < w.
 using pair_lists = by_kind<detail::list_of_kind>;
 
+/// The first times of such lists, in their order.
+using time_lists = by_kind<detail::times_of_kind>;
+
 /// Called with blocks of up to 2048 pairs, from several threads at once; must not throw. Kinds
 /// without one are not looked for.
 using candidate_visitor = by_kind<detail::block_visitor>;
@@ -84,11 +97,13 @@ struct step_result {
     pair_lists pairs;        ///< those reported, the vertices of faces ascending
     /// Those of `pairs` that touch already at t = 0, by `exact` whatever the method; if asked for.
     pair_lists touching_at_start;
+    time_lists times;                 ///< of `pairs`, if asked for
+    first_time first_contact;         ///< the earliest of those not touching at t = 0, if asked for
     double prepare_seconds = 0;       ///< checks of the input, the mesh's edges
     double broad_phase_seconds = 0;   ///< the search for candidates, less the narrow phase
     double narrow_phase_seconds = 0;  ///< of all threads together, over their number
     double sort_seconds = 0;          ///< of the reported pairs
-    double initial_contact_seconds = 0;
+    double contact_seconds = 0;       ///< of first times, and of what touches at t = 0
     double total_seconds = 0;
     int threads = 0;      ///< used at most
     stage_report stages;  ///< of `exact` for vertex/face and edge/edge pairs, if asked for
@@ -98,7 +113,8 @@ struct step_result {
 /// step. One call at a time.
 ///
 /// Candidates are the pairs (see above) whose swept boxes (closed, exact doubles) touch and that
-/// the filter lets through. They are found by trees over the boxes and decided block by block,
+/// the filter lets through; where pairs have a distance, boxes wider by that, rounded outwards.
+/// They are found by trees over the boxes and decided block by block,
 /// never stored as a whole. Results are the same for every number of threads, and whatever steps
 /// went before.
 ///
@@ -128,12 +144,13 @@ class mesh_steps {
     ///
     /// Throws std::invalid_argument if there are not as many positions as vertices or a coordinate
     /// is not finite; if the method is none, the instruction set not one of instruction_sets(), or
-    /// the filter of another length.
+    /// the filter of another length; if times, a t_max below 1 or distances are asked of a method
+    /// other than `exact`, or are not what ccd/first_times.hpp expects.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// All candidates of a step, the vertices of faces in the mesh's order, for narrow phases of
-    /// one's own. Of the options, `threads` and `filter` count. Memory: up to 33 bytes a candidate.
-    /// Throws as run(); the instruction set is not looked at.
+    /// one's own. Of the options, `threads`, `filter` and `distances` count. Memory: up to 33 bytes
+    /// a candidate. Throws as run(); the instruction set is not looked at.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
     /// The same in blocks as they are found, in no particular order, never stored as a whole. The

@@ -1,6 +1,6 @@
-// Readers of frames of a mesh (target errbound::ccd_io): PLY (ascii, binary in both byte orders)
-// and OBJ; coordinates bit for bit. Lines end in LF, CRLF or CR; a byte order mark of UTF-8 is
-// skipped, UTF-16 refused.
+// Readers and a writer of frames of a mesh (target errbound::ccd_io): PLY (ascii, binary in both
+// byte orders) and OBJ; coordinates bit for bit. Lines end in LF, CRLF or CR; a byte order mark of
+// UTF-8 is skipped, UTF-16 refused.
 #pragma once
 
 #include <ccd/mesh.hpp>
@@ -33,5 +33,9 @@ mesh parse_mesh_obj(std::string_view text, const std::string& name);
 /// Throws errbound::support::file_error unless both frames have the same topology.
 void require_same_topology(const mesh& before, const std::string& before_name, const mesh& after,
                            const std::string& after_name);
+
+/// A frame as the text of a PLY file, binary, in this machine's byte order: coordinates in doubles,
+/// bit for bit. read_mesh reads it back as it was.
+std::string ply_of(const mesh& frame);
 
 }  // namespace ccd::io

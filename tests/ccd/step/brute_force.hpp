@@ -5,6 +5,7 @@
 #include <array>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <ccd/separation.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <functional>
@@ -85,7 +86,8 @@ struct elements {
     }
 };
 
-/// Whether two elements share a vertex, and whether the closed boxes that they sweep touch.
+/// Whether two elements share a vertex, and whether the closed boxes that they sweep touch, or are
+/// within a distance.
 template <std::size_t A, std::size_t B>
 bool share_vertex(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) {
     return std::ranges::any_of(a,
@@ -93,7 +95,7 @@ bool share_vertex(const std::array<vertex_index, A>& a, const std::array<vertex_
 }
 template <std::size_t A, std::size_t B>
 bool boxes_touch(const two_frames& at, const std::array<vertex_index, A>& a,
-                 const std::array<vertex_index, B>& b) {
+                 const std::array<vertex_index, B>& b, double distance = 0) {
     for (const auto axis : {&ccd::point<>::x, &ccd::point<>::y, &ccd::point<>::z}) {
         const auto extent = [&](const auto& element) {
             double low = at.first.vertices[element[0]].*axis, high = low;
@@ -106,12 +108,19 @@ bool boxes_touch(const two_frames& at, const std::array<vertex_index, A>& a,
         };
         const auto [a_low, a_high] = extent(a);
         const auto [b_low, b_high] = extent(b);
-        if (a_low > b_high || b_low > a_high) return false;
+        if (a_low - b_high > distance || b_low - a_high > distance) return false;
     }
     return true;
 }
 
 using vertices_may_collide = std::function<bool(vertex_index, vertex_index)>;
+
+/// Pairs that come within a distance: `exact` in place of a method.
+struct by_distance {
+    double distance = 0;
+
+    ccd::verdict operator()(const auto& query) const { return decide_within(query, {distance, 0}); }
+};
 
 /// A method's verdict on queries of all kinds, as steps ask for it.
 struct by_method {
@@ -135,7 +144,9 @@ void add_pairs(const two_frames& at, const Decide& decide, const vertices_may_co
         for (std::size_t j = within_one ? i + 1 : 0; j < bs.size(); ++j) {
             const auto& a = as[i];
             const auto& b = bs[j];
-            if (share_vertex(a, b) || !boxes_touch(at, a, b)) continue;
+            double distance = 0;
+            if constexpr (requires { decide.distance; }) distance = decide.distance;
+            if (share_vertex(a, b) || !boxes_touch(at, a, b, distance)) continue;
             if (may && std::ranges::none_of(a, [&](vertex_index v) {
                     return std::ranges::any_of(b, [&](vertex_index w) { return may(v, w); });
                 }))

@@ -1,0 +1,69 @@
+// Checks of what batches are given; they throw std::invalid_argument. Internal.
+#pragma once
+
+#include <algorithm>
+#include <ccd/batch.hpp>
+#include <ccd/first_times.hpp>
+#include <ccd/kind.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace ccd::detail {
+
+/// That pairs name vertices that there are. `first` is the number of the first pair.
+template <class Pair>
+void check_indices(const char* caller, std::span<const Pair> pairs, std::size_t first,
+                   std::size_t vertices) {
+    vertex_index largest = 0;
+    for (const Pair& q : pairs)
+        for (const vertex_index v : vertices_of(q)) largest = std::max(largest, v);
+    if (largest < vertices) return;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        for (const vertex_index v : vertices_of(pairs[i]))
+            if (v >= vertices)
+                throw std::invalid_argument(std::string(caller) + ": query " +
+                                            std::to_string(first + i) + " names vertex " +
+                                            std::to_string(v) + " of " + std::to_string(vertices));
+}
+
+inline void check_pointers(const char* caller, const vertex_rows& rows) {
+    if (rows.vertices > 0 && (rows.before == nullptr || rows.after == nullptr))
+        throw std::invalid_argument(std::string(caller) +
+                                    ": found a null pointer, expected positions");
+}
+
+inline void check_t_max(const char* caller, double t_max) {
+    if (!(std::abs(t_max) <= std::numeric_limits<double>::max()))
+        throw std::invalid_argument(std::string(caller) + ": found a t_max of " +
+                                    std::to_string(t_max) + ", expected a finite one");
+}
+
+/// That distances are finite and not negative, given one way, and of `vertices` vertices where they
+/// are by vertex.
+inline void check_distances(const char* caller, const pair_distances& distances,
+                            std::size_t vertices) {
+    const auto check = [caller](double distance, const std::string& of) {
+        if (!(distance >= 0 && distance <= std::numeric_limits<double>::max()))
+            throw std::invalid_argument(std::string(caller) + ": found " + of + " " +
+                                        std::to_string(distance) +
+                                        ", expected a finite one that is not negative");
+    };
+    check(distances.all, "a distance of");
+    if (distances.thickness.empty()) return;
+    if (distances.all != 0)
+        throw std::invalid_argument(std::string(caller) +
+                                    ": found a distance of all pairs and thicknesses, expected "
+                                    "one of the two");
+    if (distances.thickness.size() != vertices)
+        throw std::invalid_argument(std::string(caller) + ": found thicknesses of " +
+                                    std::to_string(distances.thickness.size()) +
+                                    " vertices, there are " + std::to_string(vertices));
+    for (std::size_t v = 0; v < vertices; ++v)
+        check(distances.thickness[v], "for vertex " + std::to_string(v) + " a thickness of");
+}
+
+}  // namespace ccd::detail

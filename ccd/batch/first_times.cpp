@@ -1,0 +1,238 @@
+// First times of many queries: decided as batches are, then timed where there is a contact.
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <ccd/first_times.hpp>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+#include "ccd/batch/checks.hpp"
+#include "ccd/batch/threads.hpp"
+
+namespace ccd::detail {
+namespace {
+
+constexpr const char* caller = "ccd::first_times";
+
+/// Queries, however they are given, and what is asked of them.
+template <class Pair>
+class indexed_questions {
+  public:
+    indexed_questions(const vertex_rows& positions, std::span<const Pair> pairs,
+                      const time_options& options)
+        : positions_(positions), pairs_(pairs), options_(options) {
+        check_pointers(caller, positions);
+        check_indices(caller, pairs, 0, positions.vertices);
+        check_distances(caller, options.distances, positions.vertices);
+        check_t_max(caller, options.t_max);
+    }
+    std::size_t size() const { return pairs_.size(); }
+    const time_options& options() const { return options_; }
+    auto query(std::size_t i) const { return query_of(positions_, pairs_[i]); }
+    separation distance(std::size_t i) const { return options_.distances.of(pairs_[i]); }
+    std::vector<outcome> contacts() const {
+        return decide_batch(positions_, pairs_, {.threads = options_.threads, .set = options_.set})
+            .answers;
+    }
+
+  private:
+    const vertex_rows& positions_;
+    std::span<const Pair> pairs_;
+    const time_options& options_;
+};
+
+template <class Query>
+class stored_questions {
+  public:
+    stored_questions(std::span<const Query> queries, const time_options& options)
+        : queries_(queries), options_(options) {
+        check_distances(caller, options.distances, 0);
+        check_t_max(caller, options.t_max);
+    }
+    std::size_t size() const { return queries_.size(); }
+    const time_options& options() const { return options_; }
+    const Query& query(std::size_t i) const { return queries_[i]; }
+    separation distance(std::size_t) const { return {options_.distances.all, 0}; }
+    std::vector<outcome> contacts() const {
+        return decide_batch(queries_, {.threads = options_.threads, .set = options_.set}).answers;
+    }
+
+  private:
+    std::span<const Query> queries_;
+    const time_options& options_;
+};
+
+/// Calls visit(i) for i below `count`, on at most so many threads.
+template <class Visit>
+void for_each_index(std::size_t count, int threads, const Visit& visit) {
+    constexpr std::size_t few = 64;
+    const auto visit_all = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) visit(i);
+    };
+    if (threads == 1 || count <= few) return visit_all(0, count);
+    on_threads(threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, few),
+                          [&](const auto& range) { visit_all(range.begin(), range.end()); });
+    });
+}
+
+/// Whether there is a contact, or a distance within that asked for, in [0, 1].
+template <class Questions>
+std::vector<outcome> decide_all(const Questions& asked) {
+    if (asked.options().distances.ask_for_contact()) return asked.contacts();
+    std::vector<outcome> answers(asked.size());
+    for_each_index(asked.size(), asked.options().threads, [&](std::size_t i) {
+        answers[i] = decide_within(asked.query(i), asked.distance(i)).outcome;
+    });
+    return answers;
+}
+
+std::vector<std::size_t> all_that_are(outcome wanted, const std::vector<outcome>& answers) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < answers.size(); ++i)
+        if (answers[i] == wanted) found.push_back(i);
+    return found;
+}
+
+template <class Questions>
+first_time time_of(const Questions& asked, std::size_t i, double t_max) {
+    return asked.options().distances.ask_for_contact()
+               ? time_of_impact(asked.query(i), t_max)
+               : time_within(asked.query(i), asked.distance(i), t_max);
+}
+
+template <class Questions>
+std::vector<first_time> all_times(const Questions& asked) {
+    const std::vector<outcome> answers = decide_all(asked);
+    std::vector<first_time> times(asked.size());
+    std::ranges::transform(answers, times.begin(), [](outcome o) { return first_time{o}; });
+    const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);
+    for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
+        times[contacts[i]] = time_of(asked, contacts[i], asked.options().t_max);
+    });
+    return times;
+}
+
+auto order_of(const first_time& time) {
+    return std::tuple(time.low, time.high);
+}
+
+/// What one thread has found: the earliest of its queries, and those that start in contact.
+class earliest_of_thread {
+  public:
+    void add(const first_time& time, std::size_t query) {
+        if (time.at_start()) {
+            found_.at_start.push_back(query);
+            return;
+        }
+        const bool is_first = found_.queries.empty();
+        if (is_first || order_of(time) < order_of(found_.time)) {
+            found_.time = time;
+            found_.queries.clear();
+        }
+        if (order_of(time) == order_of(found_.time)) found_.queries.push_back(query);
+    }
+    void add(const earliest_of_thread& other) {
+        for (const std::size_t query : other.found_.queries) add(other.found_.time, query);
+        const auto& more = other.found_.at_start;
+        found_.at_start.insert(found_.at_start.end(), more.begin(), more.end());
+    }
+    earliest_time sorted() && {
+        if (found_.queries.empty()) found_.time = {outcome::separate};
+        std::ranges::sort(found_.queries);
+        std::ranges::sort(found_.at_start);
+        return std::move(found_);
+    }
+
+  private:
+    earliest_time found_;
+};
+
+void lower(std::atomic<double>& bound, double value) {
+    double now = bound.load();
+    while (value < now && !bound.compare_exchange_weak(now, value)) continue;
+}
+
+/// A query with the earliest time is found whatever the bound has become: times are asked for up to
+/// the upper end of the least bracket yet found, itself included.
+template <class Questions>
+earliest_time earliest_of_all(const Questions& asked) {
+    const std::vector<outcome> answers = decide_all(asked);
+    if (std::vector unknown = all_that_are(outcome::uncertain, answers); !unknown.empty())
+        return {{}, std::move(unknown), {}};
+    const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);
+    std::atomic<double> bound = asked.options().t_max;
+    tbb::enumerable_thread_specific<earliest_of_thread> parts;
+    for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
+        const first_time time = time_of(asked, contacts[i], bound);
+        if (time.outcome != outcome::collides) return;
+        if (!time.at_start()) lower(bound, time.high);
+        parts.local().add(time, contacts[i]);
+    });
+    earliest_of_thread all;
+    for (const earliest_of_thread& part : parts) all.add(part);
+    return std::move(all).sorted();
+}
+
+}  // namespace
+
+template <class Pair>
+std::vector<first_time> times_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                                       const time_options& options) {
+    return all_times(indexed_questions<Pair>(positions, pairs, options));
+}
+template <class Query>
+std::vector<first_time> times_of_queries(std::span<const Query> queries,
+                                         const time_options& options) {
+    return all_times(stored_questions<Query>(queries, options));
+}
+template <class Pair>
+earliest_time earliest_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                                const time_options& options) {
+    return earliest_of_all(indexed_questions<Pair>(positions, pairs, options));
+}
+template <class Query>
+earliest_time earliest_of_queries(std::span<const Query> queries, const time_options& options) {
+    return earliest_of_all(stored_questions<Query>(queries, options));
+}
+
+template std::vector<first_time> times_of_pairs(const vertex_rows&,
+                                                std::span<const vertex_face_pair>,
+                                                const time_options&);
+template std::vector<first_time> times_of_queries(std::span<const vertex_face<double>>,
+                                                  const time_options&);
+template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const vertex_face_pair>,
+                                         const time_options&);
+template earliest_time earliest_of_queries(std::span<const vertex_face<double>>,
+                                           const time_options&);
+template std::vector<first_time> times_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
+                                                const time_options&);
+template std::vector<first_time> times_of_queries(std::span<const edge_edge<double>>,
+                                                  const time_options&);
+template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
+                                         const time_options&);
+template earliest_time earliest_of_queries(std::span<const edge_edge<double>>, const time_options&);
+template std::vector<first_time> times_of_pairs(const vertex_rows&,
+                                                std::span<const vertex_edge_pair>,
+                                                const time_options&);
+template std::vector<first_time> times_of_queries(std::span<const vertex_edge<double>>,
+                                                  const time_options&);
+template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const vertex_edge_pair>,
+                                         const time_options&);
+template earliest_time earliest_of_queries(std::span<const vertex_edge<double>>,
+                                           const time_options&);
+template std::vector<first_time> times_of_pairs(const vertex_rows&,
+                                                std::span<const vertex_vertex_pair>,
+                                                const time_options&);
+template std::vector<first_time> times_of_queries(std::span<const vertex_vertex<double>>,
+                                                  const time_options&);
+template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const vertex_vertex_pair>,
+                                         const time_options&);
+template earliest_time earliest_of_queries(std::span<const vertex_vertex<double>>,
+                                           const time_options&);
+
+}  // namespace ccd::detail

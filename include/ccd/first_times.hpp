@@ -1,0 +1,111 @@
+// First times of many queries at once: when each first touches, or comes within a distance; or the
+// earliest of all alone.
+//
+// The same times as one by one (ccd/contact.hpp, ccd/separation.hpp), on every instruction set and
+// with any number of threads. Queries are decided first, as ccd/batch.hpp does, and only those with
+// a contact are asked for its time.
+#pragma once
+
+#include <algorithm>
+#include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/separation.hpp>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace ccd {
+
+/// The distance within which two elements count as in contact: the same for all pairs, or by a
+/// thickness of each vertex. Then an element is as thick as the thickest of its vertices, and the
+/// distance of a pair is the exact sum of its two elements' thicknesses. Not both. By default 0:
+/// contact itself. Finite and not negative, in the unit of the coordinates. Not owned.
+struct pair_distances {
+    double all = 0;
+    std::span<const double> thickness = {};
+
+    /// Whether contact itself is asked for.
+    bool ask_for_contact() const { return all == 0 && thickness.empty(); }
+
+    /// That of a pair, whose vertices must have a thickness if any has.
+    template <class Pair>
+    separation of(const Pair& pair) const {
+        if (thickness.empty()) return {all, 0};
+        const auto vertices = vertices_of(pair);
+        const std::span<const vertex_index> both(vertices);
+        constexpr std::size_t first = kind_traits<kind_of<Pair>>::first_vertices;
+        return {thickest(both.first(first)), thickest(both.subspan(first))};
+    }
+
+    /// Of an element, the thickness of the thickest vertex. There must be one of each.
+    double thickest(std::span<const vertex_index> vertices) const {
+        double most = 0;
+        for (const vertex_index v : vertices) most = std::max(most, thickness[v]);
+        return most;
+    }
+};
+
+struct time_options {
+    double t_max = 1;                         ///< times in [0, t_max] are asked for
+    pair_distances distances = {};            ///< of stored queries, the same for all
+    int threads = 0;                          ///< at most; 0: one per core
+    std::optional<instruction_set> set = {};  ///< by default the strongest
+};
+
+/// The earliest of many first times.
+struct earliest_time {
+    /// The least of all but those at the start, by `low`, then by `high`; `separate` if there is
+    /// none, `uncertain` if some query has a coordinate that is not finite.
+    first_time time;
+    std::vector<std::size_t> queries;   ///< whose time that is, ascending
+    std::vector<std::size_t> at_start;  ///< those in contact at t = 0 already, ascending
+};
+
+namespace detail {
+
+template <class Pair>
+std::vector<first_time> times_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                                       const time_options& options);
+template <class Query>
+std::vector<first_time> times_of_queries(std::span<const Query> queries,
+                                         const time_options& options);
+template <class Pair>
+earliest_time earliest_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                                const time_options& options);
+template <class Query>
+earliest_time earliest_of_queries(std::span<const Query> queries, const time_options& options);
+
+}  // namespace detail
+
+/// The first time of each query, of any kind: by index, or stored. Throws std::invalid_argument as
+/// decide_batch does, and if t_max is not finite, if a distance is not finite or is negative, if
+/// both kinds of distance are given, if there is not a thickness for each vertex, or any for stored
+/// queries.
+///
+/// Cost: that of decide_batch (with distances, of decide_within for each query), and that of
+/// time_of_impact or time_within for those that collide.
+template <pair_range Pairs>
+std::vector<first_time> first_times(const vertex_rows& positions, const Pairs& pairs,
+                                    const time_options& options = {}) {
+    return detail::times_of_pairs(positions, detail::items_of<Pairs>(pairs), options);
+}
+template <query_range Queries>
+std::vector<first_time> first_times(const Queries& queries, const time_options& options = {}) {
+    return detail::times_of_queries(detail::items_of<Queries>(queries), options);
+}
+
+/// The earliest of them, and which queries have it. Cheaper than all: once a time is known, the
+/// others are asked only for earlier ones. Throws as first_times.
+template <pair_range Pairs>
+earliest_time earliest(const vertex_rows& positions, const Pairs& pairs,
+                       const time_options& options = {}) {
+    return detail::earliest_of_pairs(positions, detail::items_of<Pairs>(pairs), options);
+}
+template <query_range Queries>
+earliest_time earliest(const Queries& queries, const time_options& options = {}) {
+    return detail::earliest_of_queries(detail::items_of<Queries>(queries), options);
+}
+
+}  // namespace ccd

@@ -1,0 +1,191 @@
+// First times of batches of every kind against one query at a time; the earliest of many.
+#include <gtest/gtest.h>
+
+#include <ccd/first_times.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace {
+
+using ccd::first_time;
+using ccd::outcome;
+using ccd::vertex_index;
+
+constexpr vertex_index vertices = 60;
+
+/// Vertices on a small grid, so that contacts, ties and contacts at the start abound.
+std::vector<ccd::point<double>> grid(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto coordinate = [&random] { return static_cast<double>(random() % 6); };
+    std::vector<ccd::point<double>> points(vertices);
+    for (auto& p : points) p = {coordinate(), coordinate(), coordinate()};
+    return points;
+}
+
+template <class Pair>
+std::vector<Pair> random_pairs(std::size_t count) {
+    std::mt19937_64 random(count);
+    std::vector<Pair> pairs(count);
+    for (Pair& pair : pairs) {
+        auto of_pair = vertices_of(pair);
+        for (vertex_index& v : of_pair) v = static_cast<vertex_index>(random() % vertices);
+        std::apply([&pair](auto... v) { pair = {v...}; }, of_pair);
+    }
+    return pairs;
+}
+
+std::vector<double> thicknesses() {
+    std::vector<double> all(vertices);
+    for (std::size_t v = 0; v < all.size(); ++v) all[v] = 0.1 * static_cast<double>(v % 4);
+    return all;
+}
+
+/// One by one, in another way than batches go: no question is asked before.
+template <class Pair>
+std::vector<first_time> one_by_one(const ccd::vertex_rows& rows, const std::vector<Pair>& pairs,
+                                   const ccd::time_options& options) {
+    std::vector<first_time> times;
+    for (const Pair& p : pairs)
+        times.push_back(time_within(query_of(rows, p), options.distances.of(p), options.t_max));
+    return times;
+}
+
+/// By looking through all times.
+ccd::earliest_time earliest_of(const std::vector<first_time>& times) {
+    ccd::earliest_time found{{outcome::separate}, {}, {}};
+    const auto order = [](const first_time& t) { return std::tuple(t.low, t.high); };
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (times[i].at_start()) found.at_start.push_back(i);
+        if (times[i].outcome == outcome::collides && !times[i].at_start() &&
+            (found.time.outcome != outcome::collides || order(times[i]) < order(found.time)))
+            found.time = times[i];
+    }
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (found.time.outcome == outcome::collides && times[i] == found.time)
+            found.queries.push_back(i);
+    return found;
+}
+
+void expect_same(const ccd::earliest_time& found, const ccd::earliest_time& expected) {
+    EXPECT_EQ(found.time, expected.time);
+    EXPECT_EQ(found.queries, expected.queries);
+    EXPECT_EQ(found.at_start, expected.at_start);
+}
+
+template <class Pair>
+class FirstTimes : public testing::Test {};
+using pair_types = testing::Types<ccd::vertex_face_pair, ccd::edge_edge_pair, ccd::vertex_edge_pair,
+                                  ccd::vertex_vertex_pair>;
+TYPED_TEST_SUITE(FirstTimes, pair_types);
+
+TYPED_TEST(FirstTimes, AreThoseOfOneByOne) {
+    const auto before = grid(1), after = grid(2);
+    const ccd::vertex_rows rows(before, after);
+    const auto pairs = random_pairs<TypeParam>(130);
+    const std::vector<double> thickness = thicknesses();
+    const ccd::time_options asked[] = {
+        {}, {.t_max = 0.25}, {.distances = {0.25}}, {.t_max = 0.5, .distances = {0, thickness}}};
+    for (ccd::time_options options : asked) {
+        const auto expected = one_by_one(rows, pairs, options);
+        for (options.threads = 0; options.threads < 3; ++options.threads) {
+            EXPECT_EQ(ccd::first_times(rows, pairs, options), expected);
+            expect_same(ccd::earliest(rows, pairs, options), earliest_of(expected));
+        }
+    }
+}
+
+TYPED_TEST(FirstTimes, OfStoredQueriesAreTheSame) {
+    const auto before = grid(3), after = grid(4);
+    const ccd::vertex_rows rows(before, after);
+    const auto pairs = random_pairs<TypeParam>(150);
+    std::vector<ccd::query_of_pair<TypeParam>> queries;
+    for (const TypeParam& pair : pairs) queries.push_back(query_of(rows, pair));
+    for (const ccd::time_options& options :
+         {ccd::time_options{}, ccd::time_options{.t_max = 0.75, .distances = {0.125}}}) {
+        EXPECT_EQ(ccd::first_times(queries, options), ccd::first_times(rows, pairs, options));
+        expect_same(ccd::earliest(queries, options), ccd::earliest(rows, pairs, options));
+    }
+}
+
+TEST(FirstTimesOf, EveryInstructionSetAreTheSame) {
+    const auto before = grid(5), after = grid(6);
+    const ccd::vertex_rows rows(before, after);
+    const auto pairs = random_pairs<ccd::edge_edge_pair>(500);
+    const auto expected = ccd::first_times(rows, pairs);
+    for (const ccd::instruction_set set : ccd::instruction_sets())
+        EXPECT_EQ(ccd::first_times(rows, pairs, {.set = set}), expected);
+}
+
+TEST(FirstTimesOf, CoordinatesThatAreNotFiniteAreUncertain) {
+    auto before = grid(7), after = grid(8);
+    after[3].y = std::numeric_limits<double>::quiet_NaN();
+    const ccd::vertex_rows rows(before, after);
+    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}, {2, 3}, {4, 4}, {3, 5}};
+    const auto times = ccd::first_times(rows, pairs);
+    EXPECT_EQ(times[1], first_time());
+    EXPECT_TRUE(times[2].at_start());
+    const auto first = ccd::earliest(rows, pairs);
+    EXPECT_EQ(first.time.outcome, outcome::uncertain);
+    EXPECT_EQ(first.queries, (std::vector<std::size_t>{1, 3}));
+}
+
+/// A distance of a pair is the exact sum of two thicknesses: 1 + 2^-60 is no double.
+TEST(FirstTimesOf, ThicknessesAreAddedExactly) {
+    const std::vector<ccd::point<double>> before{{0, 0, 0}, {1, 0, 0}}, after = before;
+    const ccd::vertex_rows rows(before, after);
+    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}};
+    const auto touches = [&](double first, double second) {
+        const std::vector<double> thickness{first, second};
+        const ccd::time_options options{.distances = {0, thickness}};
+        return ccd::first_times(rows, pairs, options)[0].at_start();
+    };
+    EXPECT_TRUE(touches(1, 0));
+    EXPECT_TRUE(touches(0.5, 0.5));
+    EXPECT_FALSE(touches(0.5, std::nextafter(0.5, 0.0)));
+    EXPECT_FALSE(touches(std::nextafter(1.0, 0.0), 0x1p-60));
+    EXPECT_TRUE(touches(std::nextafter(1.0, 0.0), 0x1p-53));
+}
+
+template <class Call>
+std::string refusal(const Call& call) {
+    try {
+        call();
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "nothing refused";
+}
+
+TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
+    const auto before = grid(9);
+    const ccd::vertex_rows rows(before, before);
+    const std::vector<ccd::vertex_vertex_pair> pairs{{0, 1}}, far{{0, vertices}};
+    const auto refused = [&](const ccd::time_options& options) {
+        return refusal([&] { ccd::first_times(rows, pairs, options); });
+    };
+    EXPECT_EQ(refused({.t_max = std::numeric_limits<double>::quiet_NaN()}),
+              "ccd::first_times: found a t_max of nan, expected a finite one");
+    EXPECT_EQ(refused({.distances = {-1}}),
+              "ccd::first_times: found a distance of -1.000000, expected a finite one that is not "
+              "negative");
+    const std::vector<double> few(3), wrong(vertices, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(refused({.distances = {0, few}}),
+              "ccd::first_times: found thicknesses of 3 vertices, there are 60");
+    EXPECT_EQ(refused({.distances = {0, wrong}}),
+              "ccd::first_times: found for vertex 0 a thickness of inf, expected a finite one that "
+              "is not negative");
+    EXPECT_EQ(refused({.distances = {1, few}}),
+              "ccd::first_times: found a distance of all pairs and thicknesses, expected one of "
+              "the two");
+    EXPECT_EQ(refusal([&] { ccd::earliest(rows, far); }),
+              "ccd::first_times: query 0 names vertex 60 of 60");
+    EXPECT_EQ(refusal([&] { ccd::earliest(ccd::vertex_rows(nullptr, nullptr, 9), pairs); }),
+              "ccd::first_times: found a null pointer, expected positions");
+}
+
+}  // namespace

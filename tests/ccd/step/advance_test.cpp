@@ -1,0 +1,252 @@
+// Steps that are certainly free: no pair of a step to the positions returned touches, but those
+// that touched at the start.
+#include <gtest/gtest.h>
+
+#include <ccd/advance.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "tests/ccd/step/expect_steps.hpp"
+#include "tests/ccd/step/nasty_shapes.hpp"
+
+namespace {
+
+using brute_force::random_mixture;
+using brute_force::random_soup;
+using brute_force::two_frames;
+using ccd::outcome;
+
+ccd::mesh moved_to(const ccd::mesh& frame, const ccd::advance_result& result) {
+    return {result.positions, frame.faces, frame.edges};
+}
+
+/// That all pairs of a step to the result are among those it left out. Returns the result.
+ccd::advance_result expect_free(const two_frames& at, const ccd::advance_options& options) {
+    const auto& [before, after] = at;
+    const auto result = ccd::advance(before, after, options);
+    const auto pairs = ccd::step(before, moved_to(before, result)).pairs;
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        EXPECT_TRUE(std::ranges::includes(result.touching_at_start.of<K>(), pairs.of<K>()))
+            << name(K);
+    });
+    for (std::size_t v = 0; v < before.vertices.size(); ++v) {
+        const double f = result.fractions[v];
+        EXPECT_GE(f, result.fraction);
+        const double x = std::lerp(before.vertices[v].x, after.vertices[v].x, f);
+        EXPECT_NEAR(result.positions[v].x, x, 0x1p-42 * std::abs(x) + 0x1p-1060);
+    }
+    return result;
+}
+ccd::advance_result expect_free(const two_frames& at) {
+    return expect_free(at, {});
+}
+
+/// Whether it goes as far as promised wherever rounding lets it.
+bool goes_far(const ccd::advance_result& result) {
+    const double first =
+        result.first_contact.outcome == outcome::collides ? result.first_contact.low : 1;
+    return result.fraction >= 0.99 * first;
+}
+
+TEST(Advance, GoesAllTheWayWhereThatIsFree) {
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}}, {{0, 1, 2}}};
+    ccd::mesh after = before;
+    after.vertices[3] = {0.3, 0.7, 0x1p-1074};
+    const auto result = expect_free({before, after});
+    EXPECT_EQ(result.fraction, 1);
+    EXPECT_EQ(result.positions, after.vertices);
+    EXPECT_EQ(result.first_contact.outcome, outcome::separate);
+}
+
+TEST(Advance, StopsBeforeTheFirstContact) {
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}}, {{0, 1, 2}}};
+    ccd::mesh after = before;
+    after.vertices[3].z = -2;
+    const auto result = expect_free({before, after});
+    EXPECT_EQ(result.first_contact.low, 1.0 / 3);
+    EXPECT_LE(result.fraction, 1.0 / 3);
+    EXPECT_GT(result.fraction, 1.0 / 3 - 0x1p-40);
+}
+
+TEST(Advance, IsFreeInMeshesOfAllKinds) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const auto mixture = expect_free(random_mixture(seed));
+        EXPECT_TRUE(goes_far(mixture))
+            << seed << ": " << mixture.fraction << " of " << mixture.first_contact.low;
+        EXPECT_LT(mixture.fraction, 1);
+        EXPECT_TRUE(goes_far(expect_free(random_soup(seed, 30, 15)))) << seed;
+    }
+}
+
+/// Contacts a last place apart: grids of few last places, far from the origin.
+TEST(Advance, IsFreeWhereContactsAreALastPlaceApart) {
+    for (const double unit : {0x1p-52, 0x1p-50, 0x1p-46})
+        for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+            auto [before, after] = random_soup(seed, 24, 10);
+            for (auto* frame : {&before, &after})
+                for (auto& p : frame->vertices)
+                    p = {1 + unit * p.x, 1 + unit * p.y, 1 + unit * p.z};
+            const auto result = expect_free({before, after});
+            EXPECT_TRUE(goes_far(result)) << seed;
+        }
+}
+
+/// A vertex slides along a tilted plane, a last place above it: rounding decides at every step.
+TEST(Advance, IsFreeWhereAVertexSlidesAlongAFace) {
+    std::mt19937_64 random(1);
+    const auto uniform = [&random] { return nasty_shapes::uniform(random); };
+    for (int i = 0; i < 60; ++i) {
+        const ccd::point<double> a{uniform(), uniform(), uniform()},
+            b{uniform(), uniform(), uniform()}, c{uniform(), uniform(), uniform()};
+        const auto between = [&](double s, double t) {
+            const auto mix = [&](double x, double y, double z) {
+                return (1 - s - t) * x + s * y + t * z;
+            };
+            return ccd::point<double>{mix(a.x, b.x, c.x), mix(a.y, b.y, c.y), mix(a.z, b.z, c.z)};
+        };
+        ccd::mesh before{{a, b, c, between(0.2, 0.3)}, {{0, 1, 2}}};
+        ccd::mesh after = before;
+        after.vertices[3] = between(0.5, 0.4);
+        const double last_place = i % 2 == 0 ? 0x1p-53 : 0x1p-50;
+        before.vertices[3].z += last_place;
+        after.vertices[3].z -= last_place;
+        expect_free({before, after});
+    }
+}
+
+TEST(Advance, IsFreeAtEveryScale) {
+    for (const auto& shape : nasty_shapes::shapes) {
+        SCOPED_TRACE(shape.name);
+        nasty_shapes::generator random(1);
+        ccd::mesh before, after;
+        for (unsigned patch = 0; patch < 16; ++patch) {
+            const auto v = ccd::vertex_index(before.vertices.size());
+            for (int i = 0; i < 3; ++i) {
+                const auto p = shape.vertex(random, patch);
+                before.vertices.push_back(p.t0);
+                after.vertices.push_back(p.t1);
+            }
+            before.faces.push_back({v, v + 1, v + 2});
+        }
+        after.faces = before.faces;
+        expect_free({before, after});
+    }
+}
+
+TEST(Advance, LeavesOutWhatTouchesAtTheStart) {
+    // A vertex on a face goes through it, another one falls on it.
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0}, {0.5, 0.25, 1}},
+                           {{0, 1, 2}}};
+    ccd::mesh after = before;
+    after.vertices[3].z = -1;
+    after.vertices[4].z = -1;
+    const auto result = expect_free({before, after});
+    EXPECT_EQ(result.touching_at_start.vertex_face,
+              (std::vector<ccd::vertex_face_pair>{{3, 0, 1, 2}}));
+    EXPECT_EQ(result.first_contact.low, 0.5);
+    EXPECT_TRUE(goes_far(result));
+}
+
+/// Four triangles over a floor each, far from each other: two pairs in contact, at different times.
+two_frames four_bodies() {
+    ccd::mesh before;
+    for (unsigned body = 0; body < 4; ++body) {
+        const double x = 10.0 * body;
+        const auto v = ccd::vertex_index(before.vertices.size());
+        for (const double z : {0.0, 1.0})
+            for (const auto& [dx, dy] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}})
+                before.vertices.push_back({x + dx + z / 8, dy + z / 8, z});
+        before.faces.push_back({v, v + 1, v + 2});
+        before.faces.push_back({v + 3, v + 4, v + 5});
+    }
+    ccd::mesh after = before;
+    for (unsigned v = 0; v < after.vertices.size(); ++v)
+        if (v % 6 > 2) after.vertices[v].z -= std::array{2.0, 0.5, 4.0, 0.9}[v / 6];
+    return {before, after};
+}
+
+TEST(AdvanceByGroups, ContactsHoldOnlyTheirIsland) {
+    const auto at = four_bodies();
+    const auto whole = expect_free(at);
+    EXPECT_EQ(whole.first_contact.low, 0.25);
+    EXPECT_EQ(whole.fractions, std::vector<double>(24, whole.fraction));
+    const auto bodies = ccd::connected_parts(at.first.faces, at.first.edges, 24);
+    EXPECT_EQ(bodies[0], 0);
+    EXPECT_EQ(bodies[23], 7);
+    const auto result = expect_free(at, {.groups = bodies});
+    EXPECT_EQ(result.fraction, whole.fraction);
+    for (unsigned v = 0; v < 24; ++v) {
+        const double first = std::array{0.5, 1.0, 0.25, 1.0}[v / 6];
+        EXPECT_GE(result.fractions[v], 0.99 * first);
+        if (first == 1)
+            EXPECT_EQ(result.positions[v], at.second.vertices[v]);
+        else
+            EXPECT_LT(result.fractions[v], first);
+    }
+}
+
+TEST(AdvanceByGroups, GroupsThatMeetOnlyAsOneIsHeldBecomeOne) {
+    // Three points on a line. The second is stopped by the wall; the first, which would have
+    // followed it, runs into it.
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {2, -1, -1}, {2, 1, -1}, {2, 0, 1}}, {{2, 3, 4}}};
+    ccd::mesh after = before;
+    after.vertices[0].x = 3;
+    after.vertices[1].x = 4;
+    const std::vector<int> groups{0, 1, 2, 2, 2};
+    const auto result = expect_free({before, after}, {.groups = groups});
+    EXPECT_EQ(result.fractions[0], result.fractions[1]);
+    EXPECT_GT(result.fractions[1], 0.33);
+    EXPECT_LT(result.fractions[1], 1.0 / 3);
+}
+
+TEST(AdvanceByGroups, IsFreeInMeshesOfAllKinds) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        const auto at = random_mixture(seed);
+        const auto whole = expect_free(at);
+        std::vector<int> groups(at.first.vertices.size());
+        std::iota(groups.begin(), groups.end(), 0);
+        for (const auto& by : {groups, ccd::connected_parts(at.first.faces, at.first.edges,
+                                                            at.first.vertices.size())}) {
+            const auto result = expect_free(at, {.groups = by});
+            EXPECT_TRUE(goes_far(result));
+            EXPECT_GE(std::reduce(result.fractions.begin(), result.fractions.end()),
+                      0.999 * std::reduce(whole.fractions.begin(), whole.fractions.end()));
+        }
+    }
+}
+
+TEST(AdvanceByGroups, RefusesGroupsOfOtherVertices) {
+    const auto at = random_mixture(1);
+    const std::vector<int> groups(3);
+    EXPECT_THROW(ccd::advance(at.first, at.second, {.groups = groups}), std::invalid_argument);
+}
+
+TEST(AdvanceKeepingADistance, KeepsIt) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+        for (const double distance : {0x1p-40, 0.1}) {
+            const auto at = random_mixture(seed);
+            const auto result = expect_free(at, {.distances = {distance}});
+            EXPECT_TRUE(goes_far(result)) << seed;
+            const auto near =
+                ccd::step(at.first, moved_to(at.first, result), {.distances = {distance}});
+            ccd::for_each_kind([&]<ccd::kind K>() {
+                for (const auto& pair : near.pairs.of<K>())
+                    EXPECT_TRUE(std::ranges::binary_search(result.near_at_start.of<K>(), pair) ||
+                                std::ranges::binary_search(result.touching_at_start.of<K>(), pair));
+            });
+        }
+}
+
+/// The pair was left out, and went through.
+TEST(AdvanceKeepingADistance, NearPairsDoNotTouch) {
+    const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 0.5}}, {{0, 1, 2}}};
+    ccd::mesh after = before;
+    after.vertices[3].z = -0.5;
+    const auto result = expect_free({before, after}, {.distances = {0.75}});
+    EXPECT_EQ(result.near_at_start.vertex_face, (std::vector<ccd::vertex_face_pair>{{3, 0, 1, 2}}));
+    EXPECT_EQ(result.touching_at_start, ccd::pair_lists());
+    EXPECT_GE(result.fraction, 0.99 * 0.5);
+    EXPECT_LT(result.fraction, 0.5);
+}
+
+}  // namespace

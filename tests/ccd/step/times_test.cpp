@@ -1,0 +1,144 @@
+// When pairs of a step first touch, or come within a distance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "tests/ccd/step/expect_steps.hpp"
+
+namespace {
+
+using brute_force::random_mixture;
+using brute_force::two_frames;
+using ccd::first_time;
+using ccd::outcome;
+
+/// The times of pairs one by one, and the earliest of those not at the start.
+struct timed {
+    ccd::time_lists times;
+    ccd::pair_lists at_start;
+    first_time first{outcome::separate};
+
+    timed(const two_frames& at, const ccd::pair_lists& pairs, double distance, double t_max = 1) {
+        const ccd::vertex_rows rows(at.first, at.second);
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            for (const auto& pair : pairs.of<K>()) {
+                const first_time time = time_within(query_of(rows, pair), {distance, 0}, t_max);
+                times.of<K>().push_back(time);
+                if (time.at_start())
+                    at_start.of<K>().push_back(pair);
+                else if (first.outcome != outcome::collides ||
+                         std::tuple(time.low, time.high) < std::tuple(first.low, first.high))
+                    first = time;
+            }
+        });
+    }
+};
+
+TEST(StepTimes, AreThoseOfEachPair) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        const auto at = random_mixture(seed);
+        const auto plain = ccd::step(at.first, at.second);
+        const timed expected(at, plain.pairs, 0);
+        for (const int threads : {1, 3}) {
+            const auto found = ccd::step(at.first, at.second, {.threads = threads, .times = true});
+            brute_force::expect_same(found, plain);
+            EXPECT_EQ(found.times, expected.times);
+            EXPECT_EQ(found.first_contact, expected.first);
+            EXPECT_EQ(found.touching_at_start, expected.at_start);
+            const auto first =
+                ccd::step(at.first, at.second, {.threads = threads, .first_contact = true});
+            EXPECT_EQ(first.times, ccd::time_lists());
+            EXPECT_EQ(first.first_contact, expected.first);
+            EXPECT_EQ(first.touching_at_start, expected.at_start);
+        }
+    }
+}
+
+TEST(StepTimes, AreNotAfterTheLast) {
+    const auto at = brute_force::random_soup(4, 40, 30);
+    const auto whole = ccd::step(at.first, at.second, {.times = true});
+    const auto part = ccd::step(at.first, at.second, {.times = true, .t_max = 0.5});
+    std::size_t fewer = 0;
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < whole.pairs.of<K>().size(); ++i)
+            if (whole.times.of<K>()[i].high <= 0.5) {
+                ASSERT_LT(next, part.pairs.of<K>().size());
+                EXPECT_EQ(part.pairs.of<K>()[next], whole.pairs.of<K>()[i]);
+                EXPECT_EQ(part.times.of<K>()[next++], whole.times.of<K>()[i]);
+            }
+        EXPECT_EQ(next, part.pairs.of<K>().size());
+        fewer += whole.pairs.of<K>().size() - next;
+    });
+    EXPECT_GT(fewer, 0U);
+    EXPECT_EQ(ccd::step(at.first, at.second, {.t_max = 0.5}).pairs, part.pairs);
+}
+
+TEST(StepTimes, AreAskedForOnlyWhereWanted) {
+    const auto at = random_mixture(4);
+    const auto result = ccd::step(at.first, at.second, {.initial_contact = true});
+    EXPECT_EQ(result.times, ccd::time_lists());
+    EXPECT_EQ(result.first_contact, first_time());
+}
+
+TEST(StepDistances, FindPairsThatOnlyWiderBoxesFind) {
+    for (const unsigned seed : {1U, 2U})
+        for (const double distance : {0x1p-1074, 0.125, 1.0}) {
+            const auto at = random_mixture(seed);
+            const auto expected = brute_force::step(at, brute_force::by_distance{distance});
+            const timed times(at, expected.pairs, distance);
+            const auto found =
+                ccd::step(at.first, at.second, {.times = true, .distances = {distance}});
+            EXPECT_EQ(found.pairs, expected.pairs);
+            EXPECT_EQ(found.times, times.times);
+            EXPECT_EQ(found.touching_at_start, times.at_start);
+            EXPECT_EQ(found.first_contact, times.first);
+            const auto start =
+                ccd::step(at.first, at.second, {.initial_contact = true, .distances = {distance}});
+            EXPECT_EQ(start.touching_at_start, times.at_start);
+        }
+}
+
+TEST(StepDistances, OfThicknessesAreThoseOfTheThickestVertices) {
+    const auto at = random_mixture(3);
+    std::vector<double> thickness(at.first.vertices.size(), 0.25);
+    const auto same = ccd::step(at.first, at.second, {.distances = {0, thickness}});
+    EXPECT_EQ(same.pairs, ccd::step(at.first, at.second, {.distances = {0.5}}).pairs);
+    for (std::size_t v = 0; v < thickness.size(); v += 2) thickness[v] = 0;
+    const ccd::vertex_rows rows(at.first, at.second);
+    const ccd::pair_distances distances{0, thickness};
+    const auto found = ccd::step(at.first, at.second, {.distances = distances});
+    ccd::pair_lists expected;
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        for (const auto& pair : same.pairs.of<K>())
+            if (decide_within(query_of(rows, pair), distances.of(pair)).outcome ==
+                outcome::collides)
+                expected.of<K>().push_back(pair);
+    });
+    EXPECT_EQ(found.pairs, expected);
+    EXPECT_LT(found.pairs.vertex_face.size(), same.pairs.vertex_face.size());
+}
+
+/// Their boxes, widened, have infinite ends.
+TEST(StepDistances, MayOverflow) {
+    constexpr double most = std::numeric_limits<double>::max();
+    ccd::mesh mesh{{{-most, 0, 0}, {most, 0, 0}, {0, 0, 0}}, {}};
+    const auto near = [&](double distance) {
+        return ccd::step(mesh, mesh, {.distances = {distance}}).pairs.vertex_vertex.size();
+    };
+    EXPECT_EQ(near(most), 2U);
+    EXPECT_EQ(near(std::nextafter(most, 0.0)), 0U);
+}
+
+TEST(StepDistances, AreOfExactAlone) {
+    const auto at = random_mixture(1);
+    for (ccd::step_options options :
+         {ccd::step_options{.first_contact = true}, ccd::step_options{.times = true},
+          ccd::step_options{.t_max = 0.5}, ccd::step_options{.distances = {1}}}) {
+        options.method = ccd::method::tight;
+        EXPECT_THROW(ccd::step(at.first, at.second, options), std::invalid_argument);
+    }
+}
+
+}  // namespace
