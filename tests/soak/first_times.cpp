@@ -1,8 +1,11 @@
 #include "tests/soak/first_times.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/methods/transform.hpp>
 #include <ccd/reference.hpp>
 #include <cmath>
 #include <cstddef>
@@ -10,7 +13,9 @@
 #include <cstdio>
 #include <limits>
 #include <string_view>
+#include <tuple>
 
+#include "ccd/contact/integer_times.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/support/distance_families.hpp"
 #include "tests/support/first_time_faults.hpp"
@@ -206,35 +211,80 @@ part part_of(std::string name, std::vector<time_decider> deciders, bool of_dista
     return all;
 }
 
+/// ask(the query with its points on curves of degree 1)
+template <class Query, class Ask>
+first_time along_curves(const Query& query, const Ask& ask) {
+    constexpr std::size_t count = std::tuple_size_v<decltype(ccd::points_of(query))>;
+    std::array<std::array<ccd::point<double>, 2>, count> ends;
+    std::ranges::transform(ccd::points_of(query), ends.begin(), [](const auto& m) {
+        return std::array{m.t0, m.t1};
+    });
+    constexpr kind K = ccd::kind_of<Query>;
+    if constexpr (K == kind::vertex_face)
+        return ask(ccd::vertex_face_curves{ends[0], ends[1], ends[2], ends[3]});
+    else if constexpr (K == kind::edge_edge)
+        return ask(ccd::edge_edge_curves{ends[0], ends[1], ends[2], ends[3]});
+    else if constexpr (K == kind::vertex_edge)
+        return ask(ccd::vertex_edge_curves{ends[0], ends[1], ends[2]});
+    else
+        return ask(ccd::vertex_vertex_curves{ends[0], ends[1]});
+}
+
+/// The stage after the filters alone: it sees what they decide before it.
+template <class Query>
+first_time in_integers_unfiltered(const Query& query, double t_max) {
+    const ccd::detail::found_time found = ccd::detail::first_contact_in_integers(query);
+    if (found.outcome == outcome::uncertain) return ccd::time_of_impact_reference(query, t_max);
+    return until({found.outcome, found.time.low, found.time.high}, t_max);
+}
+
 }  // namespace
 
 std::vector<time_decider> contact_deciders() {
-    return {by_time("time_of_impact", [](const auto& q, separation,
-                                         double t_max) { return ccd::time_of_impact(q, t_max); }),
-            by_time("its reference",
-                    [](const auto& q, separation, double t_max) {
-                        return ccd::time_of_impact_reference(q, t_max);
-                    }),
-            by_outcome("decide_exact",
-                       [](const auto& q, separation) { return ccd::decide_exact(q).outcome; })};
+    std::vector<time_decider> all;
+    const auto when = [&](std::string name, const auto& ask) {
+        all.push_back(by_time(std::move(name), [ask](const auto& q, separation, double t_max) {
+            return ask(q, t_max);
+        }));
+    };
+    when("time_of_impact",
+         [](const auto& q, double t_max) { return ccd::time_of_impact(q, t_max); });
+    when("its reference",
+         [](const auto& q, double t_max) { return ccd::time_of_impact_reference(q, t_max); });
+    when("integers, unfiltered",
+         [](const auto& q, double t_max) { return in_integers_unfiltered(q, t_max); });
+    when("along curves", [](const auto& q, double t_max) {
+        return along_curves(q, [&](const auto& c) { return ccd::time_of_impact(c, t_max); });
+    });
+    all.push_back(by_outcome(
+        "decide_exact", [](const auto& q, separation) { return ccd::decide_exact(q).outcome; }));
+    return all;
 }
 
 std::vector<time_decider> distance_deciders() {
-    return {
-        by_time("time_within", [](const auto& q, separation d,
-                                  double t_max) { return ccd::time_within(q, d, t_max); }),
-        by_time("its reference",
-                [](const auto& q, separation d, double t_max) {
-                    return ccd::time_within_reference(q, d, t_max);
-                }),
-        by_outcome(
-            "decide_within",
-            [](const auto& q, separation d) {
-                return ccd::decide_within(q, {d.second, d.first}).outcome;  // a sum has no order
-            }),
-        by_outcome("its reference's", [](const auto& q, separation d) {
-            return ccd::decide_within_reference(q, d).outcome;
-        })};
+    std::vector<time_decider> all;
+    const auto when = [&](std::string name, const auto& ask) {
+        all.push_back(by_time(std::move(name), ask));
+    };
+    const auto whether = [&](std::string name, const auto& decide) {
+        all.push_back(by_outcome(std::move(name), [decide](const auto& q, separation d) {
+            return decide(q, d).outcome;
+        }));
+    };
+    when("time_within",
+         [](const auto& q, separation d, double t_max) { return ccd::time_within(q, d, t_max); });
+    when("its reference", [](const auto& q, separation d, double t_max) {
+        return ccd::time_within_reference(q, d, t_max);
+    });
+    when("along curves", [](const auto& q, separation d, double t_max) {
+        return along_curves(q, [&](const auto& c) { return ccd::time_within(c, d, t_max); });
+    });
+    whether("decide_within", [](const auto& q, separation d) {
+        return ccd::decide_within(q, {d.second, d.first});  // a sum has no order
+    });
+    whether("its reference's",
+            [](const auto& q, separation d) { return ccd::decide_within_reference(q, d); });
+    return all;
 }
 
 part contact_time_part(std::vector<time_decider> deciders) {
