@@ -13,6 +13,8 @@
 //    vertices_first_within, vertex_edge_first_within, face_first_within, edges_first_within.
 // A condition without `vanishing` is one that another condition covers where it begins to hold
 // after t = 0, so it is asked at 0 only.
+//
+// Proof: proofs/FirstConditions.v, first_is_candidate, candidate_holds.
 #pragma once
 
 #include <ccd/contact.hpp>

@@ -125,6 +125,8 @@ condition<R> contact_condition(const vertex_edge_paths<R>& q) {
 }
 
 /// Of VF and EE at times at which Y = 0.
+/// Proof: proofs/FirstConditions.v, vertices_candidate, vertex_edge_candidate,
+/// face_planar_candidate, edges_planar_candidate.
 template <kind K, class R>
 std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     if constexpr (K == kind::vertex_vertex || K == kind::vertex_edge) {
@@ -161,7 +163,9 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
 }
 
 /// Distance² <= D, all axes in one unit.
-/// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union.
+/// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union; of first
+/// times, proofs/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
+/// edges_near_candidate.
 template <kind K, class R>
 std::vector<condition<R>> distance_conditions(const paths<K, R>& q, const R& squared) {
     if constexpr (K == kind::vertex_vertex) {
