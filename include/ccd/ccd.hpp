@@ -4,6 +4,7 @@
 #include <ccd/advance.hpp>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
+#include <ccd/contact_data.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>

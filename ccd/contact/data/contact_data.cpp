@@ -1,0 +1,170 @@
+// Contact data: see include/ccd/contact_data.hpp for what it promises.
+#include <algorithm>
+#include <ccd/contact_data.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "ccd/contact/data/meeting.hpp"
+#include "ccd/contact/data/moment.hpp"
+#include "ccd/contact/data/normal.hpp"
+#include "ccd/contact/data/state.hpp"
+
+namespace ccd::detail {
+namespace {
+
+using errbound::sign_type;
+using traits = errbound::number_traits<double>;
+
+/// In [0, 1], also what is not a number.
+double clamped(double weight, double most) {
+    return weight > 0 ? std::min(weight, most) : 0;
+}
+
+/// Weights of the points of one feature: those but the first, cut to what is left of 1; the rest
+/// is the first's. The true ones are in [0, 1] and add up to 1, so that no cut adds to an error;
+/// the first's is at most the sum of the others'. Two differences below 1 are off by ε/4 each.
+void set_weights(const contact_state& state, const point_numbers& points, std::size_t first,
+                 std::size_t count, first_contact& into) {
+    double left = 1, error = 0;
+    for (std::size_t i = first + count; --i > first;) {
+        const auto [value, off] = nearest(state.weights[i]);
+        const double weight = clamped(value, left);
+        left -= weight;
+        error += off;
+        into.weights[points[i]] = weight;
+    }
+    into.weights[points[first]] = left;
+    if (count > 1) error = error * (1 + 4 * traits::epsilon()) + traits::epsilon() / 2;
+    if (!(error < 1)) error = traits::infinity();
+    into.weight_error = std::max(into.weight_error, error);
+}
+
+void set_weights(const contact_state& state, const meeting_features& features,
+                 first_contact& into) {
+    into.weight_error = 0;
+    visit_kind(features.kind, [&]<kind K>() {
+        constexpr auto first = kind_traits<K>::first_vertices;
+        set_weights(state, features.points, 0, first, into);
+        set_weights(state, features.points, first, kind_traits<K>::second_vertices, into);
+    });
+}
+
+void set_normal(const enclosed_vector& along, normal_source source, first_contact& into) {
+    if (const auto d = direction_of(along)) {
+        into.normal = d->unit;
+        into.normal_error = d->error;
+        into.normal_from = source;
+    }
+}
+
+/// Where the normal is the cross product: its sign, towards the first feature.
+struct orientation {
+    int sign;
+    bool sided;
+};
+
+/// `velocity`: of the first feature relative to the second. Y = N·P is 0 at the contact, and its
+/// derivative is N times the velocity with which P's side is left; where that has a sign, Y had the
+/// opposite one before. Nothing where the cross product is not to be taken.
+template <class Query>
+std::optional<orientation> orientation_of(const Query& query, const first_time& time,
+                                          const enclosed_vector& n, const enclosed_vector& velocity,
+                                          bool inside) {
+    const bool start = time.at_start();
+    if (!inside && !is_certainly_not_zero(n)) return std::nullopt;
+    if (start && inside) return orientation{1, false};
+    const sign_type approach = sign_of(dot(n, velocity)[0]);
+    if (approach == sign_type::positive || approach == sign_type::negative)
+        return start ? orientation{1, false}
+                     : orientation{approach == sign_type::negative ? 1 : -1, true};
+    const sign_type side = side_before(query, time);
+    if (side == sign_type::zero) return std::nullopt;
+    if (start) return orientation{1, false};
+    // P is the vertex relative to the face, but the second edge relative to the first.
+    constexpr bool towards_first = kind_of<Query> == kind::vertex_face;
+    return orientation{(side == sign_type::positive) == towards_first ? 1 : -1, true};
+}
+
+/// Against the velocity, less its part along the edge that meets; where that is zero and there is a
+/// `cross_product`, that; else against all of the velocity.
+void set_substitute_normal(const contact_state& state, kind met, const enclosed_vector& velocity,
+                           const enclosed_vector* cross_product, first_contact& into) {
+    const auto set = [&](const enclosed_vector& along, normal_source source) {
+        if (is_certainly_not_zero(along)) set_normal(along, source, into);
+        into.sided = into.normal_from != normal_source::none &&
+                     source != normal_source::cross_product && !into.time.at_start();
+        return into.normal_from != normal_source::none;
+    };
+    enclosed_vector off_edge = -velocity;
+    if (met == kind::vertex_edge) off_edge = cross(state.across, cross(state.across, velocity));
+    if (set(off_edge, normal_source::nearest_points)) return;
+    if (cross_product && set(*cross_product, normal_source::cross_product)) return;
+    set(-velocity, normal_source::relative_velocity);
+}
+
+void set_normal_velocity(const enclosed_vector& velocity, int exponent, first_contact& into) {
+    const auto component = [&](double x) { return enclosure::within(x, into.normal_error); };
+    if (into.normal_from == normal_source::none) return;
+    const auto [x, y, z] = into.normal;
+    const enclosed_vector n{{{component(x)}}, {{component(y)}}, {{component(z)}}};
+    const auto [value, error] = nearest(scale(dot(n, velocity)[0], exponent));
+    into.normal_velocity = std::isfinite(value) ? value : 0;
+    into.normal_velocity_error = std::isfinite(value) && error >= 0 ? error : traits::infinity();
+}
+
+template <class Query>
+first_contact data_of(const Query& query, const first_time& time) {
+    constexpr kind whole = kind_of<Query>;
+    first_contact result;
+    result.time = time;
+    if (time.outcome != outcome::collides) return result;
+    const contact_moment at(query, time);
+    const contact_state inside = state_inside<whole>(at, whole_query<whole>().points);
+    result.features = features_at(query, time, inside.weights);
+    const kind met = result.features.kind;
+    const contact_state state = met == whole ? inside : visit_kind(met, [&]<kind K>() {
+        return state_inside<K>(at, result.features.points);
+    });
+    set_weights(state, result.features, result);
+
+    const bool from_second = result.features.points[0] >= kind_traits<whole>::first_vertices;
+    const auto velocity = from_second ? -state.velocity : state.velocity;
+    const enclosed_vector* cross_product = nullptr;
+    std::optional<orientation> known;
+    if constexpr (whole == kind::vertex_face || whole == kind::edge_edge) {
+        cross_product = &inside.across;
+        known = orientation_of(query, time, inside.across, velocity, met == whole);
+    }
+    if (known) {
+        set_normal(known->sign > 0 ? inside.across : -inside.across, normal_source::cross_product,
+                   result);
+        result.sided = known->sided && result.normal_from != normal_source::none;
+    } else {
+        set_substitute_normal(state, met, velocity, cross_product, result);
+    }
+    set_normal_velocity(velocity, at.exponent(), result);
+    return result;
+}
+
+}  // namespace
+}  // namespace ccd::detail
+
+namespace ccd {
+
+first_contact contact_at(const vertex_face<double>& q, const first_time& time) {
+    return detail::data_of(q, time);
+}
+first_contact contact_at(const edge_edge<double>& q, const first_time& time) {
+    return detail::data_of(q, time);
+}
+first_contact contact_at(const vertex_edge<double>& q, const first_time& time) {
+    return detail::data_of(q, time);
+}
+first_contact contact_at(const vertex_vertex<double>& q, const first_time& time) {
+    return detail::data_of(q, time);
+}
+
+}  // namespace ccd

@@ -1,0 +1,86 @@
+// Which features of a query meet at its first contact. Internal.
+#pragma once
+
+#include <array>
+#include <ccd/contact.hpp>
+#include <ccd/contact_data.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
+#include <ccd/query.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/sign.hpp>
+#include <optional>
+
+#include "ccd/contact/data/moment.hpp"
+#include "ccd/exact/features.hpp"
+
+namespace ccd::detail {
+
+/// Inside both features of the query.
+template <kind K>
+constexpr meeting_features whole_query() {
+    meeting_features all{K, {}};
+    for (std::uint8_t i = 0; i < kind_traits<K>::first_vertices + kind_traits<K>::second_vertices;
+         ++i)
+        all.points[i] = i;
+    return all;
+}
+
+/// A smaller pair of features within a query: the numbers of its points, and that of the point
+/// whose weight is 0 where it meets.
+struct smaller_pair {
+    point_numbers points;
+    std::uint8_t without;
+};
+
+/// The vertex/edge pairs, or of a vertex and an edge the vertex/vertex pairs.
+template <kind K>
+constexpr auto smaller_pairs() {
+    if constexpr (K == kind::vertex_face)
+        return std::array<smaller_pair, 3>{{{{0, 1, 2}, 3}, {{0, 2, 3}, 1}, {{0, 3, 1}, 2}}};
+    else if constexpr (K == kind::edge_edge)
+        return std::array<smaller_pair, 4>{
+            {{{0, 2, 3}, 1}, {{1, 2, 3}, 0}, {{2, 0, 1}, 3}, {{3, 0, 1}, 2}}};
+    else if constexpr (K == kind::vertex_edge)
+        return std::array<smaller_pair, 2>{{{{0, 1}, 2}, {{0, 2}, 1}}};
+    else
+        return std::array<smaller_pair, 0>{};
+}
+
+template <class Points>
+bool meet_at(const Points& points, const first_time& time, std::uint8_t v, std::uint8_t w) {
+    return time_of_impact(vertex_vertex<double>{points[v], points[w]}, time.high) == time;
+}
+template <class Points>
+bool meet_at(const Points& points, const first_time& time, const point_numbers& i) {
+    const vertex_edge<double> query{points[i[0]], points[i[1]], points[i[2]]};
+    return !separated_by_coordinates(query) && time_of_impact(query, time.high) == time;
+}
+
+/// `weights`: enclosures of those inside both. Where the features meet inside, they are unique: a
+/// smaller pair that meets has one that is 0; where they are not (N = 0, or an edge without
+/// length), no sign of an enclosure is certain. A smaller pair's first contact is not before the
+/// query's, so if it has another bracket it is later.
+template <class Query>
+meeting_features features_at(const Query& query, const first_time& time,
+                             const std::array<enclosure, 4>& weights) {
+    constexpr kind whole = kind_of<Query>;
+    const auto points = points_of(query);
+    std::optional<meeting_features> edge;
+    for (const smaller_pair& pair : smaller_pairs<whole>()) {
+        if (sign_of(weights[pair.without]) == errbound::sign_type::positive) continue;
+        const std::uint8_t v = pair.points[0], first_end = pair.points[1];
+        if constexpr (whole == kind::vertex_edge) {
+            if (meet_at(points, time, v, first_end)) return {kind::vertex_vertex, {v, first_end}};
+        } else {
+            if (!meet_at(points, time, pair.points)) continue;
+            for (const std::uint8_t end : {first_end, pair.points[2]})
+                if (meet_at(points, time, v, end)) return {kind::vertex_vertex, {v, end}};
+            if (!edge) edge = {kind::vertex_edge, pair.points};
+        }
+    }
+    return edge ? *edge : whole_query<whole>();
+}
+
+}  // namespace ccd::detail

@@ -1,0 +1,89 @@
+// The direction of a contact's normal, and the side on which it has to be. Internal.
+#pragma once
+
+#include <algorithm>
+#include <ccd/contact.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/forms.hpp>
+#include <ccd/query.hpp>
+#include <cmath>
+#include <errbound/bernstein.hpp>
+#include <errbound/number_traits.hpp>
+#include <errbound/sign.hpp>
+#include <optional>
+
+#include "ccd/contact/data/moment.hpp"
+#include "ccd/exact/unbounded_integers.hpp"
+
+namespace ccd::detail {
+
+/// A double and a bound on its error.
+struct estimate {
+    double value, error;
+};
+
+/// The double next to the middle of an enclosure: what is known of it to second order. (Roundings:
+/// u|value| of the sum, and four of the bound.)
+inline estimate nearest(const enclosure& x) {
+    using traits = errbound::number_traits<double>;
+    const auto [correction, remainder] = x.bound();
+    const double value = x.value() + correction;
+    const double error =
+        (remainder + (std::abs(value) * traits::unit_roundoff() + traits::underflow_unit())) *
+        (1 + 4 * traits::epsilon());
+    return correction == 0 && remainder == 0 ? estimate{value, 0} : estimate{value, error};
+}
+
+struct direction {
+    point<double> unit;
+    double error;
+};
+
+/// p/|p|; none where p's middle is zero or not finite. For vectors p and q, with m the least of
+/// their lengths, p/|p| and q/|q| are at most |p − q|/m apart. (Dunkl, Williams 1964 has twice the
+/// mean of the lengths for m.) A length is off by less
+/// than 3u of it, so that the quotients are by 4u; sizes near 1 keep underflow out of it.
+inline std::optional<direction> direction_of(const enclosed_vector& p) {
+    using traits = errbound::number_traits<double>;
+    const int e = excess_exponent(size(p), 0);
+    const enclosed_vector moderate = scaled(p, -e);
+    const auto [x, y, z] = components(moderate);
+    const estimate a = nearest(x), b = nearest(y), c = nearest(z);
+    const double length = std::sqrt(a.value * a.value + b.value * b.value + c.value * c.value);
+    if (!(length > 0) || !traits::is_finite(length)) return std::nullopt;
+    const double off = std::sqrt(a.error * a.error + b.error * b.error + c.error * c.error);
+    const double distance =
+        length * (1 - 4 * traits::epsilon()) - off * (1 + 8 * traits::epsilon());
+    const double error = distance > 0
+                             ? off / distance * (1 + 16 * traits::epsilon()) + 2 * traits::epsilon()
+                             : traits::infinity();
+    return direction{{a.value / length, b.value / length, c.value / length}, error};
+}
+
+/// The sign of f just before or just after t/(s + t); zero if f is zero throughout. What counts
+/// where f is zero there is its first derivative that is not.
+template <int N>
+errbound::sign_type sign_beside(const errbound::bernstein<integer, N>& f, const integer& s,
+                                const integer& t, bool before) {
+    const errbound::sign_type here = errbound::sign_of(integer(value_at(f, s, t)));
+    if (here != errbound::sign_type::zero) return here;
+    if constexpr (N == 0) {
+        return here;
+    } else {
+        const auto slope = sign_beside(derivative(f), s, t, before);
+        return before ? -slope : slope;
+    }
+}
+
+/// The sign of Y before the contact: at `low`, if that is not the contact's time; zero if motion is
+/// planar. Exact, in unbounded integers; allocates.
+template <class Query>
+errbound::sign_type side_before(const Query& query, const first_time& time) {
+    const auto low = errbound::dyadic<integer>::from(time.low);
+    const int unit = std::min(low.exponent(), 0);
+    const integer t = low.in_units(unit);
+    const integer s = errbound::dyadic<integer>::power_of_two(0).in_units(unit) - t;
+    return sign_beside(forms_of(to_integers(query)).y(), s, t, time.low == time.high);
+}
+
+}  // namespace ccd::detail

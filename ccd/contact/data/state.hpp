@@ -1,0 +1,69 @@
+// Weights, relative velocity and what the normal is made of, for features that meet inside both.
+// Internal.
+//
+// Weights are those of contact.md, section 4: G_i/N·N of a face and of edges that cross, W·E/E·E of
+// a vertex on an edge.
+#pragma once
+
+#include <array>
+#include <ccd/kind.hpp>
+#include <ccd/methods/forms.hpp>
+#include <cstddef>
+
+#include "ccd/contact/data/moment.hpp"
+
+namespace ccd::detail {
+
+/// Of the kind's points, in its order: `first` − `second` is the kind's first feature less its
+/// second.
+struct contact_state {
+    std::array<enclosure, 4> weights;
+    enclosed_vector velocity;
+    /// N of faces and of edges that cross; the edge of a vertex and an edge. Times some power of
+    /// two.
+    enclosed_vector across;
+};
+
+/// Forms of moderate size: times a power of two, which is the same for all differences.
+template <template <class, int> class Forms>
+Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_motion& c,
+                                   const relative_motion& p) {
+    const int e = excess_exponent(std::max(size(b.position), size(c.position)), 64);
+    return {scaled(b.position, -e), scaled(c.position, -e), scaled(p.position, -e)};
+}
+
+template <kind K>
+contact_state state_inside(const contact_moment& at, const point_numbers& i) {
+    const enclosure one(1.0);
+    if constexpr (K == kind::vertex_face) {
+        const auto b = at.relative(i[2], i[1]), c = at.relative(i[3], i[1]);
+        const auto p = at.relative(i[0], i[1]);
+        const auto forms = moderate_forms<vertex_face_forms>(b, c, p);
+        const enclosure n2 = forms.normal_squared()[0];
+        const enclosure w2 = dot(cross(forms.b, forms.p), forms.n)[0] / n2;
+        const enclosure w1 = dot(cross(forms.p, forms.c), forms.n)[0] / n2;
+        return {
+            {one, one - w1 - w2, w1, w2}, p.velocity - w1 * b.velocity - w2 * c.velocity, forms.n};
+    } else if constexpr (K == kind::edge_edge) {
+        const auto b = at.relative(i[1], i[0]), c = at.relative(i[3], i[2]);
+        const auto p = at.relative(i[2], i[0]);
+        const auto forms = moderate_forms<edge_edge_forms>(b, c, p);
+        const enclosure n2 = forms.normal_squared()[0];
+        const enclosure on_a = dot(cross(forms.p, forms.c), forms.n)[0] / n2;
+        const enclosure on_b = dot(cross(forms.p, forms.b), forms.n)[0] / n2;
+        return {{one - on_a, on_a, one - on_b, on_b},
+                on_a * b.velocity - on_b * c.velocity - p.velocity,
+                forms.n};
+    } else if constexpr (K == kind::vertex_edge) {
+        const auto w = at.relative(i[0], i[1]), e = at.relative(i[2], i[1]);
+        const int excess = excess_exponent(size(e.position), 64);
+        const enclosed_vector edge = scaled(e.position, -excess);
+        const enclosure on_edge = dot(scaled(w.position, -excess), edge)[0] / dot(edge, edge)[0];
+        return {
+            {one, one - on_edge, on_edge, enclosure()}, w.velocity - on_edge * e.velocity, edge};
+    } else {
+        return {{one, one, enclosure(), enclosure()}, at.relative(i[0], i[1]).velocity, {}};
+    }
+}
+
+}  // namespace ccd::detail

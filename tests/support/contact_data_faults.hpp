@@ -1,0 +1,284 @@
+// Whether the data of a contact are right, by rationals, with formulas and times of its own.
+#pragma once
+
+#include <array>
+#include <boost/multiprecision/gmp.hpp>
+#include <ccd/contact_data.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "tests/support/oracle.hpp"
+
+namespace support::contact_data {
+
+namespace mp = boost::multiprecision;
+using rational = mp::number<mp::gmp_rational, mp::et_off>;
+using real = mp::number<mp::gmp_float<120>, mp::et_off>;
+
+template <class S>
+using vector = std::array<S, 3>;
+template <class S>
+vector<S> operator-(const vector<S>& a, const vector<S>& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class S>
+vector<S> operator*(const S& f, const vector<S>& a) {
+    return {f * a[0], f * a[1], f * a[2]};
+}
+template <class S>
+S dot(const vector<S>& a, const vector<S>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class S>
+vector<S> cross(const vector<S>& a, const vector<S>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline bool is_zero(const vector<rational>& a) {
+    return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+inline vector<rational> of(const ccd::point<double>& p) {
+    return {rational(p.x), rational(p.y), rational(p.z)};
+}
+
+/// The points of a query at a time, and how they move.
+struct moment {
+    std::vector<vector<rational>> at, velocity;
+
+    template <class Query>
+    moment(const Query& query, const rational& t) {
+        for (const auto& p : points_of(query)) {
+            velocity.push_back(of(p.t1) - of(p.t0));
+            at.push_back(of(p.t0) - rational(-t) * velocity.back());
+        }
+    }
+};
+
+/// (f1 − f0) × (f2 − f0) or (a1 − a0) × (b1 − b0).
+inline vector<rational> cross_product(ccd::kind k, const moment& m) {
+    if (k == ccd::kind::vertex_face) return cross(m.at[2] - m.at[1], m.at[3] - m.at[1]);
+    return cross(m.at[1] - m.at[0], m.at[3] - m.at[2]);
+}
+/// Of the first feature above the second, along it; Y or −Y.
+inline rational height(ccd::kind k, const moment& m) {
+    const std::size_t base = k == ccd::kind::vertex_face ? 1 : 2;
+    return dot(cross_product(k, m), m.at[0] - m.at[base]);
+}
+
+/// Weights of the query's points by Cramer's rule for the pair's nearest points (on planes and
+/// lines); none where they are not unique.
+inline std::optional<std::array<rational, 4>> weights(const ccd::meeting_features& pair,
+                                                      const moment& m) {
+    std::array<rational, 4> w{};
+    const auto at = [&](std::size_t i) { return m.at[pair.points[i]]; };
+    const auto set = [&](std::size_t i, const rational& x) { w[pair.points[i]] = x; };
+    // The least squares solution of x·p + y·q = r.
+    const auto solve = [&](const auto& p, const auto& q, const auto& r) {
+        const rational pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), d = pp * qq - pq * pq;
+        using pair_of = std::optional<std::array<rational, 2>>;
+        return d == 0 ? pair_of()
+                      : pair_of({(dot(p, r) * qq - dot(q, r) * pq) / d,
+                                 (dot(q, r) * pp - dot(p, r) * pq) / d});
+    };
+    set(0, 1);
+    if (pair.kind == ccd::kind::vertex_vertex) {
+        set(1, 1);
+    } else if (pair.kind == ccd::kind::vertex_edge) {
+        const auto e = at(2) - at(1);
+        if (is_zero(e)) return std::nullopt;
+        set(2, dot(at(0) - at(1), e) / dot(e, e));
+        set(1, 1 - w[pair.points[2]]);
+    } else if (pair.kind == ccd::kind::vertex_face) {
+        const auto x = solve(at(2) - at(1), at(3) - at(1), at(0) - at(1));
+        if (!x) return std::nullopt;
+        set(1, 1 - (*x)[0] - (*x)[1]);
+        set(2, (*x)[0]);
+        set(3, (*x)[1]);
+    } else {
+        const auto x = solve(at(1) - at(0), at(2) - at(3), at(2) - at(0));
+        if (!x) return std::nullopt;
+        set(0, 1 - (*x)[0]);
+        set(1, (*x)[0]);
+        set(2, 1 - (*x)[1]);
+        set(3, (*x)[1]);
+    }
+    return w;
+}
+
+/// The velocity of the first feature's contact point relative to the second's.
+inline vector<rational> velocity(std::size_t first_points, const std::array<rational, 4>& w,
+                                 const moment& m) {
+    vector<rational> sum{};
+    for (std::size_t i = 0; i < m.at.size(); ++i)
+        sum = sum - rational(i < first_points ? -w[i] : w[i]) * m.velocity[i];
+    return sum;
+}
+
+inline vector<real> unit(const vector<rational>& a) {
+    // Divided by the largest first, so that no size is out of range.
+    rational largest = 0;
+    for (const rational& x : a)
+        if (abs(x) > largest) largest = abs(x);
+    vector<real> r;
+    for (std::size_t i = 0; i < 3; ++i) r[i] = real(rational(a[i] / largest));
+    const real length = sqrt(dot(r, r));
+    return {r[0] / length, r[1] / length, r[2] / length};
+}
+
+/// Checks one answer of find_first_contact that found a contact; collects what is wrong.
+template <class Query>
+class check {
+    static constexpr ccd::kind whole = ccd::kind_of<Query>;
+    static constexpr bool has_normal =
+        whole == ccd::kind::vertex_face || whole == ccd::kind::edge_edge;
+    static constexpr std::size_t first_points = ccd::kind_traits<whole>::first_vertices;
+    using exact_vector = vector<rational>;
+
+  public:
+    check(const Query& query, const ccd::first_contact& found) : query_(query), found_(found) {
+        check_features();
+        check_sums();
+        const rational low(found.time.low), high(found.time.high);
+        for (const rational& t : {low, rational((low + high) / 2), high}) check_at(t);
+        if (found.sided && found.normal_from == ccd::normal_source::cross_product) check_side();
+        if (found.sided && found.normal_velocity > found.normal_velocity_error)
+            fault("a sided normal along which the features move apart");
+    }
+    const std::string& faults() const { return faults_; }
+
+  private:
+    void fault(const std::string& what) { faults_ += what + "; "; }
+    static bool at_most(const real& x, double bound) {
+        return !(bound < 1e300) || x <= real(bound);
+    }
+
+    /// Whether these points of the query meet at some time of the bracket.
+    template <class... Point>
+    bool meet(Point... i) const {
+        const auto p = points_of(query_);
+        const auto& t = found_.time;
+        const bool one = t.low == t.high;
+        const oracle::interval when{t.low, t.high, one, one};
+        if constexpr (sizeof...(i) == 2)
+            return oracle::collides(ccd::vertex_vertex<double>{p[i]...}, oracle::shortcuts::on,
+                                    when);
+        else
+            return oracle::collides(ccd::vertex_edge<double>{p[i]...}, oracle::shortcuts::on, when);
+    }
+    void check_features() {
+        std::size_t corners = 0, edges = 0;
+        const std::size_t count = points_of(query_).size();
+        for (std::size_t i = 0; i < first_points; ++i)
+            for (std::size_t j = first_points; j < count; ++j) corners += meet(i, j);
+        if constexpr (whole != ccd::kind::vertex_vertex) {
+            for (std::size_t i = 0; i < first_points; ++i)
+                for (std::size_t j = first_points; j < count; ++j)
+                    for (std::size_t k = j + 1; k < count; ++k) edges += meet(i, j, k);
+            if constexpr (whole == ccd::kind::edge_edge)
+                edges += meet(std::size_t(2), std::size_t(0), std::size_t(1)) +
+                         meet(std::size_t(3), std::size_t(0), std::size_t(1));
+        }
+        const auto& [met, i] = found_.features;
+        const ccd::kind smallest = corners > 0 ? ccd::kind::vertex_vertex
+                                   : edges > 0 ? ccd::kind::vertex_edge
+                                               : whole;
+        if (met != smallest) fault("not the smallest features");
+        if (met == ccd::kind::vertex_vertex
+                ? !meet(i[0], i[1])
+                : met == ccd::kind::vertex_edge && !meet(i[0], i[1], i[2]))
+            fault("features that do not meet");
+    }
+    void check_sums() {
+        std::array<double, 2> sums{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!(found_.weights[i] >= 0 && found_.weights[i] <= 1))
+                fault("a weight out of [0, 1]");
+            sums[i >= first_points] += found_.weights[i];
+        }
+        for (const double sum : sums)
+            if (std::abs(sum - 1) > 0x1p-52) fault("weights that do not add up to 1");
+    }
+
+    void check_at(const rational& t) {
+        const moment m(query_, t);
+        const auto w = weights(found_.features, m);
+        if (!w) return;
+        // At times of the bracket before or after the contact, weights may leave [0, 1]; what was
+        // cut off the found ones is then not an error.
+        rational outside = 0;
+        for (const rational& x : *w) outside += x < 0 ? -x : rational(0);
+        for (std::size_t i = 0; i < m.at.size(); ++i)
+            if (!at_most(real(rational(abs((*w)[i] - rational(found_.weights[i])) - outside)),
+                         found_.weight_error))
+                fault("weight " + std::to_string(i) + " off by more than its error");
+        check_normal(m, velocity(first_points, *w, m));
+    }
+    void check_normal(const moment& m, const exact_vector& u) {
+        exact_vector along{};
+        const auto minus_u = rational(-1) * u;
+        switch (found_.normal_from) {
+            case ccd::normal_source::cross_product:
+                if constexpr (has_normal) along = cross_product(whole, m);
+                break;
+            case ccd::normal_source::nearest_points:
+                along = minus_u;
+                if (found_.features.kind == ccd::kind::vertex_edge) {
+                    const auto& i = found_.features.points;
+                    const exact_vector e = m.at[i[2]] - m.at[i[1]];
+                    along = along - rational(dot(along, e) / dot(e, e)) * e;
+                }
+                break;
+            case ccd::normal_source::relative_velocity:
+                along = minus_u;
+                break;
+            case ccd::normal_source::none:
+                return;
+        }
+        if (is_zero(along)) {
+            if (found_.normal_error < 1) fault("a normal where there is none");
+            return;
+        }
+        auto n = unit(along);
+        const vector<real> claimed{found_.normal.x, found_.normal.y, found_.normal.z};
+        if (found_.normal_from == ccd::normal_source::cross_product && dot(n, claimed) < 0)
+            n = real(-1) * n;
+        const auto off = claimed - n;
+        if (!at_most(sqrt(dot(off, off)), found_.normal_error))
+            fault("normal off by more than its error");
+        const vector<real> speed{real(u[0]), real(u[1]), real(u[2])};
+        if (found_.normal_velocity_error < 1e300 &&
+            abs(dot(n, speed) - real(found_.normal_velocity)) > real(found_.normal_velocity_error))
+            fault("velocity off by more than its error");
+    }
+    /// The side shortly before, where that is the same twice.
+    void check_side() {
+        if constexpr (has_normal) {
+            const rational t(found_.time.low), high(found_.time.high);
+            const rational width = t < high ? rational(high - t) : t;
+            const auto side = [&](int exponent) {
+                const rational little = width * rational(power_of_two(exponent));
+                const moment m(query_, t < high ? rational(t + little) : rational(t - little));
+                const auto n = cross_product(whole, m);
+                const exact_vector claimed{rational(found_.normal.x), rational(found_.normal.y),
+                                           rational(found_.normal.z)};
+                return (height(whole, m) * dot(n, claimed)).sign();
+            };
+            const int near = side(2000), nearer = side(4000);
+            if (near == nearer && near < 0) fault("the other side");
+        }
+    }
+    static rational power_of_two(int exponent) {
+        return rational(1) / rational(mp::mpz_int(1) << exponent);
+    }
+
+    const Query& query_;
+    const ccd::first_contact& found_;
+    std::string faults_;
+};
+
+}  // namespace support::contact_data
