@@ -137,6 +137,15 @@ const std::string ascii_header =
     "property list uchar uchar more\r\nproperty double y\r\nproperty float z\r\n"
     "end_header\r\n";
 
+TEST(Ply, WrittenAsReadBack) {
+    mesh frame = some_mesh();
+    expect_same(parse_mesh_ply(ply_of(frame), "written"), frame);
+    frame.vertices[0] = {-0.0, 0x1p-1074, 0x1.fffffffffffffp1023};
+    frame.faces = {};
+    frame.edges = {{2, 1}};
+    expect_same(parse_mesh_ply(ply_of(frame), "written"), frame);
+}
+
 TEST(Ply, UnknownElementsAndPropertiesAreSkipped) {
     expect_same(parse_mesh_ply(ascii_header + "9 3 2 1 0 2 1.5 2.5\r\n0.5\r\n-7 2 1 1 0.1 0.5\r\n"
                                               "1 0 0 0\r\n2 0 0 0\r\n\r\n",
