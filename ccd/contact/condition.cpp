@@ -97,14 +97,21 @@ first_time first_time_of(const exact_conditions& conditions, double t_max) {
     return first;
 }
 
-first_time first_time_at_roots(const time_polynomial& y,
-                               const std::function<exact_conditions()>& conditions, double t_max) {
+first_time first_time_at_roots(const time_polynomial& y, const root_questions& asked,
+                               double t_max) {
     roots_in_time roots(staged_polynomial(y.coefficients()), 0, std::min(t_max, 1.0));
-    if (roots.size() == 0) return never;
-    std::vector<staged_condition> all = staged(conditions());
+    std::optional<std::vector<staged_condition>> all;
+    const auto holds_at = [&](std::size_t k) {
+        const outcome known =
+            asked.holds_at ? asked.holds_at(roots.enclosure(k)) : outcome::uncertain;
+        if (known != outcome::uncertain) return known == outcome::collides;
+        if (!all) all = staged(asked.conditions());
+        return std::any_of(all->begin(), all->end(), [&](staged_condition& c) {
+            return holds(c, [&](auto& p) { return roots.sign_at(p, k); });
+        });
+    };
     for (std::size_t k = 0; k < roots.size(); ++k)
-        for (staged_condition& c : all)
-            if (holds(c, [&](auto& p) { return roots.sign_at(p, k); })) return at_root(roots, k);
+        if (holds_at(k)) return at_root(roots, k);
     return never;
 }
 

@@ -19,6 +19,7 @@
 
 #include <ccd/contact.hpp>
 #include <ccd/methods/forms.hpp>
+#include <errbound/tracked.hpp>
 #include <functional>
 #include <vector>
 
@@ -43,9 +44,13 @@ using exact_conditions = std::vector<condition<time_polynomial>>;
 /// The first time in [0, min(t_max, 1)]; t_max >= 0.
 first_time first_time_of(const exact_conditions& conditions, double t_max);
 
-/// The same where all conditions hold at roots of y alone, which is not identically zero. They are
-/// made if there are such roots.
-first_time first_time_at_roots(const time_polynomial& y,
-                               const std::function<exact_conditions()>& conditions, double t_max);
+/// What is asked at a root of y: in floating point, at the root within bounds (not asked if
+/// empty), and the conditions, made where that leaves it open.
+struct root_questions {
+    std::function<outcome(const errbound::tracked<double>&)> holds_at;
+    std::function<exact_conditions()> conditions;
+};
+/// The same where all conditions hold at roots of y alone, which is not identically zero.
+first_time first_time_at_roots(const time_polynomial& y, const root_questions& asked, double t_max);
 
 }  // namespace ccd::detail

@@ -68,37 +68,88 @@ bool is_excluded(const condition<polynomial>& c) {
     return std::any_of(c.nonnegative.begin(), c.nonnegative.end(), is_negative) ||
            std::any_of(c.vanishing.begin(), c.vanishing.end(), excludes);
 }
-bool are_excluded(const std::vector<condition<polynomial>>& conditions) {
-    return std::all_of(conditions.begin(), conditions.end(), is_excluded);
+
+bool is_of_low_degree(std::span<const curve> points) {
+    return std::all_of(points.begin(), points.end(),
+                       [](const curve& p) { return p.size() - 1 <= max_degree; });
+}
+template <kind K>
+paths<K, polynomial> relative_paths(std::span<const curve> points) {
+    const point<double> origin = points[0][0];
+    return paths_of<K, polynomial>(points, [&](const curve& p) { return path_of(p, origin); });
+}
+
+/// The point's distance from `origin` at t, by de Casteljau's rule.
+path<number> position(const curve& points, const point<double>& origin, const number& t) {
+    const auto along = [&](double origin_there, double point<double>::*axis) {
+        std::vector<number> h;
+        for (const point<double>& p : points) h.push_back(number(p.*axis) - number(origin_there));
+        for (; h.size() > 1; h.pop_back())
+            for (std::size_t i = 0; i + 1 < h.size(); ++i) h[i] = h[i] + t * (h[i + 1] - h[i]);
+        return errbound::bernstein<number, 0>{{h[0]}};
+    };
+    return {along(origin.x, &point<double>::x), along(origin.y, &point<double>::y),
+            along(origin.z, &point<double>::z)};
 }
 
 }  // namespace
 
 template <kind K>
-bool certainly_separate(std::span<const curve> points, separation d) {
-    const bool contact = d.first == 0 && d.second == 0;
-    const double infinity = std::numeric_limits<double>::infinity();
-    if (boxes_are_separate<K>(points, contact ? 0 : std::nextafter(d.first + d.second, infinity)))
-        return true;
-    const auto is_high = [](const curve& p) { return p.size() - 1 > max_degree; };
-    if (std::any_of(points.begin(), points.end(), is_high)) return false;
-    const point<double> origin = points[0][0];
-    const auto q =
-        paths_of<K, polynomial>(points, [&](const curve& p) { return path_of(p, origin); });
-    if (!contact) {
-        const number distance = number(d.first) + number(d.second);
-        return are_excluded(distance_conditions<K>(q, polynomial({distance * distance})));
-    }
+bool certainly_separate(std::span<const curve> points) {
+    if (boxes_are_separate<K>(points, 0)) return true;
+    if (!is_of_low_degree(points)) return false;
+    const auto q = relative_paths<K>(points);
     if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
         const sign_type s = forms_of(q).y()[0].sign_throughout();
         if (s == sign_type::positive || s == sign_type::negative) return true;
     }
-    return are_excluded(contact_conditions<K>(q));
+    const auto conditions = contact_conditions<K>(q);
+    return std::all_of(conditions.begin(), conditions.end(), is_excluded);
 }
 
-template bool certainly_separate<kind::vertex_face>(std::span<const curve>, separation);
-template bool certainly_separate<kind::edge_edge>(std::span<const curve>, separation);
-template bool certainly_separate<kind::vertex_edge>(std::span<const curve>, separation);
-template bool certainly_separate<kind::vertex_vertex>(std::span<const curve>, separation);
+template <kind K>
+std::vector<bool> possible_conditions(std::span<const curve> points, separation d) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const bool separate =
+        boxes_are_separate<K>(points, std::nextafter(d.first + d.second, infinity));
+    const bool known = !separate && is_of_low_degree(points);
+    const auto q = known ? relative_paths<K>(points) : paths<K, polynomial>{};
+    const number distance = number(d.first) + number(d.second);
+    std::vector<bool> possible;
+    visit_distance_conditions<K>(q, polynomial({distance * distance}), [&](const auto& make) {
+        possible.push_back(known ? !is_excluded(make()) : !separate);
+    });
+    return possible;
+}
+
+template <kind K>
+outcome touches_at_root(std::span<const curve> points, const number& t) {
+    const point<double> origin = points[0][0];
+    const auto q =
+        paths_of<K, number>(points, [&](const curve& p) { return position(p, origin, t); });
+    // Where N is not zero, the weights say whether it is contact; where it is, all of them are
+    // zero.
+    auto found = outcome::collides;
+    for (const auto& g : forms_of(q).inside()) {
+        const sign_type s = sign_of(g[0]);
+        if (s == sign_type::negative) return outcome::separate;
+        if (s != sign_type::positive) found = outcome::uncertain;
+    }
+    return found;
+}
+
+template bool certainly_separate<kind::vertex_face>(std::span<const curve>);
+template bool certainly_separate<kind::edge_edge>(std::span<const curve>);
+template bool certainly_separate<kind::vertex_edge>(std::span<const curve>);
+template bool certainly_separate<kind::vertex_vertex>(std::span<const curve>);
+template std::vector<bool> possible_conditions<kind::vertex_face>(std::span<const curve>,
+                                                                  separation);
+template std::vector<bool> possible_conditions<kind::edge_edge>(std::span<const curve>, separation);
+template std::vector<bool> possible_conditions<kind::vertex_edge>(std::span<const curve>,
+                                                                  separation);
+template std::vector<bool> possible_conditions<kind::vertex_vertex>(std::span<const curve>,
+                                                                    separation);
+template outcome touches_at_root<kind::vertex_face>(std::span<const curve>, const number&);
+template outcome touches_at_root<kind::edge_edge>(std::span<const curve>, const number&);
 
 }  // namespace ccd::detail

@@ -1,23 +1,17 @@
 // Motion along curves: see include/ccd/curves.hpp for what it promises.
+#include <array>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
-#include <cmath>
 #include <span>
 
-#include "ccd/contact/curve_filter.hpp"
 #include "ccd/contact/first_times.hpp"
 
 namespace ccd {
 namespace {
 
-using curves = std::span<const curve>;
-constexpr first_time never{outcome::separate, 0, 0};
-
 template <kind K>
-first_time first_within(curves points, separation d, double t_max) {
-    if (!detail::is_question(points, d, t_max)) return {};
-    if (detail::certainly_separate<K>(points, d)) return never;
-    return detail::first_within_of<K>(points, d, t_max);
+first_time first_within(std::span<const curve> points, separation d, double t_max) {
+    return detail::first_within_of<K>(points, d, t_max, detail::arithmetic::floating_point_first);
 }
 
 verdict as_verdict(const first_time& found) {

@@ -162,24 +162,22 @@ condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
         {y * y - squared * forms.normal_squared()[0]}, list(forms.inside()), list(forms.n), true};
 }
 
-/// Distance² <= D, all axes in one unit.
+/// Calls visit(make) for every condition of distance² <= D, all axes in one unit; make() is the
+/// condition.
 /// Proof: proofs/Distance.v, vertex_edge_within, face_within_union, edges_within_union; of first
 /// times, proofs/FirstConditions.v, vertex_edge_near_candidate, face_near_candidate,
 /// edges_near_candidate.
-template <kind K, class R>
-std::vector<condition<R>> distance_conditions(const paths<K, R>& q, const R& squared) {
-    if constexpr (K == kind::vertex_vertex) {
-        return {distance_condition(q, squared)};
+template <kind K, class R, class Visit>
+void visit_distance_conditions(const paths<K, R>& q, const R& squared, const Visit& visit) {
+    if constexpr (K != kind::vertex_vertex)
+        for (const auto& corner : corners_of(q))
+            visit([&] { return distance_condition(corner, squared); });
+    if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
+        for (const auto& edge : edges_of(q))
+            visit([&] { return distance_condition(edge, squared); });
+        visit([&] { return distance_condition_inside(forms_of(q), squared); });
     } else {
-        std::vector<condition<R>> all;
-        for (const auto& corner : corners_of(q)) all.push_back(distance_condition(corner, squared));
-        if constexpr (K == kind::vertex_edge) {
-            all.push_back(distance_condition(q, squared));
-        } else {
-            for (const auto& edge : edges_of(q)) all.push_back(distance_condition(edge, squared));
-            all.push_back(distance_condition_inside(forms_of(q), squared));
-        }
-        return all;
+        visit([&] { return distance_condition(q, squared); });
     }
 }
 

@@ -15,14 +15,16 @@ namespace ccd::detail {
 
 /// Whether d is a distance: finite and not negative.
 bool is_distance(separation d);
-/// Whether the question has an answer: all is finite, every curve has a control point, and d is a
-/// distance.
-bool is_question(std::span<const curve> points, separation d, double t_max);
+
+/// Whether floating point under error bounds (ccd/contact/curve_filter.hpp) may answer what it can.
+/// The answers are the same.
+enum class arithmetic { integers, floating_point_first };
 
 /// When the features of a query of this kind first come within d, in [0, t_max]; of d = 0, when
 /// they first touch: what ccd/separation.hpp promises. `points` are those of points_of, in its
 /// order.
 template <kind K>
-first_time first_within_of(std::span<const curve> points, separation d, double t_max);
+first_time first_within_of(std::span<const curve> points, separation d, double t_max,
+                           arithmetic by);
 
 }  // namespace ccd::detail

@@ -34,7 +34,8 @@ struct query_curves {
 template <class Query>
 first_time first_within(const Query& query, separation d, double t_max) {
     const query_curves<Query> points(query);
-    return detail::first_within_of<points.query_kind>(points.all, d, t_max);
+    return detail::first_within_of<points.query_kind>(points.all, d, t_max,
+                                                      detail::arithmetic::integers);
 }
 template <class Query>
 verdict decide_distance(const Query& query, separation d) {

@@ -40,8 +40,14 @@ class time_polynomial {
     friend time_polynomial operator*(const time_polynomial& p, const time_polynomial& q) {
         if (p.c_.empty() || q.c_.empty()) return {};
         form product(p.c_.size() + q.c_.size() - 1);
-        for (std::size_t i = 0; i < p.c_.size(); ++i)
-            for (std::size_t j = 0; j < q.c_.size(); ++j) product[i + j] += p.c_[i] * q.c_[j];
+        integer term;  // kept, so that it allocates once
+        for (std::size_t i = 0; i < p.c_.size(); ++i) {
+            for (std::size_t j = 0; j < q.c_.size(); ++j) {
+                term = p.c_[i];
+                term *= q.c_[j];
+                product[i + j] += term;
+            }
+        }
         return time_polynomial(std::move(product));
     }
 

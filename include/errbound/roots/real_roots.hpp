@@ -157,6 +157,13 @@ class real_roots {
         }
     }
 
+    /// Root k within the bounds that floating point finds for it.
+    number enclosure(std::size_t k) {
+        assert(k < size());
+        narrow(intervals_[k]);
+        return enclosure(intervals_[k]);
+    }
+
     /// The sign of g at root k, exactly.
     sign_type sign_at(roots::staged_polynomial<Integer>& g, std::size_t k) {
         assert(k < size());
