@@ -16,7 +16,8 @@ PROGRAMS = {
     "README.md": ["examples/three_uses.cpp"],
     "docs/authoring-predicates.md": ["examples/authoring.cpp"],
     "docs/collision-detection.md": ["examples/batch.cpp", "examples/steps.cpp"],
-    "docs/time-of-impact.md": ["examples/curves.cpp"],
+    "docs/time-of-impact.md": ["examples/curves.cpp", "examples/line_search.cpp", "examples/impact_zones.cpp",
+                               "examples/barriers.cpp"],
 }
 # Pages that quote measured figures.
 QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]
