@@ -1,7 +1,6 @@
 // The impacts of a step in the order of their times, and the zones that must be solved together.
 #include <algorithm>
-#include <array>
-#include <ccd/contact_data.hpp>
+#include <ccd/first_contacts.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <cstdio>
@@ -18,12 +17,11 @@ struct impact {
 std::vector<impact> impacts_of(const ccd::step_result& result, const ccd::vertex_rows& positions) {
     std::vector<impact> impacts;
     ccd::for_each_kind([&]<ccd::kind K>() {
-        for (std::size_t i = 0; i < result.pairs.of<K>().size(); ++i) {
-            const auto& pair = result.pairs.of<K>()[i];
-            const auto query = query_of(positions, pair);
-            const auto vertices = vertices_of(pair);
-            impacts.push_back({contact_at(query, result.times.of<K>()[i]),
-                               {vertices.begin(), vertices.end()}});
+        const auto& pairs = result.pairs.of<K>();
+        const auto contacts = ccd::first_contacts(positions, pairs, result.times.of<K>());
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const auto vertices = vertices_of(pairs[i]);
+            impacts.push_back({contacts[i], {vertices.begin(), vertices.end()}});
         }
     });
     std::ranges::sort(impacts, {}, [](const impact& i) { return i.contact.time.low; });

@@ -1,7 +1,5 @@
 // First times of many queries: decided as batches are, then timed where there is a contact.
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -68,20 +66,6 @@ class stored_questions {
     std::span<const Query> queries_;
     const time_options& options_;
 };
-
-/// Calls visit(i) for i below `count`, on at most so many threads.
-template <class Visit>
-void for_each_index(std::size_t count, int threads, const Visit& visit) {
-    constexpr std::size_t few = 64;
-    const auto visit_all = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) visit(i);
-    };
-    if (threads == 1 || count <= few) return visit_all(0, count);
-    on_threads(threads, [&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, few),
-                          [&](const auto& range) { visit_all(range.begin(), range.end()); });
-    });
-}
 
 /// Whether there is a contact, or a distance within that asked for, in [0, 1].
 template <class Questions>

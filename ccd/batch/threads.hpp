@@ -1,10 +1,13 @@
 // Runs parallel work on a wanted number of threads. Internal.
 #pragma once
 
+#include <tbb/blocked_range.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace ccd::detail {
 
@@ -16,6 +19,20 @@ int on_threads(int threads, const Work& work) {
     tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
     arena.execute(work);
     return arena.max_concurrency();
+}
+
+/// Calls visit(i) for i below `count`, on at most so many threads.
+template <class Visit>
+void for_each_index(std::size_t count, int threads, const Visit& visit) {
+    constexpr std::size_t few = 64;
+    const auto visit_all = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) visit(i);
+    };
+    if (threads == 1 || count <= few) return visit_all(0, count);
+    on_threads(threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, few),
+                          [&](const auto& range) { visit_all(range.begin(), range.end()); });
+    });
 }
 
 }  // namespace ccd::detail

@@ -8,6 +8,7 @@
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
+#include <ccd/first_contacts.hpp>
 #include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>

@@ -67,6 +67,8 @@ struct first_contact {
     /// its error.
     double normal_velocity = 0;
     double normal_velocity_error = std::numeric_limits<double>::infinity();
+
+    friend constexpr bool operator==(const first_contact&, const first_contact&) = default;
 };
 
 /// The data of a contact whose time is known: `time` is what time_of_impact gives for this query.
