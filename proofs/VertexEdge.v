@@ -722,27 +722,31 @@ Proof.
     + destruct B as (_ & B). now apply inside_ratio.
 Qed.
 
+Lemma meets_contact v e0 e1 t :
+  meets (cross_x v e0 e1) (cross_y v e0 e1) (cross_z v e0 e1) (between v e0 e1) t <->
+  in_segment (place v t) (place e0 t) (place e1 t).
+Proof.
+  rewrite vertex_edge_contact. unfold vertex_edge_test, meets, all_vanish.
+  rewrite !Forall_cons_iff.
+  replace (quadratic_at (between v e0 e1) t) with
+    (dot (minus (place v t) (place e0 t)) (minus (place v t) (place e1 t)))
+    by (unfold quadratic_at, value, between, dot, minus, place; cbn; ring).
+  replace (quadratic_at (cross_x v e0 e1) t) with
+    (x (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
+    by (unfold quadratic_at, value, cross_x, cross, minus, place; cbn; ring).
+  replace (quadratic_at (cross_y v e0 e1) t) with
+    (y (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
+    by (unfold quadratic_at, value, cross_y, cross, minus, place; cbn; ring).
+  replace (quadratic_at (cross_z v e0 e1) t) with
+    (z (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
+    by (unfold quadratic_at, value, cross_z, cross, minus, place; cbn; ring).
+  split.
+  - intros ((A & B & C & _) & D). split; auto. now apply same_point.
+  - intros (A & D). split; auto. rewrite A. repeat split. constructor.
+Qed.
+
 Theorem contact_right v e0 e1 : contact v e0 e1 = true <-> vertex_edge_collides v e0 e1.
 Proof.
   unfold contact. rewrite contact_of_quadratics. unfold vertex_edge_collides, sometime.
-  assert (E : forall t, meets (cross_x v e0 e1) (cross_y v e0 e1) (cross_z v e0 e1) (between v e0 e1) t <->
-    in_segment (place v t) (place e0 t) (place e1 t)).
-  { intros t. rewrite vertex_edge_contact. unfold vertex_edge_test, meets, all_vanish.
-    rewrite !Forall_cons_iff.
-    replace (quadratic_at (between v e0 e1) t) with
-      (dot (minus (place v t) (place e0 t)) (minus (place v t) (place e1 t)))
-      by (unfold quadratic_at, value, between, dot, minus, place; cbn; ring).
-    replace (quadratic_at (cross_x v e0 e1) t) with
-      (x (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
-      by (unfold quadratic_at, value, cross_x, cross, minus, place; cbn; ring).
-    replace (quadratic_at (cross_y v e0 e1) t) with
-      (y (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
-      by (unfold quadratic_at, value, cross_y, cross, minus, place; cbn; ring).
-    replace (quadratic_at (cross_z v e0 e1) t) with
-      (z (cross (minus (place v t) (place e0 t)) (minus (place e1 t) (place e0 t))))
-      by (unfold quadratic_at, value, cross_z, cross, minus, place; cbn; ring).
-    split.
-    - intros ((A & B & C & _) & D). split; auto. now apply same_point.
-    - intros (A & D). split; auto. rewrite A. repeat split. constructor. }
-  split; intros (t & T & H); exists t; split; auto; now apply E.
+  split; intros (t & T & H); exists t; split; auto; now apply meets_contact.
 Qed.

@@ -25,6 +25,7 @@ namespace ccd::detail {
 
 /// A time: the double that it is if low == high, else the neighbouring doubles that it lies
 /// between. Of two different brackets the lesser, by low and then by high, has the earlier time.
+/// Proof: proofs/TimeBrackets.v, lesser_bracket, least_bracket, bracket_of_first.
 struct time_bracket {
     double low = 0, high = 0;
     friend constexpr auto operator<=>(const time_bracket&, const time_bracket&) = default;
@@ -56,6 +57,7 @@ class root_search {
     /// Its only root in the open interval from low to high, where it changes its sign, which is
     /// `before` just above low; or another of its roots there that is a double itself. Nothing if
     /// the root is so near to 0 that fixed widths cannot tell.
+    /// Proof: proofs/TimeBrackets.v, search_right.
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
                                                   double estimate) const {
@@ -135,6 +137,7 @@ class root_search {
 
 /// The root of p0·s + p1·t, whose coefficients have opposite signs or one of which is zero, but not
 /// both.
+/// Proof: proofs/TimeBrackets.v, linear_bracket_right.
 template <int Words>
 constexpr std::optional<time_bracket> bracket_of_linear_root(
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 1>& p) {
@@ -160,6 +163,8 @@ constexpr std::array<double, 2> estimated_roots(const std::array<double, 3>& f) 
     return {std::min(x, y), std::max(x, y)};
 }
 
+/// Proof: proofs/TimeBrackets.v, quadratic_only_right, quadratic_first_right,
+/// quadratic_second_right.
 template <int Words>
 constexpr std::optional<time_bracket> bracket_of_quadratic_root(
     const errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>& f,

@@ -34,6 +34,7 @@ struct found_time {
 
 /// The first root of f in (0, 1) where b <= 0, for an f whose coefficients have both signs, whose
 /// roots are f's only zeros that count.
+/// Proof: proofs/VertexEdgeTime.v, first_root_right.
 template <int Words>
 constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                             const quadratic_form<Words>& b) {
@@ -87,6 +88,7 @@ constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
 }
 
 /// The first time at which the vertex touches the edge. Widths as for vertex_touches_edge.
+/// Proof: proofs/VertexEdgeTime.v, first_contact_right, first_bracket_right.
 template <int Words>
 constexpr found_time first_vertex_edge_contact(
     const vertex_edge<errbound::integers::fixed_integer<Words>>& query) {
@@ -138,6 +140,7 @@ constexpr found_time first_vertex_edge_contact(
 }
 
 /// The first time at which the two vertices coincide: W(t) = 0 for the linear W.
+/// Proof: proofs/VertexEdgeTime.v, vertices_time_right.
 template <int Words>
 constexpr found_time first_vertex_vertex_contact(
     const vertex_vertex<errbound::integers::fixed_integer<Words>>& query) {
