@@ -5,6 +5,7 @@
 #include <bit>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/first_times.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/reference.hpp>
 #include <cmath>
@@ -14,9 +15,11 @@
 #include <limits>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "ccd/contact/integer_times.hpp"
 #include "tests/soak/comparison.hpp"
+#include "tests/soak/deciders.hpp"
 #include "tests/support/distance_families.hpp"
 #include "tests/support/first_time_faults.hpp"
 
@@ -132,6 +135,7 @@ first_time ask(const std::vector<time_decider>& deciders, const question& asked,
 
     const double t_max = some_end(random, right);
     for (const time_decider& by : deciders) {
+        if (!random.one_in(static_cast<int>(by.stride))) continue;
         auto& counts = out.table("decider")[by.name];
         if (by.whether.of<K>()) {
             ++counts[0];
@@ -150,9 +154,83 @@ first_time ask(const std::vector<time_decider>& deciders, const question& asked,
     return right;
 }
 
+/// The earliest of the times that are not at the start, as ccd::earliest tells it.
+ccd::earliest_time earliest_of(const std::vector<first_time>& right) {
+    ccd::earliest_time all{{.outcome = outcome::separate}, {}, {}};
+    const auto order = [](const first_time& t) { return std::pair(t.low, t.high); };
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        if (right[i].outcome != outcome::collides) continue;
+        if (right[i].at_start()) {
+            all.at_start.push_back(i);
+            continue;
+        }
+        if (all.queries.empty() || order(right[i]) < order(all.time)) {
+            all.time = right[i];
+            all.queries.clear();
+        }
+        if (right[i] == all.time) all.queries.push_back(i);
+    }
+    return all;
+}
+
+/// A block's questions of one kind at once, and what is right.
+template <kind K>
+struct batch {
+    questions<K> queries = {};
+    std::vector<double> thickness = {};  ///< of each vertex, whose distances then are the queries'
+    std::vector<question> asked = {};
+    std::vector<first_time> right = {};
+
+    void add(const question& q, const first_time& time) {
+        const auto first = static_cast<ccd::vertex_index>(queries.before.size());
+        std::array<ccd::vertex_index, questions<K>::point_count> at;
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            at[i] = first + static_cast<ccd::vertex_index>(i);
+            queries.add_vertex(q.at[i]);
+            if (q.of_distance)
+                thickness.push_back(i < ccd::kind_traits<K>::first_vertices ? q.d.first
+                                                                            : q.d.second);
+        }
+        queries.add_pair(at);
+        asked.push_back(q);
+        right.push_back(time);
+    }
+
+    void compare(findings& out) const {
+        const ccd::time_options options{.distances = {.thickness = thickness}, .threads = 2};
+        expect("batch, by index", ccd::first_times(queries.rows(), queries.pairs, options), out);
+        if (thickness.empty())
+            expect("batch, stored", ccd::first_times(queries.stored, {.threads = 1}), out);
+        auto& counts = out.table("decider")["batch, earliest"];
+        const auto found = ccd::earliest(queries.rows(), queries.pairs, options);
+        const auto expected = earliest_of(right);
+        ++counts[0];
+        if (found.time == expected.time && found.queries == expected.queries &&
+            found.at_start == expected.at_start)
+            return;
+        ++counts[1];
+        out.differ({"the earliest of " + asked.front().name + " to " + asked.back().name + ": " +
+                    text_of(found.time) + ", not " + text_of(expected.time) +
+                    ", or of other queries"});
+    }
+
+    void expect(const std::string& name, const std::vector<first_time>& said, findings& out) const {
+        auto& counts = out.table("decider")[name];
+        for (std::size_t i = 0; i < right.size(); ++i) {
+            ++counts[0];
+            if (said[i] == right[i]) continue;
+            ++counts[1];
+            out.differ({asked[i].name + ", " + text_of(asked[i].d, 1) + ": " + name + " says " +
+                        text_of(said[i]) + ", not " + text_of(right[i]) + "\n" +
+                        query_families::csv(asked[i].at)});
+        }
+    }
+};
+
 template <kind K>
 void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_decider>& deciders,
              bool of_distance, findings& out) {
+    batch<K> all;
     for (const family_query& q : block_queries(seed, block, queries_per_block, K)) {
         source random = query_families::source_of(
             q.family->name, {static_cast<std::uint64_t>(K), seed, q.index, /*of times*/ 8});
@@ -162,14 +240,15 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
                        .of_distance = of_distance};
         const auto& distance = distance_families::draw(random);
         if (of_distance) asked.d = distance.make(random, K, q.at);
-        if (random.one_in(32)) {
+        if (random.one_in(64)) {
             const first_time t = deciders[0].when.of<K>()(query_of<K>(q.at), asked.d, 1);
-            const bool little = of_distance || !random.one_in(4);  // of much distances take long
+            const bool little = of_distance || !random.one_in(8);  // of much distances take long
             asked.at =
                 hastened(q.at, t.low, little ? random.between(0, 100) : random.between(960, 1023));
             asked.name += ", hastened";
         }
         const first_time right = ask<K>(deciders, asked, random, out);
+        all.add(asked, right);
         count(out.table("family"), row_name(*q.family), right);
         count(out.table("kind"), short_name(K), right);
         if (of_distance) count(out.table("distance"), distance.name, right);
@@ -177,6 +256,7 @@ void compare(std::uint64_t seed, std::uint64_t block, const std::vector<time_dec
         out.stir(std::bit_cast<std::uint64_t>(right.low));
         out.stir(std::bit_cast<std::uint64_t>(right.high));
     }
+    all.compare(out);
 }
 
 /// Tables with all their rows, whatever a block has of them.
@@ -192,6 +272,8 @@ findings empty_findings(const std::vector<time_decider>& deciders, bool of_dista
     }
     out.tables.push_back({"decider", {"answers", "differences"}});
     for (const time_decider& d : deciders) out.table("decider")[d.name];
+    for (const char* name : {"batch, by index", "batch, stored", "batch, earliest"})
+        out.table("decider")[name];
     return out;
 }
 
@@ -241,19 +323,21 @@ first_time in_integers_unfiltered(const Query& query, double t_max) {
 }  // namespace
 
 std::vector<time_decider> contact_deciders() {
+    constexpr unsigned slow = 16;
     std::vector<time_decider> all;
-    const auto when = [&](std::string name, const auto& ask) {
+    const auto when = [&](std::string name, unsigned stride, const auto& ask) {
         all.push_back(by_time(std::move(name), [ask](const auto& q, separation, double t_max) {
             return ask(q, t_max);
         }));
+        all.back().stride = stride;
     };
-    when("time_of_impact",
+    when("time_of_impact", 1,
          [](const auto& q, double t_max) { return ccd::time_of_impact(q, t_max); });
-    when("its reference",
-         [](const auto& q, double t_max) { return ccd::time_of_impact_reference(q, t_max); });
-    when("integers, unfiltered",
+    when("integers, unfiltered", 1,
          [](const auto& q, double t_max) { return in_integers_unfiltered(q, t_max); });
-    when("along curves", [](const auto& q, double t_max) {
+    when("its reference", slow,
+         [](const auto& q, double t_max) { return ccd::time_of_impact_reference(q, t_max); });
+    when("along curves", slow, [](const auto& q, double t_max) {
         return along_curves(q, [&](const auto& c) { return ccd::time_of_impact(c, t_max); });
     });
     all.push_back(by_outcome(
@@ -262,28 +346,25 @@ std::vector<time_decider> contact_deciders() {
 }
 
 std::vector<time_decider> distance_deciders() {
-    std::vector<time_decider> all;
-    const auto when = [&](std::string name, const auto& ask) {
-        all.push_back(by_time(std::move(name), ask));
-    };
-    const auto whether = [&](std::string name, const auto& decide) {
-        all.push_back(by_outcome(std::move(name), [decide](const auto& q, separation d) {
-            return decide(q, d).outcome;
-        }));
-    };
-    when("time_within",
-         [](const auto& q, separation d, double t_max) { return ccd::time_within(q, d, t_max); });
-    when("its reference", [](const auto& q, separation d, double t_max) {
-        return ccd::time_within_reference(q, d, t_max);
-    });
-    when("along curves", [](const auto& q, separation d, double t_max) {
-        return along_curves(q, [&](const auto& c) { return ccd::time_within(c, d, t_max); });
-    });
-    whether("decide_within", [](const auto& q, separation d) {
-        return ccd::decide_within(q, {d.second, d.first});  // a sum has no order
-    });
-    whether("its reference's",
-            [](const auto& q, separation d) { return ccd::decide_within_reference(q, d); });
+    constexpr unsigned slow = 16;
+    std::vector<time_decider> all{
+        by_time("time_within", [](const auto& q, separation d,
+                                  double t_max) { return ccd::time_within(q, d, t_max); }),
+        by_outcome("decide_within",
+                   [](const auto& q, separation d) {  // a sum has no order
+                       return ccd::decide_within(q, {d.second, d.first}).outcome;
+                   }),
+        by_time("its reference",
+                [](const auto& q, separation d, double t_max) {
+                    return ccd::time_within_reference(q, d, t_max);
+                }),
+        by_outcome(
+            "its reference's",
+            [](const auto& q, separation d) { return ccd::decide_within_reference(q, d).outcome; }),
+        by_time("along curves", [](const auto& q, separation d, double t_max) {
+            return along_curves(q, [&](const auto& c) { return ccd::time_within(c, d, t_max); });
+        })};
+    for (std::size_t i = 2; i < all.size(); ++i) all[i].stride = slow;
     return all;
 }
 

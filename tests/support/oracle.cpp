@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,17 +57,16 @@ struct on_segment {
     }
 };
 
-// Coplanar features at an instant where `normal` is nonzero: a coordinate in which it is nonzero
-// may be dropped, and what is left is a question of the plane. Each of `weights` over `normal` in
-// that coordinate must be at least 0. Where the normal vanishes, one of `segments` must hold.
-struct planar_contact {
-    polynomial volume;
+// What tells whether coplanar features touch. At an instant where `normal` is nonzero a coordinate
+// in which it is nonzero may be dropped, and what is left is a question of the plane: each of
+// `weights` over `normal` in that coordinate must be at least 0. Where the normal vanishes, one of
+// `segments` must hold.
+struct planar_features {
     vector normal;
     std::vector<vector> weights;
     std::vector<on_segment> segments;
 
-    bool operator()(const instant& t) const {
-        if (t.sign(volume) != 0) return false;
+    bool touch(const instant& t) const {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const int side = t.sign(normal[axis]);
             if (side == 0) continue;
@@ -77,13 +77,28 @@ struct planar_contact {
                            [&](const on_segment& touches) { return touches(t); });
     }
 
-    bool holds(const stretch& when) const {
-        std::vector<polynomial> all{normal.begin(), normal.end()};
-        for (const vector& w : weights) all.insert(all.end(), w.begin(), w.end());
-        for (const on_segment& segment : segments) segment.append_to(all);
-        return contact_somewhere(when, {&volume, 1}, all, *this);
+    std::vector<polynomial> all() const {
+        std::vector<polynomial> list{normal.begin(), normal.end()};
+        for (const vector& w : weights) list.insert(list.end(), w.begin(), w.end());
+        for (const on_segment& segment : segments) segment.append_to(list);
+        return list;
     }
 };
+
+// Contact somewhere in the stretch of features that are coplanar where `volume` is 0;
+// `make_features()` is asked only if they are at some instant.
+template <class MakeFeatures>
+bool planar_contact(const stretch& when, const polynomial& volume,
+                    const MakeFeatures& make_features) {
+    std::optional<planar_features> features;
+    const auto made = [&]() -> const planar_features& {
+        if (!features) features = make_features();
+        return *features;
+    };
+    const auto contact = [&](const instant& t) { return t.sign(volume) == 0 && made().touch(t); };
+    if (!volume.empty()) return holds_somewhere(when, {&volume, 1}, contact);
+    return holds_somewhere(when, made().all(), contact);
+}
 
 // What decides at once: no time at all, or boxes of control points, which swept features stay in,
 // and that are disjoint. Comparing doubles is exact.
@@ -128,11 +143,11 @@ bool collides(const ccd::vertex_face_curves& query, shortcuts use, const interva
     const vector w0 = v - f0;
     const vector w1 = v - f1;
     const vector normal = cross(e1, e2);
-    return planar_contact{dot(normal, w0),
-                          normal,
-                          {cross(e1, w0), cross(w0, e2), cross(e12, w1)},
-                          {on_segment(w0, e1), on_segment(w0, e2), on_segment(w1, e12)}}
-        .holds(stretch_of(when));
+    return planar_contact(stretch_of(when), dot(normal, w0), [&] {
+        return planar_features{normal,
+                               {cross(e1, w0), cross(w0, e2), cross(e12, w1)},
+                               {on_segment(w0, e1), on_segment(w0, e2), on_segment(w1, e12)}};
+    });
 }
 
 bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval& when) {
@@ -143,15 +158,15 @@ bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval&
     const vector b = b1 - b0;
     const vector w = b0 - a0;
     const vector normal = cross(a, b);
-    // a0 + s a = b0 + u b, crossed with b and with a: s normal = w x b and u normal = w x a.
-    const vector s = cross(w, b);
-    const vector u = cross(w, a);
-    return planar_contact{
-        dot(normal, w),
-        normal,
-        {s, normal - s, u, normal - u},
-        {on_segment(w, a), on_segment(b1 - a0, a), on_segment(a0 - b0, b), on_segment(a1 - b0, b)}}
-        .holds(stretch_of(when));
+    return planar_contact(stretch_of(when), dot(normal, w), [&] {
+        // a0 + s a = b0 + u b, crossed with b and with a: s normal = w x b and u normal = w x a.
+        const vector s = cross(w, b);
+        const vector u = cross(w, a);
+        return planar_features{normal,
+                               {s, normal - s, u, normal - u},
+                               {on_segment(w, a), on_segment(b1 - a0, a), on_segment(a0 - b0, b),
+                                on_segment(a1 - b0, b)}};
+    });
 }
 
 bool collides(const ccd::vertex_edge_curves& query, shortcuts use, const interval& when) {
