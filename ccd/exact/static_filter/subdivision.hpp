@@ -33,6 +33,7 @@ struct waiting_parts {
 
 /// The signs at the ends are certainly opposite: between them one inner value has, certainly, the
 /// sign of the end beside it. So signs change once, whatever those are that are not certain.
+/// Proof: proofs/ContactPart.v, changes_sign_once_right.
 constexpr bool changes_sign_once(const errbound::roots::control_values<double, 3>& y,
                                  double error) {
     return y[0] > 0 ? y[1] > error || y[2] < -error : y[1] < -error || y[2] > error;
@@ -41,7 +42,8 @@ constexpr bool changes_sign_once(const errbound::roots::control_values<double, 3
 /// `separate` and `collides` are certain; `uncertain` where halving further would not help, or
 /// `deepest` <= max_depth halvings do not tell. If it is `collides`, `found` says where, if it is
 /// not null.
-/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides.
+/// Proof: proofs/Subdivision.v, subdivision_separate, subdivision_collides; of what is found,
+/// proofs/ContactPart.v, part_found, first_part_right, first_root_in_part.
 template <template <class> class Forms>
 constexpr outcome subdivide(const whole_step<double, Forms>& whole, contact_part* found = nullptr,
                             std::size_t deepest = max_depth) {
