@@ -54,7 +54,7 @@ int main() {
     const control_points rest{ball.front()};
     const std::vector<ccd::spline_piece<ccd::vertex_face_curves>> pieces{{0, 1, {rest, f0, f1, f2}},
                                                                          {1, 3, query}};
-    const ccd::spline_contact contact = ccd::time_of_impact_of_pieces(pieces);
+    const ccd::spline_time contact = ccd::first_time_of_pieces(pieces);
     std::printf("on the spline: in piece %zu, at time %.6f\n", contact.piece, contact.low);
 
     time_random_queries();

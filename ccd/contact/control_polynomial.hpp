@@ -10,17 +10,17 @@
 
 namespace ccd::detail {
 
-/// Σ h_i s^(n−i) t^i at s = 1 − t.
+/// Σ h_i s^(n−i) t^i at s = 1 − t; without coefficients, identically zero.
 template <class S>
 class control_polynomial {
   public:
-    /// Identically zero.
-    control_polynomial() : h_{S(0)} {}
-    /// Scaled coefficients, one or more.
+    control_polynomial() = default;
+    /// Scaled coefficients.
     explicit control_polynomial(std::vector<S> h) : h_(std::move(h)) {}
 
     /// The sign that it has on all of [0, 1], as far as its coefficients tell.
     errbound::sign_type sign_throughout() const {
+        if (h_.empty()) return errbound::sign_type::zero;
         const auto first = sign_of(h_[0]);
         const auto differs = [&](const S& h) { return sign_of(h) != first; };
         return std::any_of(h_.begin(), h_.end(), differs) ? errbound::sign_type::uncertain : first;
@@ -33,6 +33,7 @@ class control_polynomial {
         return combined(p, q, [](const S& a, const S& b) { return a - b; });
     }
     friend control_polynomial operator*(const control_polynomial& p, const control_polynomial& q) {
+        if (p.h_.empty() || q.h_.empty()) return {};
         const std::size_t a = p.h_.size() - 1, b = q.h_.size() - 1;
         std::vector<S> product;
         product.reserve(a + b + 1);
@@ -49,6 +50,7 @@ class control_polynomial {
   private:
     /// Of the same degree: times s + t as often as that takes.
     std::vector<S> elevated_to(std::size_t size) const {
+        if (h_.empty()) return std::vector<S>(size, S(0));
         std::vector<S> h = h_;
         while (h.size() < size) {
             h.push_back(h.back());

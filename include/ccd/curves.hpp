@@ -72,10 +72,10 @@ struct spline_piece {
     Curves motion;
 };
 
-/// The first contact of motion in pieces.
-struct spline_contact {
+/// The first time of motion in pieces.
+struct spline_time {
     ccd::outcome outcome = ccd::outcome::uncertain;
-    std::size_t piece = 0;  ///< the first piece with a contact, or that is uncertain
+    std::size_t piece = 0;  ///< the first piece with such a time, or that is uncertain
     first_time in_piece;    ///< when, in that piece's t: exact as always
     /// Where there is one: it is between these, within some units in the last place of knots; at a
     /// knot they are that knot.
@@ -97,22 +97,19 @@ inline std::pair<double, double> time_between(double from, double to, double t) 
 
 }  // namespace detail
 
-/// When the features first touch, of consecutive pieces: a contiguous range of spline_piece of one
-/// kind. Knots are finite and ascend.
+/// When the features first touch, or come within d if given, of consecutive pieces: a contiguous
+/// range of spline_piece of one kind. Knots are finite and ascend.
 template <class Pieces>
-spline_contact time_of_impact_of_pieces(const Pieces& pieces) {
-    spline_contact first{outcome::separate, 0, {outcome::separate, 0, 0}, 0, 0};
+spline_time first_time_of_pieces(const Pieces& pieces, separation d = {}) {
     for (std::size_t i = 0; i < std::size(pieces); ++i) {
-        const first_time found = time_of_impact(pieces[i].motion);
+        const first_time found = time_within(pieces[i].motion, d);
         if (found.outcome == outcome::separate) continue;
-        first = {found.outcome, i, found, 0, 0};
-        if (found.outcome == outcome::uncertain) break;
+        if (found.outcome == outcome::uncertain) return {outcome::uncertain, i, found, 0, 0};
         const double from = pieces[i].from, to = pieces[i].to;
-        first.low = detail::time_between(from, to, found.low).first;
-        first.high = detail::time_between(from, to, found.high).second;
-        break;
+        return {outcome::collides, i, found, detail::time_between(from, to, found.low).first,
+                detail::time_between(from, to, found.high).second};
     }
-    return first;
+    return {outcome::separate, 0, {outcome::separate, 0, 0}, 0, 0};
 }
 
 }  // namespace ccd

@@ -1,4 +1,5 @@
 // Collision detection without memory.
+#include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <ccd/reference.hpp>
@@ -152,6 +153,18 @@ TEST(CcdFaults, OneQuery) {
                          [&] { return all([](const auto& q) { return decide_reference(q); }); });
     try_every_allocation("touches_at_start",
                          [&] { return all([](const auto& q) { return touches_at_start(q); }); });
+}
+
+// One query alone: its numbers are many.
+TEST(CcdFaults, FirstTimes) {
+    const vertex_face<double> q = hard_queries()[4];
+    try_every_allocation("time_of_impact_reference", [&] { return time_of_impact_reference(q); });
+    try_every_allocation("time_within_reference",
+                         [&] { return time_within_reference(q, {0.125}); });
+    const point<double> v[]{q.v.t0, q.f1.t0, q.v.t1};
+    const vertex_face_curves curves{v, {&q.f0.t0, 1}, {&q.f1.t0, 1}, {&q.f2.t0, 1}};
+    try_every_allocation("time_of_impact of curves", [&] { return time_of_impact(curves); });
+    try_every_allocation("time_within of curves", [&] { return time_within(curves, {0.125}); });
 }
 
 }  // namespace

@@ -88,15 +88,17 @@ TEST(curves, in_pieces_meet_at_the_first_of_them) {
     const auto moving = [&](const control& v) { return ccd::vertex_face_curves{v, f0, f1, f2}; };
     const std::vector<piece> pieces{
         {0, 2, moving(away)}, {2, 3, moving(down)}, {3, 4, moving(down)}};
-    const auto found = ccd::time_of_impact_of_pieces(pieces);
+    const auto found = ccd::first_time_of_pieces(pieces);
     EXPECT_EQ(found.outcome, outcome::collides);
     EXPECT_EQ(found.piece, 1u);
     EXPECT_EQ(found.in_piece, at(0.5));
     EXPECT_LE(found.low, 2.5);
     EXPECT_GE(found.high, 2.5);
     EXPECT_LT(found.high - found.low, 1e-14);
-    EXPECT_EQ(ccd::time_of_impact_of_pieces(std::array{pieces[0]}).outcome, outcome::separate);
-    const auto start = ccd::time_of_impact_of_pieces(std::array{piece{3, 5, moving(f0)}});
+    EXPECT_EQ(ccd::first_time_of_pieces(std::array{pieces[0]}).outcome, outcome::separate);
+    EXPECT_EQ(ccd::first_time_of_pieces(pieces, {0.5}).in_piece, at(0.25));
+    EXPECT_EQ(ccd::first_time_of_pieces(pieces, {-1}).outcome, outcome::uncertain);
+    const auto start = ccd::first_time_of_pieces(std::array{piece{3, 5, moving(f0)}});
     EXPECT_EQ(start.low, 3);
     EXPECT_EQ(start.high, 3);
 }
