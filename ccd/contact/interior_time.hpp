@@ -52,6 +52,7 @@ class interior_time : interior_contact<Words, Forms> {
     using base::forms_, base::y_;
 
     /// A root of Y, and whether there is contact: asked if it is earlier than what is known.
+    /// Proof: proofs/IntegerTimes.v, considered_right.
     template <class Contact>
     constexpr void consider(const std::optional<time_bracket>& root, const Contact& contact) {
         if (root && !(*root < first_)) return;
