@@ -28,8 +28,7 @@ int main() {
     for (int iteration = 1; iteration <= 30; ++iteration) {
         const double gap = now.vertices[3].z;
         // Pairs within d_hat, which have a barrier: those of a step without motion.
-        const ccd::pair_lists near =
-            steps.run({now, now}, {.distances = {d_hat}}).pairs;
+        const ccd::pair_lists near = steps.run({now, now}, {.distances = {d_hat}}).pairs;
 
         ccd::mesh goal = now;
         const derivatives of = near.vertex_face.empty() ? derivatives() : at_gap(gap);

@@ -40,10 +40,17 @@ std::vector<int> zones_of(const std::vector<impact>& impacts, std::size_t vertic
 
 int main() {
     // Two beads fall on a face, a third one on another face; a fourth one falls beside.
-    const ccd::mesh before{
-        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0},
-         {.2, .2, 1}, {.5, .25, 2}, {5.25, .25, .5}, {3, 0, 1}},
-        {{0, 1, 2}, {3, 4, 5}}};
+    const ccd::mesh before{{{0, 0, 0},
+                            {1, 0, 0},
+                            {0, 1, 0},
+                            {5, 0, 0},
+                            {6, 0, 0},
+                            {5, 1, 0},
+                            {.2, .2, 1},
+                            {.5, .25, 2},
+                            {5.25, .25, .5},
+                            {3, 0, 1}},
+                           {{0, 1, 2}, {3, 4, 5}}};
     ccd::mesh after = before;
     for (std::size_t v = 6; v < 10; ++v) after.vertices[v].z -= 4;
 
@@ -54,10 +61,11 @@ int main() {
     for (const auto& [contact, vertices] : impacts) {
         const auto& [x, y, z] = contact.normal;
         const auto& w = contact.weights;
-        std::printf("t = %.4f, zone %d: vertex %u at %.2f %.2f %.2f of face %u %u %u,"
-                    " normal %.0f %.0f %.0f, velocity %.1f\n",
-                    contact.time.low, zones[vertices[0]], vertices[0], w[1], w[2], w[3], vertices[1],
-                    vertices[2], vertices[3], x, y, z, contact.normal_velocity);
+        std::printf(
+            "t = %.4f, zone %d: vertex %u at %.2f %.2f %.2f of face %u %u %u,"
+            " normal %.0f %.0f %.0f, velocity %.1f\n",
+            contact.time.low, zones[vertices[0]], vertices[0], w[1], w[2], w[3], vertices[1],
+            vertices[2], vertices[3], x, y, z, contact.normal_velocity);
     }
     return impacts.size() == 3 && zones[6] == zones[7] && zones[6] != zones[8] ? 0 : 1;
 }

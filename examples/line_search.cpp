@@ -11,10 +11,9 @@ using positions = std::vector<ccd::point<double>>;
 
 // Vertices 0 to 3: the fence, two triangles. 4 to 6: beads, and where each wants to be.
 const std::vector<ccd::face> faces{{0, 1, 2}, {0, 2, 3}};
-const positions start{{0, -1, 0},     {0, 1, 0},   {0, 1, 1},    {0, -1, 1},
+const positions start{{0, -1, 0},     {0, 1, 0},   {0, 1, 1},   {0, -1, 1},
                       {-1, 0.3, 0.3}, {-1, 2, .5}, {1, -.2, .6}};
-const positions wanted{start[0], start[1], start[2],  start[3],
-                       {2, 1, 1}, {2, 2, 0}, {-2, .5, .5}};
+const positions wanted{start[0], start[1], start[2], start[3], {2, 1, 1}, {2, 2, 0}, {-2, .5, .5}};
 
 // By the mesh's parts: none holds the others back.
 const std::vector<int> bodies = ccd::connected_parts(faces, {}, start.size());
@@ -22,7 +21,8 @@ const std::vector<int> bodies = ccd::connected_parts(faces, {}, start.size());
 double energy(const positions& x) {
     double sum = 0;
     for (std::size_t v = 0; v < x.size(); ++v) {
-        const double dx = x[v].x - wanted[v].x, dy = x[v].y - wanted[v].y, dz = x[v].z - wanted[v].z;
+        const double dx = x[v].x - wanted[v].x, dy = x[v].y - wanted[v].y,
+                     dz = x[v].z - wanted[v].z;
         sum += dx * dx + dy * dy + dz * dz;
     }
     return sum;

@@ -19,8 +19,8 @@ positions random_positions(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     positions all(40);
     for (auto& p : all)
-        for (const auto axis : {&ccd::point<double>::x, &ccd::point<double>::y,
-                                &ccd::point<double>::z})
+        for (const auto axis :
+             {&ccd::point<double>::x, &ccd::point<double>::y, &ccd::point<double>::z})
             p.*axis = static_cast<double>(random() % 7);
     return all;
 }
