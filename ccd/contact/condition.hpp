@@ -42,6 +42,7 @@ struct condition {
 using exact_conditions = std::vector<condition<time_polynomial>>;
 
 /// The first time in [0, min(t_max, 1)]; t_max >= 0.
+/// Proof: proofs/CandidateTimes.v, first_time_of_right, code_comparison.
 first_time first_time_of(const exact_conditions& conditions, double t_max);
 
 /// What is asked at a root of y: in floating point, at the root within bounds (not asked if
