@@ -29,8 +29,8 @@ struct options {
     }
 };
 
-inline constexpr std::string_view section_names[] = {"methods", "stages", "steps", "growth",
-                                                     "predicates"};
+inline constexpr std::string_view section_names[] = {"methods", "stages",     "steps",
+                                                     "growth",  "predicates", "curves"};
 
 using ccd::report::clock;
 using ccd::report::keep;

@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
     app.add_option("--json", json, "The tables as JSON, to this file");
     app.add_option("--scene", o.scene, "Only scenes whose name holds this");
     app.add_option("--sections", o.sections,
-                   "Only these: methods, stages, steps, growth, predicates")
+                   "Only these: methods, stages, steps, growth, predicates, curves")
         ->delimiter(',')
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(bench::section_names),
                                                        std::end(bench::section_names))));
@@ -91,6 +91,7 @@ int main(int argc, char** argv) try {
     }
     if (o.wants("growth") && o.scene.empty()) bench::growth_with_mesh(o, out);
     if (o.wants("predicates") && o.scene.empty()) bench::predicates(o, out);
+    if (o.wants("curves") && o.scene.empty()) bench::curves(o, out);
     if (!json.empty()) {
         errbound::support::write_whole(
             json, nlohmann::json{{"machine", machine}, {"tables", out.tables()}}.dump(1) + "\n");

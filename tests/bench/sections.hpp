@@ -28,4 +28,7 @@ void growth_with_mesh(const options& o, report& out);
 /// std::runtime_error if these disagree.
 void predicates(const options& o, report& out);
 
+/// First times of contact and of a distance along random curves, by degree.
+void curves(const options& o, report& out);
+
 }  // namespace bench

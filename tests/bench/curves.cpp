@@ -1,0 +1,67 @@
+#include <array>
+#include <ccd/curves.hpp>
+#include <random>
+
+#include "tests/bench/sections.hpp"
+
+namespace bench {
+namespace {
+
+using control_points = std::vector<ccd::point<double>>;
+
+/// Control points all over the unit cube: features meet in one of seven cubics.
+std::vector<std::array<control_points, 4>> random_motions(std::size_t count, int degree) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> coordinate(0, 1);
+    std::vector<std::array<control_points, 4>> motions(count);
+    for (auto& motion : motions)
+        for (control_points& points : motion)
+            for (int i = 0; i <= degree; ++i)
+                points.push_back({coordinate(random), coordinate(random), coordinate(random)});
+    return motions;
+}
+
+template <class Query>
+std::vector<cell> row(std::string_view kind, int degree, const options& o) {
+    const auto motions = random_motions(o.quick ? 200 : 1'000, degree);
+    std::vector<ccd::first_time> contacts(motions.size()), near(motions.size());
+    const auto ask = [&motions](std::vector<ccd::first_time>& times, ccd::separation d) {
+        for (std::size_t i = 0; i < motions.size(); ++i) {
+            const auto& [a, b, c, e] = motions[i];
+            times[i] = ccd::time_within(Query{a, b, c, e}, d);
+        }
+    };
+    const auto timings =
+        race({[&] { ask(contacts, {}); }, [&] { ask(near, {0.01}); }}, o.repeats());
+    const auto us = [&](const timing& t) {
+        return number(1e6 * t.minimum / static_cast<double>(motions.size()), 1);
+    };
+    const auto found = [](const std::vector<ccd::first_time>& times) {
+        return count(static_cast<std::uint64_t>(std::ranges::count_if(
+            times, [](const auto& t) { return t.outcome == ccd::outcome::collides; })));
+    };
+    return {word(kind),     number(degree, 0), count(motions.size()), found(contacts),
+            us(timings[0]), found(near),       us(timings[1])};
+}
+
+}  // namespace
+
+void curves(const options& o, report& out) {
+    std::vector<std::vector<cell>> rows;
+    for (const int degree : {1, 2, 3, 5}) {
+        rows.push_back(row<ccd::vertex_face_curves>("vf", degree, o));
+        rows.push_back(row<ccd::edge_edge_curves>("ee", degree, o));
+    }
+    out.table("curves", {},
+              "First times along curves, control points all over the unit cube, us per query",
+              {{"kind", "kind", true},
+               {"degree", "degree"},
+               {"queries", "queries"},
+               {"contacts", "contacts"},
+               {"us_contact", "us"},
+               {"near", "within 0.01"},
+               {"us_near", "us"}},
+              rows);
+}
+
+}  // namespace bench
