@@ -77,10 +77,10 @@ struct first_contact {
 /// before vertex/edge before the inside, and of several of a size the first.
 ///
 /// The normal is the cross product where there is a side that it has to be on, or at the start;
-/// else the first of these that is certainly not zero: `nearest_points`; the cross product, without
-/// a side; `relative_velocity`. So queries of a vertex with a vertex or an edge have no cross
-/// product, and motion within a plane, parallel edges and faces without area leave it undefined or
-/// without a side.
+/// else the first of these whose direction is known at all: `nearest_points`; the cross product,
+/// without a side; `relative_velocity`. So queries of a vertex with a vertex or an edge have no
+/// cross product, and motion within a plane, parallel edges and faces without area leave it
+/// undefined or without a side.
 ///
 /// No allocation and no exceptions but those of ccd/reference.hpp, which may be asked where the
 /// features meet at the border, or the velocity along the cross product has no certain sign.

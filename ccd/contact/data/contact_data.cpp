@@ -52,57 +52,66 @@ void set_weights(const contact_state& state, const meeting_features& features,
     });
 }
 
-void set_normal(const enclosed_vector& along, normal_source source, first_contact& into) {
-    if (const auto d = direction_of(along)) {
-        into.normal = d->unit;
-        into.normal_error = d->error;
-        into.normal_from = source;
-    }
+void set_normal(const direction& along, normal_source source, bool sided, first_contact& into) {
+    into.normal = along.unit;
+    into.normal_error = along.error;
+    into.normal_from = source;
+    into.sided = sided;
 }
 
-/// Where the normal is the cross product: its sign, towards the first feature.
-struct orientation {
-    int sign;
-    bool sided;
-};
-
-/// `velocity`: of the first feature relative to the second. Y = N·P is 0 at the contact, and its
-/// derivative is N times the velocity with which P's side is left; where that has a sign, Y had the
-/// opposite one before. Nothing where the cross product is not to be taken.
+/// The sign of the cross product N that points to the side on which the first feature was before
+/// the contact; nothing if none was. `velocity`: of the first feature relative to the second.
+/// Y = N·P is 0 at the contact, and its derivative there is N times the velocity of P's end; where
+/// that has a sign, Y had the opposite one before.
 template <class Query>
-std::optional<orientation> orientation_of(const Query& query, const first_time& time,
-                                          const enclosed_vector& n, const enclosed_vector& velocity,
-                                          bool inside) {
-    const bool start = time.at_start();
-    if (!inside && !is_certainly_not_zero(n)) return std::nullopt;
-    if (start && inside) return orientation{1, false};
+std::optional<int> side_of(const Query& query, const first_time& time, const enclosed_vector& n,
+                           const enclosed_vector& velocity) {
     const sign_type approach = sign_of(dot(n, velocity)[0]);
-    if (approach == sign_type::positive || approach == sign_type::negative)
-        return start ? orientation{1, false}
-                     : orientation{approach == sign_type::negative ? 1 : -1, true};
+    if (approach == sign_type::negative) return 1;
+    if (approach == sign_type::positive) return -1;
     const sign_type side = side_before(query, time);
     if (side == sign_type::zero) return std::nullopt;
-    if (start) return orientation{1, false};
     // P is the vertex relative to the face, but the second edge relative to the first.
     constexpr bool towards_first = kind_of<Query> == kind::vertex_face;
-    return orientation{(side == sign_type::positive) == towards_first ? 1 : -1, true};
+    return (side == sign_type::positive) == towards_first ? 1 : -1;
 }
 
-/// Against the velocity, less its part along the edge that meets; where that is zero and there is a
-/// `cross_product`, that; else against all of the velocity.
-void set_substitute_normal(const contact_state& state, kind met, const enclosed_vector& velocity,
+/// Sets the cross product as the normal, if there is a side for it or the start leaves none.
+template <class Query>
+bool set_cross_product(const Query& query, const enclosed_vector& n,
+                       const enclosed_vector& velocity, first_contact& into) {
+    const bool inside = into.features.kind == kind_of<Query>;
+    const auto along = direction_of(n);
+    if (!along || !(inside || is_known(*along))) return false;
+    const bool start = into.time.at_start();
+    // Inside at the start, or of slivers, there is no side to ask for.
+    if (inside && (start || !is_known(*along))) {
+        set_normal(*along, normal_source::cross_product, false, into);
+        return true;
+    }
+    const auto side = side_of(query, into.time, n, velocity);
+    if (!side) return false;
+    set_normal(!start && *side < 0 ? -*along : *along, normal_source::cross_product, !start, into);
+    return true;
+}
+
+/// Against the velocity, less its part along the edge that meets; where that has no direction, the
+/// `cross_product`, if that has; else against all of the velocity.
+void set_substitute_normal(const contact_state& state, const enclosed_vector& velocity,
                            const enclosed_vector* cross_product, first_contact& into) {
-    const auto set = [&](const enclosed_vector& along, normal_source source) {
-        if (is_certainly_not_zero(along)) set_normal(along, source, into);
-        into.sided = into.normal_from != normal_source::none &&
-                     source != normal_source::cross_product && !into.time.at_start();
-        return into.normal_from != normal_source::none;
+    const auto set = [&](const enclosed_vector& p, normal_source source, bool sided) {
+        const auto along = direction_of(p);
+        const bool known = along && is_known(*along);
+        if (known) set_normal(*along, source, sided, into);
+        return known;
     };
+    const bool before = !into.time.at_start();
     enclosed_vector off_edge = -velocity;
-    if (met == kind::vertex_edge) off_edge = cross(state.across, cross(state.across, velocity));
-    if (set(off_edge, normal_source::nearest_points)) return;
-    if (cross_product && set(*cross_product, normal_source::cross_product)) return;
-    set(-velocity, normal_source::relative_velocity);
+    if (into.features.kind == kind::vertex_edge)
+        off_edge = cross(state.across, cross(state.across, velocity));
+    if (set(off_edge, normal_source::nearest_points, before)) return;
+    if (cross_product && set(*cross_product, normal_source::cross_product, false)) return;
+    set(-velocity, normal_source::relative_velocity, before);
 }
 
 void set_normal_velocity(const enclosed_vector& velocity, int exponent, first_contact& into) {
@@ -132,18 +141,11 @@ first_contact data_of(const Query& query, const first_time& time) {
 
     const bool from_second = result.features.points[0] >= kind_traits<whole>::first_vertices;
     const auto velocity = from_second ? -state.velocity : state.velocity;
-    const enclosed_vector* cross_product = nullptr;
-    std::optional<orientation> known;
     if constexpr (whole == kind::vertex_face || whole == kind::edge_edge) {
-        cross_product = &inside.across;
-        known = orientation_of(query, time, inside.across, velocity, met == whole);
-    }
-    if (known) {
-        set_normal(known->sign > 0 ? inside.across : -inside.across, normal_source::cross_product,
-                   result);
-        result.sided = known->sided && result.normal_from != normal_source::none;
+        if (!set_cross_product(query, inside.across, velocity, result))
+            set_substitute_normal(state, velocity, &inside.across, result);
     } else {
-        set_substitute_normal(state, met, velocity, cross_product, result);
+        set_substitute_normal(state, velocity, nullptr, result);
     }
     set_normal_velocity(velocity, at.exponent(), result);
     return result;

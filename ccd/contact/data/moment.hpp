@@ -43,14 +43,6 @@ inline enclosed_vector operator-(const enclosed_vector& p) {
 inline std::array<enclosure, 3> components(const enclosed_vector& p) {
     return {p.x[0], p.y[0], p.z[0]};
 }
-inline bool is_certainly_not_zero(const enclosed_vector& p) {
-    const auto c = components(p);
-    return std::any_of(c.begin(), c.end(), [](const enclosure& x) {
-        const errbound::sign_type s = sign_of(x);
-        return s == errbound::sign_type::positive || s == errbound::sign_type::negative;
-    });
-}
-
 /// The largest component's magnitude.
 inline double size(const enclosed_vector& p) {
     double largest = 0;
@@ -102,6 +94,20 @@ class contact_moment {
         const enclosed_vector start = coefficient(way, 0);
         const enclosed_vector velocity = coefficient(way, 1) - start;
         return {start + t_ * velocity, velocity};
+    }
+
+    /// About the square of the distance of two points.
+    double squared_distance(std::size_t point, std::size_t to) const {
+        const double t = t_.value();
+        const auto square = [t](const enclosure& p0, const enclosure& p1, const enclosure& q0,
+                                const enclosure& q1) {
+            const double start = p0.value() - q0.value(), end = p1.value() - q1.value();
+            const double between = start + t * (end - start);
+            return between * between;
+        };
+        const auto &p = points_[point], &q = points_[to];
+        return square(p.t0.x, p.t1.x, q.t0.x, q.t1.x) + square(p.t0.y, p.t1.y, q.t0.y, q.t1.y) +
+               square(p.t0.z, p.t1.z, q.t0.z, q.t1.z);
     }
 
   private:

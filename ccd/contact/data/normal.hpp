@@ -38,6 +38,13 @@ struct direction {
     point<double> unit;
     double error;
 };
+inline direction operator-(const direction& d) {
+    return {{-d.unit.x, -d.unit.y, -d.unit.z}, d.error};
+}
+/// Whether more than nothing is known of it: to which side of a plane it points, at least.
+inline bool is_known(const direction& d) {
+    return d.error < 1;
+}
 
 /// p/|p|; none where p's middle is zero or not finite. For vectors p and q, with m the least of
 /// their lengths, p/|p| and q/|q| are at most |p − q|/m apart. (Dunkl, Williams 1964 has twice the

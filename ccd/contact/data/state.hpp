@@ -32,18 +32,33 @@ Forms<enclosure, 0> moderate_forms(const relative_motion& b, const relative_moti
     return {scaled(b.position, -e), scaled(c.position, -e), scaled(p.position, -e)};
 }
 
+/// The points of a face, 1 to 3, turned so that the longest edge is that of the last two: the cross
+/// product of the two others is off by least, where two points are near each other most of all.
+inline std::array<std::size_t, 3> with_longest_edge_last(const contact_moment& at,
+                                                         const point_numbers& i) {
+    const double opposite[] = {at.squared_distance(i[2], i[3]), at.squared_distance(i[3], i[1]),
+                               at.squared_distance(i[1], i[2])};
+    if (opposite[0] >= opposite[1] && opposite[0] >= opposite[2]) return {1, 2, 3};
+    if (opposite[1] >= opposite[2]) return {2, 3, 1};
+    return {3, 1, 2};
+}
+
 template <kind K>
 contact_state state_inside(const contact_moment& at, const point_numbers& i) {
     const enclosure one(1.0);
     if constexpr (K == kind::vertex_face) {
-        const auto b = at.relative(i[2], i[1]), c = at.relative(i[3], i[1]);
-        const auto p = at.relative(i[0], i[1]);
+        const auto [f0, f1, f2] = with_longest_edge_last(at, i);
+        const auto b = at.relative(i[f1], i[f0]), c = at.relative(i[f2], i[f0]);
+        const auto p = at.relative(i[0], i[f0]);
         const auto forms = moderate_forms<vertex_face_forms>(b, c, p);
         const enclosure n2 = forms.normal_squared()[0];
         const enclosure w2 = dot(cross(forms.b, forms.p), forms.n)[0] / n2;
         const enclosure w1 = dot(cross(forms.p, forms.c), forms.n)[0] / n2;
-        return {
-            {one, one - w1 - w2, w1, w2}, p.velocity - w1 * b.velocity - w2 * c.velocity, forms.n};
+        std::array<enclosure, 4> weights{one};
+        weights[f0] = one - w1 - w2;
+        weights[f1] = w1;
+        weights[f2] = w2;
+        return {weights, p.velocity - w1 * b.velocity - w2 * c.velocity, forms.n};
     } else if constexpr (K == kind::edge_edge) {
         const auto b = at.relative(i[1], i[0]), c = at.relative(i[3], i[2]);
         const auto p = at.relative(i[2], i[0]);
