@@ -11,6 +11,7 @@
 #include "ccd/batch/pack_subdivision.hpp"
 #include "ccd/batch/query_queue.hpp"
 #include "ccd/batch/rounded_axes_stage.hpp"
+#include "ccd/batch/time_stage.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
@@ -20,13 +21,11 @@ namespace {
 template <kind K>
 class pipeline {
   public:
-    static constexpr std::size_t stride = coordinate_columns::stride;
-
     explicit pipeline(const decisions& decided) : decided_(decided) {}
 
     /// Takes in queries. `read(id, at)` writes the 24 coordinates of one to at[0], at[stride],
-    /// at[2·stride], ...: by point, end of the step, axis. Where `pause` is null, axes have been
-    /// asked.
+    /// at[2·stride], ... of coordinate_columns: by point, end of the step, axis. Where `pause` is
+    /// null, axes have been asked.
     template <class Read>
     void process(const std::uint32_t* ids, std::size_t count, const Read& read,
                  stage_pause* pause) {
@@ -64,18 +63,32 @@ class pipeline {
     pack_subdivision<K> subdivision_;
 };
 
+/// Reads coordinates as pipeline::process wants them.
+template <kind K>
+auto reader_of(const batch_positions& positions, const typename kind_traits<K>::pair* queries) {
+    return [&positions, queries](std::size_t id, double* at) {
+        for (const vertex_index v : vertices_of(queries[id]))
+            for (const double* frame : {positions.exact.before, positions.exact.after})
+                for (std::size_t k = 0; k < 3; ++k, at += coordinate_columns::stride)
+                    *at = frame[3 * std::size_t(v) + k];
+    };
+}
+template <kind K>
+auto reader_of(const typename kind_traits<K>::template query<double>* queries) {
+    static_assert(sizeof(*queries) == 24 * sizeof(double));
+    return [numbers = reinterpret_cast<const double*>(queries)](std::size_t id, double* at) {
+        for (std::size_t c = 0; c < 24; ++c)
+            at[c * coordinate_columns::stride] = numbers[24 * id + c];
+    };
+}
+
 template <kind K>
 void decide_indexed(const batch_positions& positions, const typename kind_traits<K>::pair* queries,
                     std::size_t count, outcome* answers, axes_pauses& pauses,
                     stage_report* report) {
     const decisions decided{answers, report};
     pipeline<K> stages(decided);
-    const auto read = [&](std::uint32_t id, double* at) {
-        for (const vertex_index v : vertices_of(queries[id]))
-            for (const double* frame : {positions.exact.before, positions.exact.after})
-                for (std::size_t k = 0; k < 3; ++k, at += pipeline<K>::stride)
-                    *at = frame[3 * std::size_t(v) + k];
-    };
+    const auto read = reader_of<K>(positions, queries);
     for (std::size_t first = 0; first < count; first += rounded_block) {
         const std::size_t size = lesser(count - first, rounded_block);
         std::uint32_t ids[rounded_block];
@@ -98,13 +111,8 @@ void decide_indexed(const batch_positions& positions, const typename kind_traits
 template <kind K>
 void decide_stored(const typename kind_traits<K>::template query<double>* queries,
                    std::size_t count, outcome* answers, axes_pauses& pauses, stage_report* report) {
-    static_assert(sizeof(*queries) == 24 * sizeof(double));
     pipeline<K> stages({answers, report});
-    const double* numbers = reinterpret_cast<const double*>(queries);
-    const auto read = [numbers](std::uint32_t id, double* at) {
-        for (std::size_t c = 0; c < 24; ++c)
-            at[c * pipeline<K>::stride] = numbers[24 * std::size_t(id) + c];
-    };
+    const auto read = reader_of<K>(queries);
     std::uint32_t ids[block];
     for (std::size_t first = 0; first < count; first += block) {
         const std::size_t size = lesser(count - first, block);
@@ -117,8 +125,31 @@ void decide_stored(const typename kind_traits<K>::template query<double>* querie
     stages.finish();
 }
 
+template <kind K, class Read>
+void find_times(std::size_t count, const Read& read, double* low, double* high) {
+    coordinate_columns coordinates;
+    for (std::size_t first = 0; first < count; first += block) {
+        const std::size_t size = lesser(count - first, block);
+        for (std::size_t i = 0; i < size; ++i) read(first + i, &coordinates.at[0][i]);
+        coordinates.pad(size);
+        time_stage<K>::run(coordinates, size, low + first, high + first);
+    }
+}
 template <kind K>
-constexpr kernels_of_kind<K> kernels_for_kind{decide_indexed<K>, decide_stored<K>};
+void find_indexed_times(const batch_positions& positions,
+                        const typename kind_traits<K>::pair* queries, std::size_t count,
+                        double* low, double* high) {
+    find_times<K>(count, reader_of<K>(positions, queries), low, high);
+}
+template <kind K>
+void find_stored_times(const typename kind_traits<K>::template query<double>* queries,
+                       std::size_t count, double* low, double* high) {
+    find_times<K>(count, reader_of<K>(queries), low, high);
+}
+
+template <kind K>
+constexpr kernels_of_kind<K> kernels_for_kind{decide_indexed<K>, decide_stored<K>,
+                                              find_indexed_times<K>, find_stored_times<K>};
 
 }  // namespace
 

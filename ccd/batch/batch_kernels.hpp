@@ -39,6 +39,11 @@ struct kernels_of_kind {
                     outcome* answers, axes_pauses& pauses, stage_report* report);
     void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
                    stage_report* report);
+    /// The first times of queries that collide: between low[i] and high[i], which are neighbours,
+    /// or NaN where that was not found out.
+    void (*indexed_times)(const batch_positions& positions, const pair* queries, std::size_t count,
+                          double* low, double* high);
+    void (*stored_times)(const query* queries, std::size_t count, double* low, double* high);
 };
 struct batch_kernels {
     kernels_of_kind<kind::vertex_face> vertex_face;

@@ -101,6 +101,43 @@ void decide_stored(const kernels_of_kind<K>& kernels, std::span<const Query> que
     decide_uncertain(queries.size(), answers, report, [&](std::size_t i) { return queries[i]; });
 }
 
+/// By blocks: find(first, count, low, high) asks a kernel; where it cannot tell, query_at(i) is
+/// asked alone.
+template <class Find, class QueryAt>
+void find_times_of(std::size_t count, const Find& find, const QueryAt& query_at,
+                   first_time* times) {
+    constexpr std::size_t block = 256;
+    double low[block], high[block];
+    for (std::size_t first = 0; first < count; first += block) {
+        const std::size_t size = std::min(count - first, block);
+        find(first, size, low, high);
+        for (std::size_t i = 0; i < size; ++i)
+            times[first + i] = low[i] < high[i] ? first_time{outcome::collides, low[i], high[i]}
+                                                : time_of_impact(query_at(first + i));
+    }
+}
+
+template <kind K, class Pair>
+void find_indexed_times(const kernels_of_kind<K>& kernels, const batch_positions& positions,
+                        std::span<const Pair> queries, first_time* times) {
+    find_times_of(
+        queries.size(),
+        [&](std::size_t first, std::size_t count, double* low, double* high) {
+            kernels.indexed_times(positions, queries.data() + first, count, low, high);
+        },
+        [&](std::size_t i) { return query_of(positions.exact, queries[i]); }, times);
+}
+template <kind K, class Query>
+void find_stored_times(const kernels_of_kind<K>& kernels, std::span<const Query> queries,
+                       first_time* times) {
+    find_times_of(
+        queries.size(),
+        [&](std::size_t first, std::size_t count, double* low, double* high) {
+            kernels.stored_times(queries.data() + first, count, low, high);
+        },
+        [&](std::size_t i) { return queries[i]; }, times);
+}
+
 }  // namespace
 
 void batch_worker::decide(const batch_positions& positions,
@@ -117,6 +154,22 @@ void batch_worker::decide(std::span<const vertex_face<double>> queries, outcome*
 }
 void batch_worker::decide(std::span<const edge_edge<double>> queries, outcome* answers) {
     decide_stored(kernels_->edge_edge, queries, answers, edge_edge_pauses_, counts());
+}
+
+void batch_worker::find_times(const batch_positions& positions,
+                              std::span<const vertex_face_pair> queries, first_time* times) const {
+    find_indexed_times(kernels_->vertex_face, positions, queries, times);
+}
+void batch_worker::find_times(const batch_positions& positions,
+                              std::span<const edge_edge_pair> queries, first_time* times) const {
+    find_indexed_times(kernels_->edge_edge, positions, queries, times);
+}
+void batch_worker::find_times(std::span<const vertex_face<double>> queries,
+                              first_time* times) const {
+    find_stored_times(kernels_->vertex_face, queries, times);
+}
+void batch_worker::find_times(std::span<const edge_edge<double>> queries, first_time* times) const {
+    find_stored_times(kernels_->edge_edge, queries, times);
 }
 
 }  // namespace detail

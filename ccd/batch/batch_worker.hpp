@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/verdict.hpp>
@@ -28,6 +29,14 @@ class batch_worker {
                 outcome* answers);
     void decide(std::span<const vertex_face<double>> queries, outcome* answers);
     void decide(std::span<const edge_edge<double>> queries, outcome* answers);
+
+    /// The first times of queries that collide, t in [0, 1]. The same conditions.
+    void find_times(const batch_positions& positions, std::span<const vertex_face_pair> queries,
+                    first_time* times) const;
+    void find_times(const batch_positions& positions, std::span<const edge_edge_pair> queries,
+                    first_time* times) const;
+    void find_times(std::span<const vertex_face<double>> queries, first_time* times) const;
+    void find_times(std::span<const edge_edge<double>> queries, first_time* times) const;
 
     const stage_report& report() const { return report_; }
 

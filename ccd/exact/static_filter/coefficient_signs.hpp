@@ -44,6 +44,17 @@ constexpr mask<S> changes_sign(const errbound::roots::control_values<S, N>& c, c
     return (starts_above & ends_below) | (starts_below & ends_above);
 }
 
+/// The end values certainly differ in sign, and one inner value has, certainly, the sign of the end
+/// beside it: signs change once, whatever those are that are not certain, so there is one root.
+/// Proof: proofs/ContactPart.v, changes_sign_once_right.
+template <class S>
+constexpr mask<S> changes_sign_once(const errbound::roots::control_values<S, 3>& c,
+                                    const S& error) {
+    const mask<S> falls = (c[0] > error) & (c[3] < -error) & ((c[1] > error) | (c[2] < -error));
+    const mask<S> rises = (c[0] < -error) & (c[3] > error) & ((c[1] < -error) | (c[2] > error));
+    return falls | rises;
+}
+
 /// No control value has a certain sign, nor will any of a part's.
 template <class S, int N>
 constexpr mask<S> within_error(const errbound::roots::control_values<S, N>& c, const S& error) {

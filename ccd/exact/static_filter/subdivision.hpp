@@ -31,14 +31,6 @@ struct waiting_parts {
     std::size_t size = 0;
 };
 
-/// The signs at the ends are certainly opposite: between them one inner value has, certainly, the
-/// sign of the end beside it. So signs change once, whatever those are that are not certain.
-/// Proof: proofs/ContactPart.v, changes_sign_once_right.
-constexpr bool changes_sign_once(const errbound::roots::control_values<double, 3>& y,
-                                 double error) {
-    return y[0] > 0 ? y[1] > error || y[2] < -error : y[1] < -error || y[2] > error;
-}
-
 /// `separate` and `collides` are certain; `uncertain` where halving further would not help, or
 /// `deepest` <= max_depth halvings do not tell. If it is `collides`, `found` says where, if it is
 /// not null.
