@@ -37,6 +37,17 @@ class batch_worker {
                     first_time* times) const;
     void find_times(std::span<const vertex_face<double>> queries, first_time* times) const;
     void find_times(std::span<const edge_edge<double>> queries, first_time* times) const;
+    /// Those of the other kinds one by one.
+    template <class Pair>
+    void find_times(const batch_positions& positions, std::span<const Pair> queries,
+                    first_time* times) const {
+        for (const Pair& query : queries)
+            *times++ = time_of_impact(query_of(positions.exact, query));
+    }
+    template <class Query>
+    void find_times(std::span<const Query> queries, first_time* times) const {
+        for (const Query& query : queries) *times++ = time_of_impact(query);
+    }
 
     const stage_report& report() const { return report_; }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
 #include "ccd/batch/threads.hpp"
 
@@ -39,6 +40,16 @@ class indexed_questions {
         return decide_batch(positions_, pairs_, {.threads = options_.threads, .set = options_.set})
             .answers;
     }
+    /// Of some queries with a contact, the time in [0, 1].
+    std::vector<first_time> contact_times(std::span<const std::size_t> some) const {
+        std::vector<Pair> pairs;
+        pairs.reserve(some.size());
+        for (const std::size_t i : some) pairs.push_back(pairs_[i]);
+        std::vector<first_time> times(some.size());
+        const batch_worker worker(kernels_for(options_.set), false);
+        worker.find_times({positions_, nullptr}, std::span<const Pair>(pairs), times.data());
+        return times;
+    }
 
   private:
     const vertex_rows& positions_;
@@ -60,6 +71,15 @@ class stored_questions {
     separation distance(std::size_t) const { return {options_.distances.all, 0}; }
     std::vector<outcome> contacts() const {
         return decide_batch(queries_, {.threads = options_.threads, .set = options_.set}).answers;
+    }
+    std::vector<first_time> contact_times(std::span<const std::size_t> some) const {
+        std::vector<Query> queries;
+        queries.reserve(some.size());
+        for (const std::size_t i : some) queries.push_back(queries_[i]);
+        std::vector<first_time> times(some.size());
+        const batch_worker worker(kernels_for(options_.set), false);
+        worker.find_times(std::span<const Query>(queries), times.data());
+        return times;
     }
 
   private:
@@ -98,8 +118,19 @@ std::vector<first_time> all_times(const Questions& asked) {
     std::vector<first_time> times(asked.size());
     std::ranges::transform(answers, times.begin(), [](outcome o) { return first_time{o}; });
     const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);
-    for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
-        times[contacts[i]] = time_of(asked, contacts[i], asked.options().t_max);
+    const time_options& options = asked.options();
+    if (!options.distances.ask_for_contact()) {
+        for_each_index(contacts.size(), options.threads, [&](std::size_t i) {
+            times[contacts[i]] = time_of(asked, contacts[i], options.t_max);
+        });
+        return times;
+    }
+    for_each_part(contacts.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+        const std::span part = std::span(contacts).subspan(begin, end - begin);
+        const std::vector<first_time> found = asked.contact_times(part);
+        for (std::size_t i = 0; i < part.size(); ++i)
+            times[part[i]] =
+                found[i].high > options.t_max ? first_time{outcome::separate} : found[i];
     });
     return times;
 }

@@ -21,17 +21,21 @@ int on_threads(int threads, const Work& work) {
     return arena.max_concurrency();
 }
 
-/// Calls visit(i) for i below `count`, on at most so many threads.
+/// Calls visit(begin, end) for parts of 0 to `count`, on at most so many threads.
 template <class Visit>
-void for_each_index(std::size_t count, int threads, const Visit& visit) {
+void for_each_part(std::size_t count, int threads, const Visit& visit) {
     constexpr std::size_t few = 64;
-    const auto visit_all = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) visit(i);
-    };
-    if (threads == 1 || count <= few) return visit_all(0, count);
+    if (threads == 1 || count <= few) return visit(std::size_t{0}, count);
     on_threads(threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, few),
-                          [&](const auto& range) { visit_all(range.begin(), range.end()); });
+                          [&](const auto& range) { visit(range.begin(), range.end()); });
+    });
+}
+/// Calls visit(i) for i below `count`, the same way.
+template <class Visit>
+void for_each_index(std::size_t count, int threads, const Visit& visit) {
+    for_each_part(count, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) visit(i);
     });
 }
 

@@ -1,9 +1,9 @@
 // First times of queries that are known to collide, over packs: the brackets of most. Internal.
 //
-// Every contact is at a root of Y. So where Y certainly has but one root, that is the time; where it
-// has two, contact is at the first if the G_i certainly are positive there, and at the second if one
-// certainly is negative. The neighbouring doubles between which a root lies are found by Newton's
-// method, and proved by Y's signs there, in twice double's precision with an error bound.
+// Every contact is at a root of Y. So where Y certainly has but one root, that is the time; where
+// it has two, contact is at the first if the G_i certainly are positive there, and at the second if
+// one certainly is negative. The neighbouring doubles between which a root lies are found by
+// Newton's method, and proved by Y's signs there, in twice double's precision with an error bound.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -148,8 +148,8 @@ pack_times bracket_of_root(const twofold_y<K>& exact, const pack_values<3>& y, c
         const pack_mask earlier = value > exact.error(), later = value < -exact.error();
         const pack other = neighbour(t, earlier);
         const pack value_there = before * exact.at(other);
-        const pack_mask opposite = (earlier & (value_there < -exact.error())) |
-                                   (later & (value_there > exact.error()));
+        const pack_mask opposite =
+            (earlier & (value_there < -exact.error())) | (later & (value_there > exact.error()));
         const pack_mask now = opposite & !found.told;
         found.low = select(now, min(t, other), found.low);
         found.high = select(now, max(t, other), found.high);

@@ -1,7 +1,8 @@
 // Packs of numbers of twice double's precision: unevaluated sums of two doubles. Internal.
 //
 // With u = 2^-53, a sum is off by at most 8u²(|a| + |b|) and a product by 8u²|a·b|, where nothing
-// overflows or underflows (Dekker 1971; the short forms, whose errors are relative to the operands).
+// overflows or underflows (Dekker 1971; the short forms, whose errors are relative to the
+// operands).
 #pragma once
 
 #include <errbound/error_free.hpp>
@@ -35,12 +36,16 @@ struct twofold {
 #endif
     }
 
-    twofold operator-() const { return {-value, -error}; }
+    twofold operator-() const {
+        return {-value, -error};
+    }
     friend twofold operator+(const twofold& a, const twofold& b) {
         const auto sum = errbound::two_sum(a.value, b.value);
         return normal(sum.value, sum.error + (a.error + b.error));
     }
-    friend twofold operator-(const twofold& a, const twofold& b) { return a + -b; }
+    friend twofold operator-(const twofold& a, const twofold& b) {
+        return a + -b;
+    }
     friend twofold operator*(const twofold& a, const twofold& b) {
         const twofold p = product(a.value, b.value);
         return normal(p.value, p.error + (a.value * b.error + a.error * b.value));
