@@ -6,10 +6,11 @@
         changes_sign_once_right   then Y has exactly one root in the part, where it changes its sign
         part_found                where the answer is "collides", there is such a part
         first_part_right          before it some G is negative wherever Y = 0, in it all G are positive
-        first_root_in_part        the first root of Y at which no G is negative is in it; of one root, that one *)
+        first_root_in_part        the first root of Y at which no G is negative is in it; of one root, that one
+        face_part_bracket, edges_part_bracket    the bracket of this root is that of the first contact *)
 
 From Coq Require Import Reals Lia Lra Psatz List Bool.
-From Errbound Require Import Sign Bernstein VertexEdge CubicRoots Subdivision.
+From Errbound Require Import Sign Bernstein VertexEdge CubicRoots Subdivision Contact Separation FirstContact TimeBrackets.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -237,6 +238,89 @@ Proof.
       destruct (Signs w) as (A & B); [split; nra |]. unfold r. split; intros L; [apply A | apply B]; nra. }
     split; auto. intros t T Zt. destruct (Rle_or_lt t low) as [L | L]; [apply Before; auto; lra |].
     exfalso. destruct (Part t) as (A & _); [lra |]. specialize (A ltac:(lra)). rewrite Zt in A. lra.
+Qed.
+
+(** ** Contact *)
+
+Variable double : R -> Prop.
+
+(** Y and the G_i are k and l times what is zero and not negative in contact; root_in_integers searches with exact
+    signs, `before` the sign of Y at low. *)
+Lemma part_bracket (touches inside : R -> Prop) (y : R -> R) Y Gs k low high p before b :
+  (forall t, touches t -> y t = 0 /\ forall G, In G Gs -> 0 <= control_at G t) ->
+  (forall t, y t = 0 -> (forall G, In G Gs -> 0 < control_at G t) -> touches t) ->
+  0 < k -> (forall t, control_at Y t = k * y t) -> part_is Y Gs low high p -> changes_sign_once sign_y p = true ->
+  0 < before * y low -> search double y before low high b ->
+  exists r, first touches r /\ low < r < high /\ holds_time double b r.
+Proof.
+  intros Necessary Sufficient K E Part Once Sign Search. pose proof Part as (O & H & _).
+  destruct (proj2 (first_root_in_part Y Gs low high p Part) Once) as (r & R0 & Z & Pos & Signs & Before).
+  assert (Y0 : forall t, control_at Y t = 0 -> y t = 0).
+  { intros t Zt. rewrite E in Zt. apply Rmult_integral in Zt. destruct Zt; lra. }
+  assert (Rel : forall t, control_at Y t * control_at Y low * (before * before) = k * k * (y t * before) * (before * y low))
+    by (intros t; rewrite !E; ring).
+  assert (B2 : 0 < before * before) by (assert (before <> 0) by (intros ->; lra); nra).
+  assert (K2 : 0 < k * k) by nra.
+  assert (Pm : forall t, 0 < control_at Y t * control_at Y low <-> 0 < y t * before).
+  { intros t. specialize (Rel t). set (a := control_at Y t * control_at Y low) in *. set (c := y t * before) in *.
+    set (d := before * y low) in *. assert (0 < k * k * d) by now apply Rmult_lt_0_compat.
+    replace (k * k * c * d) with (k * k * d * c) in Rel by ring. clearbody a c d. split; intros Q; nra. }
+  assert (Nm : forall t, control_at Y t * control_at Y low < 0 <-> y t * before < 0).
+  { intros t. specialize (Rel t). set (a := control_at Y t * control_at Y low) in *. set (c := y t * before) in *.
+    set (d := before * y low) in *. assert (0 < k * k * d) by now apply Rmult_lt_0_compat.
+    replace (k * k * c * d) with (k * k * d * c) in Rel by ring. clearbody a c d. split; intros Q; nra. }
+  exists r. split; [| split; auto].
+  - split; [lra |]. split; [now apply Sufficient; auto |]. intros s Hs T. destruct (Necessary s T) as (Ys & G).
+    destruct (Before s Hs) as (g & I & N); [rewrite E, Ys; ring |]. specialize (G g I). lra.
+  - apply (search_only double y before low high r b Search R0).
+    + intros t T Q. apply Pm in Q. destruct (Rtotal_order t r) as [L | [-> | L]]; auto; [rewrite Z in Q; lra |].
+      destruct (Signs t ltac:(lra)) as (_ & A). specialize (A L). lra.
+    + intros t T Q. apply Nm in Q. destruct (Rtotal_order t r) as [L | [-> | L]]; auto; [| rewrite Z in Q; lra].
+      destruct (Signs t ltac:(lra)) as (A & _). specialize (A L). lra.
+    + intros t T Zt. destruct (Rtotal_order t r) as [L | [-> | L]]; auto; destruct (Signs t ltac:(lra)) as (A & B);
+        [specialize (A L) | specialize (B L)]; rewrite E, Zt in *; lra.
+Qed.
+
+Theorem face_part_bracket v f0 f1 f2 Y Gs k l low high p before b : 0 < k -> 0 < l ->
+  (forall t, control_at Y t = k * face_y v f0 f1 f2 t) ->
+  (forall t, map (fun G => control_at G t) Gs = map (Rmult l)
+     (let B := minus (place f1 t) (place f0 t) in let C := minus (place f2 t) (place f0 t) in
+      let P := minus (place v t) (place f0 t) in [weight_2 B C P; weight_1 B C P; weight_0 B C P])) ->
+  part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before * face_y v f0 f1 f2 low ->
+  search double (face_y v f0 f1 f2) before low high b ->
+  exists r, first (face_touches v f0 f1 f2) r /\ low < r < high /\ holds_time double b r.
+Proof.
+  intros K L E W. apply (part_bracket _ (face_inside_at v f0 f1 f2)) with (k := k); auto.
+  - intros t T. destruct (face_contact_root _ _ _ _ T) as (Yt & W2 & W1 & W0). split; [exact Yt |].
+    enough (Forall (fun w => 0 <= w) (map (fun G => control_at G t) Gs)) as F.
+    { intros G I. rewrite Forall_map, Forall_forall in F. now apply F. }
+    rewrite W. repeat apply Forall_cons; try apply Forall_nil; apply Rmult_le_pos; auto; lra.
+  - intros t Yt Pos. apply face_times. left. split; auto.
+    assert (F : Forall (Rlt 0) (map (fun G => control_at G t) Gs)) by (rewrite Forall_map, Forall_forall; exact Pos).
+    rewrite W in F. cbn [map] in F. inversion_clear F as [| ? ? G2 F']. inversion_clear F' as [| ? ? G1 F].
+    inversion_clear F as [| ? ? G0 _]. unfold face_inside_at, inside_face.
+    assert (D : forall w, 0 < l * w -> 0 < w) by (intros w Q; nra). repeat split; now apply D.
+Qed.
+Theorem edges_part_bracket a0 a1 b0 b1 Y Gs k l low high p before b : 0 < k -> 0 < l ->
+  (forall t, control_at Y t = k * edges_y a0 a1 b0 b1 t) ->
+  (forall t, map (fun G => control_at G t) Gs = map (Rmult l)
+     (let B := minus (place a1 t) (place a0 t) in let C := minus (place b1 t) (place b0 t) in
+      let P := minus (place b0 t) (place a0 t) in
+      [on_a B C P; square_normal B C - on_a B C P; on_b B C P; square_normal B C - on_b B C P])) ->
+  part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before * edges_y a0 a1 b0 b1 low ->
+  search double (edges_y a0 a1 b0 b1) before low high b ->
+  exists r, first (edges_touch a0 a1 b0 b1) r /\ low < r < high /\ holds_time double b r.
+Proof.
+  intros K L E W. apply (part_bracket _ (edges_inside_at a0 a1 b0 b1)) with (k := k); auto.
+  - intros t T. destruct (edges_contact_root _ _ _ _ T) as (Yt & W3 & W2 & W1 & W0). split; [exact Yt |].
+    enough (Forall (fun w => 0 <= w) (map (fun G => control_at G t) Gs)) as F.
+    { intros G I. rewrite Forall_map, Forall_forall in F. now apply F. }
+    rewrite W. repeat apply Forall_cons; try apply Forall_nil; apply Rmult_le_pos; auto; lra.
+  - intros t Yt Pos. apply edges_times. left. split; auto.
+    assert (F : Forall (Rlt 0) (map (fun G => control_at G t) Gs)) by (rewrite Forall_map, Forall_forall; exact Pos).
+    rewrite W in F. cbn [map] in F. inversion_clear F as [| ? ? G3 F']. inversion_clear F' as [| ? ? G2 F].
+    inversion_clear F as [| ? ? G1 F']. inversion_clear F' as [| ? ? G0 _]. unfold edges_inside_at, inside_edges.
+    assert (D : forall w, 0 < l * w -> 0 < w) by (intros w Q; nra). repeat split; now apply D.
 Qed.
 
 End Part.

@@ -7,9 +7,11 @@
           if they are ever within d, there is a first time: 0, or one with Z = 0 where the sides hold, for one of the
           conditions; and Z < 0 for none of those whose sides hold
         face_apart, edges_apart, vertex_edge_apart, vertices_apart   what an axis separates at both ends by more than
-          d times its length it separates throughout *)
+          d times its length it separates throughout
+        coordinates_apart         so what the code asks of rounded differences of coordinates *)
 
-From Coq Require Import Reals Lra Psatz List.
+From Coq Require Import Reals ZArith Lra Psatz List.
+From Flocq Require Import Core.
 From Errbound Require Import Contact Distance.
 Import ListNotations.
 Open Scope R_scope.
@@ -450,3 +452,50 @@ Proof.
       by (coordinates; ring). now apply mixed. }
   apply far_along in F; auto. unfold near in N. lra.
 Qed.
+
+(** ** Coordinates: separated_by_coordinates of ccd/contact/separation.cpp *)
+
+Section Rounded.
+
+Variable fexp : Z -> Z.
+Context {valid : Valid_exp fexp}.
+Variable direction : R -> Z.
+Context {valid_direction : Valid_rnd direction}.
+Notation fl := (round radix2 fexp direction).
+
+(** A rounded difference above a number of the format is above it itself. *)
+Lemma rounded_above distance a : generic_format radix2 fexp distance -> distance < fl a -> distance < a.
+Proof.
+  intros F L. apply Rnot_le_lt. intros Q. apply (round_le radix2 fexp direction) in Q.
+  rewrite (round_generic radix2 fexp direction distance F) in Q. lra.
+Qed.
+(** The next number above a rounded one is above what was rounded. *)
+Lemma next_above a : a <= succ radix2 fexp (fl a).
+Proof. apply succ_round_ge_id; auto. Qed.
+
+Inductive coordinate := x_axis | y_axis | z_axis.
+Definition coordinate_of (c : coordinate) : point -> R := match c with x_axis => x | y_axis => y | z_axis => z end.
+Definition unit_axis (c : coordinate) : point :=
+  match c with x_axis => Point 1 0 0 | y_axis => Point 0 1 0 | z_axis => Point 0 0 1 end.
+(** above *)
+Definition coordinates_above (c : coordinate) (distance : R) (ps qs : list moving) : Prop :=
+  forall p q, In p ps -> In q qs ->
+    distance < fl (coordinate_of c (start p) - coordinate_of c (start q)) /\
+    distance < fl (coordinate_of c (finish p) - coordinate_of c (finish q)).
+
+(** With the distance that the code takes: the sum of both thicknesses, rounded, and the next number above it. *)
+Theorem coordinates_apart c d0 d1 ps qs : let distance := succ radix2 fexp (fl (d0 + d1)) in
+  coordinates_above c distance ps qs -> above_along (unit_axis c) (d0 + d1) ps qs.
+Proof.
+  intros distance A p q P Q. assert (F : generic_format radix2 fexp distance)
+    by (apply generic_format_succ; auto; apply generic_format_round; auto). destruct (A p q P Q) as (S & T).
+  apply (rounded_above distance) in S, T; auto. pose proof (next_above (d0 + d1)) as N. fold distance in N.
+  assert (One : norm (unit_axis c) = 1).
+  { unfold norm. replace (dot (unit_axis c) (unit_axis c)) with 1; [apply sqrt_1 |].
+    destruct c; unfold unit_axis; coordinates; ring. }
+  assert (Dot : forall a b, dot (unit_axis c) (minus a b) = coordinate_of c a - coordinate_of c b)
+    by (intros a b; destruct c; unfold unit_axis, coordinate_of; coordinates; ring).
+  rewrite One, !Dot. lra.
+Qed.
+
+End Rounded.

@@ -52,6 +52,7 @@ found_time first_contact(const vertex_vertex<errbound::integers::fixed_integer<W
 }
 
 /// The root of Y in a part that has one only, which is a contact.
+/// Proof: proofs/ContactPart.v, face_part_bracket, edges_part_bracket.
 template <int Words, template <class> class Query>
 found_time root_in_words(const Query<double>& query, const integer_units& units,
                          const static_filter::contact_part& part) {

@@ -30,7 +30,8 @@ bool above(moving_points p, moving_points q, double point<double>::*axis, double
 }
 
 /// Whether a coordinate axis separates the features by more than d throughout.
-/// Proof: proofs/Separation.v, vertices_apart, vertex_edge_apart, face_apart, edges_apart.
+/// Proof: proofs/Separation.v, coordinates_apart, vertices_apart, vertex_edge_apart, face_apart,
+/// edges_apart.
 template <class Query>
 bool separated_by_coordinates(const Query& query, separation d) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
