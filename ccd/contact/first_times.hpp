@@ -5,10 +5,13 @@
 // exponents.
 #pragma once
 
+#include <array>
 #include <ccd/contact.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
 #include <ccd/separation.hpp>
+#include <cstddef>
 #include <span>
 
 namespace ccd::detail {
@@ -26,5 +29,32 @@ enum class arithmetic { integers, floating_point_first };
 template <kind K>
 first_time first_within_of(std::span<const curve> points, separation d, double t_max,
                            arithmetic by);
+
+/// The query's points as curves of degree 1.
+template <class Query>
+struct query_curves {
+    static constexpr kind query_kind = kind_constant<Query>::value;
+    static constexpr std::size_t count =
+        kind_traits<query_kind>::first_vertices + kind_traits<query_kind>::second_vertices;
+    std::array<std::array<point<double>, 2>, count> ends;
+    std::array<curve, count> all;
+
+    explicit query_curves(const Query& query) {
+        const auto points = points_of(query);
+        for (std::size_t i = 0; i < count; ++i) {
+            ends[i] = {points[i].t0, points[i].t1};
+            all[i] = ends[i];
+        }
+    }
+    query_curves(const query_curves&) = delete;
+    query_curves& operator=(const query_curves&) = delete;
+};
+
+/// The same of motion along lines.
+template <class Query>
+first_time first_within_of(const Query& query, separation d, double t_max, arithmetic by) {
+    const query_curves<Query> points(query);
+    return first_within_of<points.query_kind>(points.all, d, t_max, by);
+}
 
 }  // namespace ccd::detail

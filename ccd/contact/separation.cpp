@@ -59,8 +59,10 @@ template <class Query>
 first_time first_within(const Query& query, separation d, double t_max) {
     if (!detail::is_distance(d) || !detail::is_finite(query) || !std::isfinite(t_max)) return {};
     if (d.first == 0 && d.second == 0) return time_of_impact(query, t_max);
-    if (separated_by_coordinates(query, d)) return {outcome::separate, 0, 0};
-    return time_within_reference(query, d, t_max);
+    if (separated_by_coordinates(query, d) ||
+        detail::separation_filter::features(query, d).decide() == outcome::separate)
+        return {outcome::separate, 0, 0};
+    return detail::first_within_of(query, d, t_max, detail::arithmetic::floating_point_first);
 }
 
 }  // namespace

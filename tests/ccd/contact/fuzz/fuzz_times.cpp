@@ -19,19 +19,22 @@ using query_families::points;
 
 std::string text_of(const ccd::first_time& t) {
     char text[80];
-    std::snprintf(text, sizeof text, "%s [%a, %a]", std::string(ccd::name(t.outcome)).c_str(), t.low,
-                  t.high);
+    std::snprintf(text, sizeof text, "%s [%a, %a]", std::string(ccd::name(t.outcome)).c_str(),
+                  t.low, t.high);
     return text;
 }
 
 template <ccd::kind K>
 void check(const points& p, ccd::separation d, double t_max) {
-    const auto q = query_families::as_query<typename ccd::kind_traits<K>::template query<double>>(p);
-    const auto expect = [&](const char* who, const ccd::first_time& said, const std::string& fault) {
+    const auto q =
+        query_families::as_query<typename ccd::kind_traits<K>::template query<double>>(p);
+    const auto expect = [&](const char* who, const ccd::first_time& said,
+                            const std::string& fault) {
         if (fault.empty()) return;
         char asked[120];
-        std::snprintf(asked, sizeof asked, " of %s, distance %a + %a, t_max %a: ",
-                      std::string(short_name(K)).c_str(), d.first, d.second, t_max);
+        std::snprintf(asked, sizeof asked,
+                      " of %s, distance %a + %a, t_max %a: ", std::string(short_name(K)).c_str(),
+                      d.first, d.second, t_max);
         fuzz::fail(who + (asked + text_of(said)) + ", but " + fault + "\n" +
                    query_families::csv(p));
     };
