@@ -68,6 +68,12 @@ candidate_search::candidate_search(std::span<const face> faces, std::span<const 
     edges_ = ordered_elements(std::move(all));
 }
 
+candidate_search candidate_search::in_plane(std::span<const edge> edges, std::size_t vertices) {
+    candidate_search search({}, edges, vertices);
+    search.in_plane_ = true;
+    return search;
+}
+
 template <kind K, class Real, class First, class Second>
 std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& asked, First& first,
                                       Second& second) {
@@ -101,9 +107,13 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     const pair_filter& filter = options.filter;
     const question asked{boxes, lets_all_through(filter) ? nullptr : &filter, visitor};
     pair_counts counts;
-    counts.edge_edge = find_kind<kind::edge_edge>(asked, edges_, edges_);
-    counts.vertex_face = find_kind<kind::vertex_face>(asked, vertices_, faces_);
-    counts.vertex_edge = find_kind<kind::vertex_edge>(asked, points_, rods_);
+    if (in_plane_) {
+        counts.vertex_edge = find_kind<kind::vertex_edge>(asked, vertices_, edges_);
+    } else {
+        counts.edge_edge = find_kind<kind::edge_edge>(asked, edges_, edges_);
+        counts.vertex_face = find_kind<kind::vertex_face>(asked, vertices_, faces_);
+        counts.vertex_edge = find_kind<kind::vertex_edge>(asked, points_, rods_);
+    }
     counts.vertex_vertex = find_kind<kind::vertex_vertex>(asked, points_, points_);
     return counts;
 }

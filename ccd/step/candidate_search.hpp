@@ -48,7 +48,11 @@ class candidate_search {
     candidate_search(std::span<const face> faces, std::span<const edge> edges,
                      std::size_t vertices);
 
+    /// In the plane: every vertex with every edge, and every two points.
+    static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
+
     std::size_t vertices() const { return vertices_.size(); }
+    bool is_in_plane() const { return in_plane_; }
 
     /// Hands all candidates of the kinds that have a visitor to it, each once, as
     /// candidate_visitor tells. Positions must be finite, distances valid.
@@ -77,6 +81,7 @@ class candidate_search {
     ordered_elements<3> faces_;
     tree_pair<float> in_floats_;
     tree_pair<double> in_doubles_;
+    bool in_plane_ = false;
 };
 
 }  // namespace ccd::detail

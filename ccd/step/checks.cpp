@@ -73,6 +73,15 @@ void check_positions(const vertex_rows& positions, std::size_t vertices) {
     check_finite(positions.after, vertices, "1");
 }
 
+void check_plane(const vertex_rows& positions) {
+    for (vertex_index v = 0; v < positions.vertices; ++v) {
+        const auto [before, after] = positions[v];
+        if (before.z != 0 || after.z != 0)
+            throw std::invalid_argument("ccd::step: found a z of vertex " + std::to_string(v) +
+                                        " that is not 0, expected positions in the plane");
+    }
+}
+
 void check_options(const step_options& options, std::size_t vertices) {
     if (std::ranges::find(methods(), options.method, &method_info::method) == methods().end())
         throw std::invalid_argument("ccd::step: found method " +

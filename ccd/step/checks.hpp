@@ -20,6 +20,9 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
 /// That there are positions of so many vertices, all finite.
 void check_positions(const vertex_rows& positions, std::size_t vertices);
 
+/// That z is 0 everywhere.
+void check_plane(const vertex_rows& positions);
+
 /// That the method is one and does what is asked, and that lists are as long as there are vertices.
 void check_options(const step_options& options, std::size_t vertices);
 

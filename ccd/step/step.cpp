@@ -137,6 +137,7 @@ struct mesh_steps::state {
 
     void check(const vertex_rows& positions, const step_options& options) const {
         detail::check_positions(positions, search.vertices());
+        if (search.is_in_plane()) detail::check_plane(positions);
         detail::check_options(options, search.vertices());
     }
 };
@@ -145,6 +146,12 @@ mesh_steps::mesh_steps(std::span<const face> faces, std::span<const edge> edges,
                        std::size_t vertices) {
     detail::check_elements(faces, edges, vertices, "ccd::mesh_steps");
     state_ = std::make_unique<state>(state{{faces, edges, vertices}});
+}
+mesh_steps::mesh_steps(std::unique_ptr<state> state) : state_(std::move(state)) {}
+mesh_steps mesh_steps::in_plane(std::span<const edge> edges, std::size_t vertices) {
+    detail::check_elements({}, edges, vertices, "ccd::mesh_steps");
+    return mesh_steps(
+        std::make_unique<state>(state{detail::candidate_search::in_plane(edges, vertices)}));
 }
 mesh_steps::mesh_steps(const mesh& mesh)
     : mesh_steps(mesh.faces, mesh.edges, mesh.vertices.size()) {}

@@ -33,7 +33,7 @@ class vertex_groups {
         g.fraction = std::min(g.fraction, fraction);
     }
 
-    /// Makes one group of theirs, which moves as the shorter one did.
+    /// Makes one group of theirs, which moves by the lesser fraction.
     void join(vertex_index v, vertex_index w) {
         v = root_of(v);
         w = root_of(w);
@@ -42,8 +42,10 @@ class vertex_groups {
         parent_[w] = v;
         group &all = groups_[v], &more = groups_[w];
         all.size += more.size;
-        all.fraction = std::min(all.fraction, more.fraction);
-        all.shortened = std::max(all.shortened, more.shortened);
+        if (std::pair(more.fraction, more.shortened) < std::pair(all.fraction, all.shortened)) {
+            all.fraction = more.fraction;
+            all.shortened = more.shortened;
+        }
     }
     void join_all() {
         for (vertex_index v = 1; v < parent_.size(); ++v) join(0, v);
@@ -55,26 +57,24 @@ class vertex_groups {
     }
     static constexpr int max_last_places_back = 1024;
 
-    /// Handles pairs in contact: joins each one's groups; and where these already moved by one
-    /// fraction, so that only rounding can have brought the pair together, shortens their way or,
-    /// if `may_retreat`, takes the pair's vertices back a little once it was shortened a little.
+    /// Handles pairs in contact. Joins groups of one that move by different fractions; where there
+    /// is none such, so that only rounding can have brought pairs together, joins theirs and
+    /// shortens the ways, or, if `may_retreat` and they were shortened a little before, takes the
+    /// pairs' vertices back a little.
     template <class Pair>
     void separate(const std::vector<Pair>& pairs, bool may_retreat) {
+        if (join_different(pairs)) return;
         std::vector<vertex_index> to_shorten, to_retreat;
         for (const Pair& pair : pairs) {
             const auto vertices = vertices_of(pair);
-            const vertex_index first = vertices[0];
-            const bool by_rounding = std::ranges::all_of(
-                vertices, [&](vertex_index v) { return fraction(v) == fraction(first); });
-            for (const vertex_index v : vertices) join(first, v);
-            if (!by_rounding) continue;
-            if (may_retreat && group_of(first).shortened >= close &&
-                std::ranges::any_of(vertices, [&](vertex_index v) {
-                    return last_places_back(v) < max_last_places_back;
-                }))
+            const bool can_retreat = std::ranges::any_of(vertices, [&](vertex_index v) {
+                return last_places_back(v) < max_last_places_back;
+            });
+            for (const vertex_index v : vertices) join(vertices[0], v);
+            if (may_retreat && can_retreat && group_of(vertices[0]).shortened >= close)
                 to_retreat.insert(to_retreat.end(), vertices.begin(), vertices.end());
             else
-                to_shorten.push_back(first);
+                to_shorten.push_back(vertices[0]);
         }
         for (const vertex_index v : unique(to_retreat))
             if (last_places_back(v) < max_last_places_back) ++retreats_[v];
@@ -90,6 +90,21 @@ class vertex_groups {
     };
 
     group& group_of(vertex_index v) { return groups_[root_of(v)]; }
+
+    /// Returns whether there was one whose groups move by different fractions.
+    template <class Pair>
+    bool join_different(const std::vector<Pair>& pairs) {
+        bool any = false;
+        for (const Pair& pair : pairs) {
+            const auto vertices = vertices_of(pair);
+            const double first = fraction(vertices[0]);
+            if (std::ranges::all_of(vertices, [&](vertex_index v) { return fraction(v) == first; }))
+                continue;
+            for (const vertex_index v : vertices) join(vertices[0], v);
+            any = true;
+        }
+        return any;
+    }
 
     /// By 2^-50 at first, then by ever more up to 2^-8, which leaves more than 0.99 after `close`
     /// times; then to a half, a quarter, ..., and at last to nothing.

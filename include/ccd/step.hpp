@@ -14,6 +14,11 @@
 // first time does so at one of its ends (vertex/face), at the face's boundary (edge/edge), or
 // within the face's plane, where both hold; and so for two faces. What is pierced already at t = 0
 // is not found before its boundary moves on: start from a state free of intersections.
+//
+// In the plane a mesh is of edges and points, and pairs of two kinds are enough:
+//
+//   vertex/edge    every vertex, every edge
+//   vertex/vertex  every two points
 #pragma once
 
 #include <ccd/batch.hpp>
@@ -135,6 +140,9 @@ class mesh_steps {
     /// Throws std::invalid_argument if an index is not below `vertices`.
     mesh_steps(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices);
     explicit mesh_steps(const mesh& mesh);
+    /// Steps in the plane, of edges and points: positions must have z = 0. Throws
+    /// std::invalid_argument if an index is not below `vertices`.
+    static mesh_steps in_plane(std::span<const edge> edges, std::size_t vertices);
     ~mesh_steps();
     /// What was moved from may only be destroyed or assigned to.
     mesh_steps(mesh_steps&&) noexcept;
@@ -143,9 +151,10 @@ class mesh_steps {
     /// The pairs of one step that options.method cannot certify as separate.
     ///
     /// Throws std::invalid_argument if there are not as many positions as vertices or a coordinate
-    /// is not finite; if the method is none, the instruction set not one of instruction_sets(), or
-    /// the filter of another length; if times, a t_max below 1 or distances are asked of a method
-    /// other than `exact`, or are not what ccd/first_times.hpp expects.
+    /// is not finite, or, in the plane, a z not 0; if the method is none, the instruction set not
+    /// one of instruction_sets(), or the filter of another length; if times, a t_max below 1 or
+    /// distances are asked of a method other than `exact`, or are not what ccd/first_times.hpp
+    /// expects.
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// All candidates of a step, the vertices of faces in the mesh's order, for narrow phases of
@@ -160,6 +169,7 @@ class mesh_steps {
 
   private:
     struct state;
+    explicit mesh_steps(std::unique_ptr<state> state);
     std::unique_ptr<state> state_;
 };
 
