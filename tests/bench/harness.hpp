@@ -25,11 +25,12 @@ struct options {
         return sections.empty() || std::ranges::find(sections, section) != sections.end();
     }
     bool wants_scenes() const {
-        return wants("methods") || wants("stages") || wants("steps") || wants("growth");
+        return wants("methods") || wants("stages") || wants("contacts") || wants("steps") ||
+               wants("growth");
     }
 };
 
-inline constexpr std::string_view section_names[] = {"methods", "stages",     "steps",
+inline constexpr std::string_view section_names[] = {"methods", "stages",     "contacts", "steps",
                                                      "growth",  "predicates", "curves"};
 
 using ccd::report::clock;

@@ -44,6 +44,7 @@ void run_scene(const std::string& name, const bench::options& o, bench::report& 
                        ")");
     if (o.wants("methods")) bench::methods(s, o, out);
     if (o.wants("stages")) bench::stages(s, o, out);
+    if (o.wants("contacts")) bench::contacts(s, o, out);
     if (o.wants("steps") && s.is_step()) bench::steps(s, o, out);
     if (o.wants("growth") && s.is_step()) bench::growth_with_queries(s, o, out);
 }
@@ -63,7 +64,7 @@ int main(int argc, char** argv) try {
     app.add_option("--json", json, "The tables as JSON, to this file");
     app.add_option("--scene", o.scene, "Only scenes whose name holds this");
     app.add_option("--sections", o.sections,
-                   "Only these: methods, stages, steps, growth, predicates, curves")
+                   "Only these: methods, stages, contacts, steps, growth, predicates, curves")
         ->delimiter(',')
         ->check(CLI::IsMember(std::vector<std::string>(std::begin(bench::section_names),
                                                        std::end(bench::section_names))));

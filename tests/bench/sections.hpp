@@ -14,6 +14,9 @@ void methods(const scene& s, const options& o, report& out);
 /// the integers.
 void stages(const scene& s, const options& o, report& out);
 
+/// First times of colliding queries and the data of their contacts: ns, and certified errors.
+void contacts(const scene& s, const options& o, report& out);
+
 /// Whole steps: time by phase, memory. Throws std::runtime_error if a step has other candidates
 /// than those found here.
 void steps(const scene& s, const options& o, report& out);

@@ -1,0 +1,94 @@
+#include <ccd/contact_data.hpp>
+#include <ccd/exact.hpp>
+#include <cmath>
+
+#include "tests/bench/sections.hpp"
+
+namespace bench {
+namespace {
+
+/// Of what is sorted.
+double at_share(const std::vector<double>& sorted, double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+cell error(double e) {
+    if (!std::isfinite(e)) return {"unknown", nullptr};
+    char text[16];
+    std::snprintf(text, sizeof text, "%.1e", e);
+    return {text, e};
+}
+
+/// Data of all contacts, and what is uncertain of them.
+struct accuracy {
+    std::size_t inside = 0;
+    std::vector<double> weights, normals;  ///< errors, sorted
+
+    template <class Query>
+    accuracy(const std::vector<Query>& queries, const std::vector<ccd::first_time>& times) {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const ccd::first_contact found = contact_at(queries[i], times[i]);
+            inside += found.features.kind == ccd::kind_of<Query>;
+            weights.push_back(found.weight_error);
+            normals.push_back(found.normal_error);
+        }
+        std::ranges::sort(weights);
+        std::ranges::sort(normals);
+    }
+};
+
+template <class Query>
+void add_contacts_row(const query_set<Query>& set, const options& o,
+                      std::vector<std::vector<cell>>& rows) {
+    std::vector<Query> colliding;
+    std::vector<ccd::first_time> times;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        const ccd::first_time time = ccd::time_of_impact(set[i]);
+        if (time.outcome != ccd::outcome::collides) continue;
+        colliding.push_back(set[i]);
+        times.push_back(time);
+    }
+    if (colliding.empty()) return;
+    const auto timings = race({[&] {
+                                   for (const Query& q : colliding) keep(ccd::decide_exact(q));
+                               },
+                               [&] {
+                                   for (const Query& q : colliding) keep(ccd::time_of_impact(q));
+                               },
+                               [&] {
+                                   for (std::size_t i = 0; i < colliding.size(); ++i)
+                                       keep(ccd::contact_at(colliding[i], times[i]));
+                               }},
+                              o.repeats());
+    const auto all = static_cast<double>(colliding.size());
+    const auto ns = [&](std::size_t i) { return number(1e9 * timings[i].minimum / all, 0); };
+    const accuracy of(colliding, times);
+    rows.push_back({word(short_name(ccd::kind_of<Query>)), count(colliding.size()), ns(0), ns(1),
+                    ns(2), percent(static_cast<double>(of.inside) / all),
+                    error(at_share(of.weights, 0.5)), error(at_share(of.weights, 0.99)),
+                    error(at_share(of.normals, 0.5)), error(at_share(of.normals, 0.99))});
+}
+
+}  // namespace
+
+void contacts(const scene& s, const options& o, report& out) {
+    const std::size_t most =
+        o.quick ? o.max_queries() : s.queries.vertex_face.size() + s.queries.edge_edge.size();
+    std::vector<std::vector<cell>> rows;
+    add_contacts_row(s.queries.vertex_face.at_most(most), o, rows);
+    add_contacts_row(s.queries.edge_edge.at_most(most), o, rows);
+    out.table("contacts", {{"scene", s.name}},
+              s.name + ": colliding queries one by one, ns of each; errors of the contacts' data",
+              {{"kind", "kind", true},
+               {"contacts", "contacts"},
+               {"ns_decision", "decision"},
+               {"ns_time", "first time"},
+               {"ns_data", "data, time known"},
+               {"inside_share", "inside"},
+               {"weight_error_median", "weights, median"},
+               {"weight_error_99", "99 % below"},
+               {"normal_error_median", "normal, median"},
+               {"normal_error_99", "99 % below"}},
+              rows);
+}
+
+}  // namespace bench
