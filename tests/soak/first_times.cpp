@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -155,7 +157,7 @@ first_time ask(const std::vector<time_decider>& deciders, const question& asked,
 }
 
 /// The earliest of the times that are not at the start, as ccd::earliest tells it.
-ccd::earliest_time earliest_of(const std::vector<first_time>& right) {
+ccd::earliest_time earliest_of(std::span<const first_time> right) {
     ccd::earliest_time all{{.outcome = outcome::separate}, {}, {}};
     const auto order = [](const first_time& t) { return std::pair(t.low, t.high); };
     for (std::size_t i = 0; i < right.size(); ++i) {
@@ -197,21 +199,36 @@ struct batch {
     }
 
     void compare(findings& out) const {
-        const ccd::time_options options{.distances = {.thickness = thickness}, .threads = 2};
-        expect("batch, by index", ccd::first_times(queries.rows(), queries.pairs, options), out);
-        if (thickness.empty())
-            expect("batch, stored", ccd::first_times(queries.stored, {.threads = 1}), out);
-        auto& counts = out.table("decider")["batch, earliest"];
-        const auto found = ccd::earliest(queries.rows(), queries.pairs, options);
-        const auto expected = earliest_of(right);
+        for (const ccd::instruction_set set : ccd::instruction_sets()) {
+            const std::string name(ccd::name(set));
+            expect(name + ", by index",
+                   ccd::first_times(queries.rows(), queries.pairs, options(2, set)), out);
+            if (thickness.empty())
+                expect(name + ", stored",
+                       ccd::first_times(queries.stored, {.threads = 1, .set = set}), out);
+        }
+        expect_earliest(0, right.size(), out);
+        constexpr std::size_t few = 8;
+        for (std::size_t i = 0; i + few <= right.size(); i += few) expect_earliest(i, few, out);
+    }
+
+    ccd::time_options options(int threads, std::optional<ccd::instruction_set> set = {}) const {
+        return {.distances = {.thickness = thickness}, .threads = threads, .set = set};
+    }
+
+    void expect_earliest(std::size_t first, std::size_t count, findings& out) const {
+        const auto expected = earliest_of(std::span(right).subspan(first, count));
+        const auto found = ccd::earliest(
+            queries.rows(), std::span(queries.pairs).subspan(first, count), options(2));
+        auto& counts = out.table("decider")["earliest"];
         ++counts[0];
         if (found.time == expected.time && found.queries == expected.queries &&
             found.at_start == expected.at_start)
             return;
         ++counts[1];
-        out.differ({"the earliest of " + asked.front().name + " to " + asked.back().name + ": " +
-                    text_of(found.time) + ", not " + text_of(expected.time) +
-                    ", or of other queries"});
+        out.differ({"the earliest of " + asked[first].name + " to " +
+                    asked[first + count - 1].name + ": " + text_of(found.time) + ", not " +
+                    text_of(expected.time) + ", or of other queries"});
     }
 
     void expect(const std::string& name, const std::vector<first_time>& said, findings& out) const {
@@ -272,8 +289,11 @@ findings empty_findings(const std::vector<time_decider>& deciders, bool of_dista
     }
     out.tables.push_back({"decider", {"answers", "differences"}});
     for (const time_decider& d : deciders) out.table("decider")[d.name];
-    for (const char* name : {"batch, by index", "batch, stored", "batch, earliest"})
-        out.table("decider")[name];
+    for (const ccd::instruction_set set : ccd::instruction_sets()) {
+        out.table("decider")[std::string(ccd::name(set)) + ", by index"];
+        if (!of_distance) out.table("decider")[std::string(ccd::name(set)) + ", stored"];
+    }
+    out.table("decider")["earliest"];
     return out;
 }
 

@@ -52,8 +52,9 @@ std::vector<time_decider> distance_deciders();
 /// Queries of every family and all four kinds. The first decider's answer for t_max = 1 is judged
 /// by the oracle (tests/support/first_time_faults.hpp). First times are unique, so it is what all
 /// others must say, too, and what follows for another t_max, near that time or not, is what all
-/// must say for that. A block's queries are then asked at once, and the earliest of them. Tables:
-/// "family", the queries; "distance", of distances; "decider", all answers.
+/// must say for that. A block's queries are then asked at once, on every instruction set, and the
+/// earliest of all and of a few. Tables: "family", the queries; "distance", of distances;
+/// "decider", all answers.
 part contact_time_part(std::vector<time_decider> deciders);
 /// The same of distances of many families (tests/support/distance_families.hpp).
 part distance_time_part(std::vector<time_decider> deciders);
