@@ -14,34 +14,49 @@ namespace {
 using errbound::sign_type;
 using roots_in_time = errbound::real_roots<integer>;
 using staged_polynomial = errbound::roots::staged_polynomial<integer>;
-using staged_condition = condition<staged_polynomial>;
 
-std::vector<staged_condition> staged(const exact_conditions& conditions) {
-    const auto all = [](const std::vector<time_polynomial>& polynomials) {
-        std::vector<staged_polynomial> r;
-        for (const auto& p : polynomials) r.emplace_back(p.coefficients());
-        return r;
-    };
-    std::vector<staged_condition> r;
-    for (const auto& c : conditions)
-        r.push_back({all(c.vanishing), all(c.nonnegative), all(c.not_all_zero), c.also_below});
+std::vector<staged_polynomial> staged(const std::vector<time_polynomial>& polynomials) {
+    std::vector<staged_polynomial> r;
+    for (const auto& p : polynomials) r.emplace_back(p.coefficients());
     return r;
 }
 
+/// A condition of which `asked` outlives this.
+class staged_condition {
+  public:
+    explicit staged_condition(const condition<time_polynomial>& asked)
+        : vanishing(staged(asked.vanishing)), asked_(asked) {}
+
+    bool also_below() const { return asked_.also_below; }
+    side_conditions<staged_polynomial>& sides() {
+        if (!sides_) {
+            const auto exact = asked_.sides();
+            sides_ = {staged(exact.nonnegative), staged(exact.not_all_zero)};
+        }
+        return *sides_;
+    }
+
+    std::vector<staged_polynomial> vanishing;
+
+  private:
+    const condition<time_polynomial>& asked_;
+    std::optional<side_conditions<staged_polynomial>> sides_;
+};
+
 template <class SignThere>
 bool sides_hold(staged_condition& c, const SignThere& sign_there) {
-    for (auto& p : c.nonnegative)
+    auto& [nonnegative, not_all_zero] = c.sides();
+    for (auto& p : nonnegative)
         if (sign_there(p) == sign_type::negative) return false;
     const auto is_zero = [&](auto& p) { return sign_there(p) == sign_type::zero; };
-    return c.not_all_zero.empty() ||
-           !std::all_of(c.not_all_zero.begin(), c.not_all_zero.end(), is_zero);
+    return not_all_zero.empty() || !std::all_of(not_all_zero.begin(), not_all_zero.end(), is_zero);
 }
 
 template <class SignThere>
 bool holds(staged_condition& c, const SignThere& sign_there) {
     const auto is_met = [&](auto& p) {
         const sign_type s = sign_there(p);
-        return s == sign_type::zero || (c.also_below && s == sign_type::negative);
+        return s == sign_type::zero || (c.also_below() && s == sign_type::negative);
     };
     return std::all_of(c.vanishing.begin(), c.vanishing.end(), is_met) && sides_hold(c, sign_there);
 }
@@ -56,7 +71,7 @@ bool holds_at_start(staged_condition& c) {
 std::vector<staged_polynomial> candidates(staged_condition& c) {
     if (c.vanishing.empty()) return {};
     const auto is_zero = [](const staged_polynomial& p) { return p.is_zero(); };
-    if (std::all_of(c.vanishing.begin(), c.vanishing.end(), is_zero)) return c.nonnegative;
+    if (std::all_of(c.vanishing.begin(), c.vanishing.end(), is_zero)) return c.sides().nonnegative;
     if (c.vanishing.size() == 1) return c.vanishing;
     errbound::roots::integer_form<integer> common;
     for (auto& p : c.vanishing) common = errbound::roots::common_factor(common, p.exact());
@@ -73,7 +88,7 @@ constexpr first_time never{outcome::separate, 0, 0};
 }  // namespace
 
 first_time first_time_of(const exact_conditions& conditions, double t_max) {
-    std::vector<staged_condition> all = staged(conditions);
+    std::vector<staged_condition> all(conditions.begin(), conditions.end());
     for (staged_condition& c : all)
         if (holds_at_start(c)) return {outcome::collides, 0, 0};
     first_time first = never;
@@ -100,13 +115,17 @@ first_time first_time_of(const exact_conditions& conditions, double t_max) {
 first_time first_time_at_roots(const time_polynomial& y, const root_questions& asked,
                                double t_max) {
     roots_in_time roots(staged_polynomial(y.coefficients()), 0, std::min(t_max, 1.0));
-    std::optional<std::vector<staged_condition>> all;
+    exact_conditions conditions;
+    std::vector<staged_condition> all;
     const auto holds_at = [&](std::size_t k) {
         const outcome known =
             asked.holds_at ? asked.holds_at(roots.enclosure(k)) : outcome::uncertain;
         if (known != outcome::uncertain) return known == outcome::collides;
-        if (!all) all = staged(asked.conditions());
-        return std::any_of(all->begin(), all->end(), [&](staged_condition& c) {
+        if (all.empty()) {
+            conditions = asked.conditions();
+            all = std::vector<staged_condition>(conditions.begin(), conditions.end());
+        }
+        return std::any_of(all.begin(), all.end(), [&](staged_condition& c) {
             return holds(c, [&](auto& p) { return roots.sign_at(p, k); });
         });
     };

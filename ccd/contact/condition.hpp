@@ -31,11 +31,18 @@ namespace ccd::detail {
 template <class R>
 using path = vector_form<R, 0>;
 
+/// What is asked where a condition's polynomials vanish.
+template <class R>
+struct side_conditions {
+    std::vector<R> nonnegative, not_all_zero;
+};
+
 /// Holds where all of `vanishing` are 0, none of `nonnegative` is negative, and not all of
-/// `not_all_zero` are 0, if there are any.
+/// `not_all_zero` are 0, if there are any. The latter two are made when asked for.
 template <class R>
 struct condition {
-    std::vector<R> vanishing, nonnegative, not_all_zero;
+    std::vector<R> vanishing;
+    std::function<side_conditions<R>()> sides;
     /// It also holds where its only vanishing one is negative.
     bool also_below = false;
 };

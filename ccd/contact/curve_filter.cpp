@@ -65,8 +65,9 @@ bool is_excluded(const condition<polynomial>& c) {
     const auto is_negative = [](const polynomial& p) {
         return p.sign_throughout() == sign_type::negative;
     };
-    return std::any_of(c.nonnegative.begin(), c.nonnegative.end(), is_negative) ||
-           std::any_of(c.vanishing.begin(), c.vanishing.end(), excludes);
+    if (std::any_of(c.vanishing.begin(), c.vanishing.end(), excludes)) return true;
+    const auto sides = c.sides();
+    return std::any_of(sides.nonnegative.begin(), sides.nonnegative.end(), is_negative);
 }
 
 bool is_of_low_degree(std::span<const curve> points) {

@@ -115,25 +115,29 @@ std::array<vertex_vertex_paths<R>, 2> corners_of(const vertex_edge_paths<R>& q) 
 /// W = 0.
 template <class R>
 condition<R> contact_condition(const vertex_vertex_paths<R>& q) {
-    return {list(q.v - q.w), {}, {}};
+    return {list(q.v - q.w), [] { return side_conditions<R>{}; }};
 }
 /// W × E = 0 and W·(E − W) >= 0: of an edge without length it asks W = 0.
 template <class R>
 condition<R> contact_condition(const vertex_edge_paths<R>& q) {
-    const path<R> w = q.v - q.e0;
-    return {list(cross(w, q.e1 - q.e0)), list(dot(w, q.e1 - q.v)), {}};
+    return {list(cross(q.v - q.e0, q.e1 - q.e0)), [q] {
+                return side_conditions<R>{list(dot(q.v - q.e0, q.e1 - q.v)), {}};
+            }};
+}
+/// Where the plane or the pair of lines is one, and the nearest points inside.
+template <class Forms>
+auto inside_conditions(const Forms& forms) {
+    return side_conditions{list(forms.inside()), list(forms.n)};
 }
 
 /// Of VF and EE at times at which Y = 0.
-/// Proof: proofs/FirstConditions.v, vertices_candidate, vertex_edge_candidate,
-/// face_planar_candidate, edges_planar_candidate.
 template <kind K, class R>
 std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
     if constexpr (K == kind::vertex_vertex || K == kind::vertex_edge) {
         return {contact_condition(q)};
     } else {
-        const auto forms = forms_of(q);
-        std::vector<condition<R>> all{{{}, list(forms.inside()), list(forms.n)}};
+        std::vector<condition<R>> all;
+        all.push_back({{}, [forms = forms_of(q)] { return inside_conditions(forms); }});
         for (const auto& edge : edges_of(q)) all.push_back(contact_condition(edge));
         return all;
     }
@@ -143,23 +147,25 @@ std::vector<condition<R>> contact_conditions(const paths<K, R>& q) {
 template <class R>
 condition<R> distance_condition(const vertex_vertex_paths<R>& q, const R& squared) {
     const path<R> w = q.v - q.w;
-    return {{dot(w, w)[0] - squared}, {}, {}, true};
+    return {{dot(w, w)[0] - squared}, [] { return side_conditions<R>{}; }, true};
 }
 /// |E × W|² − D E·E, on an edge that has a length, with the nearest point between its ends.
 template <class R>
 condition<R> distance_condition(const vertex_edge_paths<R>& q, const R& squared) {
     const path<R> w = q.v - q.e0, e = q.e1 - q.e0, moment = cross(e, w);
     return {{dot(moment, moment)[0] - squared * dot(e, e)[0]},
-            {dot(w, e)[0], dot(q.e1 - q.v, e)[0]},
-            list(e),
+            [q, w, e] {
+                return side_conditions<R>{{dot(w, e)[0], dot(q.e1 - q.v, e)[0]}, list(e)};
+            },
             true};
 }
-/// (N·P)² − D N·N, where the plane or the pair of lines is one, and the nearest points inside.
+/// (N·P)² − D N·N
 template <class Forms, class R>
 condition<R> distance_condition_inside(const Forms& forms, const R& squared) {
     const R y = forms.y()[0];
-    return {
-        {y * y - squared * forms.normal_squared()[0]}, list(forms.inside()), list(forms.n), true};
+    return {{y * y - squared * forms.normal_squared()[0]},
+            [forms] { return inside_conditions(forms); },
+            true};
 }
 
 /// Calls visit(make) for every condition of distance² <= D, all axes in one unit; make() is the
