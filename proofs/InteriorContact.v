@@ -5,7 +5,7 @@
     Results:
         throughout_right        signs of G_i that are known all over a bracket are right at a root of Y
         normal_vanishes_right   then N = 0 inside the bracket: a root of Y without contact
-        near_right, by_halving_right   what the answers on a part mean
+        near_right, near_here, by_halving_right   what the answers on a part mean
         interior_contact_right  collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: nowhere,
                                 or Y = 0 throughout and some G_i <= 0 at t = 0
         interior_contact_ends, three_parts_wait   the loop ends, and at most three parts wait
@@ -519,6 +519,36 @@ Proof.
   - intros X. now injection X as <-.
   - destruct (near distinct more (T + 1) q _ _) as [o' |] eqn:E'; intros X; injection X as <-; [| easy].
     apply (IH _ _ _ o') in E'; auto. lia.
+Qed.
+
+(** And `collides` is of a root inside the part. *)
+Theorem near_here distinct more T q place bits : is_part y q -> (level q <= bits)%Z ->
+  opposite (roots q) = true ->
+  crosses_once (part_start q) (part_end q) (at_ y) (fun t => ~ Inside t /\ distinct = false) ->
+  near distinct more T q place bits = Some collides ->
+  exists t, part_start q < t < part_end q /\ at_ y t = 0 /\ Inside t.
+Proof.
+  intros H Hb O One. revert T place bits Hb. induction more as [| more IH]; intros T place bits Hb;
+    cbn [near].
+  all: destruct (bracket_near y q place bits) as [[low high] |] eqn:E; [| discriminate].
+  all: destruct (bracket_near_right y q _ place bits low high y_length H Hb O One E) as
+    ((L & Lh & W) & Ps & Pe & K).
+  all: assert (Hp : (0 <= bits)%Z) by (destruct H as (_ & _ & (? & _) & _); lia).
+  all: destruct (Z.eqb_spec low high) as [Eq | Ne].
+  1, 3: destruct K as [(_ & In & Z) | (N & _)]; [| lia];
+    pose proof (positive_over low bits Hp) as Pos; destruct (positive_at _ _);
+    [intros _; exists (over low bits); split; [exact In |]; split; auto; now apply Pos |
+     destruct distinct; discriminate].
+  all: destruct K as [(N & _) | (Lt & r & Hr & Zr & Only)]; [lia |].
+  all: destruct (bit_width_bounds (high - low) ltac:(lia)) as (Bw & B0).
+  all: destruct (throughout_right T low bits (BoundedInteger.bit_width (high - low)) (high - low) r Hp) as
+    (Yes & No);
+    [lia | replace (low + (high - low))%Z with high by lia; lra | exact Zr |].
+  all: destruct (throughout T low bits (BoundedInteger.bit_width (high - low))); try discriminate.
+  1, 3: intros _; exists r; split; [lra | auto].
+  all: destruct ((T =? 2)%Z && distinct && normal_vanishes low high bits); try discriminate.
+  destruct (near distinct more (T + 1) q _ _) as [o' |] eqn:E'; [| discriminate].
+  intros X. injection X as ->. apply IH in E'; auto. lia.
 Qed.
 
 (** Whether there are roots that are not a double root. *)

@@ -108,15 +108,16 @@ class interior_time : interior_contact<Words, Forms> {
         return strict(forms_at(forms_, end - t, t));
     }
 
-    /// Considers the part's root if it has one that can be told from others; false if not.
+    /// Considers the part's root if it is certainly the only one; false if not, or there is none.
+    /// Beside a double root the weights found may be those there.
+    /// Proof that they are of a root inside the part: proofs/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
-        if (!whole.roots.opposite || (whole.roots.count > 1 && this->three_real_roots_))
-            return false;
+        const bool others = this->three_real_roots_ || !this->distinct_;
+        if (!whole.roots.opposite || (whole.roots.count > 1 && others)) return false;
         const auto estimate = estimated_place(whole);
         const auto root = search_.between(
             place(whole.index, whole.level), place(whole.index + 1, whole.level), whole.roots.first,
             std::ldexp(static_cast<double>(estimate.numerator.low_word()), -estimate.bits));
-        if (root && root->low == root->high && is_multiple(root->low)) return false;
         consider(root, [&] {
             auto answer = this->near(whole, estimate);
             if (!answer && root) answer = this->near(whole, place_of(root->low, estimate.bits));
@@ -126,13 +127,6 @@ class interior_time : interior_contact<Words, Forms> {
     }
     static constexpr dyadic_point<1> place_of(double t, int bits) {
         return {static_cast<std::int64_t>(std::ldexp(t, bits)), bits};
-    }
-    /// Whether a root of Y that is a double is its double root.
-    constexpr bool is_multiple(double root) const {
-        if (this->distinct_) return false;
-        const quadratic_form<3 * Words> slope{
-            {y_[1] - thrice(y_[0]), (y_[2] - y_[1]) << 1, thrice(y_[3]) - y_[2]}};
-        return root_search<3 * Words, 2>(slope).sign_at(root) == errbound::sign_type::zero;
     }
 
     const root_search<3 * Words, 3> search_;

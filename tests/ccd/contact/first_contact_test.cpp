@@ -194,6 +194,15 @@ TEST(first_contact, of_two_vertices) {
     const vertex_vertex third{from_to({1, 1, 1}, {-2, -2, -2}), still({0, 0, 0})};
     EXPECT_EQ(contact(third), between(1.0 / 3, std::nextafter(1.0 / 3, 1)));
 }
+TEST(first_contact, at_a_double_root_just_after_a_root_that_is_none) {
+    // Y = (t − r)(t − m)². At r the face has no area and v is beside it; the root found at r was
+    // asked with the weights at m, in reach of the bracket around r.
+    const double m = 0.25 + 0x1p-8 + 0x1p-20, r = m - 0x1p-44, y = 0x1p-46;
+    const vertex_face query{from_to({0.5, y, -m}, {0.5, y, 1 - m}), still({0, 0, 0}),
+                            from_to({1 - m, 0, -2 * m}, {2 - m, 0, 2 - 2 * m}),
+                            from_to({0, -r, 0}, {0, 1 - r, 0})};
+    EXPECT_EQ(contact(query), at(m));
+}
 TEST(first_contact, of_coordinates_of_all_magnitudes) {
     const double huge = std::numeric_limits<double>::max();
     EXPECT_EQ(contact(over_triangle({0.25, 0.25, huge}, {0.25, 0.25, -huge})), at(0.5));
