@@ -8,6 +8,7 @@
 #pragma once
 
 #include <ccd/contact.hpp>
+#include <ccd/contact_data.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/query.hpp>
 #include <ccd/separation.hpp>
@@ -69,6 +70,14 @@ inline first_time time_of_impact(const vertex_edge& query, double t_max = 1) {
 }
 inline first_time time_of_impact(const vertex_vertex& query, double t_max = 1) {
     return ccd::time_of_impact(in_space(query), t_max);
+}
+
+/// The first contact and its data: as ccd/contact_data.hpp says; the normal lies in the plane.
+inline first_contact find_first_contact(const vertex_edge& query, double t_max = 1) {
+    return ccd::find_first_contact(in_space(query), t_max);
+}
+inline first_contact find_first_contact(const vertex_vertex& query, double t_max = 1) {
+    return ccd::find_first_contact(in_space(query), t_max);
 }
 
 /// Whether, and when first, they come within d: as ccd/separation.hpp says.

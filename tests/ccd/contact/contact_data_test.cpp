@@ -3,6 +3,7 @@
 
 #include <array>
 #include <ccd/contact_data.hpp>
+#include <ccd/plane.hpp>
 #include <cmath>
 #include <limits>
 
@@ -193,6 +194,17 @@ TEST(contact_data, of_two_vertices) {
     expect_weights(found, {1, 1, 0, 0});
     expect_normal(found, normal_source::nearest_points, {0, -1, 0}, -4);
     EXPECT_TRUE(found.sided);
+}
+
+TEST(contact_data, in_the_plane_has_its_normal_there) {
+    const ccd::plane::vertex_edge query{
+        {{0.25, 1}, {0.75, -1}}, {{0, -1}, {0, -1}}, {{1, 1}, {1, 1}}};
+    const auto found = ccd::plane::find_first_contact(query);
+    expect_weights(found, {1, 0.5, 0.5, 0});
+    expect_normal(found, normal_source::nearest_points, {-2, 1, 0}, -3 / std::sqrt(5));
+    const ccd::plane::vertex_vertex ends{{{0, 0}, {2, 0}}, {{1, 1}, {1, -1}}};
+    expect_normal(ccd::plane::find_first_contact(ends), normal_source::nearest_points, {-1, -1, 0},
+                  -std::sqrt(8));
 }
 
 TEST(contact_data, of_what_does_not_meet_is_nothing) {
