@@ -155,6 +155,8 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
     if (!ccd::detail::has_faces_alone(before))
         return failed({"ccd::cuda: found edges or points, expected a mesh of faces alone"});
+    if (ccd::detail::ask_for_times_or_distances(options))
+        return failed({"ccd::cuda: found times or distances asked for, expected contact alone"});
     ccd::detail::stopwatch total, watch;
     detail::device_launcher launcher(nullptr);
     device_frames frames;

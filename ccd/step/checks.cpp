@@ -73,6 +73,11 @@ void check_positions(const vertex_rows& positions, std::size_t vertices) {
     check_finite(positions.after, vertices, "1");
 }
 
+bool ask_for_times_or_distances(const step_options& options) {
+    return options.times || options.first_contact || options.t_max < 1 ||
+           !options.distances.ask_for_contact();
+}
+
 void check_plane(const vertex_rows& positions) {
     for (vertex_index v = 0; v < positions.vertices; ++v) {
         const auto [before, after] = positions[v];
@@ -94,9 +99,7 @@ void check_options(const step_options& options, std::size_t vertices) {
                                     ", expected between_groups or within_groups");
     check_t_max("ccd::step", options.t_max);
     check_distances("ccd::step", options.distances, vertices);
-    const bool first_times = options.times || options.first_contact || options.t_max < 1 ||
-                             !options.distances.ask_for_contact();
-    if (first_times && options.method != method::exact)
+    if (ask_for_times_or_distances(options) && options.method != method::exact)
         throw std::invalid_argument("ccd::step: found method " +
                                     std::string(info(options.method).name) +
                                     ", expected exact, which alone has times and distances");

@@ -20,6 +20,9 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
 /// That there are positions of so many vertices, all finite.
 void check_positions(const vertex_rows& positions, std::size_t vertices);
 
+/// Whether something beyond contact in the whole step is asked for, which `exact` alone answers.
+bool ask_for_times_or_distances(const step_options& options);
+
 /// That z is 0 everywhere.
 void check_plane(const vertex_rows& positions);
 

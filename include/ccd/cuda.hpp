@@ -197,8 +197,9 @@ struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device, which throws what that throws: copies both frames there and the pairs
 /// back. The mesh must have no edges of its own and at most one vertex on no face, whose kinds of
-/// pairs the device does not look for: anything else is an error. Of the options only the method
-/// counts; of the seconds, those of both phases are taken together as the narrow's.
+/// pairs the device does not look for: anything else is an error, and so is an option that asks for
+/// times or distances. Of the others only the method counts; of the seconds, those of both phases
+/// are taken together as the narrow's.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 
