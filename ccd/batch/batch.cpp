@@ -101,7 +101,7 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
                                 all_finite(rows.after, 3 * rows.vertices);
     std::optional<rounded_positions> rounded;
     if (all_are_finite) rounded.emplace(rows);
-    const batch_positions at{rows, rounded ? rounded->data() : nullptr};
+    const batch_positions at = rounded ? batch_positions(rows, *rounded) : batch_positions(rows);
     const auto finite_vertex = [&rows](vertex_index v) {
         return all_finite(rows.before + 3 * std::size_t(v), 3) &&
                all_finite(rows.after + 3 * std::size_t(v), 3);

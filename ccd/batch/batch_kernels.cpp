@@ -21,7 +21,9 @@ namespace {
 template <kind K>
 class pipeline {
   public:
-    explicit pipeline(const decisions& decided) : decided_(decided) {}
+    /// For features within that distance, 0 for contact: then axes must have been asked.
+    explicit pipeline(const decisions& decided, double distance = 0)
+        : decided_(decided), distance_(distance) {}
 
     /// Takes in queries. `read(id, at)` writes the 24 coordinates of one to at[0], at[stride],
     /// at[2·stride], ... of coordinate_columns: by point, end of the step, axis. Where `pause` is
@@ -49,15 +51,16 @@ class pipeline {
             if (subdivision_.size() >= enough)
                 subdivision_.run(decided_);
             else if (to_inside_.size >= enough)
-                test_inside<K>(to_inside_, decided_, subdivision_);
+                test_inside<K>(to_inside_, distance_, decided_, subdivision_);
             else if (to_coplanarity_.size >= enough)
-                test_coplanarity<K>(to_coplanarity_, decided_, to_inside_);
+                test_coplanarity<K>(to_coplanarity_, distance_, decided_, to_inside_);
             else
                 return;
         }
     }
 
     decisions decided_;
+    double distance_;
     coordinate_columns coordinates_;
     difference_queue<K> to_coplanarity_, to_inside_;
     pack_subdivision<K> subdivision_;
@@ -84,17 +87,17 @@ auto reader_of(const typename kind_traits<K>::template query<double>* queries) {
 
 template <kind K>
 void decide_indexed(const batch_positions& positions, const typename kind_traits<K>::pair* queries,
-                    std::size_t count, outcome* answers, axes_pauses& pauses,
-                    stage_report* report) {
+                    std::size_t count, const distance_asked& within, outcome* answers,
+                    axes_pauses& pauses, stage_report* report) {
     const decisions decided{answers, report};
-    pipeline<K> stages(decided);
+    pipeline<K> stages(decided, within.distance);
     const auto read = reader_of<K>(positions, queries);
     for (std::size_t first = 0; first < count; first += rounded_block) {
         const std::size_t size = lesser(count - first, rounded_block);
         std::uint32_t ids[rounded_block];
         if (positions.rounded != nullptr && is_due(pauses.in_floats)) {
-            const std::size_t open =
-                test_rounded_axes(positions.rounded, queries, first, size, decided, ids);
+            const std::size_t open = test_rounded_axes(positions.rounded, queries, first, size,
+                                                       within.gaps, decided, ids);
             update_pause(pauses.in_floats, size - open, size);
             stages.process(ids, open, read, nullptr);
         } else {
@@ -102,7 +105,7 @@ void decide_indexed(const batch_positions& positions, const typename kind_traits
                 ids[i] = static_cast<std::uint32_t>(first + i);
                 answers[first + i] = outcome::uncertain;
             }
-            stages.process(ids, size, read, &pauses.in_doubles);
+            stages.process(ids, size, read, within.distance > 0 ? nullptr : &pauses.in_doubles);
         }
     }
     stages.finish();

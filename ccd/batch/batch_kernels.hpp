@@ -28,6 +28,13 @@ struct axes_pauses {
     stage_pause in_floats, in_doubles;
 };
 
+/// Within which distance features count as in contact, and the gaps in floats that are more. By
+/// default contact itself. `collides` then says that they do touch.
+struct distance_asked {
+    double distance = 0;
+    rounded_axes::least_gaps gaps = {};
+};
+
 /// Decide `count` queries of finite coordinates in floating point: `uncertain` in answers[i] leaves
 /// the query to exact arithmetic. `report` may be null. No allocation; some 300 KB of stack.
 template <kind K>
@@ -36,7 +43,8 @@ struct kernels_of_kind {
     using query = typename kind_traits<K>::template query<double>;
 
     void (*indexed)(const batch_positions& positions, const pair* queries, std::size_t count,
-                    outcome* answers, axes_pauses& pauses, stage_report* report);
+                    const distance_asked& within, outcome* answers, axes_pauses& pauses,
+                    stage_report* report);
     void (*stored)(const query* queries, std::size_t count, outcome* answers, axes_pauses& pauses,
                    stage_report* report);
     /// The first times of queries that collide: between low[i] and high[i], which are neighbours,

@@ -89,7 +89,7 @@ template <kind K, class Pair>
 void decide_indexed(const kernels_of_kind<K>& kernels, const batch_positions& positions,
                     std::span<const Pair> queries, outcome* answers, axes_pauses& pauses,
                     stage_report* report) {
-    kernels.indexed(positions, queries.data(), queries.size(), answers, pauses, report);
+    kernels.indexed(positions, queries.data(), queries.size(), {}, answers, pauses, report);
     decide_uncertain(queries.size(), answers, report,
                      [&](std::size_t i) { return query_of(positions.exact, queries[i]); });
 }
@@ -99,6 +99,14 @@ void decide_stored(const kernels_of_kind<K>& kernels, std::span<const Query> que
                    outcome* answers, axes_pauses& pauses, stage_report* report) {
     kernels.stored(queries.data(), queries.size(), answers, pauses, report);
     decide_uncertain(queries.size(), answers, report, [&](std::size_t i) { return queries[i]; });
+}
+
+template <kind K, class Pair>
+void decide_by_floats(const kernels_of_kind<K>& kernels, const batch_positions& positions,
+                      std::span<const Pair> queries, double distance, outcome* answers,
+                      axes_pauses& pauses) {
+    const distance_asked within{distance, rounded_axes::gaps_beyond(distance * positions.scale)};
+    kernels.indexed(positions, queries.data(), queries.size(), within, answers, pauses, nullptr);
 }
 
 /// By blocks: find(first, count, low, high) asks a kernel; where it cannot tell, query_at(i) is
@@ -156,6 +164,18 @@ void batch_worker::decide(std::span<const edge_edge<double>> queries, outcome* a
     decide_stored(kernels_->edge_edge, queries, answers, edge_edge_pauses_, counts());
 }
 
+void batch_worker::decide_by_floats(const batch_positions& positions,
+                                    std::span<const vertex_face_pair> queries, double distance,
+                                    outcome* answers) {
+    detail::decide_by_floats(kernels_->vertex_face, positions, queries, distance, answers,
+                             vertex_face_pauses_);
+}
+void batch_worker::decide_by_floats(const batch_positions& positions,
+                                    std::span<const edge_edge_pair> queries, double distance,
+                                    outcome* answers) {
+    detail::decide_by_floats(kernels_->edge_edge, positions, queries, distance, answers,
+                             edge_edge_pauses_);
+}
 void batch_worker::find_times(const batch_positions& positions,
                               std::span<const vertex_face_pair> queries, first_time* times) const {
     find_indexed_times(kernels_->vertex_face, positions, queries, times);

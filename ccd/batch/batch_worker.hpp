@@ -1,10 +1,13 @@
 // One thread's part of a batch or a step: blocks of queries, decided as they come. Internal.
 #pragma once
 
+#include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/explain.hpp>
+#include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
+#include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 #include <span>
 
@@ -30,6 +33,19 @@ class batch_worker {
     void decide(std::span<const vertex_face<double>> queries, outcome* answers);
     void decide(std::span<const edge_edge<double>> queries, outcome* answers);
 
+    /// Whether pairs come within those distances. The same conditions; `distance` is at least every
+    /// pair's.
+    template <class Pair>
+    void decide_within(const batch_positions& positions, std::span<const Pair> queries,
+                       const pair_distances& distances, double distance, outcome* answers) {
+        decide_by_floats(positions, queries, distance, answers);
+        for (std::size_t i = 0; i < queries.size(); ++i)
+            if (answers[i] == outcome::uncertain)
+                answers[i] = ccd::decide_within(query_of(positions.exact, queries[i]),
+                                                distances.of(queries[i]))
+                                 .outcome;
+    }
+
     /// The first times of queries that collide, t in [0, 1]. The same conditions.
     void find_times(const batch_positions& positions, std::span<const vertex_face_pair> queries,
                     first_time* times) const;
@@ -52,6 +68,17 @@ class batch_worker {
     const stage_report& report() const { return report_; }
 
   private:
+    void decide_by_floats(const batch_positions& positions,
+                          std::span<const vertex_face_pair> queries, double distance,
+                          outcome* answers);
+    void decide_by_floats(const batch_positions& positions, std::span<const edge_edge_pair> queries,
+                          double distance, outcome* answers);
+    template <class Pair>
+    void decide_by_floats(const batch_positions&, std::span<const Pair> queries, double,
+                          outcome* answers) {
+        std::fill_n(answers, queries.size(), outcome::uncertain);
+    }
+
     stage_report* counts() { return counted_ ? &report_ : nullptr; }
 
     const batch_kernels* kernels_;

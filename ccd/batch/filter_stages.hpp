@@ -13,6 +13,7 @@
 #include "ccd/batch/pack_subdivision.hpp"
 #include "ccd/batch/query_queue.hpp"
 #include "ccd/exact/stage_timer.hpp"
+#include "ccd/exact/static_filter/distance_margins.hpp"
 #include "ccd/exact/static_filter/separating_axes.hpp"
 #include "ccd/exact/static_filter/whole_step.hpp"
 
@@ -91,14 +92,16 @@ template <kind K>
 
 /// The coefficients of Y.
 template <kind K>
-[[gnu::flatten]] void test_coplanarity(difference_queue<K>& waiting, const decisions& decided,
-                                       difference_queue<K>& open) {
+[[gnu::flatten]] void test_coplanarity(difference_queue<K>& waiting, double distance,
+                                       const decisions& decided, difference_queue<K>& open) {
     stage_timer timer(decided.report, stage::coplanarity);
     waiting.pop_packs(block, [&](std::size_t at, std::size_t count) {
         const auto forms = waiting.forms_at(at);
         const static_filter::difference_extents<pack> extents(forms);
         const auto y = errbound::roots::control_values_of(forms.y());
-        const pack error = extents.template error_of_y<forms_of_kind<K>::template type>();
+        pack error = extents.template error_of_y<forms_of_kind<K>::template type>();
+        if (distance > 0)
+            error += static_filter::distance_margins<pack>(forms, extents, distance).y;
         const pack_mask rootless = static_filter::above(y, error) | static_filter::below(y, error);
         const lanes separate = first_lanes(count) & lanes_of<double>(extents.usable & rootless);
         const lanes left = first_lanes(count) & ~separate;
@@ -110,15 +113,18 @@ template <kind K>
 
 /// The coefficients of the G_i. Queries whose differences are too large stay uncertain.
 template <kind K>
-[[gnu::flatten]] void test_inside(difference_queue<K>& waiting, const decisions& decided,
-                                  pack_subdivision<K>& open) {
+[[gnu::flatten]] void test_inside(difference_queue<K>& waiting, double distance,
+                                  const decisions& decided, pack_subdivision<K>& open) {
     stage_timer timer(decided.report, stage::inside);
     waiting.pop_packs(block, [&](std::size_t at, std::size_t count) {
         const auto forms = waiting.forms_at(at);
         const static_filter::difference_extents<pack> extents(forms);
         const lanes usable = first_lanes(count) & lanes_of<double>(extents.usable);
-        const static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(forms,
-                                                                                     extents);
+        static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(forms, extents);
+        if (distance > 0) {
+            const auto margins = static_filter::distance_margins<pack>(forms, extents, distance);
+            whole.errors = {whole.errors.y + margins.y, whole.errors.g + margins.g};
+        }
         const lanes separate = usable & lanes_of<double>(whole.outside());
         const lanes left = usable & ~separate;
         decided.write(&waiting.ids[at], separate, outcome::separate);

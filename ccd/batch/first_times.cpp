@@ -8,12 +8,15 @@
 #include <ccd/first_times.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
+#include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
+#include "ccd/exact/finite.hpp"
 
 namespace ccd::detail {
 namespace {
@@ -36,9 +39,25 @@ class indexed_questions {
     const time_options& options() const { return options_; }
     auto query(std::size_t i) const { return query_of(positions_, pairs_[i]); }
     separation distance(std::size_t i) const { return options_.distances.of(pairs_[i]); }
-    std::vector<outcome> contacts() const {
-        return decide_batch(positions_, pairs_, {.threads = options_.threads, .set = options_.set})
-            .answers;
+    /// Whether there is a contact, or a distance within that asked for, in [0, 1].
+    std::vector<outcome> decisions() const {
+        if (options_.distances.ask_for_contact())
+            return decide_batch(positions_, pairs_,
+                                {.threads = options_.threads, .set = options_.set})
+                .answers;
+        std::optional<rounded_positions> rounded;
+        if (2 * size() > positions_.vertices && all_positions_finite()) rounded.emplace(positions_);
+        const batch_positions at =
+            rounded ? batch_positions(positions_, *rounded) : batch_positions(positions_);
+        const batch_worker fresh(kernels_for(options_.set), false);
+        const double most = options_.distances.most();
+        std::vector<outcome> answers(size());
+        for_each_part(size(), options_.threads, [&](std::size_t begin, std::size_t end) {
+            batch_worker worker = fresh;
+            worker.decide_within(at, pairs_.subspan(begin, end - begin), options_.distances, most,
+                                 &answers[begin]);
+        });
+        return answers;
     }
     /// Of some queries with a contact, the time in [0, 1].
     std::vector<first_time> contact_times(std::span<const std::size_t> some) const {
@@ -47,11 +66,16 @@ class indexed_questions {
         for (const std::size_t i : some) pairs.push_back(pairs_[i]);
         std::vector<first_time> times(some.size());
         const batch_worker worker(kernels_for(options_.set), false);
-        worker.find_times({positions_, nullptr}, std::span<const Pair>(pairs), times.data());
+        worker.find_times(batch_positions(positions_), std::span<const Pair>(pairs), times.data());
         return times;
     }
 
   private:
+    bool all_positions_finite() const {
+        return all_finite(positions_.before, 3 * positions_.vertices) &&
+               all_finite(positions_.after, 3 * positions_.vertices);
+    }
+
     const vertex_rows& positions_;
     std::span<const Pair> pairs_;
     const time_options& options_;
@@ -69,8 +93,15 @@ class stored_questions {
     const time_options& options() const { return options_; }
     const Query& query(std::size_t i) const { return queries_[i]; }
     separation distance(std::size_t) const { return {options_.distances.all, 0}; }
-    std::vector<outcome> contacts() const {
-        return decide_batch(queries_, {.threads = options_.threads, .set = options_.set}).answers;
+    std::vector<outcome> decisions() const {
+        if (options_.distances.ask_for_contact())
+            return decide_batch(queries_, {.threads = options_.threads, .set = options_.set})
+                .answers;
+        std::vector<outcome> answers(size());
+        for_each_index(size(), options_.threads, [&](std::size_t i) {
+            answers[i] = decide_within(queries_[i], distance(i)).outcome;
+        });
+        return answers;
     }
     std::vector<first_time> contact_times(std::span<const std::size_t> some) const {
         std::vector<Query> queries;
@@ -86,17 +117,6 @@ class stored_questions {
     std::span<const Query> queries_;
     const time_options& options_;
 };
-
-/// Whether there is a contact, or a distance within that asked for, in [0, 1].
-template <class Questions>
-std::vector<outcome> decide_all(const Questions& asked) {
-    if (asked.options().distances.ask_for_contact()) return asked.contacts();
-    std::vector<outcome> answers(asked.size());
-    for_each_index(asked.size(), asked.options().threads, [&](std::size_t i) {
-        answers[i] = decide_within(asked.query(i), asked.distance(i)).outcome;
-    });
-    return answers;
-}
 
 std::vector<std::size_t> all_that_are(outcome wanted, const std::vector<outcome>& answers) {
     std::vector<std::size_t> found;
@@ -114,7 +134,7 @@ first_time time_of(const Questions& asked, std::size_t i, double t_max) {
 
 template <class Questions>
 std::vector<first_time> all_times(const Questions& asked) {
-    const std::vector<outcome> answers = decide_all(asked);
+    const std::vector<outcome> answers = asked.decisions();
     std::vector<first_time> times(asked.size());
     std::ranges::transform(answers, times.begin(), [](outcome o) { return first_time{o}; });
     const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);
@@ -201,7 +221,7 @@ void lower(std::atomic<double>& bound, double value) {
 /// the upper end of the least bracket yet found, itself included.
 template <class Questions>
 earliest_time earliest_of_all(const Questions& asked) {
-    const std::vector<outcome> answers = decide_all(asked);
+    const std::vector<outcome> answers = asked.decisions();
     if (std::vector unknown = all_that_are(outcome::uncertain, answers); !unknown.empty())
         return {{}, std::move(unknown), {}};
     const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);

@@ -23,6 +23,18 @@ namespace ccd::detail::rounded_axes {
 /// 13ε in all.
 inline constexpr float margin = 13 * std::numeric_limits<float>::epsilon();
 
+/// By how much projections to an axis have to differ as computed, along a coordinate axis and
+/// across two. By default so that they differ in exact arithmetic; or by more than a distance.
+struct least_gaps {
+    float along = 0, across = margin;
+};
+/// For a distance in units of the floats, rounded up by more than what is lost here. The axis x ± y
+/// is √2 long, and differences of single coordinates are off by less than those of sums.
+constexpr least_gaps gaps_beyond(double distance) {
+    return {static_cast<float>(1.000001 * distance + 1.01 * double(margin)),
+            static_cast<float>(1.414215 * distance + 1.01 * double(margin))};
+}
+
 /// The box around all positions of both frames. NaN may be overlooked.
 struct extent {
     double low[3], high[3];
@@ -55,6 +67,8 @@ class frame {
     constexpr float operator()(std::size_t axis, double x) const {
         return static_cast<float>((x - middle_[axis]) * scale_);
     }
+    /// Floats per unit of the coordinates.
+    constexpr double scale() const { return scale_; }
 
   private:
     double middle_[3], scale_;
@@ -81,10 +95,10 @@ constexpr S separated_by(const S (&start)[4], const S (&end)[4]) {
 }
 
 /// Whether an axis (x, y, z, x ± y, y ± z, z ± x) certainly separates the features throughout the
-/// step: static_filter::separated_by_axes in single precision. x[axis][end of the step][point], the
-/// points in the order of the indices; S is float or a pack of floats.
+/// step, by those gaps: static_filter::separated_by_axes in single precision. x[axis][end of the
+/// step][point], the points in the order of the indices; S is float or a pack of floats.
 template <class Pair, class S>
-constexpr static_filter::mask<S> separated(const S (&x)[3][2][4]) {
+constexpr static_filter::mask<S> separated(const S (&x)[3][2][4], const least_gaps& least = {}) {
     using std::max;
     S along(-1.0f), across(-1.0f);
     for (std::size_t k = 0; k < 3; ++k) along = max(along, separated_by<Pair>(x[k][0], x[k][1]));
@@ -99,8 +113,8 @@ constexpr static_filter::mask<S> separated(const S (&x)[3][2][4]) {
         across = max(across, separated_by<Pair>(sum[0], sum[1]));
         across = max(across, separated_by<Pair>(difference[0], difference[1]));
     }
-    const static_filter::mask<S> by_coordinates = along > S(0.0f),
-                                 by_diagonals = across > S(margin);
+    const static_filter::mask<S> by_coordinates = along > S(least.along),
+                                 by_diagonals = across > S(least.across);
     return by_coordinates | by_diagonals;
 }
 

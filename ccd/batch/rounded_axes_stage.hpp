@@ -56,34 +56,36 @@ struct rounded_columns {
             }
     }
 
-    /// The queries from `lane` on whose features an axis certainly separates.
+    /// The queries from `lane` on whose features an axis certainly separates by those gaps.
     template <class Pair>
-    lanes separated(std::size_t lane) const {
+    lanes separated(std::size_t lane, const rounded_axes::least_gaps& least) const {
         float_pack coordinates[3][2][4];
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t end = 0; end < 2; ++end)
                 for (std::size_t p = 0; p < 4; ++p)
                     coordinates[k][end][p] =
                         float_pack::load_aligned(&at[6 * p + 3 * end + k][lane]);
-        return lanes_of<float>(rounded_axes::separated<Pair>(coordinates));
+        return lanes_of<float>(rounded_axes::separated<Pair>(coordinates, least));
     }
 };
 
-/// Decides those of the queries first, first + 1, ... that an axis certainly separates, and writes
-/// the others to `open`. Returns how many these are.
+/// Decides those of the queries first, first + 1, ... that an axis certainly separates by those
+/// gaps, and writes the others to `open`. Returns how many these are.
 template <class Pair>
 [[gnu::flatten]] std::size_t test_rounded_axes(const float* rounded, const Pair* queries,
                                                std::size_t first, std::size_t count,
+                                               const rounded_axes::least_gaps& least,
                                                const decisions& decided, std::uint32_t* open) {
     stage_timer timer(decided.report, stage::axes);
     rounded_columns columns;
     columns.fill(rounded, queries + first, count);
     std::size_t size = 0;
     for (std::size_t at = 0; at < count; at += float_width)
-        for_each_lane(first_lanes(lesser(count - at, float_width)) & ~columns.separated<Pair>(at),
-                      [&](std::uint32_t lane) {
-                          open[size++] = static_cast<std::uint32_t>(first + at) + lane;
-                      });
+        for_each_lane(
+            first_lanes(lesser(count - at, float_width)) & ~columns.separated<Pair>(at, least),
+            [&](std::uint32_t lane) {
+                open[size++] = static_cast<std::uint32_t>(first + at) + lane;
+            });
     // Most are: it is cheaper to write all, then the open ones again.
     for (std::size_t i = 0; i < count; ++i) decided.answers[first + i] = outcome::separate;
     for (std::size_t i = 0; i < size; ++i) decided.answers[open[i]] = outcome::uncertain;

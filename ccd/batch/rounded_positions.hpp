@@ -22,6 +22,7 @@ class rounded_positions {
                 for (std::size_t k = 0; k < 3; ++k)  // six chains side by side
                     extent.widen(k, frame[3 * v + k]);
         const rounded_axes::frame rounded(extent);
+        scale_ = rounded.scale();
         for (std::size_t v = 0; v < rows.vertices; ++v)
             for (std::size_t k = 0; k < 3; ++k) {
                 floats_[row * v + k] = rounded(k, rows.before[3 * v + k]);
@@ -30,15 +31,23 @@ class rounded_positions {
     }
 
     const float* data() const { return floats_.data(); }
+    /// Floats per unit of the coordinates.
+    double scale() const { return scale_; }
 
   private:
     std::vector<float> floats_;
+    double scale_;
 };
 
-/// Positions, and what they are rounded to: rounded_positions::data(), or null.
+/// Positions, and what they are rounded to, if they are.
 struct batch_positions {
     vertex_rows exact;
-    const float* rounded = nullptr;
+    const float* rounded = nullptr;  ///< rounded_positions::data(), or null
+    double scale = 0;                ///< of `rounded`
+
+    explicit batch_positions(const vertex_rows& rows) : exact(rows) {}
+    batch_positions(const vertex_rows& rows, const rounded_positions& floats)
+        : exact(rows), rounded(floats.data()), scale(floats.scale()) {}
 };
 
 }  // namespace ccd::detail

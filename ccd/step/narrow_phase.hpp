@@ -49,6 +49,7 @@ class narrow_phase {
         : positions_(positions),
           method_(options.method),
           distances_(options.distances),
+          most_(options.distances.most()),
           parts_(part{{}, batch_worker(kernels_for(options.set), options.explain), {}, 0}) {}
 
     /// From any thread.
@@ -56,12 +57,14 @@ class narrow_phase {
         stopwatch watch;
         part& local = parts_.local();
         if (!distances_.ask_for_contact()) {
-            keep(local, candidates, [this](const auto& q, const pair& p) {
-                return decide_within(q, distances_.of(p));
+            decide_block(local, candidates, [&](outcome* answers) {
+                local.worker.decide_within(positions_, candidates, distances_, most_, answers);
             });
         } else if constexpr (K == kind::vertex_face || K == kind::edge_edge) {
             if (method_ == method::exact)
-                decide_block(local, candidates);
+                decide_block(local, candidates, [&](outcome* answers) {
+                    local.worker.decide(positions_, candidates, answers);
+                });
             else
                 keep(local, candidates,
                      [this](const auto& q, const pair&) { return ccd::decide(method_, q); });
@@ -95,9 +98,10 @@ class narrow_phase {
         double seconds = 0;
     };
 
-    void decide_block(part& local, std::span<const pair> candidates) {
+    template <class Decide>
+    void decide_block(part& local, std::span<const pair> candidates, const Decide& decide) {
         local.answers.resize(candidates.size());
-        local.worker.decide(positions_, candidates, local.answers.data());
+        decide(local.answers.data());
         for (std::size_t i = 0; i < candidates.size(); ++i)
             if (local.answers[i] == outcome::collides)
                 local.pairs.push_back(canonical(candidates[i]));
@@ -112,6 +116,7 @@ class narrow_phase {
     batch_positions positions_;
     method method_;
     pair_distances distances_;
+    double most_;
     tbb::enumerable_thread_specific<part> parts_;
 };
 

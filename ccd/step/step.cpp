@@ -30,7 +30,7 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
     detail::stopwatch watch;
     step_result result;
     const detail::rounded_positions rounded(positions);
-    const detail::batch_positions at{positions, rounded.data()};
+    const detail::batch_positions at(positions, rounded);
     result.prepare_seconds = watch.lap();
 
     by_kind<phase> phases{
@@ -182,7 +182,7 @@ pair_counts mesh_steps::for_each_candidate(const vertex_rows& positions,
     pair_counts counts;
     detail::on_threads(options.threads, [&] {
         const detail::rounded_positions rounded(positions);
-        counts = state_->search.find({positions, rounded.data()}, options, visitor);
+        counts = state_->search.find({positions, rounded}, options, visitor);
     });
     return counts;
 }

@@ -29,6 +29,13 @@ struct pair_distances {
     /// Whether contact itself is asked for.
     bool ask_for_contact() const { return all == 0 && thickness.empty(); }
 
+    /// At least that of every pair.
+    double most() const {
+        double most = all;
+        for (const double t : thickness) most = std::max(most, 2 * t);
+        return most;
+    }
+
     /// That of a pair, whose vertices must have a thickness if any has.
     template <class Pair>
     separation of(const Pair& pair) const {
