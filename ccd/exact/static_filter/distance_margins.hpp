@@ -1,10 +1,10 @@
 // How far Y and the G_i must be from zero for the features to be farther apart than a distance.
 //
-// |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. Where some
-// G_i is negative, |G_i|/(|N|·L), with L the length of the face's edge i, or of the other edge, is how
-// far the vertex, dropped onto the plane, is from the face, or one edge from the line of the other.
-// Distances of what is dropped onto a plane are at most those themselves. So where Y's size exceeds
-// d·|N|, or that of a negative G_i d·|N|·L, the features are farther apart than d.
+// |Y|/|N| is the distance of the vertex from the face's plane, or of the two edges' lines. Where
+// some G_i is negative, |G_i|/(|N|·L), with L the length of the face's edge i, or of the other
+// edge, is how far the vertex, dropped onto the plane, is from the face, or one edge from the line
+// of the other. Distances of what is dropped onto a plane are at most those themselves. So where
+// Y's size exceeds d·|N|, or that of a negative G_i d·|N|·L, the features are farther apart than d.
 #pragma once
 
 #include <algorithm>
@@ -41,13 +41,14 @@ constexpr S longest(const edge_edge_forms<S>& f) {
 }  // namespace detail
 
 /// Added to the errors of the control values on the whole step, these exclude parts for a distance
-/// `d`, and so do they on parts: |N| is at most the longest of its control vectors, a length that of
-/// one end.
+/// `d`, and so do they on parts: |N| is at most the longest of its control vectors, a length that
+/// of one end.
 ///
 /// N's control vectors are off by less than 2^-48 of the extents' products, 6ε of each term's size;
 /// what else is lost is less than the part 2^-40 that is added.
 template <class S, class Forms>
-constexpr form_errors<S> distance_margins(const Forms& f, const difference_extents<S>& m, double d) {
+constexpr form_errors<S> distance_margins(const Forms& f, const difference_extents<S>& m,
+                                          double d) {
     using std::max, std::sqrt;
     S squared(0.0);
     for (int i = 0; i <= 2; ++i) {
