@@ -5,7 +5,7 @@
 // middle is an axis. What it separates by more than d at both ends of a part, it separates
 // throughout; the two points themselves, if they are certainly nearer than d, are an answer, too.
 // Where the points are has no part in what is certain. Proof that ends are enough:
-// proofs/Decisions.v, face_separated.
+// proofs/Separation.v, face_apart, edges_apart.
 #pragma once
 
 #include <algorithm>
