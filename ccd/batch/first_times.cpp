@@ -190,6 +190,18 @@ class earliest_of_thread {
     earliest_time found_;
 };
 
+/// A contact's time costs less than to see that it is not the earliest.
+earliest_time earliest_of_times(const std::vector<first_time>& times) {
+    earliest_of_thread all;
+    std::vector<std::size_t> unknown;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        if (times[i].outcome == outcome::uncertain) unknown.push_back(i);
+        if (times[i].outcome == outcome::collides) all.add(times[i], i);
+    }
+    if (!unknown.empty()) return {{}, std::move(unknown), {}};
+    return std::move(all).sorted();
+}
+
 /// Whether nothing happens in [0, t_max], seen at the cost of a decision on that part of the step,
 /// whose end is rounded.
 ///
@@ -221,6 +233,7 @@ void lower(std::atomic<double>& bound, double value) {
 /// the upper end of the least bracket yet found, itself included.
 template <class Questions>
 earliest_time earliest_of_all(const Questions& asked) {
+    if (asked.options().distances.ask_for_contact()) return earliest_of_times(all_times(asked));
     const std::vector<outcome> answers = asked.decisions();
     if (std::vector unknown = all_that_are(outcome::uncertain, answers); !unknown.empty())
         return {{}, std::move(unknown), {}};
@@ -245,6 +258,16 @@ earliest_time earliest_of_all(const Questions& asked) {
 }  // namespace
 
 template <class Pair>
+std::vector<outcome> decisions_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+                                        const time_options& options) {
+    return indexed_questions<Pair>(positions, pairs, options).decisions();
+}
+template <class Query>
+std::vector<outcome> decisions_of_queries(std::span<const Query> queries,
+                                          const time_options& options) {
+    return stored_questions<Query>(queries, options).decisions();
+}
+template <class Pair>
 std::vector<first_time> times_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
                                        const time_options& options) {
     return all_times(indexed_questions<Pair>(positions, pairs, options));
@@ -264,6 +287,11 @@ earliest_time earliest_of_queries(std::span<const Query> queries, const time_opt
     return earliest_of_all(stored_questions<Query>(queries, options));
 }
 
+template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
+                                                 std::span<const vertex_face_pair>,
+                                                 const time_options&);
+template std::vector<outcome> decisions_of_queries(std::span<const vertex_face<double>>,
+                                                   const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&,
                                                 std::span<const vertex_face_pair>,
                                                 const time_options&);
@@ -273,6 +301,11 @@ template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const ver
                                          const time_options&);
 template earliest_time earliest_of_queries(std::span<const vertex_face<double>>,
                                            const time_options&);
+template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
+                                                 std::span<const edge_edge_pair>,
+                                                 const time_options&);
+template std::vector<outcome> decisions_of_queries(std::span<const edge_edge<double>>,
+                                                   const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
                                                 const time_options&);
 template std::vector<first_time> times_of_queries(std::span<const edge_edge<double>>,
@@ -280,6 +313,11 @@ template std::vector<first_time> times_of_queries(std::span<const edge_edge<doub
 template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
                                          const time_options&);
 template earliest_time earliest_of_queries(std::span<const edge_edge<double>>, const time_options&);
+template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
+                                                 std::span<const vertex_edge_pair>,
+                                                 const time_options&);
+template std::vector<outcome> decisions_of_queries(std::span<const vertex_edge<double>>,
+                                                   const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&,
                                                 std::span<const vertex_edge_pair>,
                                                 const time_options&);
@@ -289,6 +327,11 @@ template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const ver
                                          const time_options&);
 template earliest_time earliest_of_queries(std::span<const vertex_edge<double>>,
                                            const time_options&);
+template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
+                                                 std::span<const vertex_vertex_pair>,
+                                                 const time_options&);
+template std::vector<outcome> decisions_of_queries(std::span<const vertex_vertex<double>>,
+                                                   const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&,
                                                 std::span<const vertex_vertex_pair>,
                                                 const time_options&);

@@ -1,5 +1,6 @@
 #include <ccd/contact_data.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/first_times.hpp>
 #include <cmath>
 
 #include "tests/bench/sections.hpp"
@@ -68,6 +69,65 @@ void add_contacts_row(const query_set<Query>& set, const options& o,
                     error(at_share(of.normals, 0.5)), error(at_share(of.normals, 0.99))});
 }
 
+/// The mean length of all faces' edges before the step.
+double mean_edge(const ccd::mesh& m) {
+    double sum = 0;
+    for (const ccd::face& f : m.faces)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto &p = m.vertices[f[i]], &q = m.vertices[f[(i + 1) % 3]];
+            sum += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+        }
+    return sum / (3 * static_cast<double>(m.faces.size()));
+}
+
+/// All candidates in batches: yes or no, that and the first times, and within a distance.
+template <class Query>
+void add_batch_rows(const query_set<Query>& set, double distance, const options& o,
+                    std::vector<std::vector<cell>>& rows) {
+    for (const ccd::instruction_set instructions : ccd::instruction_sets()) {
+        const ccd::time_options contact{.threads = 1, .set = instructions};
+        ccd::time_options within = contact;
+        within.distances.all = distance;
+        const auto timings =
+            race({[&] { keep(ccd::decide_within_batch(set.rows, set.by_index, contact)); },
+                  [&] { keep(ccd::first_times(set.rows, set.by_index, contact)); },
+                  [&] { keep(ccd::decide_within_batch(set.rows, set.by_index, within)); }},
+                 o.repeats());
+        const auto near = ccd::decide_within_batch(set.rows, set.by_index, within);
+        const auto ns = [&](std::size_t i) {
+            return number(1e9 * timings[i].minimum / static_cast<double>(set.size()), 1);
+        };
+        const auto ratio = [&](std::size_t i) {
+            return number(timings[i].minimum / timings[0].minimum, 2);
+        };
+        rows.push_back(
+            {word(short_name(ccd::kind_of<Query>)), word(name(instructions)), count(set.size()),
+             ns(0), ns(1), ratio(1), ns(2), ratio(2),
+             count(static_cast<std::size_t>(std::ranges::count(near, ccd::outcome::collides)))});
+    }
+}
+
+void batches(const scene& s, const options& o, report& out) {
+    const double distance = 1e-3 * mean_edge(s.before);
+    std::vector<std::vector<cell>> rows;
+    add_batch_rows(s.queries.vertex_face, distance, o, rows);
+    add_batch_rows(s.queries.edge_edge, distance, o, rows);
+    out.table("contacts in batches", {{"scene", s.name}},
+              s.name +
+                  ": all candidates in batches, ns of each on one thread; within a thousandth "
+                  "of the mean edge",
+              {{"kind", "kind", true},
+               {"instruction_set", "on", true},
+               {"candidates", "candidates"},
+               {"ns_decision", "decision"},
+               {"ns_times", "and first times"},
+               {"times_ratio", "ratio"},
+               {"ns_within", "within distance"},
+               {"within_ratio", "ratio"},
+               {"within", "pairs within"}},
+              rows);
+}
+
 }  // namespace
 
 void contacts(const scene& s, const options& o, report& out) {
@@ -89,6 +149,7 @@ void contacts(const scene& s, const options& o, report& out) {
                {"normal_error_median", "normal, median"},
                {"normal_error_99", "99 % below"}},
               rows);
+    if (s.is_step()) batches(s, o, out);
 }
 
 }  // namespace bench
