@@ -84,7 +84,7 @@ class twofold_y {
     const pack_mask& usable() const { return usable_; }
     const pack& error() const { return error_; }
 
-    pack at(const pack& t) const {
+    [[gnu::noinline, gnu::flatten]] pack at(const pack& t) const {
         const twofold time{t, pack(0.0)};
         const auto component = [&](std::size_t i) {
             return errbound::bernstein<twofold, 0>{{start_[i] + time * change_[i]}};
