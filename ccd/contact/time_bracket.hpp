@@ -81,7 +81,7 @@ class root_search {
                 continue;
             }
             x += earlier ? step : -step;
-            step *= 4;
+            step = std::min(4 * step, farthest_step);
         }
         return time_bracket{double_of_order(a), double_of_order(b)};
     }
@@ -95,6 +95,7 @@ class root_search {
 
   private:
     static constexpr int max_corrections = 3;
+    static constexpr std::int64_t farthest_step = std::int64_t{1} << 60;  ///< of 2^62 doubles
 
     struct value_type {
         errbound::sign_type sign;
