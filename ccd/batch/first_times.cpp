@@ -126,13 +126,6 @@ std::vector<std::size_t> all_that_are(outcome wanted, const std::vector<outcome>
 }
 
 template <class Questions>
-first_time time_of(const Questions& asked, std::size_t i, double t_max) {
-    return asked.options().distances.ask_for_contact()
-               ? time_of_impact(asked.query(i), t_max)
-               : time_within(asked.query(i), asked.distance(i), t_max);
-}
-
-template <class Questions>
 std::vector<first_time> all_times(const Questions& asked) {
     const std::vector<outcome> answers = asked.decisions();
     std::vector<first_time> times(asked.size());
@@ -141,7 +134,8 @@ std::vector<first_time> all_times(const Questions& asked) {
     const time_options& options = asked.options();
     if (!options.distances.ask_for_contact()) {
         for_each_index(contacts.size(), options.threads, [&](std::size_t i) {
-            times[contacts[i]] = time_of(asked, contacts[i], options.t_max);
+            const std::size_t query = contacts[i];
+            times[query] = time_within(asked.query(query), asked.distance(query), options.t_max);
         });
         return times;
     }
@@ -242,10 +236,10 @@ earliest_time earliest_of_all(const Questions& asked) {
     tbb::enumerable_thread_specific<earliest_of_thread> parts;
     for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
         const double t_max = bound;
-        if (t_max < 1 && is_certainly_later(asked.query(contacts[i]), asked.distance(contacts[i]),
-                                            std::max(t_max, 0.0)))
-            return;
-        const first_time time = time_of(asked, contacts[i], t_max);
+        const auto& query = asked.query(contacts[i]);
+        const separation d = asked.distance(contacts[i]);
+        if (t_max < 1 && is_certainly_later(query, d, std::max(t_max, 0.0))) return;
+        const first_time time = time_within(query, d, t_max);
         if (time.outcome != outcome::collides) return;
         if (!time.at_start()) lower(bound, time.high);
         parts.local().add(time, contacts[i]);

@@ -124,8 +124,8 @@ std::vector<first_time> first_times(const Queries& queries, const time_options& 
     return detail::times_of_queries(detail::items_of<Queries>(queries), options);
 }
 
-/// The earliest of them, and which queries have it. Cheaper than all: once a time is known, the
-/// others are asked only for earlier ones. Throws as first_times.
+/// The earliest of them, and which queries have it. With distances cheaper than all: once a time is
+/// known, the others are asked only for earlier ones. Throws as first_times.
 template <pair_range Pairs>
 earliest_time earliest(const vertex_rows& positions, const Pairs& pairs,
                        const time_options& options = {}) {
