@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "ccd/stress/generators/contacts.hpp"
@@ -173,6 +174,23 @@ inline constexpr auto& families = detail::list;
 inline points make(const family& f, kind which, std::uint64_t seed, std::uint64_t index) {
     source random = source_of(f.name, {static_cast<std::uint64_t>(which), seed, index});
     return f.make(random, which);
+}
+
+/// check(query, what it is) for some queries of all families and kinds: so many of a family, less
+/// where it is thinned.
+template <class Check>
+void for_some_queries(std::uint64_t per_family, std::uint64_t seed, const Check& check) {
+    for (const kind which :
+         {kind::vertex_face, kind::edge_edge, kind::vertex_edge, kind::vertex_vertex}) {
+        for (const auto& f : families) {
+            for (std::uint64_t i = 0; i * f.thinning < per_family; ++i) {
+                const points p = make(f, which, seed, i);
+                const std::string text = std::string(f.name) + " " + std::to_string(i) + " " +
+                                         std::string(path_name(which)) + "\n" + csv(p);
+                visit_query(which, p, [&](const auto& q) { check(q, text); });
+            }
+        }
+    }
 }
 
 }  // namespace query_families

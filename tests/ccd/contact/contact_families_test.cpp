@@ -23,27 +23,10 @@ using query_families::families;
 using query_families::kind;
 using query_families::points;
 
-/// check(query, what it is) for some queries of all families and kinds.
-template <class Check>
-void for_some_queries(std::uint64_t per_family, const Check& check) {
-    for (const kind which :
-         {kind::vertex_face, kind::edge_edge, kind::vertex_edge, kind::vertex_vertex}) {
-        for (const auto& f : families) {
-            for (std::uint64_t i = 0; i * f.thinning < per_family; ++i) {
-                const points p = query_families::make(f, which, 11, i);
-                const std::string text = std::string(f.name) + " " + std::to_string(i) + " " +
-                                         std::string(path_name(which)) + "\n" +
-                                         query_families::csv(p);
-                query_families::visit_query(which, p, [&](const auto& q) { check(q, text); });
-            }
-        }
-    }
-}
-
 TEST(contact_families, agree_with_rationals) {
     std::map<ccd::normal_source, std::size_t> sources;
     std::size_t contacts = 0, poor = 0;
-    for_some_queries(support::scaled(60), [&](const auto& query, const std::string& text) {
+    query_families::for_some_queries(support::scaled(60), 11, [&](const auto& query, const std::string& text) {
         const first_contact found = ccd::find_first_contact(query);
         EXPECT_EQ(found.time, ccd::time_of_impact(query));
         if (found.time.outcome != ccd::outcome::collides) return;
@@ -91,7 +74,7 @@ std::string image_faults(const first_contact& found, const first_contact& image,
 TEST(contact_families, of_turned_and_mirrored_queries_are_turned_and_mirrored) {
     using point = ccd::point<double>;
     constexpr std::array<std::size_t, 4> same{0, 1, 2, 3};
-    for_some_queries(support::scaled(30), [&](const auto& query, const std::string& text) {
+    query_families::for_some_queries(support::scaled(30), 11, [&](const auto& query, const std::string& text) {
         const first_contact found = ccd::find_first_contact(query);
         if (found.time.outcome != ccd::outcome::collides) return;
         const auto turn = [](const point& p) { return point{p.y, p.z, p.x}; };
@@ -114,7 +97,7 @@ TEST(contact_families, of_turned_and_mirrored_queries_are_turned_and_mirrored) {
 
 TEST(contact_families, do_not_depend_on_the_order_of_points) {
     using point = ccd::point<double>;
-    for_some_queries(support::scaled(30), [&](const auto& query, const std::string& text) {
+    query_families::for_some_queries(support::scaled(30), 11, [&](const auto& query, const std::string& text) {
         using query_type = std::remove_cvref_t<decltype(query)>;
         const first_contact found = ccd::find_first_contact(query);
         if (found.time.outcome != ccd::outcome::collides) return;

@@ -216,25 +216,8 @@ TEST(faults, of_times_that_are_doubles) {
     EXPECT_EQ(support::fault_of(passes, {2, 3}, first_time{outcome::separate}), "there is one");
 }
 
-// check(query, what it is) for some queries of all families and kinds.
-template <class Check>
-void for_some_queries(std::uint64_t per_family, const Check& check) {
-    for (const kind which :
-         {kind::vertex_face, kind::edge_edge, kind::vertex_edge, kind::vertex_vertex}) {
-        for (const auto& f : families) {
-            for (std::uint64_t i = 0; i * f.thinning < per_family; ++i) {
-                const points p = query_families::make(f, which, 5, i);
-                const std::string text = std::string(f.name) + " " + std::to_string(i) + " " +
-                                         std::string(path_name(which)) + "\n" +
-                                         query_families::csv(p);
-                query_families::visit_query(which, p, [&](const auto& q) { check(q, text); });
-            }
-        }
-    }
-}
-
 TEST(families, distance_0_is_contact) {
-    for_some_queries(support::scaled(30), [](const auto& q, const std::string& text) {
+    query_families::for_some_queries(support::scaled(30), 5, [](const auto& q, const std::string& text) {
         for (const interval when : {interval{}, interval{0, 0.5, true, false},
                                     interval{0.25, 0.75, false, false}, interval::instant(0.5)})
             EXPECT_EQ(oracle::within(q, 0, 0, shortcuts::on, when),
@@ -244,7 +227,7 @@ TEST(families, distance_0_is_contact) {
 }
 
 TEST(families, shortcuts_of_distances_change_nothing) {
-    for_some_queries(support::scaled(6), [](const auto& q, const std::string& text) {
+    query_families::for_some_queries(support::scaled(6), 5, [](const auto& q, const std::string& text) {
         for (const double d : {0.0, 0.125, 1.0})
             for (const interval when : {interval{}, interval{0.25, 0.75, false, false}})
                 EXPECT_EQ(oracle::within(q, d, 0, shortcuts::on, when),

@@ -7,27 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/ccd/contact/by_hand.hpp"
+
 namespace {
 
 using ccd::first_time;
 using ccd::outcome;
 using ccd::separation;
-using point = ccd::point<double>;
-using moving = ccd::moving_point<double>;
-using vertex_face = ccd::vertex_face<double>;
-using edge_edge = ccd::edge_edge<double>;
-using vertex_edge = ccd::vertex_edge<double>;
-using vertex_vertex = ccd::vertex_vertex<double>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double least = std::numeric_limits<double>::denorm_min();
-
-moving still(point p) {
-    return {p, p};
-}
-moving from_to(point a, point b) {
-    return {a, b};
-}
+using namespace by_hand;
 
 /// By both, which agree, as the decision does with the time.
 template <class Query>
