@@ -5,7 +5,8 @@
 #include <ccd/contact_data.hpp>
 #include <ccd/plane.hpp>
 #include <cmath>
-#include <limits>
+
+#include "tests/ccd/contact/by_hand.hpp"
 
 namespace {
 
@@ -14,21 +15,8 @@ using ccd::kind;
 using ccd::meeting_features;
 using ccd::normal_source;
 using ccd::outcome;
-using point = ccd::point<double>;
-using moving = ccd::moving_point<double>;
-using vertex_face = ccd::vertex_face<double>;
-using edge_edge = ccd::edge_edge<double>;
-using vertex_edge = ccd::vertex_edge<double>;
-using vertex_vertex = ccd::vertex_vertex<double>;
+using namespace by_hand;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-moving still(point p) {
-    return {p, p};
-}
-moving from_to(point a, point b) {
-    return {a, b};
-}
 /// Over the resting triangle (0,0,0), (1,0,0), (0,1,0).
 vertex_face over_triangle(point v0, point v1) {
     return {from_to(v0, v1), still({0, 0, 0}), still({1, 0, 0}), still({0, 1, 0})};

@@ -26,15 +26,16 @@ using query_families::points;
 TEST(contact_families, agree_with_rationals) {
     std::map<ccd::normal_source, std::size_t> sources;
     std::size_t contacts = 0, poor = 0;
-    query_families::for_some_queries(support::scaled(60), 11, [&](const auto& query, const std::string& text) {
-        const first_contact found = ccd::find_first_contact(query);
-        EXPECT_EQ(found.time, ccd::time_of_impact(query));
-        if (found.time.outcome != ccd::outcome::collides) return;
-        ++contacts;
-        ++sources[found.normal_from];
-        poor += found.weight_error > 1e-12;
-        EXPECT_EQ(support::contact_data::check(query, found).faults(), "") << text;
-    });
+    query_families::for_some_queries(
+        support::scaled(60), 11, [&](const auto& query, const std::string& text) {
+            const first_contact found = ccd::find_first_contact(query);
+            EXPECT_EQ(found.time, ccd::time_of_impact(query));
+            if (found.time.outcome != ccd::outcome::collides) return;
+            ++contacts;
+            ++sources[found.normal_from];
+            poor += found.weight_error > 1e-12;
+            EXPECT_EQ(support::contact_data::check(query, found).faults(), "") << text;
+        });
     std::printf(
         "%zu contacts, %zu with weights off by more than 1e-12; normals: cross product %zu, "
         "nearest points %zu, relative velocity %zu, none %zu\n",
@@ -74,49 +75,51 @@ std::string image_faults(const first_contact& found, const first_contact& image,
 TEST(contact_families, of_turned_and_mirrored_queries_are_turned_and_mirrored) {
     using point = ccd::point<double>;
     constexpr std::array<std::size_t, 4> same{0, 1, 2, 3};
-    query_families::for_some_queries(support::scaled(30), 11, [&](const auto& query, const std::string& text) {
-        const first_contact found = ccd::find_first_contact(query);
-        if (found.time.outcome != ccd::outcome::collides) return;
-        const auto turn = [](const point& p) { return point{p.y, p.z, p.x}; };
-        const auto turned = ccd::transformed_points(query, turn);
-        EXPECT_EQ(image_faults(found, ccd::find_first_contact(turned), same, turn), "") << text;
-        const auto mirrored = ccd::transformed_points(query, [](const point& p) {
-            return point{-p.x, p.y, p.z};
+    query_families::for_some_queries(
+        support::scaled(30), 11, [&](const auto& query, const std::string& text) {
+            const first_contact found = ccd::find_first_contact(query);
+            if (found.time.outcome != ccd::outcome::collides) return;
+            const auto turn = [](const point& p) { return point{p.y, p.z, p.x}; };
+            const auto turned = ccd::transformed_points(query, turn);
+            EXPECT_EQ(image_faults(found, ccd::find_first_contact(turned), same, turn), "") << text;
+            const auto mirrored = ccd::transformed_points(query, [](const point& p) {
+                return point{-p.x, p.y, p.z};
+            });
+            // A cross product without a side is mirrored backwards.
+            const double sign =
+                found.normal_from == ccd::normal_source::cross_product && !found.sided ? -1 : 1;
+            const auto mirror = [sign](const point& p) {
+                return point{-sign * p.x, sign * p.y, sign * p.z};
+            };
+            first_contact image = ccd::find_first_contact(mirrored);
+            image.normal_velocity *= sign;
+            EXPECT_EQ(image_faults(found, image, same, mirror), "") << text;
         });
-        // A cross product without a side is mirrored backwards.
-        const double sign =
-            found.normal_from == ccd::normal_source::cross_product && !found.sided ? -1 : 1;
-        const auto mirror = [sign](const point& p) {
-            return point{-sign * p.x, sign * p.y, sign * p.z};
-        };
-        first_contact image = ccd::find_first_contact(mirrored);
-        image.normal_velocity *= sign;
-        EXPECT_EQ(image_faults(found, image, same, mirror), "") << text;
-    });
 }
 
 TEST(contact_families, do_not_depend_on_the_order_of_points) {
     using point = ccd::point<double>;
-    query_families::for_some_queries(support::scaled(30), 11, [&](const auto& query, const std::string& text) {
-        using query_type = std::remove_cvref_t<decltype(query)>;
-        const first_contact found = ccd::find_first_contact(query);
-        if (found.time.outcome != ccd::outcome::collides) return;
-        if constexpr (ccd::kind_of<query_type> == kind::vertex_face) {
-            const query_type turned{query.v, query.f1, query.f2, query.f0};
-            EXPECT_EQ(image_faults(found, ccd::find_first_contact(turned), {0, 2, 3, 1},
-                                   [](const point& p) { return p; }),
-                      "")
-                << text;
-        } else if constexpr (ccd::kind_of<query_type> == kind::edge_edge) {
-            const query_type swapped{query.b0, query.b1, query.a0, query.a1};
-            EXPECT_EQ(image_faults(found, ccd::find_first_contact(swapped), {2, 3, 0, 1},
-                                   [](const point& p) {
-                                       return point{-p.x, -p.y, -p.z};
-                                   }),
-                      "")
-                << text;
-        }
-    });
+    query_families::for_some_queries(
+        support::scaled(30), 11, [&](const auto& query, const std::string& text) {
+            using query_type = std::remove_cvref_t<decltype(query)>;
+            const first_contact found = ccd::find_first_contact(query);
+            if (found.time.outcome != ccd::outcome::collides) return;
+            if constexpr (ccd::kind_of<query_type> == kind::vertex_face) {
+                const query_type turned{query.v, query.f1, query.f2, query.f0};
+                EXPECT_EQ(image_faults(found, ccd::find_first_contact(turned), {0, 2, 3, 1},
+                                       [](const point& p) { return p; }),
+                          "")
+                    << text;
+            } else if constexpr (ccd::kind_of<query_type> == kind::edge_edge) {
+                const query_type swapped{query.b0, query.b1, query.a0, query.a1};
+                EXPECT_EQ(image_faults(found, ccd::find_first_contact(swapped), {2, 3, 0, 1},
+                                       [](const point& p) {
+                                           return point{-p.x, -p.y, -p.z};
+                                       }),
+                          "")
+                    << text;
+            }
+        });
 }
 
 }  // namespace

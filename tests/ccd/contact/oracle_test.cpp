@@ -217,23 +217,25 @@ TEST(faults, of_times_that_are_doubles) {
 }
 
 TEST(families, distance_0_is_contact) {
-    query_families::for_some_queries(support::scaled(30), 5, [](const auto& q, const std::string& text) {
-        for (const interval when : {interval{}, interval{0, 0.5, true, false},
-                                    interval{0.25, 0.75, false, false}, interval::instant(0.5)})
-            EXPECT_EQ(oracle::within(q, 0, 0, shortcuts::on, when),
-                      oracle::collides(q, shortcuts::on, when))
-                << text;
-    });
+    query_families::for_some_queries(
+        support::scaled(30), 5, [](const auto& q, const std::string& text) {
+            for (const interval when : {interval{}, interval{0, 0.5, true, false},
+                                        interval{0.25, 0.75, false, false}, interval::instant(0.5)})
+                EXPECT_EQ(oracle::within(q, 0, 0, shortcuts::on, when),
+                          oracle::collides(q, shortcuts::on, when))
+                    << text;
+        });
 }
 
 TEST(families, shortcuts_of_distances_change_nothing) {
-    query_families::for_some_queries(support::scaled(6), 5, [](const auto& q, const std::string& text) {
-        for (const double d : {0.0, 0.125, 1.0})
-            for (const interval when : {interval{}, interval{0.25, 0.75, false, false}})
-                EXPECT_EQ(oracle::within(q, d, 0, shortcuts::on, when),
-                          oracle::within(q, d, 0, shortcuts::off, when))
-                    << d << " " << text;
-    });
+    query_families::for_some_queries(
+        support::scaled(6), 5, [](const auto& q, const std::string& text) {
+            for (const double d : {0.0, 0.125, 1.0})
+                for (const interval when : {interval{}, interval{0.25, 0.75, false, false}})
+                    EXPECT_EQ(oracle::within(q, d, 0, shortcuts::on, when),
+                              oracle::within(q, d, 0, shortcuts::off, when))
+                        << d << " " << text;
+        });
 }
 
 }  // namespace
