@@ -1,5 +1,5 @@
 (** How the first contact of vertex and face, or of two edges, is put together in integers of fixed width
-    (ccd/contact/integer_times.cpp, ccd/contact/interior_time.hpp), over the real numbers: of the borders' brackets and
+    (ccd/contact/integer_first_contact.hpp, ccd/contact/interior_time.hpp), over the real numbers: of the borders' brackets and
     of the roots of Y that are asked before them.
 
     Results:

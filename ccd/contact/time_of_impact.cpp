@@ -6,20 +6,19 @@
 
 #include "ccd/contact/integer_times.hpp"
 #include "ccd/exact/finite.hpp"
+#include "ccd/exact/single_root.hpp"
 #include "ccd/exact/stages.hpp"
 
 namespace ccd {
 namespace {
-
-/// What floating point does not tell after so many halvings costs integers less than more of them.
-constexpr std::size_t halvings = 2;
 
 /// Floating point separates, or finds the part of the first contact, whose time integers then tell.
 template <class Query>
 detail::found_time found_before_reference(const Query& query) {
     if constexpr (kind_of<Query> == kind::vertex_face || kind_of<Query> == kind::edge_edge) {
         static_filter::contact_part part;
-        switch (detail::decide_in_floating_point(query, nullptr, &part, halvings).outcome) {
+        switch (detail::decide_in_floating_point(query, nullptr, &part, detail::halvings_for_times)
+                    .outcome) {
             case outcome::separate:
                 return outcome::separate;
             case outcome::collides:

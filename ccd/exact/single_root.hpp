@@ -1,8 +1,10 @@
-// Where Y certainly has but one root: whether that is a contact, by the G_i near it. Internal.
+// Where contact is first found in floating point: where Y certainly has but one root, by the G_i
+// near it; else on parts of the step. Internal; host and device code share it.
 #pragma once
 
 #include <algorithm>
 #include <ccd/verdict.hpp>
+#include <cstddef>
 #include <errbound/number_traits.hpp>
 #include <errbound/roots/control_values.hpp>
 
@@ -51,5 +53,18 @@ constexpr outcome decide_at_single_root(const static_filter::whole_step<double, 
     found = {0, 1, y, true};
     return answer;
 }
+
+/// subdivide, but first at a single root, which halving takes longer to find.
+template <template <class> class Forms>
+constexpr outcome find_contact(const static_filter::whole_step<double, Forms>& whole,
+                               static_filter::contact_part& found, std::size_t deepest) {
+    const outcome at_root = decide_at_single_root(whole, found);
+    return at_root != outcome::uncertain ? at_root
+                                         : static_filter::subdivide(whole, &found, deepest);
+}
+
+/// What floating point does not tell of a first contact after so many halvings costs integers less
+/// than more of them.
+inline constexpr std::size_t halvings_for_times = 2;
 
 }  // namespace ccd::detail

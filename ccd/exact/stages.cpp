@@ -19,17 +19,6 @@
 namespace ccd::detail {
 namespace {
 
-/// Whoever asks where contact is found profits from the root, which halving takes longer to find.
-template <class Whole>
-outcome at_root_or_on_parts(const Whole& whole, static_filter::contact_part* found,
-                            std::size_t deepest) {
-    if (found != nullptr) {
-        const outcome at_root = decide_at_single_root(whole, *found);
-        if (at_root != outcome::uncertain) return at_root;
-    }
-    return static_filter::subdivide(whole, found, deepest);
-}
-
 /// Proof: proofs/FilterStages.v, filter_face_separate, filter_face_collides, filter_edges_separate,
 /// filter_edges_collide, filter_bounded.
 template <template <class> class Forms, template <class> class Query>
@@ -71,7 +60,8 @@ template <template <class> class Forms, template <class> class Query>
     if (outside) return separate;
 
     stage_timer timer(report, stage::subdivision);
-    const outcome answer = at_root_or_on_parts(whole, found, deepest);
+    const outcome answer = found != nullptr ? find_contact(whole, *found, deepest)
+                                            : static_filter::subdivide(whole, nullptr, deepest);
     timer.count(1, answer == outcome::separate, answer == outcome::collides);
     return {answer, answer == outcome::uncertain ? cause::inside : cause::none};
 }
