@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <ccd/contact_data.hpp>
 #include <ccd/curves.hpp>
 #include <ccd/exact.hpp>
 #include <ccd/first_times.hpp>
@@ -22,6 +23,7 @@
 #include "ccd/contact/integer_times.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/deciders.hpp"
+#include "tests/support/contact_data_faults.hpp"
 #include "tests/support/distance_families.hpp"
 #include "tests/support/first_time_faults.hpp"
 
@@ -36,6 +38,7 @@ using query_families::kind;
 using query_families::source;
 
 constexpr std::uint64_t queries_per_block = 8;  // of a family and kind
+constexpr unsigned slow = 16;                   // the stride of deciders that are
 
 bool is_double(const first_time& t) {
     return t.outcome == outcome::collides && t.low == t.high;
@@ -143,6 +146,14 @@ first_time ask(const std::vector<time_decider>& deciders, const question& asked,
             ++counts[0];
             const outcome said = by.whether.of<K>()(query, asked.d);
             if (said != right.outcome) differ(by, 1, std::string(ccd::name(said)));
+            continue;
+        }
+        if (by.what.of<K>()) {
+            if (right.outcome != outcome::collides) continue;
+            ++counts[0];
+            const ccd::first_contact said = by.what.of<K>()(query, right);
+            const std::string faults = support::contact_data::check(query, said).faults();
+            if (!faults.empty() || said.time != right) differ(by, 1, "what is not so: " + faults);
             continue;
         }
         for (const double end : {1.0, t_max}) {
@@ -343,7 +354,6 @@ first_time in_integers_unfiltered(const Query& query, double t_max) {
 }  // namespace
 
 std::vector<time_decider> contact_deciders() {
-    constexpr unsigned slow = 16;
     std::vector<time_decider> all;
     const auto when = [&](std::string name, unsigned stride, const auto& ask) {
         all.push_back(by_time(std::move(name), [ask](const auto& q, separation, double t_max) {
@@ -362,11 +372,14 @@ std::vector<time_decider> contact_deciders() {
     });
     all.push_back(by_outcome(
         "decide_exact", [](const auto& q, separation) { return ccd::decide_exact(q).outcome; }));
+    all.push_back(by_data("contact_at", [](const auto& q, const first_time& time) {
+        return ccd::contact_at(q, time);
+    }));
+    all.back().stride = 4;
     return all;
 }
 
 std::vector<time_decider> distance_deciders() {
-    constexpr unsigned slow = 16;
     std::vector<time_decider> all{
         by_time("time_within", [](const auto& q, separation d,
                                   double t_max) { return ccd::time_within(q, d, t_max); }),

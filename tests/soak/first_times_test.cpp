@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -80,6 +81,34 @@ TEST(times, lost_where_edges_touch_at_a_double) {
                    : t;
     });
     expect_found_out(soak::contact_time_part, contacts, lost, "there is one");
+}
+
+/// Contact data after `change(data)`.
+template <class Change>
+void expect_data_found_out(const Change& change, std::string_view fault) {
+    const auto wrong = soak::by_data("wrong", [change](const auto& query, const first_time& time) {
+        ccd::first_contact data = ccd::contact_at(query, time);
+        change(data);
+        return data;
+    });
+    const auto found = soak::contact_time_part({contacts, wrong}).compare_block(1, 0);
+    EXPECT_TRUE(std::ranges::any_of(found.differences, [&](const soak::difference& d) {
+        return d.text.find(fault) != std::string::npos && d.text.find("0x1") != std::string::npos;
+    })) << fault;
+}
+
+TEST(times, data_that_are_off) {
+    expect_data_found_out([](ccd::first_contact& c) { std::swap(c.weights[2], c.weights[3]); },
+                          "off by more than its error");
+    expect_data_found_out([](ccd::first_contact& c) { c.normal_velocity *= 1 + 0x1p-30; },
+                          "velocity off by more than its error");
+    expect_data_found_out(
+        [](ccd::first_contact& c) {
+            c.normal = {-c.normal.x, -c.normal.y, -c.normal.z};
+            c.normal_velocity = -c.normal_velocity;
+        },
+        "a sided normal along which the features move apart");
+    expect_data_found_out([](ccd::first_contact& c) { c.time.low = 0; }, "what is not so");
 }
 
 TEST(distances, right_ones_do_not_differ) {

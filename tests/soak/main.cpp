@@ -1,5 +1,6 @@
 // ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
-// against itself on images of them; steps of meshes against every pair; roots against FLINT.
+// against itself on images of them; steps and advances of meshes against every pair; roots against
+// FLINT.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -19,8 +20,9 @@
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/first_times.hpp"
 #include "tests/soak/long_run.hpp"
-#include "tests/soak/meshes.hpp"
 #include "tests/soak/polynomials.hpp"
+#include "tests/soak/steps/advances.hpp"
+#include "tests/soak/steps/meshes.hpp"
 #include "tests/soak/symmetries.hpp"
 
 namespace {
@@ -225,6 +227,10 @@ void add_parts(CLI::App& app, choice& chosen) {
 #endif
     counted("--meshes", "Steps of so many small meshes, by the reference on every pair",
             [] { return soak::mesh_part(); });
+#ifdef ERRBOUND_HAS_ORACLE
+    counted("--advances", "Advances of so many small meshes, by the oracle on every pair",
+            [] { return soak::advance_part(); });
+#endif
 #ifdef ERRBOUND_HAS_FLINT
     counted("--polynomials", "So many polynomials' roots, against FLINT's counts",
             soak::polynomial_part);

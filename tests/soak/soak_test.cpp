@@ -20,7 +20,7 @@
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/images.hpp"
 #include "tests/soak/long_run.hpp"
-#include "tests/soak/meshes.hpp"
+#include "tests/soak/steps/meshes.hpp"
 #include "tests/soak/symmetries.hpp"
 
 namespace {

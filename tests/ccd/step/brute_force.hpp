@@ -86,16 +86,79 @@ struct elements {
     }
 };
 
-/// Whether two elements share a vertex, and whether the closed boxes that they sweep touch, or are
-/// within a distance.
+/// Whether two elements have a vertex in common.
 template <std::size_t A, std::size_t B>
 bool share_vertex(const std::array<vertex_index, A>& a, const std::array<vertex_index, B>& b) {
     return std::ranges::any_of(a,
                                [&](vertex_index v) { return std::ranges::find(b, v) != b.end(); });
 }
-template <std::size_t A, std::size_t B>
-bool boxes_touch(const two_frames& at, const std::array<vertex_index, A>& a,
-                 const std::array<vertex_index, B>& b, double distance = 0) {
+
+inline ccd::vertex_face_pair pair_of(const vertex& v, const ccd::face& f) {
+    return {v[0], f[0], f[1], f[2]};
+}
+inline ccd::edge_edge_pair pair_of(const ccd::edge& a, const ccd::edge& b) {
+    return {a[0], a[1], b[0], b[1]};
+}
+inline ccd::vertex_edge_pair pair_of(const vertex& v, const ccd::edge& e) {
+    return {v[0], e[0], e[1]};
+}
+inline ccd::vertex_vertex_pair pair_of(const vertex& v, const vertex& w) {
+    return {v[0], w[0]};
+}
+
+/// visit(pair) for every two elements that share no vertex; of one list, once for each.
+template <class As, class Bs, class Visit>
+void for_each_two(const As& as, const Bs& bs, const Visit& visit) {
+    constexpr bool within_one = std::is_same_v<As, Bs>;
+    for (std::size_t i = 0; i < as.size(); ++i)
+        for (std::size_t j = within_one ? i + 1 : 0; j < bs.size(); ++j)
+            if (!share_vertex(as[i], bs[j])) visit(pair_of(as[i], bs[j]));
+}
+
+/// visit(pair) for every pair of a mesh; vertices of faces are in the mesh's order.
+template <class Visit>
+void for_each_pair(const ccd::mesh& m, const Visit& visit) {
+    const elements of(m);
+    for_each_two(of.vertices, of.faces, visit);
+    for_each_two(of.edges, of.edges, visit);
+    for_each_two(of.points, of.rods, visit);
+    for_each_two(of.points, of.points, visit);
+}
+/// The same in the plane.
+template <class Visit>
+void for_each_pair_in_plane(const ccd::mesh& m, const Visit& visit) {
+    const elements of(m);
+    for_each_two(of.vertices, of.edges, visit);
+    for_each_two(of.points, of.points, visit);
+}
+
+/// As steps report a pair: the vertices of a face ascend.
+template <class Pair>
+Pair as_reported(Pair pair) {
+    if constexpr (std::is_same_v<Pair, ccd::vertex_face_pair>) {
+        ccd::face f{pair.f0, pair.f1, pair.f2};
+        std::ranges::sort(f);
+        return pair_of(vertex{pair.v}, f);
+    }
+    return pair;
+}
+
+/// The vertices of a pair's two elements.
+template <class Pair>
+auto elements_of(const Pair& pair) {
+    constexpr std::size_t first = ccd::kind_traits<ccd::kind_of<Pair>>::first_vertices;
+    const auto all = vertices_of(pair);
+    std::array<vertex_index, first> a;
+    std::array<vertex_index, all.size() - first> b;
+    std::copy_n(all.begin(), a.size(), a.begin());
+    std::copy_n(all.begin() + a.size(), b.size(), b.begin());
+    return std::pair(a, b);
+}
+
+/// Whether the closed boxes that a pair's elements sweep touch, or are within a distance.
+template <class Pair>
+bool boxes_touch(const two_frames& at, const Pair& pair, double distance = 0) {
+    const auto [a, b] = elements_of(pair);
     for (const auto axis : {&ccd::point<>::x, &ccd::point<>::y, &ccd::point<>::z}) {
         const auto extent = [&](const auto& element) {
             double low = at.first.vertices[element[0]].*axis, high = low;
@@ -134,66 +197,33 @@ struct by_method {
     }
 };
 
-/// Adds the pairs of one kind: make(a, b) makes one.
-template <ccd::kind K, class Decide, class As, class Bs, class Make>
-void add_pairs(const two_frames& at, const Decide& decide, const vertices_may_collide& may,
-               const As& as, const Bs& bs, const Make& make, ccd::step_result& result) {
-    constexpr bool within_one = std::is_same_v<As, Bs>;
-    const ccd::vertex_rows rows(at.first, at.second);
-    for (std::size_t i = 0; i < as.size(); ++i)
-        for (std::size_t j = within_one ? i + 1 : 0; j < bs.size(); ++j) {
-            const auto& a = as[i];
-            const auto& b = bs[j];
-            double distance = 0;
-            if constexpr (requires { decide.distance; }) distance = decide.distance;
-            if (share_vertex(a, b) || !boxes_touch(at, a, b, distance)) continue;
-            if (may && std::ranges::none_of(a, [&](vertex_index v) {
-                    return std::ranges::any_of(b, [&](vertex_index w) { return may(v, w); });
-                }))
-                continue;
-            ++result.candidates.of<K>();
-            const auto query = query_of(rows, make(a, b));
-            if (!may_collide(decide(query))) continue;
-            auto b_sorted = b;
-            std::ranges::sort(b_sorted);
-            result.pairs.of<K>().push_back(make(a, b_sorted));
-            if (may_collide(ccd::touches_at_start(query)))
-                result.touching_at_start.of<K>().push_back(make(a, b_sorted));
-        }
-    std::ranges::sort(result.pairs.of<K>());
-    std::ranges::sort(result.touching_at_start.of<K>());
-}
-
 /// Every pair looked at, and asked by decide(query).
 template <class Decide = by_method>
 ccd::step_result step(const two_frames& at, const Decide& decide = {},
                       const vertices_may_collide& may = {}) {
-    const elements of(at.first);
+    double distance = 0;
+    if constexpr (requires { decide.distance; }) distance = decide.distance;
+    const ccd::vertex_rows rows(at.first, at.second);
     ccd::step_result result;
-    add_pairs<ccd::kind::vertex_face>(
-        at, decide, may, of.vertices, of.faces,
-        [](const auto& v, const auto& f) {
-            return ccd::vertex_face_pair{v[0], f[0], f[1], f[2]};
-        },
-        result);
-    add_pairs<ccd::kind::edge_edge>(
-        at, decide, may, of.edges, of.edges,
-        [](const auto& a, const auto& b) {
-            return ccd::edge_edge_pair{a[0], a[1], b[0], b[1]};
-        },
-        result);
-    add_pairs<ccd::kind::vertex_edge>(
-        at, decide, may, of.points, of.rods,
-        [](const auto& v, const auto& e) {
-            return ccd::vertex_edge_pair{v[0], e[0], e[1]};
-        },
-        result);
-    add_pairs<ccd::kind::vertex_vertex>(
-        at, decide, may, of.points, of.points,
-        [](const auto& v, const auto& w) {
-            return ccd::vertex_vertex_pair{v[0], w[0]};
-        },
-        result);
+    for_each_pair(at.first, [&]<class Pair>(const Pair& pair) {
+        constexpr ccd::kind K = ccd::kind_of<Pair>;
+        if (!boxes_touch(at, pair, distance)) return;
+        const auto [a, b] = elements_of(pair);
+        if (may && std::ranges::none_of(a, [&, &b = b](vertex_index v) {
+                return std::ranges::any_of(b, [&](vertex_index w) { return may(v, w); });
+            }))
+            return;
+        ++result.candidates.of<K>();
+        const auto query = query_of(rows, pair);
+        if (!may_collide(decide(query))) return;
+        result.pairs.of<K>().push_back(as_reported(pair));
+        if (may_collide(ccd::touches_at_start(query)))
+            result.touching_at_start.of<K>().push_back(as_reported(pair));
+    });
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        std::ranges::sort(result.pairs.of<K>());
+        std::ranges::sort(result.touching_at_start.of<K>());
+    });
     return result;
 }
 

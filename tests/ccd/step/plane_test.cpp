@@ -42,18 +42,10 @@ TEST(PlaneStep, ReportsEveryVertexAndEdge) {
         const auto [before, after] = edges_and_points(seed, true);
         const ccd::vertex_rows rows(before, after);
         ccd::pair_lists expected;
-        const auto add = [&](auto& list, const auto& pair) {
+        brute_force::for_each_pair_in_plane(before, [&]<class Pair>(const Pair& pair) {
             if (decide_exact(query_of(rows, pair)).outcome == outcome::collides)
-                list.push_back(pair);
-        };
-        const brute_force::elements of(before);
-        for (const auto& v : of.vertices)
-            for (const ccd::edge& e : of.edges)
-                if (!brute_force::share_vertex(v, e))
-                    add(expected.vertex_edge, ccd::vertex_edge_pair{v[0], e[0], e[1]});
-        for (const auto& v : of.points)
-            for (const auto& w : of.points)
-                if (v < w) add(expected.vertex_vertex, ccd::vertex_vertex_pair{v[0], w[0]});
+                expected.of<ccd::kind_of<Pair>>().push_back(pair);
+        });
         for (const int threads : {1, 2})
             EXPECT_EQ(steps_of(before).run(rows, {.threads = threads}).pairs, expected);
         found += expected.vertex_edge.size() + expected.vertex_vertex.size();
