@@ -6,7 +6,6 @@
 
 #include "ccd/contact/integer_times.hpp"
 #include "ccd/exact/finite.hpp"
-#include "ccd/exact/single_root.hpp"
 #include "ccd/exact/stages.hpp"
 
 namespace ccd {
@@ -17,7 +16,8 @@ template <class Query>
 detail::found_time found_before_reference(const Query& query) {
     if constexpr (kind_of<Query> == kind::vertex_face || kind_of<Query> == kind::edge_edge) {
         static_filter::contact_part part;
-        switch (detail::decide_in_floating_point(query, nullptr, &part, detail::halvings_for_times)
+        switch (detail::decide_in_floating_point(query, nullptr, &part,
+                                                 static_filter::halvings_for_times)
                     .outcome) {
             case outcome::separate:
                 return outcome::separate;

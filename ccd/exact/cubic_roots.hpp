@@ -81,7 +81,7 @@ constexpr std::array<double, N> approximated(
 /// signs (or are zero): by Newton's method, and bisection where that leaves the interval known.
 /// Proof that it lies in [0, 1]: proofs/Places.v, estimated_root_inside.
 constexpr double estimated_root(const std::array<double, 4>& h) {
-    constexpr double precision = 0x1p-52;
+    constexpr double precision = 0x1p-52, converged = 0x1p-30;
     constexpr int max_steps = 60;
     const bool rising = h[3] > h[0];
     // The secant's root; if an end is a root itself, the one inside is asked for.
@@ -94,10 +94,13 @@ constexpr double estimated_root(const std::array<double, 4>& h) {
         if (value == 0) return t;
         (value < 0) == rising ? low = t : high = t;
         const double newton = t - value / slope;
-        const double next = newton > low && newton < high ? newton : (low + high) / 2;
+        const bool inside = newton > low && newton < high;
+        const double next = inside ? newton : (low + high) / 2;
         const double moved = std::fabs(next - t);
         t = next;
-        if (moved <= precision) break;
+        // What a step of Newton's leaves is of the order of its square, and in a last place the
+        // next one would go astray.
+        if (moved <= (inside ? converged : precision)) break;
     }
     return t;
 }

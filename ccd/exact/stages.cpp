@@ -8,7 +8,6 @@
 
 #include "ccd/exact/finite.hpp"
 #include "ccd/exact/integers.hpp"
-#include "ccd/exact/single_root.hpp"
 #include "ccd/exact/stage_timer.hpp"
 #include "ccd/exact/static_filter/coefficient_signs.hpp"
 #include "ccd/exact/static_filter/difference_extents.hpp"
@@ -60,8 +59,7 @@ template <template <class> class Forms, template <class> class Query>
     if (outside) return separate;
 
     stage_timer timer(report, stage::subdivision);
-    const outcome answer = found != nullptr ? find_contact(whole, *found, deepest)
-                                            : static_filter::subdivide(whole, nullptr, deepest);
+    const outcome answer = static_filter::subdivide(whole, found, deepest);
     timer.count(1, answer == outcome::separate, answer == outcome::collides);
     return {answer, answer == outcome::uncertain ? cause::inside : cause::none};
 }

@@ -10,6 +10,10 @@
 
 namespace ccd::static_filter {
 
+/// What floating point does not tell of a first contact after so many halvings, contact at a border
+/// most often, costs integers less than more of them.
+inline constexpr std::size_t halvings_for_times = 6;
+
 /// Where contact was found: inside the part from `low` to `high` of the step, and certainly nowhere
 /// before `low`.
 struct contact_part {
