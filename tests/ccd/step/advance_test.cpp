@@ -6,47 +6,17 @@
 #include <cmath>
 #include <numeric>
 
-#include "tests/ccd/step/expect_steps.hpp"
+#include "tests/ccd/step/expect_advances.hpp"
 #include "tests/ccd/step/nasty_shapes.hpp"
 
 namespace {
 
+using brute_force::expect_free;
+using brute_force::goes_far;
 using brute_force::random_mixture;
 using brute_force::random_soup;
 using brute_force::two_frames;
 using ccd::outcome;
-
-ccd::mesh moved_to(const ccd::mesh& frame, const ccd::advance_result& result) {
-    return {result.positions, frame.faces, frame.edges};
-}
-
-/// That all pairs of a step to the result are among those it left out. Returns the result.
-ccd::advance_result expect_free(const two_frames& at, const ccd::advance_options& options) {
-    const auto& [before, after] = at;
-    const auto result = ccd::advance(before, after, options);
-    const auto pairs = ccd::step(before, moved_to(before, result)).pairs;
-    ccd::for_each_kind([&]<ccd::kind K>() {
-        EXPECT_TRUE(std::ranges::includes(result.touching_at_start.of<K>(), pairs.of<K>()))
-            << name(K);
-    });
-    for (std::size_t v = 0; v < before.vertices.size(); ++v) {
-        const double f = result.fractions[v];
-        EXPECT_GE(f, result.fraction);
-        const double x = std::lerp(before.vertices[v].x, after.vertices[v].x, f);
-        EXPECT_NEAR(result.positions[v].x, x, 0x1p-42 * std::abs(x) + 0x1p-1060);
-    }
-    return result;
-}
-ccd::advance_result expect_free(const two_frames& at) {
-    return expect_free(at, {});
-}
-
-/// Whether it goes as far as promised wherever rounding lets it.
-bool goes_far(const ccd::advance_result& result) {
-    const double first =
-        result.first_contact.outcome == outcome::collides ? result.first_contact.low : 1;
-    return result.fraction >= 0.99 * first;
-}
 
 TEST(Advance, GoesAllTheWayWhereThatIsFree) {
     const ccd::mesh before{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.1, 1}}, {{0, 1, 2}}};
@@ -225,15 +195,7 @@ TEST(AdvanceKeepingADistance, KeepsIt) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed)
         for (const double distance : {0x1p-40, 0.1}) {
             const auto at = random_mixture(seed);
-            const auto result = expect_free(at, {.distances = {distance}});
-            EXPECT_TRUE(goes_far(result)) << seed;
-            const auto near =
-                ccd::step(at.first, moved_to(at.first, result), {.distances = {distance}});
-            ccd::for_each_kind([&]<ccd::kind K>() {
-                for (const auto& pair : near.pairs.of<K>())
-                    EXPECT_TRUE(std::ranges::binary_search(result.near_at_start.of<K>(), pair) ||
-                                std::ranges::binary_search(result.touching_at_start.of<K>(), pair));
-            });
+            EXPECT_TRUE(goes_far(expect_free(at, {.distances = {distance}}))) << seed;
         }
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "tests/ccd/step/query_meshes.hpp"
+
 namespace soak {
 
 using brute_force::two_frames;
@@ -15,17 +17,7 @@ two_frames mesh_of(const query_families::family& family, std::uint64_t seed, std
         query_families::source_of(family.name, {seed, index, /*of meshes*/ 4});
     for (std::uint64_t q = 0; q < 3; ++q) {
         const auto which = static_cast<kind>(random.between(0, 3));
-        const auto v = static_cast<vertex_index>(mesh.vertices.size());
-        for (const auto& p : query_families::make(family, which, seed, 3 * index + q)) {
-            mesh.vertices.push_back(p.t0);
-            at.second.vertices.push_back(p.t1);
-        }
-        if (which == kind::vertex_face) mesh.faces.push_back({v + 1, v + 2, v + 3});
-        if (which == kind::vertex_edge) mesh.edges.push_back({v + 1, v + 2});
-        if (which == kind::edge_edge) {
-            mesh.edges.push_back({v, v + 1});
-            mesh.edges.push_back({v + 2, v + 3});
-        }
+        brute_force::add_query(at, which, query_families::make(family, which, seed, 3 * index + q));
     }
     const auto any = [&] {
         return static_cast<vertex_index>(

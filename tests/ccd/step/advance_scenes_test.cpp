@@ -1,0 +1,134 @@
+// Advances of stored scenes, and of meshes of the stiff and extreme queries that `ccd stress`
+// makes, contacts a last place apart among them: steps to the positions returned are free.
+//
+// Where stored scenes are: the environment's ERRBOUND_SHARED_DATA, else what the build was given;
+// one comes with the repository.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/io/mesh_file.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "ccd/stress/families.hpp"
+#include "tests/ccd/step/expect_advances.hpp"
+#include "tests/ccd/step/query_meshes.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using brute_force::expect_free;
+using brute_force::goes_far;
+using brute_force::two_frames;
+
+std::size_t size_of(const ccd::pair_lists& pairs) {
+    std::size_t all = 0;
+    ccd::for_each_kind([&]<ccd::kind K>() { all += pairs.of<K>().size(); });
+    return all;
+}
+
+double mean_edge(const ccd::mesh& frame) {
+    const auto edges = ccd::unique_edges(frame.faces, frame.edges);
+    double sum = 0;
+    for (const ccd::edge& e : edges) {
+        const auto &a = frame.vertices[e[0]], &b = frame.vertices[e[1]];
+        sum += std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+    }
+    return sum / static_cast<double>(edges.size());
+}
+
+/// As one, by bodies, by vertices, and with distances to keep.
+void advance_scene(const fs::path& before, const fs::path& after) {
+    SCOPED_TRACE(before.string());
+    const two_frames at{ccd::io::read_mesh(before), ccd::io::read_mesh(after)};
+    const ccd::mesh& mesh = at.first;
+    const auto bodies = ccd::connected_parts(mesh.faces, mesh.edges, mesh.vertices.size());
+    std::vector<int> each(mesh.vertices.size());
+    std::iota(each.begin(), each.end(), 0);
+    const double edge = mean_edge(mesh);
+    const struct {
+        const char* name;
+        ccd::advance_options options;
+    } asked[] = {{"as one", {}},
+                 {"by bodies", {.groups = bodies}},
+                 {"by vertices", {.groups = each}},
+                 {"keeping 1e-3 of the mean edge", {.distances = {1e-3 * edge}}},
+                 {"keeping 1e-12 of it", {.distances = {1e-12 * edge}}}};
+    for (const auto& [name, options] : asked) {
+        SCOPED_TRACE(name);
+        const auto result = expect_free(at, options);
+        EXPECT_TRUE(goes_far(result));
+        const double mean = std::accumulate(result.fractions.begin(), result.fractions.end(), 0.0) /
+                            static_cast<double>(result.fractions.size());
+        std::printf(
+            "%s, %s: %.17g of the way (mean of vertices %.3g), first contact %.17g; at the start "
+            "%zu touch, %zu are near\n",
+            before.stem().c_str(), name, result.fraction, mean, result.first_contact.low,
+            size_of(result.touching_at_start), size_of(result.near_at_start));
+    }
+}
+
+TEST(AdvanceOfScenes, OfTheRepository) {
+    const fs::path scene = ERRBOUND_SCENE;
+    advance_scene(scene / "frame0.ply", scene / "frame1.ply");
+}
+
+TEST(AdvanceOfScenes, Stored) {
+    const char* folder = std::getenv("ERRBOUND_SHARED_DATA");
+    const fs::path scenes = fs::path(folder ? folder : ERRBOUND_SHARED_DATA) / "scenes";
+    if (!fs::is_directory(scenes))
+        GTEST_SKIP() << "No stored scenes at \"" << scenes.string()
+                     << "\": set ERRBOUND_SHARED_DATA to the folder that holds them.";
+    for (const auto& entry : fs::directory_iterator(scenes)) {
+        if (!entry.is_directory()) continue;
+        std::vector<fs::path> frames;
+        for (const auto& file : fs::directory_iterator(entry.path() / "frames"))
+            if (file.path().extension() == ".ply") frames.push_back(file.path());
+        std::ranges::sort(frames);
+        ASSERT_EQ(frames.size(), 2u) << entry.path();
+        advance_scene(frames[0], frames[1]);
+    }
+}
+
+/// A mesh of queries of a family, of all kinds, at one value of its knob.
+two_frames mesh_of(const ccd::stress::family& family, double knob) {
+    two_frames at;
+    for (const ccd::kind which : {ccd::kind::vertex_face, ccd::kind::edge_edge,
+                                  ccd::kind::vertex_edge, ccd::kind::vertex_vertex})
+        for (std::uint64_t i = 0; i < 3; ++i)
+            brute_force::add_query(at, which, ccd::stress::make(family, knob, which, 1, i));
+    return at;
+}
+
+TEST(AdvanceOfScenes, OfStress) {
+    for (const ccd::stress::family& family : ccd::stress::families()) {
+        if (!family.finite) continue;
+        std::size_t free = 0, far = 0, held = 0;
+        double least = 1;
+        for (const double knob : family.knobs) {
+            SCOPED_TRACE(std::string(family.name) + " " + std::to_string(knob));
+            const two_frames at = mesh_of(family, knob);
+            const auto bodies =
+                ccd::connected_parts(at.first.faces, at.first.edges, at.first.vertices.size());
+            expect_free(at, {.groups = bodies});
+            const auto result = expect_free(at);
+            free += result.fraction == 1;
+            far += result.fraction < 1 && goes_far(result);
+            held += !goes_far(result);
+            least = std::min(least, result.fraction);
+        }
+        std::printf(
+            "%s: %zu free, %zu to 0.99 of the first contact or more, %zu less far; least "
+            "fraction %.3g\n",
+            std::string(family.name).c_str(), free, far, held, least);
+        EXPECT_LE(10 * held, family.knobs.size()) << "gaps of a few last places excuse few";
+    }
+}
+
+}  // namespace
