@@ -48,31 +48,34 @@ Proof.
     first [now apply -> (stretched_same k) in E | now rewrite E].
 Qed.
 
-Theorem face_units k v f0 f1 f2 : units k -> let in_units := stretched_motion k in
-  vertex_face_collides (in_units v) (in_units f0) (in_units f1) (in_units f2) <->
-  vertex_face_collides v f0 f1 f2.
+Lemma triangle_stretched k p a b c : units k ->
+  in_triangle (stretched k p) (stretched k a) (stretched k b) (stretched k c) <-> in_triangle p a b c.
 Proof.
-  intros K in_units. unfold in_units. split; intros (t & T & (u & w & U & W & V & E)); exists t; split; auto; exists u, w;
-    rewrite ?place_stretched, <- ?stretched_along in *; repeat split; auto;
+  intros K. split; intros (u & w & U & W & V & E); exists u, w; repeat (split; auto); rewrite <- !stretched_along in *;
     first [now apply -> (stretched_same k) in E | now rewrite E].
 Qed.
-Theorem edges_units k a0 a1 b0 b1 : units k -> let in_units := stretched_motion k in
-  edge_edge_collides (in_units a0) (in_units a1) (in_units b0) (in_units b1) <->
-  edge_edge_collides a0 a1 b0 b1.
+Lemma segments_stretched k a0 a1 b0 b1 : units k ->
+  segments_meet (stretched k a0) (stretched k a1) (stretched k b0) (stretched k b1) <-> segments_meet a0 a1 b0 b1.
 Proof.
-  intros K in_units. unfold in_units. split; intros (t & T & (p & A & B)); exists t; (split; [exact T |]);
-    rewrite ?place_stretched in *.
-  - destruct A as (u & U & ->). exists (along (place a0 t) u (minus (place a1 t) (place a0 t))).
-    split; [now exists u |].
+  intros K. split; intros (p & A & B).
+  - destruct A as (u & U & ->). exists (along a0 u (minus a1 a0)). split; [now exists u |].
     rewrite <- stretched_along in B. now apply segment_stretched in B.
   - exists (stretched k p). now split; apply segment_stretched.
 Qed.
+
+Lemma sometime_same (H G : R -> Prop) : (forall t, H t <-> G t) -> sometime H <-> sometime G.
+Proof. intros E. split; intros (t & T & X); exists t; (split; [exact T | now apply E]). Qed.
+Theorem face_units k v f0 f1 f2 : units k -> let in_units := stretched_motion k in
+  vertex_face_collides (in_units v) (in_units f0) (in_units f1) (in_units f2) <->
+  vertex_face_collides v f0 f1 f2.
+Proof. intros K. apply sometime_same. intros t. rewrite !place_stretched. now apply triangle_stretched. Qed.
+Theorem edges_units k a0 a1 b0 b1 : units k -> let in_units := stretched_motion k in
+  edge_edge_collides (in_units a0) (in_units a1) (in_units b0) (in_units b1) <->
+  edge_edge_collides a0 a1 b0 b1.
+Proof. intros K. apply sometime_same. intros t. rewrite !place_stretched. now apply segments_stretched. Qed.
 Theorem vertex_edge_units k v e0 e1 : units k -> let in_units := stretched_motion k in
   vertex_edge_collides (in_units v) (in_units e0) (in_units e1) <-> vertex_edge_collides v e0 e1.
-Proof.
-  intros K in_units. unfold in_units. split; intros (t & T & H); exists t; rewrite ?place_stretched in *;
-    destruct (segment_stretched k (place v t) (place e0 t) (place e1 t) K); auto.
-Qed.
+Proof. intros K. apply sometime_same. intros t. rewrite !place_stretched. now apply segment_stretched. Qed.
 
 (** What moves as m, in integers. *)
 Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop :=

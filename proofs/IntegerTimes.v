@@ -5,8 +5,8 @@
     Results:
         earlier_right         of two parts' brackets the lesser is that of the first time of both
         considered_right      `consider`, over all roots that matter, in any order
-        composed_right        borders first, then the inside up to what they tell: the bracket of the first contact
-        face_composed_right, edges_composed_right   of vertex and face, and of two edges
+        composed_right, composed_first   borders first, then the inside up to what they tell: the bracket of the first
+                              contact
         format_bracketed      every number has a bracket between numbers of a floating-point format *)
 
 From Coq Require Import Reals ZArith Lra List.
@@ -264,7 +264,23 @@ Proof.
       apply (Inside t b T It B). now apply (NotLate t).
 Qed.
 
-(** ** Vertex and face, two edges *)
+(** Where Y = 0 throughout, contact inside is asked at the ends alone: `inside` need not be all that touches. *)
+Theorem composed_first (touches : R -> Prop) o i : (forall t, either inside border t -> touches t) ->
+  (sometime touches -> exists t, first touches t /\ either inside border t) ->
+  told border o -> told_before (last_of o) i -> told touches (composed o i).
+Proof.
+  intros Touch Exists_ Border Inside.
+  assert (First : forall t, first touches t -> either inside border t -> first (either inside border) t).
+  { intros t (T & _ & Before) E. split; auto. split; auto. intros s S H. apply (Before s S). now apply Touch. }
+  assert (To : told (either inside border) (composed o i)).
+  { apply composed_right; auto. intros (t & T & H). destruct Exists_ as (s & F & E); [exists t; auto |]. eauto. }
+  destruct (composed o i) as [b |]; cbn [told] in *.
+  - destruct To as (t & (T & H & Before) & B). exists t. split; auto.
+    destruct Exists_ as (s & F & E); [exists t; auto |]. pose proof F as (S & _ & Before').
+    destruct (Rtotal_order s t) as [L | [<- | L]]; auto; exfalso; [apply (Before s); auto; lra |].
+    apply (Before' t); [lra | auto].
+  - intros t T H. destruct Exists_ as (s & (S & _) & E); [exists t; auto |]. now apply (To s).
+Qed.
 
 Lemma told_same (H G : R -> Prop) o : (forall t, H t <-> G t) -> told H o -> told G o.
 Proof.
@@ -275,43 +291,6 @@ Proof.
 Qed.
 
 End Doubles.
-
-Section Kinds.
-
-Variable double : R -> Prop.
-Hypothesis bracketed : forall t, 0 <= t <= 1 -> exists b, holds_time double b t.
-
-Theorem face_composed_right v f0 f1 f2 o0 o1 o2 i : let o := earlier (earlier o0 o1) o2 in
-  told double (vertex_on_edge v f0 f1) o0 -> told double (vertex_on_edge v f1 f2) o1 ->
-  told double (vertex_on_edge v f2 f0) o2 ->
-  told_before double (fun t => face_y v f0 f1 f2 t = 0 /\ face_inside_at v f0 f1 f2 t) (last_of o) i ->
-  told double (face_touches v f0 f1 f2) (composed o i).
-Proof.
-  intros o T0 T1 T2 Inside.
-  assert (E : forall t, either (fun t => face_y v f0 f1 f2 t = 0 /\ face_inside_at v f0 f1 f2 t)
-    (on_face_border v f0 f1 f2) t <-> face_touches v f0 f1 f2 t) by (intros t; symmetry; apply face_times).
-  apply (told_same double _ _ _ E). apply composed_right; auto.
-  - apply (same_first (face_touches v f0 f1 f2)); [intros t; symmetry; apply E | apply face_first].
-  - apply (told_same double (either (either (vertex_on_edge v f0 f1) (vertex_on_edge v f1 f2)) (vertex_on_edge v f2 f0)));
-      [intros t; unfold either, on_face_border; tauto |]. unfold o. now repeat apply earlier_right.
-Qed.
-Theorem edges_composed_right a0 a1 b0 b1 o0 o1 o2 o3 i : let o := earlier (earlier (earlier o0 o1) o2) o3 in
-  told double (vertex_on_edge a0 b0 b1) o0 -> told double (vertex_on_edge a1 b0 b1) o1 ->
-  told double (vertex_on_edge b0 a0 a1) o2 -> told double (vertex_on_edge b1 a0 a1) o3 ->
-  told_before double (fun t => edges_y a0 a1 b0 b1 t = 0 /\ edges_inside_at a0 a1 b0 b1 t) (last_of o) i ->
-  told double (edges_touch a0 a1 b0 b1) (composed o i).
-Proof.
-  intros o T0 T1 T2 T3 Inside.
-  assert (E : forall t, either (fun t => edges_y a0 a1 b0 b1 t = 0 /\ edges_inside_at a0 a1 b0 b1 t)
-    (on_edges_border a0 a1 b0 b1) t <-> edges_touch a0 a1 b0 b1 t) by (intros t; symmetry; apply edges_times).
-  apply (told_same double _ _ _ E). apply composed_right; auto.
-  - apply (same_first (edges_touch a0 a1 b0 b1)); [intros t; symmetry; apply E | apply edges_first].
-  - apply (told_same double (either (either (either (vertex_on_edge a0 b0 b1) (vertex_on_edge a1 b0 b1))
-      (vertex_on_edge b0 a0 a1)) (vertex_on_edge b1 a0 a1)));
-      [intros t; unfold either, on_edges_border; tauto |]. unfold o. now repeat apply earlier_right.
-Qed.
-
-End Kinds.
 
 (** Doubles are a format in which every number has a bracket. *)
 Theorem format_bracketed emin p t : (0 < p)%Z ->

@@ -597,21 +597,22 @@ Definition known_roots (distinct three : bool) : Prop :=
 Definition good (three : bool) (q : part) : Prop :=
   is_part y q /\ (level q <= max_halvings)%Z /\ (three = true -> 0 < discriminant (part_y q)).
 
-(** A part without roots to ask at. *)
-Lemma dropped distinct three q : known_roots distinct three -> good three q ->
-  any_root three (roots q) = false -> answers (part_start q) (part_end q) separate.
+(** A part without roots to ask at: at most those that are not crossed. *)
+Lemma unasked three q (Q : R -> Prop) : (three = false -> crosses_once 0 1 (at_ y) Q) -> good three q ->
+  any_root three (roots q) = false -> forall t, part_start q < t < part_end q -> at_ y t = 0 -> Q t.
 Proof.
-  intros (N & D & One) (H & _ & Dq) A t T Z. unfold any_root in A. apply orb_false_iff in A.
-    destruct A as (O & A).
+  intros One (H & _ & Dq) A t T Z. unfold any_root in A. apply orb_false_iff in A. destruct A as (O & A).
   destruct (part_signs y q H) as (S0 & S1 & _). rewrite O in S1. destruct three.
   - simpl in A. apply Nat.ltb_ge in A. pose proof H as (L & Er & _ & Nz & _). rewrite Er in A.
     destruct (no_changes (part_y q) L ltac:(lia)) as [F | F]; [easy |]. exfalso.
     destruct (part_at y q H) as (k & K & E). rewrite E in Z.
     apply (F _ (proj1 (part_place y q t H) T)). apply Rmult_integral in Z. destruct Z; [lra | easy].
-  - pose proof (part_inside y q H). refine (proj1 (uncrossed (part_start q) (part_end q) (at_ y) (fun t => ~
-      Inside t /\ distinct = false) _ t _ S0 S1 T Z)).
+  - pose proof (part_inside y q H). refine (uncrossed (part_start q) (part_end q) (at_ y) Q _ t _ S0 S1 T Z).
     apply (restricted 0 1); [now apply One | lra | lra].
 Qed.
+Lemma dropped distinct three q : known_roots distinct three -> good three q ->
+  any_root three (roots q) = false -> answers (part_start q) (part_end q) separate.
+Proof. intros (_ & _ & One) G A t T Z. exact (proj1 (unasked three q _ One G A t T Z)). Qed.
 
 Lemma part_root three q : good three q -> any_root three (roots q) = true ->
   exists t, part_start q < t < part_end q /\ at_ y t = 0.
@@ -737,21 +738,22 @@ Qed.
 
 (** ** The decision *)
 
-(** The answer at a multiple root, and then distinct_ and three_real_roots_. *)
-Definition at_multiple_root : outcome * bool * bool :=
+(** multiple_root: as the root of c0 s + c1 t, if there is one inside; then distinct_, three_real_roots_ and triple_. *)
+Definition linear_of_multiple : option (R * R) * (bool * bool * bool) :=
   let h := hessian y in
   let discriminant := sign_of_real (4 * (c0 h * c2 h) - c1 h * c1 h) in
   let distinct := negb (same_sign discriminant zero) in
   let three := same_sign discriminant positive in
-  let answer :=
-    if distinct then undecided
-    else if is_0 (c2 h) then
-      let s := 3 * nth 3 y 0 in
-      if (if below_0 s then positive_at (- s) (nth 2 y 0) else positive_at s (- nth 2 y 0))
-      then collides else separate
-    else if below_0 (c1 h) && positive_at (2 * c2 h) (- c1 h) then collides
-    else undecided in
-  (answer, distinct, three).
+  if distinct then (None, (distinct, three, false))
+  else if is_0 (c2 h) then
+    let s := 3 * nth 3 y 0 in
+    (Some (if below_0 s then (- nth 2 y 0, - s) else (nth 2 y 0, s)), (distinct, three, true))
+  else (if below_0 (c1 h) then Some (c1 h, 2 * c2 h) else None, (distinct, three, false)).
+(** The answer there, distinct_ and three_real_roots_. *)
+Definition at_multiple_root : outcome * bool * bool :=
+  let '(root, (distinct, three, triple)) := linear_of_multiple in
+  let contact := match root with Some (p0, p1) => positive_at p1 (- p0) | None => false end in
+  (if contact then collides else if triple then separate else undecided, distinct, three).
 
 (** operator()(), with that many steps of the loop. *)
 Definition interior_contact (steps : nat) : outcome :=
@@ -773,60 +775,74 @@ Definition interior_contact (steps : nat) : outcome :=
 Lemma below_0_true a : below_0 a = true <-> a < 0.
 Proof. unfold below_0. destruct Rlt_dec; split; easy. Qed.
 
+(** What else is known of Y then: its only multiple root inside is the one told. *)
+Lemma linear_of_multiple_right : (1 < count (inner_sign_changes y))%nat ->
+  let '(root, (distinct, three, triple)) := linear_of_multiple in
+  ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\ (three = false -> discriminant y <= 0) /\
+  (distinct = true -> discriminant y <> 0) /\
+  match root with
+  | Some (p0, p1) => p0 < 0 < p1 /\ let r := - p0 / (p1 + - p0) in
+      at_ y r = 0 /\ (forall t, 0 < t < 1 -> multiple_root y t -> t = r) /\
+      (triple = true -> forall t, at_ y t = 0 -> t = r)
+  | None => triple = false /\ forall t, 0 < t < 1 -> discriminant y = 0 -> ~ multiple_root y t
+  end.
+Proof.
+  intros N. pose proof y_length as L. unfold linear_of_multiple. fold (discriminant y). set (h := hessian y). cbv zeta.
+  pose proof (sign_of_real_right (discriminant y)) as S. pose proof (never_uncertain (discriminant y)) as U.
+  assert (Moving : ~ Forall (eq 0) y) by (apply changes_moving; auto; lia).
+  destruct (sign_of_real (discriminant y)); try easy; simpl in S; cbn [same_sign negb].
+  1, 3: do 4 (split; [first [exact Moving | intros; lra | discriminate] |]); split; [easy | intros; lra].
+  destruct (is_0 (c2 h)) eqn:Z2; [| destruct (below_0 (c1 h)) eqn:B1].
+  - apply is_0_true in Z2. destruct (triple_root_place y L S Z2 N) as (Neg & Pos).
+    assert (Tell : forall p0 p1, p0 < 0 < p1 -> (forall u, at_ y u = 0 <-> u = - p0 / (p1 + - p0)) ->
+      p0 < 0 < p1 /\ let r := - p0 / (p1 + - p0) in at_ y r = 0 /\
+        (forall t, 0 < t < 1 -> multiple_root y t -> t = r) /\ (true = true -> forall t, at_ y t = 0 -> t = r)).
+    { intros p0 p1 P01 Only. split; auto. cbv zeta. split; [now apply Only |].
+      split; intros; apply Only; auto. destruct H0 as (a & k & E); rewrite E; unfold double_times, at_; simpl; ring. }
+    split; auto. split; [discriminate |]. split; [intros; lra |]. split; [discriminate |].
+    destruct (below_0 (3 * nth 3 y 0)) eqn:Bs.
+    + apply below_0_true in Bs. destruct (Neg Bs) as (T & Only). apply Tell; [lra |].
+      rewrite Ropp_involutive. exact Only.
+    + assert (Ps : 0 <= 3 * nth 3 y 0) by (apply Rnot_lt_le; intros K; apply below_0_true in K; congruence).
+      destruct (Pos Ps) as (Ps' & T & Only). apply Tell; [lra | exact Only].
+  - assert (N2 : c2 h <> 0) by (intros E; apply is_0_true in E; congruence). apply below_0_true in B1.
+    destruct (double_root_place y L S N2) as (P2 & Root & Only). fold h in P2, Root, Only.
+    split; auto. split; [discriminate |]. split; [intros; lra |]. split; [discriminate |]. split; [lra |]. cbv zeta.
+    split; [| split; [| discriminate]].
+    + assert (E : form y (2 * c2 h) (- c1 h) =
+        (2 * c2 h + - c1 h) ^ 3 * at_ y (- c1 h / (2 * c2 h + - c1 h))).
+      { clearbody h. revert L. generalize y. intros w L. four w L. apply cubic_at_ratio. lra. }
+      rewrite E in Root. apply Rmult_integral in Root. destruct Root as [Root |]; auto. exfalso.
+      revert Root. apply pow_nonzero. lra.
+    + intros t T M. now apply Only.
+  - assert (N2 : c2 h <> 0) by (intros E; apply is_0_true in E; congruence).
+    destruct (double_root_place y L S N2) as (_ & _ & Only). fold h in Only.
+    split; auto. split; [discriminate |]. split; [intros; lra |]. split; [discriminate |]. split; auto.
+    intros t T _ M. destruct (Only t T M) as (K & _). apply below_0_true in K. congruence.
+Qed.
 Lemma at_multiple_root_right : (1 < count (inner_sign_changes y))%nat ->
   let '(answer, distinct, three) := at_multiple_root in
   answers 0 1 answer /\ (answer = undecided -> known_roots distinct three).
 Proof.
-  intros N. pose proof y_length as L. assert (Moving : ~ Forall (eq 0) y) by (apply changes_moving; auto;
-    lia).
-  unfold at_multiple_root. fold (discriminant y). set (h := hessian y). cbv zeta.
-  pose proof (sign_of_real_right (discriminant y)) as S. pose proof (never_uncertain (discriminant y)) as U.
-  destruct (sign_of_real (discriminant y)); try easy; simpl in S; cbn [same_sign negb].
-  - split; [easy |]. intros _. split; [easy |]. split; [discriminate |]. intros _.
-    destruct (one_real_root y L ltac:(lra)) as (l0 & l1 & q & H). exists l0, l1, q. intros t T.
-    destruct (H t T) as (A & B' & M). split; auto. split; auto. intros Z. exfalso. destruct (M Z). lra.
-  - destruct (is_0 (c2 h)) eqn:Z2.
-    + apply is_0_true in Z2. destruct (triple_root_place y L S Z2 N) as (Neg & Pos).
-      destruct (below_0 (3 * nth 3 y 0)) eqn:Bs.
-      * apply below_0_true in Bs. destruct (Neg Bs) as (T & Only).
-        pose proof (positive_at_right (- (3 * nth 3 y 0)) (nth 2 y 0) ltac:(lra)) as Q.
-        destruct (positive_at _ _); split; try discriminate.
-        -- eexists. split; [| split; [now apply Only | now apply Q]].
-           split; [left; apply Rdiv_lt_0_compat; lra |].
-           apply Rmult_le_reg_r with (- (3 * nth 3 y 0) + nth 2 y 0); [lra |]. field_simplify; lra.
-        -- intros t _ Zt I. apply Only in Zt. subst t. apply Q in I. discriminate.
-      * assert (Ps : 0 <= 3 * nth 3 y 0).
-        { apply Rnot_lt_le. intros K. apply below_0_true in K. congruence. }
-        destruct (Pos Ps) as (Ps' & T & Only).
-        pose proof (positive_at_right (3 * nth 3 y 0) (- nth 2 y 0) ltac:(lra)) as Q.
-        destruct (positive_at _ _); split; try discriminate.
-        -- eexists. split; [| split; [now apply Only | now apply Q]].
-           split; [left; apply Rdiv_lt_0_compat; lra |].
-           apply Rmult_le_reg_r with (3 * nth 3 y 0 + - nth 2 y 0); [lra |]. field_simplify; lra.
-        -- intros t _ Zt I. apply Only in Zt. subst t. apply Q in I. discriminate.
-    + assert (N2 : c2 h <> 0) by (intros E; apply is_0_true in E; congruence).
-      destruct (double_root_place y L S N2) as (P2 & Root & Only). fold h in P2, Root, Only.
-      assert (K : below_0 (c1 h) && positive_at (2 * c2 h) (- c1 h) = false -> known_roots false false).
-      { intros F. split; [easy |]. split; [discriminate |]. intros _.
-        destruct (one_real_root y L ltac:(lra)) as (l0 & l1 & q & H). exists l0, l1, q. intros t T.
-        destruct (H t T) as (A & B' & Z). split; auto. split; auto. intros Zq. destruct (Z Zq) as (M & _).
-        split; auto. intros I. destruct (Only t T M) as (N1 & E).
-        rewrite (proj2 (below_0_true _) N1) in F. cbn [andb] in F.
-        pose proof (positive_at_right (2 * c2 h) (- c1 h) ltac:(lra)) as Q.
-        replace (2 * c2 h + - c1 h) with (2 * c2 h - c1 h) in Q by ring. rewrite <- E in Q.
-        apply Q in I. congruence. }
-      destruct (below_0 (c1 h) && positive_at (2 * c2 h) (- c1 h)) eqn:F; [| now split; auto].
-      split; [| discriminate]. apply andb_prop in F. destruct F as (F1 & F2). apply below_0_true in F1.
-      pose proof (positive_at_right (2 * c2 h) (- c1 h) ltac:(lra)) as Q. apply Q in F2.
-      exists (- c1 h / (2 * c2 h + - c1 h)). split; [| split; auto].
-      * split; [left; apply Rdiv_lt_0_compat; lra |].
-        apply Rmult_le_reg_r with (2 * c2 h + - c1 h); [lra |]. field_simplify; lra.
-      * assert (E : form y (2 * c2 h) (- c1 h) =
-          (2 * c2 h + - c1 h) ^ 3 * at_ y (- c1 h / (2 * c2 h + - c1 h))).
-        { clearbody h. revert L. generalize y. intros w L. four w L. apply cubic_at_ratio. lra. }
-        rewrite E in Root. apply Rmult_integral in Root. destruct Root as [Root |]; auto. exfalso.
-          revert Root.
-        apply pow_nonzero. lra.
+  intros N. pose proof (linear_of_multiple_right N) as M. pose proof y_length as L. unfold at_multiple_root.
+  destruct linear_of_multiple as [root [[distinct three] triple]]. destruct M as (Moving & Three & One & Dist & Root).
+  set (contact := match root with Some (p0, p1) => positive_at p1 (- p0) | None => false end).
+  assert (Asked : contact = true -> exists t, 0 <= t <= 1 /\ at_ y t = 0 /\ Inside t).
+  { unfold contact. destruct root as [[p0 p1] |]; [| discriminate]. destruct Root as (P01 & Z & _). intros Yes.
+    exists (- p0 / (p1 + - p0)). split; [| split; auto; now apply positive_at_right; [lra |]].
+    split; [left; apply Rdiv_lt_0_compat; lra |]. apply Rmult_le_reg_r with (p1 + - p0); [lra |]. field_simplify; lra. }
+  assert (Not : contact = false -> forall t, 0 < t < 1 -> multiple_root y t -> discriminant y = 0 -> ~ Inside t).
+  { unfold contact. destruct root as [[p0 p1] |]; [| intros _ t T M D _; now apply (proj2 Root t T D)].
+    destruct Root as (P01 & _ & Only & _). intros No t T M _ I. apply (Only t T) in M. subst t.
+    apply positive_at_right in I; [congruence | lra]. }
+  destruct contact eqn:Found; [now split; [apply Asked |] |]. destruct triple.
+  - split; [| discriminate]. destruct root as [[p0 p1] |]; [| now destruct Root].
+    destruct Root as (P01 & _ & _ & Only). intros t _ Zt I. apply (Only eq_refl) in Zt. subst t.
+    apply positive_at_right in I; [unfold contact in Found; congruence | lra].
+  - split; [easy |]. intros _. split; auto. split; auto. intros E.
+    destruct (one_real_root y L (One E)) as (l0 & l1 & q & H). exists l0, l1, q. intros t T.
+    destruct (H t T) as (A & B' & Z). split; auto. split; auto. intros Zq. destruct (Z Zq) as (M & D).
+    split; [now apply Not |]. destruct distinct; auto. now apply Dist in D.
 Qed.
 
 (** At some t in [0, 1], Y = 0 and all G_i > 0: what face_inside and edges_inside ask for. *)
@@ -958,6 +974,23 @@ Definition work (waiting : list part) : Z := fold_right (fun q sum => 3 ^ (41 - 
 Lemma work_positive waiting : (0 <= work waiting)%Z.
 Proof. induction waiting as [| q rest IH]; simpl; [lia |]. pose proof (Z.pow_nonneg 3 (41 - level q)). lia.
   Qed.
+Lemma next_work three q rest : (level q < max_halvings)%Z -> Forall (fun q => level q <= max_halvings)%Z rest ->
+  Forall (fun q => level q <= max_halvings)%Z (waiting_next three q rest) /\
+  (work (waiting_next three q rest) < work (q :: rest))%Z.
+Proof.
+  intros L F. unfold max_halvings in *. split.
+  - unfold waiting_next. apply Forall_app. split; auto. apply Forall_forall. intros h I. apply filter_In in I.
+    destruct I as ([<- | [<- | []]] & _); cbn [level left_of right_of]; lia.
+  - assert (P3 : (0 < 3 ^ (40 - level q))%Z) by (apply Z.pow_pos_nonneg; lia).
+    replace (work (q :: rest)) with (3 * 3 ^ (40 - level q) + work rest)%Z
+      by (unfold work; cbn [fold_right]; rewrite <- Z.pow_succ_r by lia; do 2 f_equal; ring).
+    assert (K : forall h tail, h = left_of q \/ h = right_of q -> work (h :: tail) = (3 ^ (40 - level q) +
+      work tail)%Z).
+    { intros h tail [-> | ->]; unfold work; cbn [fold_right level left_of right_of]; do 2 f_equal; ring. }
+    unfold waiting_next. cbn [filter].
+    destruct (any_root three (roots (left_of q))), (any_root three (roots (right_of q)));
+      cbn [app]; rewrite ?K by auto; lia.
+Qed.
 Lemma enough_steps distinct three steps : forall waiting found more,
   Forall (fun q => level q <= max_halvings)%Z waiting -> (work waiting < Z.of_nat steps)%Z -> (steps <=
     more)%nat ->
@@ -966,23 +999,14 @@ Proof.
   induction steps as [| steps IH]; intros waiting found more F W M.
   { pose proof (work_positive waiting). lia. }
   destruct more as [| more]; [lia |]. destruct waiting as [| q rest]; [easy |]. cbn [by_halving].
-  inversion_clear F as [| ? ? Fq Fr]. unfold work in W. cbn [fold_right] in W. fold (work rest) in W.
-    unfold max_halvings in Fq.
-  assert (P3 : (0 < 3 ^ (40 - level q))%Z) by (apply Z.pow_pos_nonneg; lia).
-  replace (41 - level q)%Z with (1 + (40 - level q))%Z in W by ring. rewrite Z.pow_add_r in W by lia.
+  inversion_clear F as [| ? ? Fq Fr]. pose proof (Z.pow_pos_nonneg 3 (41 - level q)) as P3.
+  assert (Wr : (work (q :: rest) = 3 ^ (41 - level q) + work rest)%Z) by easy. unfold max_halvings in Fq.
   destruct (without_halving distinct three q) as [[ | | ] |] eqn:E; try (apply IH; auto; lia); [easy |].
   assert (N : level q <> max_halvings).
   { intros N. unfold without_halving in E. rewrite N, Z.eqb_refl in E.
     destruct (negb _); [discriminate |]. destruct (if _ && _ then _ else _); discriminate. }
-  unfold max_halvings in *. apply IH; [| | lia].
-  - unfold waiting_next. apply Forall_app. split; auto. apply Forall_forall. intros h I. apply filter_In in I.
-    destruct I as ([<- | [<- | []]] & _); cbn [level left_of right_of]; lia.
-  - unfold waiting_next. cbn [filter].
-    assert (K : forall h tail, h = left_of q \/ h = right_of q -> work (h :: tail) = (3 ^ (40 - level q) +
-      work tail)%Z).
-    { intros h tail [-> | ->]; unfold work; cbn [fold_right level left_of right_of]; do 2 f_equal; ring. }
-    destruct (any_root three (roots (left_of q))), (any_root three (roots (right_of q)));
-      cbn [app]; rewrite ?K by auto; lia.
+  destruct (next_work three q rest) as (Fn & Wn); auto; [unfold max_halvings in *; lia |].
+  apply IH; auto; lia.
 Qed.
 
 Theorem interior_contact_ends : exists enough, forall steps, (enough <= steps)%nat ->

@@ -505,13 +505,15 @@ Qed.
 
 Theorem first_bracket_right v e0 e1 : let place := first_vertex_edge_contact v e0 e1 in
   (place = nowhere /\ ~ vertex_edge_collides v e0 e1) \/
-  exists t, first (vertex_on_edge v e0 e1) t /\ forall b, place_bracket place b -> holds_time double b t.
+  place <> nowhere /\
+    exists t, first (vertex_on_edge v e0 e1) t /\ forall b, place_bracket place b -> holds_time double b t.
 Proof.
   intros place. unfold place, first_vertex_edge_contact.
   destruct (first_contact_right (cross_x v e0 e1) (cross_y v e0 e1) (cross_z v e0 e1) (VertexEdge.between v e0 e1))
     as [(E & No) | (r & Told & T & H & Before)].
   - left. split; auto. intros (t & T & H). apply (No t T). now apply meets_contact.
-  - right. exists r. split; [| intros b B; now apply told_bracket with (2 := B)]. split; auto.
+  - right. split; [intros E; now rewrite E in Told |]. exists r.
+    split; [| intros b B; now apply told_bracket with (2 := B)]. split; auto.
     split; [now apply meets_contact |]. intros s S Hs. apply (Before s S). now apply meets_contact.
 Qed.
 

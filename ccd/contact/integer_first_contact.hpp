@@ -4,8 +4,8 @@
 // The first contact of a face or two edges is the earliest of those at their borders and of those
 // inside. Every contact has Y = 0. If Y ≡ 0, contact inside that does not begin at t = 0 begins at
 // a border. Proof: proofs/FirstContact.v, face_contact_root, edges_contact_root, face_times,
-// edges_times, face_planar_first, edges_planar_first; how brackets are put together,
-// proofs/IntegerTimes.v, face_composed_right, edges_composed_right.
+// edges_times, face_planar_first, edges_planar_first; of all that is put together here,
+// proofs/InteriorTime.v, face_time_right, edges_time_right.
 #pragma once
 
 #include <ccd/methods/forms.hpp>

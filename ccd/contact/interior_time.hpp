@@ -33,7 +33,8 @@ class interior_time : interior_contact<Words, Forms> {
                             const time_bracket& end)
         : base(forms, y, units), search_(y), first_(end) {}
 
-    /// The first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`.
+    /// The first time with Y = 0 and all G_i > 0, if its bracket is earlier than `end`; if Y ≡ 0,
+    /// of t = 0 and 1. Proof: proofs/InteriorTime.v, interior_time_right.
     constexpr found_time find() {
         if (y_[0] == 0) consider(time_bracket{0, 0}, [this] { return at_end(0); });
         if (y_[3] == 0) consider(time_bracket{1, 1}, [this] { return at_end(1); });
@@ -73,6 +74,7 @@ class interior_time : interior_contact<Words, Forms> {
     constexpr outcome at_end(int end) const { return strict(forms_at_end(forms_, end)); }
 
     /// Parts wait as in interior_contact::by_halving, the earliest last.
+    /// Proof: proofs/InteriorTime.v, in_parts_right, in_parts_ends.
     constexpr void in_parts(const inner_sign_changes& roots) {
         std::array<part, 3> waiting;
         std::size_t count = 0;
@@ -110,7 +112,8 @@ class interior_time : interior_contact<Words, Forms> {
 
     /// Considers the part's root if it is certainly the only one; false if not, or there is none.
     /// Beside a double root the weights found may be those there.
-    /// Proof that they are of a root inside the part: proofs/InteriorContact.v, near_here.
+    /// Proof: proofs/InteriorTime.v, asked_root; that the weights are of a root inside the part:
+    /// proofs/InteriorContact.v, near_here.
     constexpr bool root_of(const part& whole) {
         const bool others = this->three_real_roots_ || !this->distinct_;
         if (!whole.roots.opposite || (whole.roots.count > 1 && others)) return false;

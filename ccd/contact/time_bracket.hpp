@@ -3,7 +3,8 @@
 //
 // The polynomial has coefficients of fixed width and one sign change in a given interval. Where the
 // root is estimated to be decides how many signs are asked, never the answer: with a good estimate
-// two or three, else some dozens. Internal; the bracket of a root is the same whoever finds it.
+// two or three, else some dozens, at most 100. Internal; the bracket of a root is the same whoever
+// finds it.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +40,7 @@ constexpr double approximated(const errbound::integers::fixed_integer<Words>& x,
 }
 
 /// A polynomial of degree N on [0, 1] with coefficients h_i of `Words` words
-/// (errbound/bernstein.hpp), so small that Words words hold their sum's double.
+/// (errbound/bernstein.hpp), any but the least number that these hold.
 template <int Words, int N>
 class root_search {
   public:
@@ -57,7 +58,8 @@ class root_search {
     /// Its only root in the open interval from low to high, where it changes its sign, which is
     /// `before` just above low; or another of its roots there that is a double itself. Nothing if
     /// the root is so near to 0 that fixed widths cannot tell.
-    /// Proof: proofs/TimeBrackets.v, search_right.
+    /// Proof: proofs/TimeBrackets.v, search_right; of the loop, and that it asks at most 100 signs,
+    /// proofs/TimeSearch.v, between_searches, search_ends, double_numbers.
     constexpr std::optional<time_bracket> between(double low, double high,
                                                   errbound::sign_type before,
                                                   double estimate) const {
@@ -116,8 +118,8 @@ class root_search {
         if (bits <= 126) return value_in_words<2>(d.magnitude >> zeros, bits);
         return {};
     }
-    /// At numerator/2^bits: s + t = 2^bits, so that the form's value, below 2^(N·bits) times its
-    /// coefficients' sum, fits.
+    /// At numerator/2^bits, with s + t = 2^bits. Proof that all fits: proofs/TimeSearch.v,
+    /// search_widths.
     template <int T>
     constexpr value_type value_in_words(std::uint64_t numerator, int bits) const {
         using number = errbound::integers::fixed_integer<T>;

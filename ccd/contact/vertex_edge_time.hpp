@@ -34,7 +34,8 @@ struct found_time {
 
 /// The first root of f in (0, 1) where b <= 0, for an f whose coefficients have both signs, whose
 /// roots are f's only zeros that count.
-/// Proof: proofs/VertexEdgeTime.v, first_root_right.
+/// Proof: proofs/VertexEdgeTime.v, first_root_right; of its widths, proofs/TimeSearch.v,
+/// first_root_widths.
 template <int Words>
 constexpr found_time first_root_nonpositive(const quadratic_form<Words>& f,
                                             const quadratic_form<Words>& b) {
