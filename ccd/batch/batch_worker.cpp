@@ -22,7 +22,7 @@ constexpr instruction_set_entry entries[] = {
     {instruction_set::baseline, "baseline", &baseline::kernels, [] { return true; }},
 #ifdef ERRBOUND_HAVE_X86_KERNELS
     {instruction_set::avx2, "avx2", &avx2::kernels,
-     [] { return __builtin_cpu_supports("avx2") != 0; }},
+     [] { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; }},
     {instruction_set::avx512, "avx512", &avx512::kernels,
      [] {
          return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&

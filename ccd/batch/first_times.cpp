@@ -23,6 +23,21 @@ namespace {
 
 constexpr const char* caller = "ccd::first_times";
 
+/// Copies those queries that `some` name, as many at a time as stay in the first cache, and calls
+/// find(them, times).
+template <class Query, class Find>
+void time_by_blocks(std::span<timed_contact> some, std::span<const Query> all, const Find& find) {
+    constexpr std::size_t most = 64;
+    std::array<Query, most> queries;
+    std::array<first_time, most> times;
+    for (std::size_t first = 0; first < some.size(); first += most) {
+        const std::size_t size = std::min(most, some.size() - first);
+        for (std::size_t i = 0; i < size; ++i) queries[i] = all[some[first + i].query];
+        find(std::span<const Query>(queries).first(size), times.data());
+        for (std::size_t i = 0; i < size; ++i) some[first + i].time = times[i];
+    }
+}
+
 /// Queries, however they are given, and what is asked of them.
 template <class Pair>
 class indexed_questions {
@@ -59,15 +74,13 @@ class indexed_questions {
         });
         return answers;
     }
-    /// Of some queries with a contact, the time in [0, 1].
-    std::vector<first_time> contact_times(std::span<const std::size_t> some) const {
-        std::vector<Pair> pairs;
-        pairs.reserve(some.size());
-        for (const std::size_t i : some) pairs.push_back(pairs_[i]);
-        std::vector<first_time> times(some.size());
+    /// Of some queries, the time in [0, 1].
+    void time_contacts(std::span<timed_contact> some) const {
+        const batch_positions positions(positions_);
         const batch_worker worker(kernels_for(options_.set), false);
-        worker.find_times(batch_positions(positions_), std::span<const Pair>(pairs), times.data());
-        return times;
+        time_by_blocks<Pair>(some, pairs_, [&](std::span<const Pair> block, first_time* times) {
+            worker.find_times(positions, block, times);
+        });
     }
 
   private:
@@ -103,14 +116,11 @@ class stored_questions {
         });
         return answers;
     }
-    std::vector<first_time> contact_times(std::span<const std::size_t> some) const {
-        std::vector<Query> queries;
-        queries.reserve(some.size());
-        for (const std::size_t i : some) queries.push_back(queries_[i]);
-        std::vector<first_time> times(some.size());
+    void time_contacts(std::span<timed_contact> some) const {
         const batch_worker worker(kernels_for(options_.set), false);
-        worker.find_times(std::span<const Query>(queries), times.data());
-        return times;
+        time_by_blocks<Query>(some, queries_, [&](std::span<const Query> block, first_time* times) {
+            worker.find_times(block, times);
+        });
     }
 
   private:
@@ -125,27 +135,51 @@ std::vector<std::size_t> all_that_are(outcome wanted, const std::vector<outcome>
     return found;
 }
 
+/// Those that are not separate in [0, 1], their times yet unknown. Most are: a pack of bytes at
+/// once is compared in a tenth of the time.
+std::vector<timed_contact> possible_contacts(const std::vector<outcome>& answers) {
+    constexpr std::size_t block = 16;
+    std::vector<timed_contact> possible;
+    possible.reserve(answers.size() -
+                     static_cast<std::size_t>(std::ranges::count(answers, outcome::separate)));
+    for (std::size_t first = 0; first < answers.size(); first += block) {
+        const std::size_t end = std::min(first + block, answers.size());
+        bool all_separate = end == first + block;
+        if (all_separate)
+            for (std::size_t i = 0; i < block; ++i)
+                all_separate &= answers[first + i] == outcome::separate;
+        if (all_separate) continue;
+        for (std::size_t i = first; i < end; ++i)
+            if (answers[i] != outcome::separate) possible.push_back({i, {answers[i]}});
+    }
+    return possible;
+}
+
+template <class Questions>
+std::vector<timed_contact> contacts_among(const Questions& asked) {
+    std::vector<timed_contact> found = possible_contacts(asked.decisions());
+    const time_options& options = asked.options();
+    if (options.distances.ask_for_contact())
+        for_each_part(found.size(), options.threads, [&](std::size_t begin, std::size_t end) {
+            asked.time_contacts(std::span(found).subspan(begin, end - begin));
+        });
+    else
+        for_each_index(found.size(), options.threads, [&](std::size_t i) {
+            auto& [query, time] = found[i];
+            time = time_within(asked.query(query), asked.distance(query), options.t_max);
+        });
+    std::erase_if(found, [&](const timed_contact& c) {
+        return c.time.outcome == outcome::separate ||
+               (c.time.outcome == outcome::collides && c.time.high > options.t_max);
+    });
+    return found;
+}
+
 template <class Questions>
 std::vector<first_time> all_times(const Questions& asked) {
-    const std::vector<outcome> answers = asked.decisions();
-    std::vector<first_time> times(asked.size());
-    std::ranges::transform(answers, times.begin(), [](outcome o) { return first_time{o}; });
-    const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);
-    const time_options& options = asked.options();
-    if (!options.distances.ask_for_contact()) {
-        for_each_index(contacts.size(), options.threads, [&](std::size_t i) {
-            const std::size_t query = contacts[i];
-            times[query] = time_within(asked.query(query), asked.distance(query), options.t_max);
-        });
-        return times;
-    }
-    for_each_part(contacts.size(), options.threads, [&](std::size_t begin, std::size_t end) {
-        const std::span part = std::span(contacts).subspan(begin, end - begin);
-        const std::vector<first_time> found = asked.contact_times(part);
-        for (std::size_t i = 0; i < part.size(); ++i)
-            times[part[i]] =
-                found[i].high > options.t_max ? first_time{outcome::separate} : found[i];
-    });
+    const std::vector<timed_contact> contacts = contacts_among(asked);
+    std::vector<first_time> times(asked.size(), first_time{outcome::separate});
+    for (const timed_contact& c : contacts) times[c.query] = c.time;
     return times;
 }
 
@@ -185,12 +219,12 @@ class earliest_of_thread {
 };
 
 /// A contact's time costs less than to see that it is not the earliest.
-earliest_time earliest_of_times(const std::vector<first_time>& times) {
+earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
     earliest_of_thread all;
     std::vector<std::size_t> unknown;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        if (times[i].outcome == outcome::uncertain) unknown.push_back(i);
-        if (times[i].outcome == outcome::collides) all.add(times[i], i);
+    for (const auto& [query, time] : contacts) {
+        if (time.outcome == outcome::uncertain) unknown.push_back(query);
+        if (time.outcome == outcome::collides) all.add(time, query);
     }
     if (!unknown.empty()) return {{}, std::move(unknown), {}};
     return std::move(all).sorted();
@@ -227,7 +261,8 @@ void lower(std::atomic<double>& bound, double value) {
 /// the upper end of the least bracket yet found, itself included.
 template <class Questions>
 earliest_time earliest_of_all(const Questions& asked) {
-    if (asked.options().distances.ask_for_contact()) return earliest_of_times(all_times(asked));
+    if (asked.options().distances.ask_for_contact())
+        return earliest_of_times(contacts_among(asked));
     const std::vector<outcome> answers = asked.decisions();
     if (std::vector unknown = all_that_are(outcome::uncertain, answers); !unknown.empty())
         return {{}, std::move(unknown), {}};
@@ -262,6 +297,17 @@ std::vector<outcome> decisions_of_queries(std::span<const Query> queries,
     return stored_questions<Query>(queries, options).decisions();
 }
 template <class Pair>
+std::vector<timed_contact> contacts_among_pairs(const vertex_rows& positions,
+                                                std::span<const Pair> pairs,
+                                                const time_options& options) {
+    return contacts_among(indexed_questions<Pair>(positions, pairs, options));
+}
+template <class Query>
+std::vector<timed_contact> contacts_among_queries(std::span<const Query> queries,
+                                                  const time_options& options) {
+    return contacts_among(stored_questions<Query>(queries, options));
+}
+template <class Pair>
 std::vector<first_time> times_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
                                        const time_options& options) {
     return all_times(indexed_questions<Pair>(positions, pairs, options));
@@ -286,6 +332,11 @@ template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
                                                  const time_options&);
 template std::vector<outcome> decisions_of_queries(std::span<const vertex_face<double>>,
                                                    const time_options&);
+template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
+                                                         std::span<const vertex_face_pair>,
+                                                         const time_options&);
+template std::vector<timed_contact> contacts_among_queries(std::span<const vertex_face<double>>,
+                                                           const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&,
                                                 std::span<const vertex_face_pair>,
                                                 const time_options&);
@@ -300,6 +351,11 @@ template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
                                                  const time_options&);
 template std::vector<outcome> decisions_of_queries(std::span<const edge_edge<double>>,
                                                    const time_options&);
+template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
+                                                         std::span<const edge_edge_pair>,
+                                                         const time_options&);
+template std::vector<timed_contact> contacts_among_queries(std::span<const edge_edge<double>>,
+                                                           const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
                                                 const time_options&);
 template std::vector<first_time> times_of_queries(std::span<const edge_edge<double>>,
@@ -312,6 +368,11 @@ template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
                                                  const time_options&);
 template std::vector<outcome> decisions_of_queries(std::span<const vertex_edge<double>>,
                                                    const time_options&);
+template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
+                                                         std::span<const vertex_edge_pair>,
+                                                         const time_options&);
+template std::vector<timed_contact> contacts_among_queries(std::span<const vertex_edge<double>>,
+                                                           const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&,
                                                 std::span<const vertex_edge_pair>,
                                                 const time_options&);
@@ -326,6 +387,11 @@ template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
                                                  const time_options&);
 template std::vector<outcome> decisions_of_queries(std::span<const vertex_vertex<double>>,
                                                    const time_options&);
+template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
+                                                         std::span<const vertex_vertex_pair>,
+                                                         const time_options&);
+template std::vector<timed_contact> contacts_among_queries(std::span<const vertex_vertex<double>>,
+                                                           const time_options&);
 template std::vector<first_time> times_of_pairs(const vertex_rows&,
                                                 std::span<const vertex_vertex_pair>,
                                                 const time_options&);

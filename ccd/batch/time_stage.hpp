@@ -2,7 +2,8 @@
 //
 // Every contact is at a root of Y. So where Y certainly has but one root, that is the time; where
 // it has two, contact is at the first if the G_i certainly are positive there, and at the second if
-// one certainly is negative. The neighbouring doubles between which a root lies are found by
+// one certainly is negative. How many it has is told by signs on two parts of the step. The
+// neighbouring doubles between which a root lies are found by
 // Newton's method, and proved by Y's signs there, in twice double's precision with an error bound.
 #pragma once
 
@@ -25,12 +26,14 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int newton_steps = 9;
+constexpr double converged = 0x1p-28;  ///< the next step of Newton's would move by its square
 constexpr int neighbours_tried = 3;
 
 template <int N>
 using pack_values = errbound::roots::control_values<pack, N>;
 
-/// The value and the slope at t of the polynomial that has these control values.
+/// The value, off by 16ε of the largest control value more than those are, and the slope at t of
+/// the polynomial that has these control values (de Casteljau).
 template <int N>
 struct value_and_slope {
     pack value, slope;
@@ -123,44 +126,93 @@ inline pack neighbour(const pack& t, const pack_mask& after) {
                   xsimd::bitwise_cast<pack>(bits - integers(1)));
 }
 
-/// The only root of a part from `from` to `to`, where `before` (1 or -1) is Y's sign before it; y
-/// are Y's control values on the whole step.
-template <kind K>
-pack_times bracket_of_root(const twofold_y<K>& exact, const pack_values<3>& y, const pack& from,
-                           const pack& to, const pack& before) {
-    const pack at_from = value_and_slope<3>(y, from).value, at_to = value_and_slope<3>(y, to).value;
-    pack low = from, high = to, t = from + (to - from) * (at_from / (at_from - at_to)), slope;
-    for (int i = 0; i < newton_steps; ++i) {
-        const value_and_slope<3> there(y, t);
-        const pack_mask earlier = there.value * before > pack(0.0);
-        low = select(earlier, t, low);
-        high = select(earlier, high, t);
-        slope = there.slope;
-        const pack next = t - there.value / slope;
-        t = select((next >= low) & (next <= high), next, (low + high) * pack(0.5));
+/// A part of the step where Y certainly has one root: its sign before it is `before`, 1 or -1.
+struct pack_parts {
+    pack from, to, before;
+};
+
+/// A root of Y, whose control values on the whole step are y, and its slope there.
+struct pack_roots {
+    pack t, slope;
+
+    /// By Newton's method in the lanes that are `wanted`, in floating point.
+    pack_roots(const pack_values<3>& y, const pack_parts& part, const pack_mask& wanted) {
+        const pack at_from = value_and_slope<3>(y, part.from).value;
+        const pack at_to = value_and_slope<3>(y, part.to).value;
+        pack low = part.from, high = part.to;
+        t = low + (high - low) * (at_from / (at_from - at_to));
+        for (int i = 0; i < newton_steps; ++i) {
+            const value_and_slope<3> there(y, t);
+            const pack_mask earlier = there.value * part.before > pack(0.0);
+            low = select(earlier, t, low);
+            high = select(earlier, high, t);
+            slope = there.slope;
+            const pack newton = t - there.value / slope;
+            const pack next =
+                select((newton >= low) & (newton <= high), newton, (low + high) * pack(0.5));
+            const pack_mask moving = wanted & (abs(next - t) > pack(converged));
+            t = next;
+            if (none(moving)) break;
+        }
     }
+};
+
+/// The neighbouring doubles that a part's root is between, from what it is estimated to be.
+template <kind K>
+pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
+                           const pack_parts& part, const pack_mask& wanted) {
     // Control values are 3 times what Y's are.
     constexpr double scale = errbound::roots::multiple(3);
-    t = min(max(t - pack(scale) * exact.at(t) / slope, from), to);
-    pack value = before * exact.at(t);
+    pack t = root.t - pack(scale) * exact.at(root.t) / root.slope;
+    t = min(max(t, part.from), part.to);
+    pack value = part.before * exact.at(t);
     pack_times found{t, t, pack_mask(false)};
     for (int i = 0; i < neighbours_tried; ++i) {
         const pack_mask earlier = value > exact.error(), later = value < -exact.error();
         const pack other = neighbour(t, earlier);
-        const pack value_there = before * exact.at(other);
+        const pack value_there = part.before * exact.at(other);
         const pack_mask opposite =
             (earlier & (value_there < -exact.error())) | (later & (value_there > exact.error()));
         const pack_mask now = opposite & !found.told;
         found.low = select(now, min(t, other), found.low);
         found.high = select(now, max(t, other), found.high);
         found.told = found.told | now;
-        if (all(found.told)) break;
+        if (all(found.told | !wanted)) break;
         t = other;
         value = value_there;
     }
-    found.told = found.told & (found.low >= from) & (found.high <= to) & (found.low > pack(0.0));
+    found.told = wanted & found.told & (found.low >= part.from) & (found.high <= part.to) &
+                 (found.low > pack(0.0));
     return found;
 }
+
+/// Whether at the first root of Y, near t, all G_i are certainly positive or one is certainly
+/// negative. Certain signs of Y bracket the root, and within the bracket no G_i changes by more
+/// than 8 of its largest control value's size times the bracket's width.
+template <kind K>
+struct signs_at_root {
+    pack_mask inside = pack_mask(true), outside = pack_mask(false);
+
+    /// y_error bounds the error of Y's value at any time; before that root its sign is `before`.
+    signs_at_root(const static_filter::whole_step<pack, forms_of_kind<K>::template type>& whole,
+                  const pack& y_error, const pack& t, const pack& before) {
+        const pack reach(0x1p-28);
+        const auto y_at = [&](const pack& time) {
+            return before * value_and_slope<3>(whole.forms.y, time).value;
+        };
+        const pack_mask bracketed = (y_at(max(t - reach, pack(0.0))) > y_error) &
+                                    (y_at(min(t + reach, pack(1.0))) < -y_error);
+        for (const auto& g : whole.forms.g) {
+            const pack value = value_and_slope<4>(g, t).value;
+            const pack error =
+                whole.errors.g + pack(16 * epsilon + 8 * 0x1p-28) * static_filter::size_of(g);
+            inside = inside & (value > error);
+            outside = outside | (value < -error);
+        }
+        inside = inside & bracketed;
+        outside = outside & bracketed;
+    }
+};
 
 /// The times of a pack of queries that collide.
 template <kind K>
@@ -195,35 +247,37 @@ class time_stage {
         const pack zero(0.0), one(1.0);
         const pack before = select(y[0] > zero, one, -one);
 
-        const pack_mask single = exact.usable() & static_filter::changes_sign_once(y, error);
-        const pack turn = turning_point(y, before);
-        const parts_of_cubic parts(y, turn);
+        // An odd number of roots is taken for one, an even number for two.
+        const pack_mask odd = y[0] * y[3] < zero;
+        const pack split = select(odd, pack(0.5), turning_point(y, before));
+        const parts_of_cubic parts(y, split);
         const pack of_parts = error + pack(32 * epsilon) * static_filter::size_of(y);
-        const pack_mask two = exact.usable() & (turn > zero) & (turn < one) &
-                              static_filter::changes_sign_once(parts.before, of_parts) &
-                              static_filter::changes_sign_once(parts.after, of_parts);
-        pack_times found = bracket_of_root(exact, y, zero, select(single, one, turn), before);
-        found.told = found.told & (single | two);
-        if (none(two)) return found;
-
-        // Which of the two roots it is.
-        const static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(f, extents);
-        pack_mask inside(true), outside(false);
-        for (const auto& g : whole.forms.g) {
-            // At the root, which is less than ε away: its slope is at most 8 control values.
-            const pack value = value_and_slope<4>(g, found.low).value;
-            const pack g_error = whole.errors.g + pack(64 * epsilon) * static_filter::size_of(g);
-            inside = inside & (value > g_error);
-            outside = outside | (value < -g_error);
+        const auto has_one = [&](const pack_values<3>& c) {
+            return static_filter::changes_sign_once(c, of_parts);
+        };
+        const auto has_none = [&](const pack_values<3>& c) {
+            return static_filter::above(c, of_parts) | static_filter::below(c, of_parts);
+        };
+        const pack_mask usable = exact.usable() & (split > zero) & (split < one);
+        const pack_mask one_before = has_one(parts.before), one_after = has_one(parts.after);
+        const pack_mask early = usable & one_before & has_none(parts.after);
+        const pack_mask late = usable & has_none(parts.before) & one_after;
+        const pack_mask two = usable & one_before & one_after;
+        pack_parts part{select(late, split, zero), select(late, one, split), before};
+        pack_mask certain = early | late | two;
+        if (none(certain)) return {zero, zero, certain};
+        pack_roots root(y, part, certain);
+        if (any(two)) {
+            const static_filter::whole_step<pack, forms_of_kind<K>::template type> whole(f,
+                                                                                         extents);
+            const signs_at_root<K> signs(whole, of_parts, root.t, before);
+            certain = early | late | (two & (signs.inside | signs.outside));
+            const pack_mask second = two & signs.outside;
+            part = {select(second, split, part.from), select(second, one, part.to),
+                    select(second, -before, before)};
+            if (any(second)) root = pack_roots(y, part, certain);
         }
-        const pack_mask second = two & found.told & outside;
-        found.told = found.told & (single | inside);
-        if (none(second)) return found;
-        const pack_times later = bracket_of_root(exact, y, turn, one, -before);
-        found.low = select(second, later.low, found.low);
-        found.high = select(second, later.high, found.high);
-        found.told = select_mask(second, later.told, found.told);
-        return found;
+        return bracket_of_root(exact, root, part, certain);
     }
 
     /// Where y, with that sign at 0, is extreme on the other side; anything if it is nowhere.
@@ -234,9 +288,6 @@ class time_stage {
         // that without cancellation.
         const pack q = (d0 - d1) + root, other = (d0 - d1) - root;
         return select(abs(q) >= abs(other), q / ((d0 - d1) - (d1 - d2)), d0 / other);
-    }
-    static pack_mask select_mask(const pack_mask& which, const pack_mask& a, const pack_mask& b) {
-        return (which & a) | (!which & b);
     }
 };
 

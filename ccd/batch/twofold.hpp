@@ -24,6 +24,8 @@ struct twofold {
         const pack value = a * b;
 #if defined __AVX512F__
         return {value, _mm512_fmsub_pd(a, b, value)};
+#elif defined __FMA__
+        return {value, _mm256_fmsub_pd(a, b, value)};
 #else
         const auto halves = [](const pack& x) {
             const pack c = x * pack(0x1p27 + 1);  // Veltkamp's splitting

@@ -108,7 +108,7 @@ inline vertex_vertex<double> query_of(const vertex_rows& rows, const vertex_vert
 /// What the kernels are compiled for.
 enum class instruction_set : std::uint8_t {
     baseline,  ///< what every machine of the architecture has (SSE2 on x86-64)
-    avx2,
+    avx2,      ///< with FMA
     avx512,
 };
 /// Those that this build holds and this machine runs, weakest first.

@@ -90,7 +90,7 @@ void add_batch_rows(const query_set<Query>& set, double distance, const options&
         within.distances.all = distance;
         const auto timings =
             race({[&] { keep(ccd::decide_within_batch(set.rows, set.by_index, contact)); },
-                  [&] { keep(ccd::first_times(set.rows, set.by_index, contact)); },
+                  [&] { keep(ccd::timed_contacts(set.rows, set.by_index, contact)); },
                   [&] { keep(ccd::decide_within_batch(set.rows, set.by_index, within)); }},
                  o.repeats());
         const auto near = ccd::decide_within_batch(set.rows, set.by_index, within);

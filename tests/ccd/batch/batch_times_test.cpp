@@ -71,6 +71,14 @@ ccd::earliest_time earliest_of(const std::vector<first_time>& times) {
     return found;
 }
 
+/// All that are not separate.
+std::vector<ccd::timed_contact> contacts_of(const std::vector<first_time>& times) {
+    std::vector<ccd::timed_contact> contacts;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (times[i].outcome != outcome::separate) contacts.push_back({i, times[i]});
+    return contacts;
+}
+
 void expect_same(const ccd::earliest_time& found, const ccd::earliest_time& expected) {
     EXPECT_EQ(found.time, expected.time);
     EXPECT_EQ(found.queries, expected.queries);
@@ -94,6 +102,7 @@ TYPED_TEST(FirstTimes, AreThoseOfOneByOne) {
         const auto expected = one_by_one(rows, pairs, options);
         for (options.threads = 0; options.threads < 3; ++options.threads) {
             EXPECT_EQ(ccd::first_times(rows, pairs, options), expected);
+            EXPECT_EQ(ccd::timed_contacts(rows, pairs, options), contacts_of(expected));
             expect_same(ccd::earliest(rows, pairs, options), earliest_of(expected));
         }
     }
@@ -107,7 +116,9 @@ TYPED_TEST(FirstTimes, OfStoredQueriesAreTheSame) {
     for (const TypeParam& pair : pairs) queries.push_back(query_of(rows, pair));
     for (const ccd::time_options& options :
          {ccd::time_options{}, ccd::time_options{.t_max = 0.75, .distances = {0.125}}}) {
-        EXPECT_EQ(ccd::first_times(queries, options), ccd::first_times(rows, pairs, options));
+        const auto expected = ccd::first_times(rows, pairs, options);
+        EXPECT_EQ(ccd::first_times(queries, options), expected);
+        EXPECT_EQ(ccd::timed_contacts(queries, options), contacts_of(expected));
         expect_same(ccd::earliest(queries, options), ccd::earliest(rows, pairs, options));
     }
 }
@@ -129,6 +140,8 @@ TEST(FirstTimesOf, CoordinatesThatAreNotFiniteAreUncertain) {
     const auto times = ccd::first_times(rows, pairs);
     EXPECT_EQ(times[1], first_time());
     EXPECT_TRUE(times[2].at_start());
+    EXPECT_EQ(ccd::timed_contacts(rows, pairs, {.t_max = -1}),
+              (std::vector<ccd::timed_contact>{{1, {}}, {3, {}}}));
     const auto first = ccd::earliest(rows, pairs);
     EXPECT_EQ(first.time.outcome, outcome::uncertain);
     EXPECT_EQ(first.queries, (std::vector<std::size_t>{1, 3}));
