@@ -101,6 +101,15 @@ TEST(contact_data, of_a_touch_without_crossing_is_on_the_side_it_came_from) {
     expect_normal(found, normal_source::cross_product, {0, 0, -1}, 0);
     EXPECT_TRUE(found.sided);
 }
+TEST(contact_data, weights_error_counts_what_its_own_rounding_loses) {
+    // At t = 1/3 weights are 2^-54 and 2^-54 + 2^-106/3, and the first is 1 less both: twice a tie,
+    // rounded to 1 each time.
+    const auto found = ccd::find_first_contact(
+        over_triangle({0x1p-54, 0x1p-54, 1}, {0x1p-54, 0x1p-54 + 0x1p-106, -2}));
+    EXPECT_EQ(found.weights, (std::array<double, 4>{1, 1, 0x1p-54, 0x1p-54}));
+    EXPECT_GT(found.weight_error, 0x1p-53);
+    EXPECT_LE(found.weight_error, 0x1p-52);
+}
 TEST(contact_data, at_the_start_has_no_side) {
     for (const double end : {-1.0, 1.0}) {
         const auto found = ccd::find_first_contact(over_triangle({0.25, 0.5, 0}, {0.25, 0.5, end}));
