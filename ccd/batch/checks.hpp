@@ -5,6 +5,7 @@
 #include <ccd/batch.hpp>
 #include <ccd/first_times.hpp>
 #include <ccd/kind.hpp>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -36,10 +37,16 @@ inline void check_pointers(const char* caller, const vertex_rows& rows) {
                                     ": found a null pointer, expected positions");
 }
 
+/// In the fewest digits that name it.
+inline std::string text_of(double x) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, x).ptr};
+}
+
 inline void check_t_max(const char* caller, double t_max) {
     if (!(std::abs(t_max) <= std::numeric_limits<double>::max()))
-        throw std::invalid_argument(std::string(caller) + ": found a t_max of " +
-                                    std::to_string(t_max) + ", expected a finite one");
+        throw std::invalid_argument(std::string(caller) + ": found a t_max of " + text_of(t_max) +
+                                    ", expected a finite one");
 }
 
 /// That distances are finite and not negative, given one way, and of `vertices` vertices where they
@@ -49,7 +56,7 @@ inline void check_distances(const char* caller, const pair_distances& distances,
     const auto check = [caller](double distance, const std::string& of) {
         if (!(distance >= 0 && distance <= std::numeric_limits<double>::max()))
             throw std::invalid_argument(std::string(caller) + ": found " + of + " " +
-                                        std::to_string(distance) +
+                                        text_of(distance) +
                                         ", expected a finite one that is not negative");
     };
     check(distances.all, "a distance of");

@@ -177,6 +177,15 @@ class obj_parser {
         }
     }
 
+    /// With a sign or without, as numbers of vertices.
+    static bool read_index(std::string_view token, std::int64_t& index) {
+        const bool plus = token.starts_with('+') && !token.starts_with("+-");
+        if (plus) token.remove_prefix(1);
+        const char* const end = token.data() + token.size();
+        const auto [stop, error] = std::from_chars(token.data(), end, index);
+        return error == std::errc{} && stop == end;
+    }
+
     /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0.
     vertex_index corner(std::string_view word) const {
         std::array<std::int64_t, 3> indices{};
@@ -185,12 +194,12 @@ class obj_parser {
             const std::size_t slash = rest.find('/');
             const std::string_view token = rest.substr(0, slash);
             const bool last = slash == std::string_view::npos;
-            const bool may_be_empty = part == 1 && !last;  // v//vn
-            const char* const end = token.data() + token.size();
-            const auto [stop, ec] = std::from_chars(token.data(), end, indices[part]);
-            if ((ec != std::errc{} || stop != end) && !(token.empty() && may_be_empty)) {
-                fail("found " + excerpt(word) + ", expected v, v/vt, v//vn or v/vt/vn, integers");
-            }
+            const bool is_left_out = token.empty() && part == 1 && !last;  // v//vn
+            const bool is_index = read_index(token, indices[part]) &&
+                                  (part == 0 || indices[part] != 0);  // v is judged below
+            if (!is_index && !is_left_out)
+                fail("found " + excerpt(word) +
+                     ", expected v, v/vt, v//vn or v/vt/vn, integers other than 0");
             if (last) break;
             if (part == 2) fail("found " + excerpt(word) + ", expected at most v/vt/vn");
             rest.remove_prefix(slash + 1);

@@ -184,7 +184,7 @@ TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
     EXPECT_EQ(refused({.t_max = std::numeric_limits<double>::quiet_NaN()}),
               "ccd::first_times: found a t_max of nan, expected a finite one");
     EXPECT_EQ(refused({.distances = {-1}}),
-              "ccd::first_times: found a distance of -1.000000, expected a finite one that is not "
+              "ccd::first_times: found a distance of -1, expected a finite one that is not "
               "negative");
     const std::vector<double> few(3), wrong(vertices, std::numeric_limits<double>::infinity());
     EXPECT_EQ(refused({.distances = {0, few}}),

@@ -292,7 +292,7 @@ TEST(Obj, Reads) {
     const mesh m = parse_mesh_obj(
         "# comment\r\nmtllib a.mtl\no thing\nv 0 0 0\nv 0.1\t1e-310 -2 1.0 # with w\n"
         "v 1 2 3 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\ns off\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 3//1 2//1\n"
-        "f -3/1/1 -2/-1/-1 -1/1/1\nv 5 5 5\nf -1 1 2",
+        "f -3/1/1 -2/-1/-1 -1/1/1\nv 5 5 5\nf -1 +1 2",
         "m");
     expect_same(m, {{{0, 0, 0}, {0.1, 1e-310, -2}, {1, 2, 3}, {5, 5, 5}},
                     {{0, 1, 2}, {0, 1, 2}, {0, 2, 1}, {0, 1, 2}, {3, 0, 1}}});
@@ -326,6 +326,10 @@ TEST(Obj, BadInput) {
     EXPECT_EQ(obj_error("v 0 nan 0\n"), "m.obj:1: found 'nan', expected a finite number");
     EXPECT_EQ(obj_error("v 0 -inf 0\n"), "m.obj:1: found '-inf', expected a finite number");
     EXPECT_EQ(obj_error("v 0 1,5 0\n"), "m.obj:1: found '1,5', expected a number");
+    for (const char* corner : {"1/0", "1//0", "+-1", "++1", "+", "1/", "/1"})
+        EXPECT_EQ(obj_error(three + "f " + corner + " 2 3\n"),
+                  "m.obj:4: found '" + std::string(corner) +
+                      "', expected v, v/vt, v//vn or v/vt/vn, integers other than 0");
     EXPECT_EQ(obj_error(three + "f 1 2\n"),
               "m.obj:4: found a face with 2 vertices, expected a triangle");
     EXPECT_EQ(obj_error(three + "f 1 2 3 1\n"),

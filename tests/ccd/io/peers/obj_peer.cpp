@@ -85,7 +85,8 @@ std::optional<std::array<std::int64_t, 3>> corner(std::string_view word) {
         const std::string_view token = word.substr(0, word.find('/'));
         const char* const end = token.data() + token.size();
         const bool absent = part == 1 && token.empty() && word.size() > 1;
-        const auto [stop, error] = std::from_chars(token.data(), end, parts[part]);
+        const bool plus = token.starts_with('+') && !token.starts_with("+-");
+        const auto [stop, error] = std::from_chars(token.data() + plus, end, parts[part]);
         if (!absent && (error != std::errc{} || stop != end)) return std::nullopt;
         if (token.size() == word.size()) return parts;
         word.remove_prefix(token.size() + 1);
@@ -179,14 +180,14 @@ constexpr std::array differences{
                ends_in_backslash, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n# \\\n"},
     difference{refused, "edges of a group without faces are lost where the next group begins",
                loses_edges, "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 1\ng next\nf 1 2 3\n"},
-    difference{read, "indices of textures and normals, which we skip, may not be 0",
+    difference{read, "the lowest bits of indices of textures and normals may not be 0",
                [](std::string_view text) {
                    return any_word(text, "fl", [](const std::string& word) {
                        const auto parts = corner(word);
                        return parts && (is_zero((*parts)[1]) || is_zero((*parts)[2]));
                    });
                },
-               "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/0 2/0 3/0\n"},
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/4294967296 2 3\n"},
     difference{read, "point elements, which we skip, must have indices",
                [](std::string_view text) {
                    return any_line(text, [](const words& line) {
