@@ -61,8 +61,8 @@ class report_run final : public command {
         line_.add_flag("--quick", settings_.quick, "Fewer queries are timed");
         line_
             .add_option("--sections", settings_.sections,
-                        "Only these: methods, times, bounds, tightness (needs a build with\n"
-                        "MPFR), stress")
+                        "Only these: methods, times, contacts, bounds, tightness (needs a build\n"
+                        "with MPFR), stress")
             ->type_name("S[,S...]")
             ->delimiter(',')
             ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),

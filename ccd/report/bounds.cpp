@@ -1,8 +1,8 @@
 // How large each rule's bounds are: the six critical variables of BSC, the paper's Figure 8.
 #include <errbound/validation/rule_list.hpp>
 
+#include "ccd/report/measuring/statistics.hpp"
 #include "ccd/report/sections.hpp"
-#include "ccd/report/statistics.hpp"
 
 namespace ccd::report {
 namespace {

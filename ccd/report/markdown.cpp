@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <set>
 
+#include "ccd/report/measuring/statistics.hpp"
 #include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
-#include "ccd/report/statistics.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::report {
@@ -157,6 +157,7 @@ std::string all_of(const summary& report, const std::string& heading,
 }
 
 std::string all_data(const summary& report) {
+    if (report.methods.empty()) return "";
     const auto from_scenes = [](const row& r) { return r["origin"] == name(origin::scene); };
     return all_of(report, "## All data", [](const row&) { return true; }) +
            "Errors are counted on all queries; uncertain answers count as collisions. ns per "
@@ -172,6 +173,7 @@ std::string all_data(const summary& report) {
 
 /// The paper's Figure 11: its benchmarks are our data sets, its columns our methods.
 std::string figure_11(const summary& report) {
+    if (report.methods.empty()) return "";
     struct column {
         std::string_view method, title;
     };
@@ -259,6 +261,39 @@ std::string tightness(const summary& report) {
            table(heading, 2, lines);
 }
 
+/// Of `exact`: brackets, then costs.
+std::string first_contacts(const summary& report) {
+    if (report.contacts.empty()) return "";
+    rows all = report.contacts;
+    for (row& r : all) {
+        const auto set_ratio = [&r](const char* column, const char* time, const char* decision) {
+            if (r.contains(time)) r[column] = r[time].get<double>() / r[decision].get<double>();
+        };
+        set_ratio("batch_ratio", "ns_batch_time", "ns_batch_decision");
+        set_ratio("ratio", "ns_time", "ns_decision");
+    }
+    return "## First contacts\n\nBy `exact`, in [0, 1]: the time of a contact is a double, or in a "
+           "bracket of two neighbouring ones, whose width is in t. Data sets, then families of "
+           "stress, over all values of their knobs.\n\n" +
+           table({"data", "kind", "queries", "contacts", "at the start", "at another double",
+                  "two neighbours", "width, median", "width, largest"},
+                 2,
+                 {"data_set", "kind", "queries", "contacts", "at_start", "one_double", "neighbours",
+                  "width_median", "width_largest"},
+                 all) +
+           "Cost: ns per query, one thread, the least of several passes in turn; yes or no, and "
+           "with "
+           "the first time. On the right of queries with a contact alone, one by one.\n\n" +
+           table({"data", "kind", "timed", "batch: yes or no", "and time", "ratio",
+                  "one by one: yes or no", "and time", "ratio", "with a contact", "yes or no",
+                  "and time"},
+                 2,
+                 {"data_set", "kind", "timed", "ns_batch_decision", "ns_batch_time", "batch_ratio",
+                  "ns_decision", "ns_time", "ratio", "timed_contacts", "ns_contact_decision",
+                  "ns_contact_time"},
+                 all);
+}
+
 std::string notes(const summary& report) {
     const std::string clock =
         report.times.empty() ? "0" : digits(report.times.front()["clock_ns"].get<double>());
@@ -283,8 +318,8 @@ std::string markdown_of(const summary& report) {
     for (const picture& p : report.pictures) {
         text += "![" + p.caption + "](" + p.file + ")\n\n" + p.caption + "\n\n";
     }
-    return text + figure_11(report) + tightness(report) + data(report) + per_data_set(report) +
-           notes(report);
+    return text + figure_11(report) + first_contacts(report) + tightness(report) + data(report) +
+           per_data_set(report) + notes(report);
 }
 
 }  // namespace ccd::report

@@ -3,9 +3,9 @@
 #include <tbb/parallel_reduce.h>
 
 #include "ccd/batch/threads.hpp"
+#include "ccd/report/measuring/statistics.hpp"
 #include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
-#include "ccd/report/statistics.hpp"
 
 namespace ccd::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace ccd::report {

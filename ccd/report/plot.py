@@ -372,6 +372,44 @@ def times():
     save(figure, "times")
 
 
+# ---- First contacts ----
+
+def contacts():
+    rows = table("contacts.csv")
+    if not rows:
+        return
+    names = [f"{r['data_set']}, {r['kind']}" for r in rows]
+    figure, (kinds, costs) = plt.subplots(1, 2, figsize=(9, 1.2 + 0.17 * len(rows)), sharey=True,
+                                          gridspec_kw={"width_ratios": (2, 3)})
+    shares = (("at_start", "at the start"), ("one_double", "at another double"),
+              ("neighbours", "between two neighbours"))
+    left = numpy.zeros(len(rows))
+    for (key, label), colour in zip(shares, COLOURS):
+        share = numpy.array([r[key] / max(r["contacts"], 1) for r in rows])
+        kinds.barh(range(len(rows)), share, left=left, color=colour, height=0.7, label=label)
+        left += share
+    kinds.set_title("Times of contacts")
+    kinds.set_xlim(0, 1)
+    kinds.set_xlabel("share of contacts")
+    asked = (("ns_batch_", "s", "in batches"), ("ns_", "o", "one by one"),
+             ("ns_contact_", "d", "one by one, of contacts alone"))
+    for (prefix, mark, label), colour in zip(asked, COLOURS[3:]):
+        costs.plot([r[prefix + "time"] / r[prefix + "decision"] for r in rows], range(len(rows)),
+                   mark, ms=5, color=colour, mec="white", mew=0.6, label=label)
+    costs.axvline(1, color=INK, lw=0.7)
+    costs.set_title("First times beside yes or no")
+    costs.set_xlabel("time with first times / time of yes or no")
+    kinds.set_yticks(range(len(rows)))
+    kinds.set_yticklabels(names, fontsize=8)
+    kinds.set_ylim(len(rows) - 0.4, -0.6)
+    for axes in (kinds, costs):
+        axes.grid(axis="y", visible=False)
+        axes.legend(loc="upper left", bbox_to_anchor=(0, -0.45 / figure.get_figheight() - 0.04),
+                    frameon=False, fontsize=8)
+    figure.tight_layout()
+    save(figure, "contacts")
+
+
 # ---- Stress heat maps ----
 
 def stress():
@@ -432,5 +470,5 @@ def heat_map(value, families, methods, knob_names, name, title, is_time):
     save(figure, name)
 
 
-for draw in (paretos, bounds, tightness, times, stress):
+for draw in (paretos, bounds, tightness, times, contacts, stress):
     draw()

@@ -73,6 +73,12 @@ std::vector<std::string> failures_of(const summary& report) {
                                .append(" in " + r["part"].get<std::string>())
                                .append(": " + r["broken"].get<std::string>()));
     }
+    for (const row& r : report.contacts) {
+        if (r.contains("broken"))
+            failures.push_back("first contacts on " + r["data_set"].get<std::string>() + ", " +
+                               r["kind"].get<std::string>() + ": " +
+                               r["broken"].get<std::string>());
+    }
     for (const row& r : report.stress) {
         if (!r.contains("broken")) continue;
         failures.push_back(r["method"].get<std::string>() + ": " + r["broken"].get<std::string>() +
@@ -119,6 +125,10 @@ const std::vector<picture>& possible_pictures() {
          "Bounds on the rounding error of the six critical variables of BSC under each rule, "
          "relative to the query's largest control value |k| of Y (the paper's Figure 8)."},
         {"times.png", "Times of single queries: median, 99 %, 99.9 % and the slowest."},
+        {"contacts.png",
+         "First contacts by exact: whether their time is a double or between two neighbouring "
+         "ones, and what it costs beside yes or no, in which there is nothing to find for queries "
+         "without a contact."},
         {"tightness.png",
          "How much larger each rule's bounds are than the true errors, by MPFR: in random "
          "expressions "
@@ -137,6 +147,24 @@ const std::vector<std::string> method_columns{"data_set",   "origin",          "
                                               "ns_median"};
 const std::vector<std::string> time_columns{"data_set", "kind",  "method",  "timed",    "ns_median",
                                             "ns_90",    "ns_99", "ns_99_9", "ns_worst", "clock_ns"};
+const std::vector<std::string> contact_columns{"data_set",
+                                               "origin",
+                                               "kind",
+                                               "queries",
+                                               "contacts",
+                                               "at_start",
+                                               "one_double",
+                                               "neighbours",
+                                               "width_median",
+                                               "width_largest",
+                                               "timed",
+                                               "ns_batch_decision",
+                                               "ns_batch_time",
+                                               "ns_decision",
+                                               "ns_time",
+                                               "timed_contacts",
+                                               "ns_contact_decision",
+                                               "ns_contact_time"};
 const std::vector<std::string> tightness_columns{"part",  "rule",  "number",  "quantity", "measure",
                                                  "count", "exact", "unknown", "q0",       "q1",
                                                  "q25",   "q50",   "q75",     "q99",      "q100"};
@@ -231,6 +259,7 @@ void write_tables(const summary& report) {
         const rows& table;
     } tables[] = {{"methods", method_columns, report.methods},
                   {"times", time_columns, report.times},
+                  {"contacts", contact_columns, report.contacts},
                   {"bounds", bound_columns, report.bounds},
                   {"tightness", tightness_columns, report.tightness},
                   {"stress", stress_columns, report.stress}};
@@ -305,6 +334,7 @@ summary make(const options& settings, const std::function<void(double, const std
 
     report.methods = joined(list.errors, list.speeds);
     report.times = list.times;
+    report.contacts = list.contacts;
     report.bounds = list.bounds;
     report.tightness = list.tightness;
     report.stress = list.stress;

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/data_set.hpp"
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/data_set.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "ccd/report/parts.hpp"
 
 namespace ccd::report {
@@ -18,8 +18,8 @@ namespace ccd::report {
 inline constexpr std::string_view batch_name = "exact, batch";
 
 /// What can be asked for, by the name of its CSV file.
-inline constexpr std::string_view section_names[] = {"methods", "times", "bounds", "tightness",
-                                                     "stress"};
+inline constexpr std::string_view section_names[] = {"methods", "times",     "contacts",
+                                                     "bounds",  "tightness", "stress"};
 
 struct options {
     std::vector<std::filesystem::path> data;  ///< folders
@@ -67,7 +67,8 @@ struct summary {
     std::vector<data_summary> data;
     std::vector<omission> left_out;
     std::size_t parts = 0, resumed = 0;  ///< of the parts, those found from an earlier run
-    rows methods, times, bounds, tightness, stress;  ///< of the CSV files of these names
+    /// Of the CSV files of these names.
+    rows methods, times, contacts, bounds, tightness, stress;
     std::vector<picture> pictures;
     std::vector<std::string> failures;  ///< broken promises and contradictions, a sentence each
 };

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/data_set.hpp"
+#include "ccd/report/measuring/data_set.hpp"
+#include "ccd/report/measuring/timing.hpp"
 #include "ccd/report/parts.hpp"
-#include "ccd/report/timing.hpp"
 #include "ccd/stress/families.hpp"
 
 namespace ccd::report {
@@ -58,6 +58,17 @@ rows time_queries(const queries_with_truth<Query>& data, const std::vector<std::
 /// and variable.
 template <class Query>
 rows take_bounds(const queries_with_truth<Query>& data, const sample_sizes& size);
+
+/// First contacts by `exact`: how wide their brackets are, and what they cost beside yes or no, on
+/// one thread, in batches and one by one: a row, none of no queries. What is no bracket, or
+/// contradicts yes or no, is reported in the column `broken`.
+template <class Query>
+rows find_contacts(const query_set<Query>& queries, const sample_sizes& size, int threads,
+                   const progress& show);
+/// The same of a family of stiff and extreme queries, over all values of its knob: a row for each
+/// kind.
+rows find_contacts(const stress::family& family, const sample_sizes& size, int threads,
+                   const progress& show);
 
 /// Methods on one family of stiff and extreme queries: a row for each value of the knob, kind and
 /// method. A broken promise is reported in the columns `broken` (how) and `query` (which).

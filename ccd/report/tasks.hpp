@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/report/data_set.hpp"
+#include "ccd/report/measuring/data_set.hpp"
 #include "ccd/report/parts.hpp"
 #include "ccd/report/report.hpp"
 #include "ccd/report/sections.hpp"
@@ -35,11 +35,24 @@ class task_list {
     void add_others();
 
     std::vector<task> tasks;
-    rows errors, speeds, times, bounds, tightness, stress;
+    rows errors, speeds, times, contacts, bounds, tightness, stress;
 
   private:
+    /// Of a data set, the queries of a kind.
+    struct part_of {
+        const data_set& data;
+        ccd::kind kind;
+    };
+
     template <class Query>
     void add(const data_set& data, const queries_with_truth<Query>& known);
+    template <class Query>
+    void add_methods(const part_of& part, const queries_with_truth<Query>& known);
+    void add_methods(const stress::family& family);
+    void add_contacts(const stress::family& family);
+    void add_tightness();
+    void add_part(const part_of& part, const std::string& what, row depends_on, double cost,
+                  std::function<rows(const progress&)> measure, rows& into);
     void add(std::string name, row depends_on, double cost, row about,
              std::function<rows(const progress&)> measure, rows& into);
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "errbound/support/output_file.hpp"
 #include "tests/bench/gpu_peaks.hpp"
 #include "tests/bench/harness.hpp"

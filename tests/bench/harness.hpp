@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/timing.hpp"
+#include "ccd/report/measuring/timing.hpp"
 
 namespace bench {
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "errbound/support/output_file.hpp"
 #include "tests/bench/sections.hpp"
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "tests/bench/harness.hpp"
 #include "tests/errbound/roots/flint_polynomial.hpp"
 #include "tests/errbound/roots/polynomial_families.hpp"

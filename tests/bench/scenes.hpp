@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ccd/report/query_set.hpp"
+#include "ccd/report/measuring/query_set.hpp"
 
 namespace bench {
 

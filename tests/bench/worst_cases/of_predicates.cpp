@@ -1,7 +1,7 @@
 #include <errbound/predicates.hpp>
 #include <utility>
 
-#include "ccd/report/timing.hpp"
+#include "ccd/report/measuring/timing.hpp"
 #include "tests/bench/worst_cases/subjects.hpp"
 
 namespace worst_cases {

@@ -7,7 +7,7 @@
 #include <ccd/step.hpp>
 #include <cstring>
 
-#include "ccd/report/timing.hpp"
+#include "ccd/report/measuring/timing.hpp"
 #include "tests/bench/worst_cases/subjects.hpp"
 
 namespace worst_cases {

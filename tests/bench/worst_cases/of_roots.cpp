@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "ccd/report/timing.hpp"
+#include "ccd/report/measuring/timing.hpp"
 #include "tests/bench/worst_cases/subjects.hpp"
 
 namespace worst_cases {

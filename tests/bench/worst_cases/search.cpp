@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ccd/report/timing.hpp"
+#include "ccd/report/measuring/timing.hpp"
 #include "tests/support/query_families.hpp"
 
 namespace worst_cases {

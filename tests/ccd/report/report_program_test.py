@@ -37,12 +37,12 @@ class Report(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
 
-    def report(self, *arguments, pictures=False, status=0):
+    def report(self, *arguments, sections="methods,times,bounds", pictures=False, status=0):
         environment = dict(os.environ)
         if not pictures:
             environment["PYTHONPATH"] = str(self.directory / "no")
         done = subprocess.run(
-            [PROGRAM, "report", "--quick", "--sections", "methods,times,bounds", "--out", self.out,
+            [PROGRAM, "report", "--quick", "--sections", sections, "--out", self.out,
              *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False,
             env=environment)
         self.assertEqual(done.returncode, status, done.stderr)
@@ -79,6 +79,24 @@ class Report(unittest.TestCase):
             self.assertEqual(times, sorted(times))
         self.assertEqual({r["variable"] for r in self.table("bounds.csv")},
                          {"Y(0)", "Y(1)", "Y'(0)", "Y'(1)", "Y''(0)", "Y''(1)"})
+
+    def test_first_contacts(self):
+        self.write("hits/vertex-face/1.csv", "".join(f"{line},1\n" for line in HIT))
+        self.report(self.data, sections="contacts")
+        rows = {(r["data_set"], r["kind"]): r for r in self.table("contacts.csv")}
+        counts = ("queries", "contacts", "at_start", "one_double", "neighbours")
+        self.assertEqual([rows["hits", "vf"][c] for c in counts], ["1", "1", "0", "1", "0"])
+        self.assertEqual([rows["falling", "vf"][c] for c in counts[:2]], ["3", "3"])
+        for r in rows.values():
+            self.assertEqual(sum(int(r[c]) for c in counts[2:]), int(r["contacts"]))
+            if r["width_largest"]:
+                self.assertLessEqual(float(r["width_largest"]), 2.0**-53)
+            self.assertGreater(float(r["ns_batch_time"]), 0)
+        self.assertIn(("touch-start", "ee"), rows)
+        self.assertNotIn(("not-finite", "ee"), rows)
+        markdown = (self.out / "report.md").read_text()
+        self.assertIn("## First contacts", markdown)
+        self.assertIn("| double-root | vf | ", markdown)
 
     def test_goes_on_where_it_was(self):
         def resumed(text):
@@ -135,9 +153,10 @@ class Report(unittest.TestCase):
 
     @unittest.skipUnless(HAVE_MATPLOTLIB, "no matplotlib")
     def test_pictures(self):
-        self.report(self.data, "--method", "float,exact", pictures=True)
+        self.report(self.data, "--method", "float,exact", pictures=True,
+                    sections="methods,times,contacts,bounds")
         markdown = (self.out / "report.md").read_text()
-        for name in ("pareto", "bounds", "times"):
+        for name in ("pareto", "bounds", "times", "contacts"):
             self.assertTrue((self.out / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
             self.assertIn("<svg", (self.out / f"{name}.svg").read_text())
             self.assertIn(f"]({name}.png)", markdown)

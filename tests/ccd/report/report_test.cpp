@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "ccd/report/measuring/statistics.hpp"
 #include "ccd/report/sections.hpp"
-#include "ccd/report/statistics.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace {
@@ -174,6 +174,68 @@ TEST_F(Report, SceneTruthIsComparedWithWhatIsStored) {
     EXPECT_THROW(load(), errbound::support::file_error);
     write("s/boxes/0vf.json", "[[3,12]]");
     EXPECT_THROW(load(), errbound::support::file_error);
+}
+
+// A triangle, and one that falls through it across two of its edges.
+std::string crossing_frame(double z) {
+    std::string text;
+    for (const char* corner : {"0 0 ", "1 0 ", "0 1 "}) text += std::string("v ") + corner + "0\n";
+    for (const char* corner : {"0.4 -0.5 ", "0.4 0.3 ", "2 -0.4 "})
+        text += std::string("v ") + corner + std::to_string(z) + '\n';
+    return text + "f 1 2 3\nf 4 5 6\n";
+}
+
+TEST_F(Report, StoredPairsOfEdgesAreInAnyOrder) {
+    write("s/frames/0.obj", crossing_frame(1));
+    write("s/frames/1.obj", crossing_frame(-1));
+    // Edges follow 6 vertices: 01 02 12 34 35 45.
+    write("s/boxes/0ee.json", "[[9,6],[8,11],[10,7]]");
+    write("s/mma_bool/0ee_mma_bool.json", "[true,true,false]");
+    const auto data = report::load(report::find_data({folder_}).sources.at(0), 1);
+    EXPECT_EQ(data->queries.edge_edge.colliding, 2U);
+    EXPECT_EQ(data->queries.edge_edge.stored_truths, 3U);
+    EXPECT_EQ(data->queries.edge_edge.contradictions, 0U);
+}
+
+TEST_F(Report, FirstContactsAreInBracketsOfTwoNeighbours) {
+    // The vertex touches at 1/2, or at 1/3, or not at all, or at the start.
+    std::string third = hit, start = hit;
+    third.replace(third.find("-1"), 2, "-2");
+    start.replace(start.find(",1"), 2, ",0");
+    write("vf/1.csv", std::string(hit) + third + miss + start + hit);
+    const auto data = report::load(report::find_data({folder_}).sources.at(0), 1);
+    const rows all = report::find_contacts(data->queries.vertex_face.queries, report::sizes(true),
+                                           1, [](double) {});
+    ASSERT_EQ(all.size(), 1U);
+    const row& r = all[0];
+    EXPECT_EQ(r["queries"], 5);
+    EXPECT_EQ(r["contacts"], 4);
+    EXPECT_EQ(r["at_start"], 1);
+    EXPECT_EQ(r["one_double"], 2);
+    EXPECT_EQ(r["neighbours"], 1);
+    EXPECT_EQ(r["width_largest"], 0x1p-54);
+    EXPECT_EQ(r["timed_contacts"], 4);
+    EXPECT_GT(r["ns_batch_time"], 0);
+    EXPECT_FALSE(r.contains("broken")) << r;
+    EXPECT_TRUE(
+        report::find_contacts(data->queries.edge_edge.queries, report::sizes(true), 1, [](double) {
+        }).empty());
+}
+
+TEST_F(Report, FirstContactsOfStressAreOfBothKinds) {
+    report::sample_sizes few = report::sizes(true);
+    few.stress_queries = 2;
+    few.repeats = 1;
+    for (const ccd::stress::family& family : ccd::stress::families()) {
+        if (family.name != "touch-start" && family.name != "double-root") continue;
+        const rows all = report::find_contacts(family, few, 1, [](double) {});
+        ASSERT_EQ(all.size(), 2U);
+        for (const row& r : all) {
+            EXPECT_EQ(r["queries"], 2 * family.knobs.size());
+            EXPECT_GT(r["contacts"], 0);
+            EXPECT_FALSE(r.contains("broken")) << r;
+        }
+    }
 }
 
 TEST_F(Report, BoundsOfEveryRuleCoverTheSixVariables) {

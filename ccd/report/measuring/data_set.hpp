@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ccd/report/query_set.hpp"
+#include "ccd/report/measuring/query_set.hpp"
 
 namespace ccd::report {
 

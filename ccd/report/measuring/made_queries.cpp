@@ -1,6 +1,6 @@
 // Queries that the program makes itself: what a bundled scene lacks.
-#include "ccd/report/data_set.hpp"
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/data_set.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "ccd/stress/generators/contacts.hpp"
 #include "ccd/stress/generators/coordinates.hpp"
 

@@ -1,4 +1,4 @@
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/machine.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "ccd/report/data_set.hpp"
+#include "ccd/report/measuring/data_set.hpp"
 
 #include <algorithm>
 #include <ccd/io/mesh_file.hpp>
@@ -11,7 +11,7 @@
 #include <set>
 #include <tuple>
 
-#include "ccd/report/machine.hpp"
+#include "ccd/report/measuring/machine.hpp"
 #include "ccd/step/elements.hpp"
 #include "errbound/support/output_file.hpp"
 
@@ -148,8 +148,7 @@ class numbered_elements {
         } else {
             if (std::min(i, j) < vertices_ || std::max(i, j) - vertices_ >= edges_.size())
                 return std::nullopt;
-            const edge &a = edges_[i - vertices_], &b = edges_[j - vertices_];
-            return Pair{a[0], a[1], b[0], b[1]};
+            return detail::candidate_of(edges_[i - vertices_], edges_[j - vertices_]);
         }
     }
 

@@ -1,4 +1,4 @@
-#include "ccd/report/timing.hpp"
+#include "ccd/report/measuring/timing.hpp"
 
 #include <algorithm>
 #include <limits>
