@@ -186,7 +186,7 @@ class query final : public command {
                 throw usage_error(std::string(option) + ": found " + std::to_string(files_.size()) +
                                   " files and " + std::to_string(methods.size()) +
                                   " methods, expected one FILE and one --method");
-        errbound::support::require_separate({verdicts_, toi_, json_}, files_);
+        errbound::support::require_good_outputs({verdicts_, toi_, json_}, files_);
 
         // Nothing is printed or written unless all files are good.
         const std::vector<result> results = decide_files(methods, device, asked);

@@ -341,8 +341,8 @@ class step final : public command {
                     "--device cpu");
         }
         check_times();
-        errbound::support::require_separate({pairs_, toi_, advance_, json_},
-                                            {asked_.before, asked_.after});
+        errbound::support::require_good_outputs({pairs_, toi_, advance_, json_},
+                                                {asked_.before, asked_.after});
         if (asked_.before == "/dev/stdin" && asked_.after == "/dev/stdin")
             throw usage_error("FRAME0 and FRAME1: found standard input twice, expected once");
     }

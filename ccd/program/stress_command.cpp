@@ -55,7 +55,7 @@ class stress_run final : public command {
         plan_.queries = quick_ && line_.count("--queries") == 0 ? 100 : queries_;
         plan_.seconds = quick_ ? 0.002 : 0.02;
         if (out_.json && out_.folder)
-            errbound::support::require_separate(
+            errbound::support::require_good_outputs(
                 {out_.json}, {*out_.folder / "stress.csv", *out_.folder / "stress.md"});
         return stress::run_and_write(plan_, out_, errbound::support::stream_for_people({out_.json}))
                    ? done

@@ -12,7 +12,7 @@ namespace {
 
 using errbound::support::all_named;
 using errbound::support::entry_named;
-using errbound::support::require_separate;
+using errbound::support::require_good_outputs;
 
 enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2 };
 
@@ -77,7 +77,7 @@ struct command_line {
         arguments.kind = ccd::find_kind(kind);
         arguments.expressions =
             validate->count("--expressions") > 0 || (!arguments.tiny && arguments.queries.empty());
-        require_separate({arguments.json, arguments.csv}, arguments.queries);
+        require_good_outputs({arguments.json, arguments.csv}, arguments.queries);
         return run_validate(arguments) ? done : violations_found;
     }
 };

@@ -65,9 +65,10 @@ inline std::ostream& stream_for_people(
     return std::cout;
 }
 
-/// An output must be neither an input nor another output: nothing is lost.
-inline void require_separate(const std::vector<std::optional<std::filesystem::path>>& outputs,
-                             std::vector<std::filesystem::path> taken) {
+/// An output must be neither an input nor another output, so that nothing is lost, and writable,
+/// so that no work is.
+inline void require_good_outputs(const std::vector<std::optional<std::filesystem::path>>& outputs,
+                                 std::vector<std::filesystem::path> taken) {
     for (const auto& output : outputs) {
         if (!output) continue;
         for (const std::filesystem::path& other : taken) {
@@ -81,6 +82,7 @@ inline void require_separate(const std::vector<std::optional<std::filesystem::pa
                 throw usage_error("found the output '" + output->string() +
                                   "' among the inputs or twice, expected a file of its own");
         }
+        require_writable(*output);
         taken.push_back(*output);
     }
 }

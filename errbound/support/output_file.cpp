@@ -176,6 +176,19 @@ std::optional<int> descriptor_of(const fs::path& path) {
     return std::nullopt;
 }
 
+void require_writable(const fs::path& path) {
+    if (descriptor_of(path)) return;
+    const auto require = [&path](const std::string& place, int rights) {
+        if (access(place.c_str(), rights) != 0)
+            throw file_error(path.string() + ": cannot be written" + reason());
+    };
+    const std::optional<std::string> file = file_behind(path);
+    if (!file || fs::exists(*file)) require(file.value_or(path.native()), W_OK);
+    if (!file) return;
+    const std::string folder = file->substr(0, file->rfind('/') + 1);
+    require(folder.empty() ? "." : folder, W_OK | X_OK);
+}
+
 void write_whole(const std::vector<output>& outputs) {
     const deferred_signals deferred;
     std::vector<temporary_file> files;

@@ -19,6 +19,10 @@ struct output {
 /// /dev/fd/N and /proc/self/fd/N are N.
 std::optional<int> descriptor_of(const std::filesystem::path& path);
 
+/// Throws file_error where write_whole certainly will, as far as can be told before there is
+/// anything to write: missing folders and rights, names that are no file's.
+void require_writable(const std::filesystem::path& path);
+
 /// Writes all outputs, or none where one cannot be written (full disk, limit on a file's size,
 /// missing rights): each goes to a temporary file beside its path, and once all are there they are
 /// renamed. Pipes, devices and open descriptors, which can be neither replaced nor taken back, are

@@ -32,6 +32,22 @@ TEST(Output, WholeOrNotAtAll) {
     EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
 }
 
+TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
+    const temporary_directory directory;
+    const auto refusal = [](const fs::path& path) {
+        return message_of([&] { errbound::support::require_writable(path); });
+    };
+    write_whole(directory.path / "file", "one");
+    for (const fs::path& good : {fs::path("here"), fs::path("-"), fs::path("/dev/null"),
+                                 directory.path / "new", directory.path / "file"})
+        EXPECT_EQ(refusal(good), "no error") << good;
+    EXPECT_NE(refusal(directory.path).find("found a directory"), std::string::npos);
+    EXPECT_NE(refusal(directory.path / "no" / "out").find("No such file"), std::string::npos);
+    EXPECT_NE(refusal(directory.path / "file" / "out").find("cannot be written"),
+              std::string::npos);
+    EXPECT_EQ(read_whole(directory.path / "file"), "one");
+}
+
 TEST(Output, LinksAndDevicesStayWhatTheyAre) {
     const temporary_directory directory;
     const fs::path file = directory.path / "out", link = directory.path / "link";
