@@ -1,26 +1,50 @@
-// What the exact decisions share: a cheap rejection of vertex/edge queries, and the contact of two
-// vertices over any exact scalar.
+// What the exact decisions share: a cheap rejection of any query, and the contact of two vertices
+// over any exact scalar.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <ccd/kind.hpp>
 #include <ccd/methods/forms.hpp>
 #include <ccd/methods/transform.hpp>
 #include <ccd/query.hpp>
+#include <cstddef>
 
 namespace ccd::detail {
 
-/// True if some coordinate axis separates v from the edge the same way at t = 0 and at t = 1, and
-/// therefore, the motion being linear, throughout. Proof: proofs/AxisUnits.v, separated_right.
-constexpr bool separated_by_coordinates(const vertex_edge<double>& q) {
-    bool apart = false;
-    for (const auto axis : {&point<double>::x, &point<double>::y, &point<double>::z}) {
-        const double v0 = q.v.t0.*axis, v1 = q.v.t1.*axis;
-        const double a0 = q.e0.t0.*axis, a1 = q.e0.t1.*axis;
-        const double b0 = q.e1.t0.*axis, b1 = q.e1.t1.*axis;
-        // Without branches: which axis separates them, if any, is as good as random.
-        const bool above = (v0 > a0) & (v1 > a1) & (v0 > b0) & (v1 > b1);
-        const bool below = (v0 < a0) & (v1 < a1) & (v0 < b0) & (v1 < b1);
-        apart |= above | below;
+/// The extents of some points of a query, which has them as rows of x, y, z at the start and then
+/// at the end of the step.
+struct ends_extents {
+    std::array<double, 6> least, most;
+
+    constexpr ends_extents(const std::array<double, 6>* points, std::size_t count)
+        : least(points[0]), most(points[0]) {
+        for (std::size_t i = 1; i < count; ++i)
+            for (std::size_t k = 0; k < 6; ++k) {
+                least[k] = points[i][k] < least[k] ? points[i][k] : least[k];
+                most[k] = points[i][k] > most[k] ? points[i][k] : most[k];
+            }
     }
+};
+
+/// True if some coordinate axis separates the features the same way at t = 0 and at t = 1, and
+/// therefore, the motion being linear, throughout. Coordinates must be finite. Compilers make
+/// vectors of it. Proof: proofs/Decisions.v, face_separated, edges_separated; proofs/AxisUnits.v,
+/// separated_right.
+template <class Query>
+constexpr bool separated_by_coordinates(const Query& query) {
+    using traits = kind_traits<kind_constant<Query>::value>;
+    constexpr std::size_t first = traits::first_vertices, second = traits::second_vertices;
+    const auto points = std::bit_cast<std::array<std::array<double, 6>, first + second>>(query);
+    const ends_extents p(points.data(), first), q(points.data() + first, second);
+    std::array<bool, 6> above{}, below{};
+    for (std::size_t k = 0; k < 6; ++k) {
+        above[k] = p.least[k] > q.most[k];
+        below[k] = p.most[k] < q.least[k];
+    }
+    bool apart = false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        apart |= (above[axis] & above[axis + 3]) | (below[axis] & below[axis + 3]);
     return apart;
 }
 

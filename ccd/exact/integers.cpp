@@ -2,6 +2,7 @@
 #include "ccd/exact/integers.hpp"
 
 #include "ccd/exact/axis_units.hpp"
+#include "ccd/exact/features.hpp"
 #include "ccd/exact/integer_decision.hpp"
 
 namespace ccd::detail {
@@ -10,8 +11,12 @@ namespace {
 template <template <class> class Query>
 verdict decide_any(const Query<double>& query) {
     const integer_units units(query);
-    if (!units.finite() || units.bits() > extent_limit(2))
+    if (!units.finite()) return {outcome::uncertain, cause::range};
+    if (units.bits() > extent_limit(2)) {
+        // What comparing coordinates tells, at whatever scale.
+        if (separated_by_coordinates(query)) return {outcome::separate, cause::none};
         return {outcome::uncertain, cause::range};
+    }
     const outcome found = units.bits() <= extent_limit(1) ? decide_in_words<1>(query, units)
                                                           : decide_in_words<2>(query, units);
     return {found, found == outcome::uncertain ? cause::inside : cause::none};

@@ -6,6 +6,7 @@
 #include <ccd/reference.hpp>
 #include <errbound/roots/control_values.hpp>
 
+#include "ccd/exact/features.hpp"
 #include "ccd/exact/finite.hpp"
 #include "ccd/exact/integers.hpp"
 #include "ccd/exact/stage_timer.hpp"
@@ -26,16 +27,15 @@ template <template <class> class Forms, template <class> class Query>
                                              std::size_t deepest) {
     constexpr verdict separate{outcome::separate, cause::none};
     if (!is_finite(query)) return {outcome::uncertain, cause::range};
-    const Forms<double> forms(query);
-    const static_filter::difference_extents<double> extents(forms);
-    if (!extents.usable) return {outcome::uncertain, cause::range};
-
     {
         stage_timer timer(report, stage::axes);
-        const bool separated = static_filter::separated_by_coordinates<double>(forms, extents);
+        const bool separated = separated_by_coordinates(query);
         timer.count(1, separated, 0);
         if (separated) return separate;
     }
+    const Forms<double> forms(query);
+    const static_filter::difference_extents<double> extents(forms);
+    if (!extents.usable) return {outcome::uncertain, cause::range};
     {
         stage_timer timer(report, stage::coplanarity);
         const auto y = errbound::roots::control_values_of(forms.y());

@@ -167,6 +167,25 @@ TEST(decide_exact, report_accounts_for_every_query) {
     });
 }
 
+/// Exploded steps are full of them.
+TEST(stages, features_that_a_coordinate_separates_need_no_unbounded_integers_at_any_scale) {
+    const auto at_rest = [](double x, double y, double z) {
+        return ccd::moving_point<double>{{x, y, z}, {x, y, z}};
+    };
+    ccd::vertex_face<double> query{at_rest(1e300, 1e-300, 3), at_rest(-1e300, 1, 2),
+                                   at_rest(1e-300, 1e200, 2), at_rest(-1, -1e250, 2)};
+    const auto entered_last = [&query] {
+        ccd::stage_report report;
+        const ccd::verdict answer = ccd::detail::decide_exactly(query, &report);
+        EXPECT_EQ(answer.outcome, ccd::outcome::separate);
+        return report[ccd::stage::unbounded].entered;
+    };
+    EXPECT_EQ(entered_last(), 0);
+    query.v.t1.x = -1e300;
+    query.v.t1.z = 1;  // it passes the face's plane, far from the face
+    EXPECT_EQ(entered_last(), 1);
+}
+
 TEST(batch, agrees_with_the_reference_on_every_instruction_set_and_thread_count) {
     for_both_kinds([](const auto& set) {
         for (const ccd::instruction_set isa : ccd::instruction_sets())
