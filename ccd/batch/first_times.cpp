@@ -286,120 +286,46 @@ earliest_time earliest_of_all(const Questions& asked) {
 
 }  // namespace
 
-template <class Pair>
-std::vector<outcome> decisions_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
-                                        const time_options& options) {
-    return indexed_questions<Pair>(positions, pairs, options).decisions();
+template <kind K>
+std::vector<outcome> timed_batch<K>::decisions(const vertex_rows& positions, pairs all,
+                                               const time_options& options) {
+    return indexed_questions(positions, all, options).decisions();
 }
-template <class Query>
-std::vector<outcome> decisions_of_queries(std::span<const Query> queries,
-                                          const time_options& options) {
-    return stored_questions<Query>(queries, options).decisions();
+template <kind K>
+std::vector<outcome> timed_batch<K>::decisions(queries all, const time_options& options) {
+    return stored_questions(all, options).decisions();
 }
-template <class Pair>
-std::vector<timed_contact> contacts_among_pairs(const vertex_rows& positions,
-                                                std::span<const Pair> pairs,
-                                                const time_options& options) {
-    return contacts_among(indexed_questions<Pair>(positions, pairs, options));
+template <kind K>
+std::vector<timed_contact> timed_batch<K>::contacts(const vertex_rows& positions, pairs all,
+                                                    const time_options& options) {
+    return contacts_among(indexed_questions(positions, all, options));
 }
-template <class Query>
-std::vector<timed_contact> contacts_among_queries(std::span<const Query> queries,
-                                                  const time_options& options) {
-    return contacts_among(stored_questions<Query>(queries, options));
+template <kind K>
+std::vector<timed_contact> timed_batch<K>::contacts(queries all, const time_options& options) {
+    return contacts_among(stored_questions(all, options));
 }
-template <class Pair>
-std::vector<first_time> times_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
+template <kind K>
+std::vector<first_time> timed_batch<K>::times(const vertex_rows& positions, pairs all,
+                                              const time_options& options) {
+    return all_times(indexed_questions(positions, all, options));
+}
+template <kind K>
+std::vector<first_time> timed_batch<K>::times(queries all, const time_options& options) {
+    return all_times(stored_questions(all, options));
+}
+template <kind K>
+earliest_time timed_batch<K>::earliest(const vertex_rows& positions, pairs all,
                                        const time_options& options) {
-    return all_times(indexed_questions<Pair>(positions, pairs, options));
+    return earliest_of_all(indexed_questions(positions, all, options));
 }
-template <class Query>
-std::vector<first_time> times_of_queries(std::span<const Query> queries,
-                                         const time_options& options) {
-    return all_times(stored_questions<Query>(queries, options));
-}
-template <class Pair>
-earliest_time earliest_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
-                                const time_options& options) {
-    return earliest_of_all(indexed_questions<Pair>(positions, pairs, options));
-}
-template <class Query>
-earliest_time earliest_of_queries(std::span<const Query> queries, const time_options& options) {
-    return earliest_of_all(stored_questions<Query>(queries, options));
+template <kind K>
+earliest_time timed_batch<K>::earliest(queries all, const time_options& options) {
+    return earliest_of_all(stored_questions(all, options));
 }
 
-template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
-                                                 std::span<const vertex_face_pair>,
-                                                 const time_options&);
-template std::vector<outcome> decisions_of_queries(std::span<const vertex_face<double>>,
-                                                   const time_options&);
-template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
-                                                         std::span<const vertex_face_pair>,
-                                                         const time_options&);
-template std::vector<timed_contact> contacts_among_queries(std::span<const vertex_face<double>>,
-                                                           const time_options&);
-template std::vector<first_time> times_of_pairs(const vertex_rows&,
-                                                std::span<const vertex_face_pair>,
-                                                const time_options&);
-template std::vector<first_time> times_of_queries(std::span<const vertex_face<double>>,
-                                                  const time_options&);
-template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const vertex_face_pair>,
-                                         const time_options&);
-template earliest_time earliest_of_queries(std::span<const vertex_face<double>>,
-                                           const time_options&);
-template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
-                                                 std::span<const edge_edge_pair>,
-                                                 const time_options&);
-template std::vector<outcome> decisions_of_queries(std::span<const edge_edge<double>>,
-                                                   const time_options&);
-template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
-                                                         std::span<const edge_edge_pair>,
-                                                         const time_options&);
-template std::vector<timed_contact> contacts_among_queries(std::span<const edge_edge<double>>,
-                                                           const time_options&);
-template std::vector<first_time> times_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
-                                                const time_options&);
-template std::vector<first_time> times_of_queries(std::span<const edge_edge<double>>,
-                                                  const time_options&);
-template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
-                                         const time_options&);
-template earliest_time earliest_of_queries(std::span<const edge_edge<double>>, const time_options&);
-template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
-                                                 std::span<const vertex_edge_pair>,
-                                                 const time_options&);
-template std::vector<outcome> decisions_of_queries(std::span<const vertex_edge<double>>,
-                                                   const time_options&);
-template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
-                                                         std::span<const vertex_edge_pair>,
-                                                         const time_options&);
-template std::vector<timed_contact> contacts_among_queries(std::span<const vertex_edge<double>>,
-                                                           const time_options&);
-template std::vector<first_time> times_of_pairs(const vertex_rows&,
-                                                std::span<const vertex_edge_pair>,
-                                                const time_options&);
-template std::vector<first_time> times_of_queries(std::span<const vertex_edge<double>>,
-                                                  const time_options&);
-template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const vertex_edge_pair>,
-                                         const time_options&);
-template earliest_time earliest_of_queries(std::span<const vertex_edge<double>>,
-                                           const time_options&);
-template std::vector<outcome> decisions_of_pairs(const vertex_rows&,
-                                                 std::span<const vertex_vertex_pair>,
-                                                 const time_options&);
-template std::vector<outcome> decisions_of_queries(std::span<const vertex_vertex<double>>,
-                                                   const time_options&);
-template std::vector<timed_contact> contacts_among_pairs(const vertex_rows&,
-                                                         std::span<const vertex_vertex_pair>,
-                                                         const time_options&);
-template std::vector<timed_contact> contacts_among_queries(std::span<const vertex_vertex<double>>,
-                                                           const time_options&);
-template std::vector<first_time> times_of_pairs(const vertex_rows&,
-                                                std::span<const vertex_vertex_pair>,
-                                                const time_options&);
-template std::vector<first_time> times_of_queries(std::span<const vertex_vertex<double>>,
-                                                  const time_options&);
-template earliest_time earliest_of_pairs(const vertex_rows&, std::span<const vertex_vertex_pair>,
-                                         const time_options&);
-template earliest_time earliest_of_queries(std::span<const vertex_vertex<double>>,
-                                           const time_options&);
+template class timed_batch<kind::vertex_face>;
+template class timed_batch<kind::edge_edge>;
+template class timed_batch<kind::vertex_edge>;
+template class timed_batch<kind::vertex_vertex>;
 
 }  // namespace ccd::detail

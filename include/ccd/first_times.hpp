@@ -13,6 +13,7 @@
 #include <ccd/separation.hpp>
 #include <cstddef>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -80,30 +81,24 @@ struct earliest_time {
 
 namespace detail {
 
-template <class Pair>
-std::vector<outcome> decisions_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
-                                        const time_options& options);
-template <class Query>
-std::vector<outcome> decisions_of_queries(std::span<const Query> queries,
-                                          const time_options& options);
-template <class Pair>
-std::vector<timed_contact> contacts_among_pairs(const vertex_rows& positions,
-                                                std::span<const Pair> pairs,
-                                                const time_options& options);
-template <class Query>
-std::vector<timed_contact> contacts_among_queries(std::span<const Query> queries,
-                                                  const time_options& options);
-template <class Pair>
-std::vector<first_time> times_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
-                                       const time_options& options);
-template <class Query>
-std::vector<first_time> times_of_queries(std::span<const Query> queries,
-                                         const time_options& options);
-template <class Pair>
-earliest_time earliest_of_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
-                                const time_options& options);
-template <class Query>
-earliest_time earliest_of_queries(std::span<const Query> queries, const time_options& options);
+/// The calls below, of queries of one kind.
+template <kind K>
+class timed_batch {
+  public:
+    using pairs = std::span<const typename kind_traits<K>::pair>;
+    using queries = std::span<const typename kind_traits<K>::template query<double>>;
+
+    static std::vector<outcome> decisions(const vertex_rows&, pairs, const time_options&);
+    static std::vector<outcome> decisions(queries, const time_options&);
+    static std::vector<timed_contact> contacts(const vertex_rows&, pairs, const time_options&);
+    static std::vector<timed_contact> contacts(queries, const time_options&);
+    static std::vector<first_time> times(const vertex_rows&, pairs, const time_options&);
+    static std::vector<first_time> times(queries, const time_options&);
+    static earliest_time earliest(const vertex_rows&, pairs, const time_options&);
+    static earliest_time earliest(queries, const time_options&);
+};
+template <class Items>
+using timed_batch_of = timed_batch<kind_of<std::ranges::range_value_t<Items>>>;
 
 }  // namespace detail
 
@@ -115,11 +110,11 @@ earliest_time earliest_of_queries(std::span<const Query> queries, const time_opt
 template <pair_range Pairs>
 std::vector<outcome> decide_within_batch(const vertex_rows& positions, const Pairs& pairs,
                                          const time_options& options = {}) {
-    return detail::decisions_of_pairs(positions, detail::items_of<Pairs>(pairs), options);
+    return detail::timed_batch_of<Pairs>::decisions(positions, pairs, options);
 }
 template <query_range Queries>
 std::vector<outcome> decide_within_batch(const Queries& queries, const time_options& options = {}) {
-    return detail::decisions_of_queries(detail::items_of<Queries>(queries), options);
+    return detail::timed_batch_of<Queries>::decisions(queries, options);
 }
 
 /// Those queries that collide in [0, t_max], ascending, with their first times; and those of which
@@ -133,12 +128,12 @@ std::vector<outcome> decide_within_batch(const Queries& queries, const time_opti
 template <pair_range Pairs>
 std::vector<timed_contact> timed_contacts(const vertex_rows& positions, const Pairs& pairs,
                                           const time_options& options = {}) {
-    return detail::contacts_among_pairs(positions, detail::items_of<Pairs>(pairs), options);
+    return detail::timed_batch_of<Pairs>::contacts(positions, pairs, options);
 }
 template <query_range Queries>
 std::vector<timed_contact> timed_contacts(const Queries& queries,
                                           const time_options& options = {}) {
-    return detail::contacts_among_queries(detail::items_of<Queries>(queries), options);
+    return detail::timed_batch_of<Queries>::contacts(queries, options);
 }
 
 /// The same as one time for each query. Of long lists in which few collide, to write 24 bytes for
@@ -146,11 +141,11 @@ std::vector<timed_contact> timed_contacts(const Queries& queries,
 template <pair_range Pairs>
 std::vector<first_time> first_times(const vertex_rows& positions, const Pairs& pairs,
                                     const time_options& options = {}) {
-    return detail::times_of_pairs(positions, detail::items_of<Pairs>(pairs), options);
+    return detail::timed_batch_of<Pairs>::times(positions, pairs, options);
 }
 template <query_range Queries>
 std::vector<first_time> first_times(const Queries& queries, const time_options& options = {}) {
-    return detail::times_of_queries(detail::items_of<Queries>(queries), options);
+    return detail::timed_batch_of<Queries>::times(queries, options);
 }
 
 /// The earliest of them, and which queries have it. With distances cheaper than all: once a time is
@@ -158,11 +153,11 @@ std::vector<first_time> first_times(const Queries& queries, const time_options& 
 template <pair_range Pairs>
 earliest_time earliest(const vertex_rows& positions, const Pairs& pairs,
                        const time_options& options = {}) {
-    return detail::earliest_of_pairs(positions, detail::items_of<Pairs>(pairs), options);
+    return detail::timed_batch_of<Pairs>::earliest(positions, pairs, options);
 }
 template <query_range Queries>
 earliest_time earliest(const Queries& queries, const time_options& options = {}) {
-    return detail::earliest_of_queries(detail::items_of<Queries>(queries), options);
+    return detail::timed_batch_of<Queries>::earliest(queries, options);
 }
 
 }  // namespace ccd
