@@ -1,8 +1,9 @@
 // Packs of numbers of twice double's precision: unevaluated sums of two doubles. Internal.
 //
-// With u = 2^-53, a sum is off by at most 8u²(|a| + |b|) and a product by 8u²|a·b|, where nothing
-// overflows or underflows (Dekker 1971; the short forms, whose errors are relative to the
-// operands).
+// With u = 2^-53, a sum is off by at most 5u²(A + B) and a product by 13u²AB, where A and B bound
+// the operands' sizes and nothing overflows (Dekker 1971; the short forms, whose errors are
+// relative to the operands). Underflow: proofs/Twofold.v, sum_near, product_near, product_rounded,
+// product_rounded_fma.
 #pragma once
 
 #include <errbound/error_free.hpp>
