@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <ccd/cuda.hpp>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/method_stages.hpp"
 #include "ccd/cuda/pairs.hpp"
+#include "ccd/cuda/time_stages.hpp"
 
 namespace ccd::cuda {
 namespace detail {
@@ -63,10 +65,10 @@ std::string fault_of_scratch(const scratch& memory, std::size_t vertices, std::s
 /// The largest number of candidates in one call: they are numbered in 32 bits, and one more.
 constexpr std::size_t max_candidates = std::numeric_limits<std::uint32_t>::max() - 1;
 
+/// Of what answers are asked for; `answers` are their place.
 template <class Pair>
-std::string fault_of(const positions& at, const candidates<Pair>& candidates,
-                     const outcome* answers, const scratch& memory, method m) {
-    if (std::string fault = fault_of_method(m); !fault.empty()) return fault;
+std::string fault_of(const positions& at, const candidates<Pair>& candidates, const void* answers,
+                     const scratch& memory) {
     if (candidates.count > max_candidates)
         return found_of("candidates", candidates.count, max_candidates) + " at most";
     if (candidates.count == 0) return {};
@@ -82,6 +84,13 @@ std::string fault_of(const positions& at, const candidates<Pair>& candidates,
     if (reinterpret_cast<std::uintptr_t>(candidates.of_rows) % 16 != 0)
         return "ccd::cuda: found rows of indices at an address that is no multiple of 16";
     return fault_of_scratch(memory, at.vertices, candidates.count);
+}
+
+template <class Pair>
+std::string fault_of(const positions& at, const candidates<Pair>& candidates,
+                     const outcome* answers, const scratch& memory, method m) {
+    std::string fault = fault_of_method(m);
+    return fault.empty() ? fault_of(at, candidates, answers, memory) : fault;
 }
 
 template <class Pair>
@@ -103,6 +112,14 @@ status decide_any(const positions& at, const candidates<Pair>& candidates, outco
     return launcher.result();
 }
 
+/// That what is left is of these candidates.
+void check_left(device_launcher& launcher, std::size_t left, std::size_t candidates,
+                const std::string& left_by) {
+    if (launcher.ok() && left > candidates)
+        launcher.fail("ccd::cuda: found scratch memory that " + left_by +
+                      " did not leave for these candidates");
+}
+
 template <class Pair>
 finished finish_any(const positions& at, const candidates<Pair>& candidates, outcome* answers,
                     scratch memory, const batch_options& options) {
@@ -114,16 +131,54 @@ finished finish_any(const positions& at, const candidates<Pair>& candidates, out
     device_launcher launcher(options.stream, parts.temporary);
     const exact_memory all(parts.rest, at.vertices, candidates.count);
     const exact_counters c = finish_exact(launcher, at, candidates, answers, all);
-    if (launcher.ok() && c.left > candidates.count)
-        launcher.fail(
-            "ccd::cuda: found scratch memory that decide_batch did not leave for these "
-            "candidates");
+    check_left(launcher, c.left, candidates.count, "decide_batch");
     return {launcher.result(),
             {static_cast<std::uint32_t>(candidates.count), c.coplanarity, c.inside, c.subdivision,
              c.one_word, c.two_words, c.left}};
 }
 
+template <class Pair>
+std::string fault_of(const positions& at, const candidates<Pair>& candidates,
+                     const first_time* times, const scratch& memory, const time_options& options) {
+    std::string fault = fault_of_t_max(options.t_max);
+    return fault.empty() ? fault_of(at, candidates, times, memory) : fault;
+}
+
+template <class Pair>
+status find_any(const positions& at, const candidates<Pair>& candidates, first_time* times,
+                scratch memory, const time_options& options) {
+    if (std::string fault = fault_of(at, candidates, times, memory, options); !fault.empty())
+        return {std::move(fault)};
+    if (candidates.count == 0) return {};
+    shares parts(memory, candidates.count);
+    device_launcher launcher(options.stream, parts.temporary);
+    queue_times(launcher, at, candidates, times, time_memory(parts.rest, candidates.count),
+                {options.t_max, false});
+    return launcher.result();
+}
+
+template <class Pair>
+finished_times finish_any(const positions& at, const candidates<Pair>& candidates,
+                          first_time* times, scratch memory, const time_options& options) {
+    if (std::string fault = fault_of(at, candidates, times, memory, options); !fault.empty())
+        return {{std::move(fault)}, {}};
+    if (candidates.count == 0) return {};
+    shares parts(memory, candidates.count);
+    device_launcher launcher(options.stream, parts.temporary);
+    const time_memory all(parts.rest, candidates.count);
+    const time_counters c = detail::finish_times(launcher, at, candidates, times, all);
+    check_left(launcher, c.left, candidates.count, "find_times");
+    return {launcher.result(),
+            {static_cast<std::uint32_t>(candidates.count), c.one_word, c.roots_in_two_words,
+             c.two_words, c.left}};
+}
+
 }  // namespace
+
+std::string fault_of_t_max(double t_max) {
+    if (std::isfinite(t_max)) return {};
+    return "ccd::cuda: found a t_max of " + std::to_string(t_max) + ", expected a finite one";
+}
 
 std::string fault_of_method(method m) {
     if (std::ranges::find(table, m, &entry::method) != std::end(table)) return {};
@@ -173,12 +228,13 @@ status device_status() {
 }
 
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates) {
-    detail::arena temporary, exact, other, place;
+    detail::arena temporary, exact, other, times, place;
     temporary.take<std::byte>(detail::temporary_bytes(candidates));
     (void)detail::exact_memory(exact, vertices, candidates);
     (void)detail::method_memory(other, candidates);
+    (void)detail::time_memory(times, candidates);
     place.take<std::uint32_t>(candidates + 1);
-    return temporary.used() + std::max({exact.used(), other.used(), place.used()});
+    return temporary.used() + std::max({exact.used(), other.used(), times.used(), place.used()});
 }
 
 status decide_batch(const positions& positions, const candidates<vertex_face_pair>& candidates,
@@ -198,6 +254,25 @@ finished finish(const positions& positions, const candidates<edge_edge_pair>& ca
     return detail::finish_any(positions, candidates, answers, memory, options);
 }
 
+status find_times(const positions& positions, const candidates<vertex_face_pair>& candidates,
+                  first_time* times, scratch memory, const time_options& options) {
+    return detail::find_any(positions, candidates, times, memory, options);
+}
+status find_times(const positions& positions, const candidates<edge_edge_pair>& candidates,
+                  first_time* times, scratch memory, const time_options& options) {
+    return detail::find_any(positions, candidates, times, memory, options);
+}
+finished_times finish_times(const positions& positions,
+                            const candidates<vertex_face_pair>& candidates, first_time* times,
+                            scratch memory, const time_options& options) {
+    return detail::finish_any(positions, candidates, times, memory, options);
+}
+finished_times finish_times(const positions& positions,
+                            const candidates<edge_edge_pair>& candidates, first_time* times,
+                            scratch memory, const time_options& options) {
+    return detail::finish_any(positions, candidates, times, memory, options);
+}
+
 status select_colliding(const outcome* answers, std::size_t answer_count, vertex_index* found,
                         std::size_t room, vertex_index* count, scratch memory, stream stream) {
     if (answer_count > detail::max_candidates)
@@ -209,7 +284,7 @@ status select_colliding(const outcome* answers, std::size_t answer_count, vertex
         return {std::move(fault)};
     detail::shares parts(memory, answer_count);
     detail::device_launcher launcher(stream, parts.temporary);
-    detail::run_select(launcher, answers, answer_count, found, room, count,
+    detail::run_select(launcher, detail::may_collide_at{answers}, answer_count, found, room, count,
                        parts.rest.take<std::uint32_t>(answer_count + 1));
     return launcher.result();
 }

@@ -10,6 +10,9 @@ namespace ccd::cuda::detail {
 /// What is wrong with asking a device for that method, as status tells it; empty if nothing.
 std::string fault_of_method(method m);
 
+/// The same of asking for times until t_max.
+std::string fault_of_t_max(double t_max);
+
 /// Whether no pointer to coordinates is null.
 bool has_coordinates(const positions& at);
 

@@ -5,6 +5,7 @@
 
 #include "ccd/cuda/exact_stages.hpp"
 #include "ccd/cuda/launch.cuh"
+#include "ccd/cuda/time_stages.hpp"
 
 namespace ccd::cuda::detail {
 
@@ -30,5 +31,13 @@ void queue_exact(device_launcher& launcher, const positions& at,
 void queue_exact(device_launcher& launcher, const positions& at,
                  const candidates<edge_edge_pair>& candidates, outcome* answers,
                  const exact_memory& memory, precision p);
+
+/// run_time_stages, compiled in ccd/cuda/times.cu.
+void queue_times(device_launcher& launcher, const positions& at,
+                 const candidates<vertex_face_pair>& candidates, first_time* times,
+                 const time_memory& memory, const times_asked& asked);
+void queue_times(device_launcher& launcher, const positions& at,
+                 const candidates<edge_edge_pair>& candidates, first_time* times,
+                 const time_memory& memory, const times_asked& asked);
 
 }  // namespace ccd::cuda::detail

@@ -50,6 +50,35 @@ struct queue {
     }
 };
 
+/// A time that all threads share and that only falls.
+class shared_time {
+  public:
+    constexpr explicit shared_time(double* value) : value_(value) {}
+
+    /// What it has fallen to by now, or some while ago.
+    constexpr double get() const {
+#ifdef __CUDA_ARCH__
+        return *static_cast<volatile double*>(value_);
+#else
+        return *value_;
+#endif
+    }
+    /// To `time`, which is not negative, if that is less.
+    constexpr void lower(double time) const {
+#ifdef __CUDA_ARCH__
+        // Such doubles are in the order of their bits.
+        if (time < get())
+            atomicMin(reinterpret_cast<unsigned long long*>(value_),
+                      static_cast<unsigned long long>(__double_as_longlong(time)));
+#else
+        *value_ = std::min(*value_, time);
+#endif
+    }
+
+  private:
+    double* value_;
+};
+
 /// Shares out one piece of memory, part after part. Without memory it only counts.
 class arena {
   public:

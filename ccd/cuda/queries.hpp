@@ -26,6 +26,7 @@ constexpr T load_aligned(const T* p) {
 /// The vertices of candidate i.
 template <class Pair>
 constexpr Pair pair_at(const candidates<Pair>& c, std::uint32_t i) {
+    if (c.numbers != nullptr) i = c.numbers[i];
     if (c.of_rows != nullptr) return load_aligned(c.of_rows + i);
     if (c.elements == nullptr)
         return {c.columns[0][i], c.columns[1][i], c.columns[2][i], c.columns[3][i]};

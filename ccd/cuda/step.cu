@@ -8,9 +8,8 @@
 #include "ccd/cuda/batch.cuh"
 #include "ccd/cuda/device_methods.cuh"
 #include "ccd/cuda/pairs.hpp"
-#include "ccd/cuda/step.hpp"
+#include "ccd/cuda/step_times.hpp"
 #include "ccd/step/checks.hpp"
-#include "ccd/step/elements.hpp"
 #include "ccd/step/stopwatch.hpp"
 
 namespace ccd::cuda {
@@ -21,9 +20,63 @@ struct mesh_steps::state {
     std::size_t vertices = 0;
     bool mesh_copied = false;
     detail::device_launcher launcher{nullptr};  // with memory of its own, which is kept
-    detail::step_memory<detail::device_launcher> memory;
+    detail::asked_steps<detail::device_launcher> steps;
     detail::device_launcher::buffer<std::byte> batch;
+
+    std::string fault_of(const positions& at, const mesh_step_options& options) const;
+
+    /// Memory for a layout; nothing is to be done with it after an error.
+    template <class Memory, class... Sizes>
+    Memory memory_of(Sizes... sizes) {
+        detail::arena needed;
+        (void)Memory(needed, sizes...);
+        batch.resize(launcher, needed.used());
+        detail::arena given(batch.data(), batch.size());
+        return Memory(given, sizes...);
+    }
+
+    /// As step_memory::run asks for it.
+    template <class Pair>
+    std::size_t decide(const positions& at, const mesh_step_options& options,
+                       const candidates<Pair>& block, outcome* answers, detail::scene_extent* scene,
+                       detail::rounded_position* rows) {
+        const auto all = memory_of<detail::exact_memory>(scene, rows, block.count);
+        if (!launcher.ok()) return 0;
+        if (options.method != method::exact) {
+            // A method_memory needs less.
+            const detail::arena given(batch.data(), batch.size());
+            detail::queue_float_method(launcher, at, block, answers, given,
+                                       {options.method, options.precision, options.stream});
+            return 0;
+        }
+        detail::queue_exact(launcher, at, block, answers, all, options.precision);
+        return detail::finish_exact(launcher, at, block, answers, all).left;
+    }
+    /// As asked_pairs::ask asks for it.
+    template <class Pair>
+    std::size_t find(const positions& at, const candidates<Pair>& pairs, first_time* times,
+                     const detail::times_asked& asked) {
+        const auto all = memory_of<detail::time_memory>(pairs.count);
+        if (!launcher.ok()) return 0;
+        detail::queue_times(launcher, at, pairs, times, all, asked);
+        return detail::finish_times(launcher, at, pairs, times, all).left;
+    }
 };
+
+std::string mesh_steps::state::fault_of(const positions& at,
+                                        const mesh_step_options& options) const {
+    if (at.vertices != vertices)
+        return "ccd::cuda: found positions of " + std::to_string(at.vertices) +
+               " vertices, expected " + std::to_string(vertices);
+    if (at.vertices > 0 && !detail::has_coordinates(at))
+        return "ccd::cuda: found a null pointer, expected positions";
+    if (std::string why = detail::fault_of_method(options.method); !why.empty()) return why;
+    if (std::string why = detail::fault_of_t_max(options.t_max); !why.empty()) return why;
+    if (options.method != method::exact && detail::ask_for_first_contact(options))
+        return "ccd::cuda: found times asked of the method " +
+               std::string(info(options.method).name) + ", expected exact, which alone has times";
+    return {};
+}
 
 mesh_steps::mesh_steps(std::span<const face> faces, std::size_t vertices)
     : state_(std::make_unique<state>()) {
@@ -36,47 +89,46 @@ mesh_steps::~mesh_steps() = default;
 mesh_steps::mesh_steps(mesh_steps&&) noexcept = default;
 mesh_steps& mesh_steps::operator=(mesh_steps&&) noexcept = default;
 
-mesh_steps::result mesh_steps::run(const positions& positions, const batch_options& options) {
-    const auto fault = [](std::string why) { return result{{std::move(why)}, {}, {}, 0}; };
-    if (positions.vertices != state_->vertices)
-        return fault("ccd::cuda: found positions of " + std::to_string(positions.vertices) +
-                     " vertices, expected " + std::to_string(state_->vertices));
-    if (positions.vertices > 0 && !detail::has_coordinates(positions))
-        return fault("ccd::cuda: found a null pointer, expected positions");
-    if (std::string why = detail::fault_of_method(options.method); !why.empty())
+mesh_steps::result mesh_steps::run(const positions& positions, const mesh_step_options& options) {
+    const auto fault = [](std::string why) {
+        result failed;
+        failed.error = std::move(why);
+        return failed;
+    };
+    if (std::string why = state_->fault_of(positions, options); !why.empty())
         return fault(std::move(why));
-    if (positions.vertices == 0) return {};
+    result found;
+    found.first_contact = detail::no_contact(options);
+    if (positions.vertices == 0) return found;
     detail::device_launcher& launcher = state_->launcher;
+    auto& steps = state_->steps;
     launcher.begin(options.stream);
-    auto& memory = state_->memory;
     if (!state_->mesh_copied) {
-        memory.set_mesh(launcher, state_->vertices, state_->faces, state_->edges);
+        steps.set_mesh(launcher, state_->vertices, state_->faces, state_->edges);
         state_->mesh_copied = launcher.ok();
     }
-    const auto decide = [&](const auto& block, outcome* answers, detail::scene_extent* scene,
-                            detail::rounded_position* rows) -> std::size_t {
-        detail::arena needed;
-        (void)detail::exact_memory(needed, scene, rows, block.count);  // a method_memory needs less
-        state_->batch.resize(launcher, needed.used());
-        if (!launcher.ok()) return 0;
-        detail::arena given(state_->batch.data(), state_->batch.size());
-        if (options.method != method::exact) {
-            detail::queue_float_method(launcher, positions, block, answers, given, options);
-            return 0;
-        }
-        const detail::exact_memory all(given, scene, rows, block.count);
-        detail::queue_exact(launcher, positions, block, answers, all, options.precision);
-        return detail::finish_exact(launcher, positions, block, answers, all).left;
-    };
-    const auto pairs = memory.run(launcher, positions, decide);
+    const auto pairs = steps.run(
+        launcher, positions, options,
+        [&](const auto& block, outcome* answers, detail::scene_extent* scene,
+            detail::rounded_position* rows) {
+            return state_->decide(positions, options, block, answers, scene, rows);
+        },
+        [&](const auto& some, first_time* times, const detail::times_asked& of) {
+            return state_->find(positions, some, times, of);
+        });
     if (!launcher.ok()) return fault(launcher.result().error);
     if (!pairs.finite) return fault("ccd::cuda: a coordinate is not finite");
-    result found;
-    found.pairs.vertex_face = {memory.vertex_face().data(), pairs.vertex_face};
-    found.pairs.edge_edge = {memory.edge_edge().data(), pairs.edge_edge};
+    const auto take = [&]<kind K>(const detail::pairs_and_times<pair_of_kind<K>>& lists) {
+        found.pairs.of<K>() = lists.pairs;
+        found.times.of<K>() = lists.times;
+        found.touching_at_start.of<K>() = lists.touching_at_start;
+    };
+    take.operator()<kind::vertex_face>(steps.vertex_face());
+    take.operator()<kind::edge_edge>(steps.edge_edge());
     found.candidates.vertex_face = pairs.vertex_face_candidates;
     found.candidates.edge_edge = pairs.edge_edge_candidates;
     found.finished_on_host = pairs.finished_on_host;
+    found.first_contact = steps.first_contact();
     return found;
 }
 
@@ -97,53 +149,125 @@ struct device_frames {
     }
 };
 
-template <class Query, class Pair>
+/// Stored queries on the device, a block at a time.
+template <class Query>
+class stored_queries {
+  public:
+    using pair = pair_of_query<Query>;
+
+    stored_queries(std::span<const Query> queries, cuda::stream stream)
+        : launcher_(stream), queries_(queries) {}
+
+    /// Calls ask(first, positions, candidates, answers, scratch) for every block, decided in
+    /// `answers`, as long as that returns no error.
+    template <class Ask>
+    status decide(const batch_options& options, const Ask& ask) {
+        constexpr std::size_t block = std::size_t(1) << 20;
+        for (std::size_t first = 0; first < queries_.size(); first += block) {
+            const auto part = queries_.subspan(first, std::min(block, queries_.size() - first));
+            const positions at = copy(part);
+            if (!launcher_.ok()) break;
+            const auto all = candidates<pair>::rows(rows_.data(), part.size());
+            const scratch memory{memory_.data(), memory_.size()};
+            outcome* const answers = answers_.data();
+            if (status s = decide_batch(at, all, answers, memory, options); !s) return s;
+            if (status s = finish(at, all, answers, memory, options); !s) return s;
+            if (status s = ask(first, at, all, answers, memory); !s) return s;
+        }
+        return launcher_.result();
+    }
+    detail::device_launcher& launcher() { return launcher_; }
+
+  private:
+    positions copy(std::span<const Query> part) {
+        before_.clear(), after_.clear(), indices_.clear();
+        for (const Query& q : part) {
+            const auto v = static_cast<vertex_index>(before_.size());
+            indices_.push_back({v, v + 1, v + 2, v + 3});
+            for (const auto& p : points_of(q)) before_.push_back(p.t0), after_.push_back(p.t1);
+        }
+        rows_.resize(launcher_, part.size());
+        launcher_.write(rows_.data(), part.size(), indices_.data());
+        answers_.resize(launcher_, part.size());
+        memory_.resize(launcher_, scratch_bytes(before_.size(), part.size()));
+        return frames_.copy(launcher_, vertex_rows(before_, after_));
+    }
+
+    detail::device_launcher launcher_;
+    std::span<const Query> queries_;
+    std::vector<point<double>> before_, after_;
+    std::vector<pair> indices_;
+    device_frames frames_;
+    detail::device_launcher::buffer<pair> rows_;
+    detail::device_launcher::buffer<outcome> answers_;
+    detail::device_launcher::buffer<std::byte> memory_;
+};
+
+void check_room(const char* caller, std::size_t queries, std::size_t room) {
+    if (queries != room)
+        throw std::invalid_argument(std::string(caller) + ": " + std::to_string(queries) +
+                                    " queries, but room for " + std::to_string(room) + " answers");
+}
+
+template <class Query>
 status decide_stored(std::span<const Query> queries, std::span<outcome> answers,
                      const batch_options& options) {
-    if (queries.size() != answers.size())
-        throw std::invalid_argument("ccd::cuda::decide: " + std::to_string(queries.size()) +
-                                    " queries, but room for " + std::to_string(answers.size()) +
-                                    " answers");
-    constexpr std::size_t block = std::size_t(1) << 20;
-    detail::device_launcher launcher(options.stream);
-    device_frames frames;
-    detail::device_launcher::buffer<Pair> rows;
-    detail::device_launcher::buffer<outcome> found;
-    detail::device_launcher::buffer<std::byte> memory;
-    std::vector<point<double>> before, after;
-    std::vector<Pair> indices;
-    for (std::size_t first = 0; first < queries.size() && launcher.ok(); first += block) {
-        const auto part = queries.subspan(first, std::min(block, queries.size() - first));
-        before.clear(), after.clear(), indices.clear();
-        for (const Query& q : part) {
-            const auto v = static_cast<vertex_index>(before.size());
-            indices.push_back({v, v + 1, v + 2, v + 3});
-            for (const auto& p : points_of(q)) before.push_back(p.t0), after.push_back(p.t1);
-        }
-        const positions at = frames.copy(launcher, vertex_rows(before, after));
-        rows.resize(launcher, part.size());
-        launcher.write(rows.data(), part.size(), indices.data());
-        found.resize(launcher, part.size());
-        memory.resize(launcher, scratch_bytes(at.vertices, part.size()));
-        if (!launcher.ok()) break;
-        const auto all = candidates<Pair>::rows(rows.data(), part.size());
-        const scratch given{memory.data(), memory.size()};
-        if (status s = decide_batch(at, all, found.data(), given, options); !s) return s;
-        if (status s = finish(at, all, found.data(), given, options); !s) return s;
-        launcher.read(found.data(), part.size(), &answers[first]);
-    }
-    return launcher.result();
+    check_room("ccd::cuda::decide", queries.size(), answers.size());
+    stored_queries<Query> stored(queries, options.stream);
+    return stored.decide(options, [&](std::size_t first, const positions&, const auto& all,
+                                      const outcome* found, const scratch&) {
+        stored.launcher().read(found, all.count, &answers[first]);
+        return stored.launcher().result();
+    });
+}
+
+template <class Query>
+status times_of_stored(std::span<const Query> queries, std::span<first_time> times,
+                       const time_options& options) {
+    check_room("ccd::cuda::first_times", queries.size(), times.size());
+    stored_queries<Query> stored(queries, options.stream);
+    detail::device_launcher& launcher = stored.launcher();
+    detail::selection<detail::device_launcher> colliding;
+    detail::device_launcher::buffer<first_time> found;
+    std::vector<vertex_index> numbers;
+    std::vector<first_time> found_on_host;
+    const auto ask = [&](std::size_t first, const positions& at, const auto& all,
+                         const outcome* answers, const scratch& memory) -> status {
+        colliding.select(launcher, detail::may_collide_at{answers}, all.count);
+        found.resize(launcher, colliding.size());
+        if (!launcher.ok()) return launcher.result();
+        const auto some = all.listed(colliding.numbers(), colliding.size());
+        if (status s = find_times(at, some, found.data(), memory, options); !s) return s;
+        if (status s = finish_times(at, some, found.data(), memory, options); !s) return s;
+        numbers.resize(colliding.size());
+        launcher.read(colliding.numbers(), numbers.size(), numbers.data());
+        found_on_host.resize(colliding.size());
+        launcher.read(found.data(), found_on_host.size(), found_on_host.data());
+        std::ranges::fill(times.subspan(first, all.count), first_time{outcome::separate});
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            times[first + numbers[k]] = found_on_host[k];
+        return launcher.result();
+    };
+    return stored.decide({.stream = options.stream}, ask);
 }
 
 }  // namespace
 
 status decide(std::span<const vertex_face<double>> queries, std::span<outcome> answers,
               const batch_options& options) {
-    return decide_stored<vertex_face<double>, vertex_face_pair>(queries, answers, options);
+    return decide_stored(queries, answers, options);
 }
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options) {
-    return decide_stored<edge_edge<double>, edge_edge_pair>(queries, answers, options);
+    return decide_stored(queries, answers, options);
+}
+status first_times(std::span<const vertex_face<double>> queries, std::span<first_time> times,
+                   const time_options& options) {
+    return times_of_stored(queries, times, options);
+}
+status first_times(std::span<const edge_edge<double>> queries, std::span<first_time> times,
+                   const time_options& options) {
+    return times_of_stored(queries, times, options);
 }
 
 step_result step(const mesh& before, const mesh& after, const step_options& options,
@@ -155,8 +279,12 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     ccd::detail::check_elements(before.faces, {}, before.vertices.size(), "ccd::cuda::step");
     if (!ccd::detail::has_faces_alone(before))
         return failed({"ccd::cuda: found edges or points, expected a mesh of faces alone"});
-    if (ccd::detail::ask_for_times_or_distances(options))
-        return failed({"ccd::cuda: found times or distances asked for, expected contact alone"});
+    ccd::detail::check_options(options, before.vertices.size());
+    if (!options.distances.ask_for_contact())
+        return failed({"ccd::cuda: found distances asked for, expected contact alone"});
+    const pair_filter& filter = options.filter;
+    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty())
+        return failed({"ccd::cuda: found a filter of pairs, expected none"});
     ccd::detail::stopwatch total, watch;
     detail::device_launcher launcher(nullptr);
     device_frames frames;
@@ -165,20 +293,21 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     if (!launcher.ok()) return failed(launcher.result());
     result.prepare_seconds = watch.lap();
 
-    const mesh_steps::result found = steps.run(at, {options.method, precision, nullptr});
+    const mesh_steps::result found =
+        steps.run(at, {options.method, precision, nullptr, options.initial_contact,
+                       options.first_contact, options.times, options.t_max});
     if (!found) return failed(found);
     result.narrow_phase_seconds = watch.lap();
 
-    auto& vertex_face = result.pairs.vertex_face;
-    auto& edge_edge = result.pairs.edge_edge;
-    vertex_face.resize(found.pairs.vertex_face.size());
-    edge_edge.resize(found.pairs.edge_edge.size());
-    launcher.read(found.pairs.vertex_face.data(), vertex_face.size(), vertex_face.data());
-    launcher.read(found.pairs.edge_edge.data(), edge_edge.size(), edge_edge.data());
+    const auto read = [&]<kind K>() {
+        const detail::pairs_and_times<pair_of_kind<K>> lists{
+            found.pairs.of<K>(), found.times.of<K>(), found.touching_at_start.of<K>()};
+        detail::read_lists<K>(launcher, lists, result);
+    };
+    read.operator()<kind::vertex_face>();
+    read.operator()<kind::edge_edge>();
     if (!launcher.ok()) return failed(launcher.result());
-    for (vertex_face_pair& p : vertex_face) p = ccd::detail::canonical(p);
-    std::ranges::sort(vertex_face);
-    std::ranges::sort(edge_edge);
+    result.first_contact = found.first_contact;
     result.candidates = found.candidates;
     result.sort_seconds = watch.lap();
     result.total_seconds = total.lap();

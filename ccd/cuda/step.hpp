@@ -280,12 +280,11 @@ struct write_candidates {
     }
 };
 
-template <class Pair>
-struct copy_rows {
-    const Pair* rows;
-    const vertex_index* numbers;
-    Pair* to;
-    constexpr void operator()(std::uint32_t k) const { to[k] = rows[numbers[k]]; }
+/// Numbers of what a step found.
+struct found_pairs {
+    std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
+    std::size_t vertex_face = 0, edge_edge = 0, finished_on_host = 0;
+    bool finite = true;  ///< else nothing was done
 };
 
 /// What the steps of one mesh keep.
@@ -295,14 +294,9 @@ class step_memory {
     template <class T>
     using buffer = typename Launcher::template buffer<T>;
 
-    struct found_pairs {
-        std::size_t vertex_face_candidates = 0, edge_edge_candidates = 0;
-        std::size_t vertex_face = 0, edge_edge = 0, finished_on_host = 0;
-        bool finite = true;  ///< else nothing was done
-    };
-
     /// Candidates decided at once, at most.
-    explicit step_memory(std::size_t block = std::size_t(1) << 22) : block_(block) {}
+    static constexpr std::size_t default_block = std::size_t(1) << 22;
+    explicit step_memory(std::size_t block = default_block) : block_(block) {}
 
     /// Faces and edges in host memory, indices in range.
     void set_mesh(Launcher& launcher, std::size_t vertices, std::span<const face> faces,
@@ -395,9 +389,6 @@ class step_memory {
         block_rows_.resize(launcher, at_once);
         auto* const rows = reinterpret_cast<Pair*>(block_rows_.data());
         answers_.resize(launcher, at_once);
-        place_.resize(launcher, at_once + 1);
-        numbers_found_.resize(launcher, at_once);
-        count_found_.resize(launcher, 1);
         pair_count = 0;
         pairs.resize(launcher, 0);
         for (std::uint64_t first = 0; first < total && launcher.ok(); first += at_once) {
@@ -407,14 +398,9 @@ class step_memory {
                 searches, write_candidates<Search>{search, numbers_.data(), first, count, rows});
             finished_on_host += decide(candidates<Pair>::rows(rows, count), answers_.data(),
                                        scene_.data(), rows_.data());
-            run_select(launcher, answers_.data(), count, numbers_found_.data(), count,
-                       count_found_.data(), place_.data());
-            vertex_index more = 0;
-            launcher.read(count_found_.data(), 1, &more);
-            pairs.extend(launcher, pair_count + more);
-            launcher.for_each(
-                more, copy_rows<Pair>{rows, numbers_found_.data(), pairs.data() + pair_count});
-            pair_count += more;
+            selection_.select(launcher, may_collide_at{answers_.data()}, count);
+            selection_.copy(launcher, rows, pairs, pair_count);
+            pair_count += selection_.size();
         }
         return static_cast<std::size_t>(total);
     }
@@ -426,11 +412,11 @@ class step_memory {
     buffer<scene_extent> scene_;
     buffer<rounded_position> rows_;
     buffer<rounded_box> tree_;
-    buffer<std::uint32_t> keys_, order_, search_order_, counts_, place_;
+    buffer<std::uint32_t> keys_, order_, search_order_, counts_;
     buffer<std::uint64_t> numbers_;
     buffer<std::array<vertex_index, 4>> block_rows_;  // of either kind
     buffer<outcome> answers_;
-    buffer<vertex_index> numbers_found_, count_found_;
+    selection<Launcher> selection_;
     buffer<vertex_face_pair> vertex_face_;
     buffer<edge_edge_pair> edge_edge_;
 };

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <ccd/batch.hpp>
+#include <ccd/contact.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
@@ -86,6 +87,7 @@ struct candidates {
     const vertex_index* columns[4] = {};  ///< of vertex indices, or the first two of elements
     const element* elements = nullptr;
     std::size_t count = 0;
+    const vertex_index* numbers = nullptr;  ///< of those that are meant; if null, all
 
     /// Rows of vertex indices; their memory must be aligned to 16 bytes, as CUDA's is.
     static constexpr candidates rows(const Pair* rows, std::size_t count) {
@@ -102,6 +104,14 @@ struct candidates {
                                       const element* elements, std::size_t count) {
         return {nullptr, {first, second, nullptr, nullptr}, elements, count};
     }
+    /// Those with these numbers alone, which become the first, the second and so on: as
+    /// select_colliding() lists them.
+    constexpr candidates listed(const vertex_index* those, std::size_t how_many) const {
+        candidates some = *this;
+        some.numbers = those;
+        some.count = how_many;
+        return some;
+    }
 };
 
 /// Device memory that a call may write to.
@@ -109,8 +119,8 @@ struct scratch {
     void* data = nullptr;
     std::size_t bytes = 0;
 };
-/// How much of it `decide_batch` and `select_colliding` need: 12.1 bytes a candidate, 32 a vertex
-/// and 4 MiB. Its address must be a multiple of 256, as CUDA's are.
+/// How much of it `decide_batch`, `select_colliding` and `find_times` need: 12.1 bytes a candidate,
+/// 32 a vertex and 4 MiB. Its address must be a multiple of 256, as CUDA's are.
 std::size_t scratch_bytes(std::size_t vertices, std::size_t candidates);
 
 struct batch_options {
@@ -156,12 +166,65 @@ status select_colliding(const outcome* answers, std::size_t answer_count, vertex
                         std::size_t room, vertex_index* count, scratch memory,
                         stream stream = nullptr);
 
+struct time_options {
+    double t_max = 1;  ///< times in [0, t_max] are asked for
+    cuda::stream stream = nullptr;
+};
+
+/// The first time of candidate i into times[i], as time_of_impact() of ccd/contact.hpp tells it.
+/// Meant for those that collide, candidates.listed(...) as select_colliding() lists them; others
+/// cost more than their decision. Only queues work on the stream. Scratch memory as above, for so
+/// many candidates.
+///
+/// What integers of fixed width leave open (roots that nearly coincide, times below 2^-70,
+/// coordinates that differ too much) has no time before finish_times() is called. Until then the
+/// scratch memory must stay as it is.
+status find_times(const positions& positions, const candidates<vertex_face_pair>& candidates,
+                  first_time* times, scratch memory, const time_options& options = {});
+status find_times(const positions& positions, const candidates<edge_edge_pair>& candidates,
+                  first_time* times, scratch memory, const time_options& options = {});
+
+/// What the stages of find_times were asked: to place roots that floating point had found, or to
+/// find the time alone.
+struct time_stage_counts {
+    std::uint32_t roots_one_word = 0, integers_one_word = 0;
+    std::uint32_t roots_two_words = 0, integers_two_words = 0;
+    std::uint32_t left_open = 0;  ///< answered by finish_times()
+};
+/// What finish_times() answers.
+struct [[nodiscard]] finished_times : status {
+    time_stage_counts stages;
+};
+
+/// Finds the times that find_times left open, on the host by all its threads, and writes them.
+/// Waits for the stream. Throws only std::bad_alloc.
+finished_times finish_times(const positions& positions,
+                            const candidates<vertex_face_pair>& candidates, first_time* times,
+                            scratch memory, const time_options& options = {});
+finished_times finish_times(const positions& positions,
+                            const candidates<edge_edge_pair>& candidates, first_time* times,
+                            scratch memory, const time_options& options = {});
+
 namespace detail {
 template <kind K>
 using span_of_kind = std::span<const pair_of_kind<K>>;
+template <kind K>
+using times_span_of_kind = std::span<const first_time>;
 }  // namespace detail
-/// Lists of pairs in device memory, as ccd::pair_lists on the host.
+/// Lists of pairs in device memory, as ccd::pair_lists on the host, and their times.
 using pair_spans = by_kind<detail::span_of_kind>;
+using time_spans = by_kind<detail::times_span_of_kind>;
+
+/// What a step is asked, and how: from initial_contact on as ccd::step_options.
+struct mesh_step_options {
+    ccd::method method = method::exact;
+    ccd::cuda::precision precision = precision::float64;
+    cuda::stream stream = nullptr;
+    bool initial_contact = false;
+    bool first_contact = false;
+    bool times = false;
+    double t_max = 1;
+};
 
 /// Steps of one mesh on the device: keeps its faces, edges and memory from step to step.
 class mesh_steps {
@@ -171,7 +234,12 @@ class mesh_steps {
     struct [[nodiscard]] result : status {
         pair_spans pairs;
         pair_counts candidates;
-        std::size_t finished_on_host = 0;  ///< candidates that `exact` left open
+        std::size_t finished_on_host = 0;  ///< candidates and times that `exact` left open
+        pair_spans touching_at_start;      ///< by `exact` whatever the method; if asked for
+        time_spans times;                  ///< of `pairs`, if asked for
+        /// The earliest of those not touching at the start, if asked for. For that alone threads
+        /// share the least time yet found, and do not look for later ones.
+        first_time first_contact;
     };
 
     /// Faces in host memory, with indices below `vertices` (else std::invalid_argument). Allocates
@@ -181,11 +249,12 @@ class mesh_steps {
     mesh_steps(mesh_steps&&) noexcept;
     mesh_steps& operator=(mesh_steps&&) noexcept;
 
-    /// The pairs that options.method cannot certify as separate, as ccd::step() finds them. The
-    /// result is this object's, complete on return, and lasts until the next call. A coordinate
-    /// that is not finite is an error. Waits for the stream some times; allocates where its memory
-    /// does not suffice. All calls must be on one device.
-    result run(const positions& positions, const batch_options& options = {});
+    /// The pairs that options.method cannot certify as separate, as ccd::step() finds them, with a
+    /// contact in [0, t_max]. The result is this object's, complete on return, and lasts until the
+    /// next call. A coordinate that is not finite is an error, and so is asking a method other than
+    /// `exact` for times. Waits for the stream some times; allocates where its memory does not
+    /// suffice. All calls must be on one device.
+    result run(const positions& positions, const mesh_step_options& options = {});
 
   private:
     struct state;
@@ -197,9 +266,9 @@ struct [[nodiscard]] step_result : status, ccd::step_result {};
 
 /// ccd::step() on the device, which throws what that throws: copies both frames there and the pairs
 /// back. The mesh must have no edges of its own and at most one vertex on no face, whose kinds of
-/// pairs the device does not look for: anything else is an error, and so is an option that asks for
-/// times or distances. Of the others only the method counts; of the seconds, those of both phases
-/// are taken together as the narrow's.
+/// pairs the device does not look for: anything else is an error, and so are distances, and a
+/// filter. Of the options, those of mesh_step_options count; of the seconds, those of both phases
+/// and of the times are taken together as the narrow's.
 step_result step(const mesh& before, const mesh& after, const step_options& options = {},
                  precision precision = precision::float64);
 
@@ -209,5 +278,12 @@ status decide(std::span<const vertex_face<double>> queries, std::span<outcome> a
               const batch_options& options);
 status decide(std::span<const edge_edge<double>> queries, std::span<outcome> answers,
               const batch_options& options);
+
+/// ccd::first_times, from and to host memory: decided by `exact`, and those that collide asked for
+/// their times. Throws std::invalid_argument if the two lengths differ.
+status first_times(std::span<const vertex_face<double>> queries, std::span<first_time> times,
+                   const time_options& options = {});
+status first_times(std::span<const edge_edge<double>> queries, std::span<first_time> times,
+                   const time_options& options = {});
 
 }  // namespace ccd::cuda

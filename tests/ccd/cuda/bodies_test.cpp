@@ -366,15 +366,16 @@ TEST(device_select, lists_what_may_collide_and_never_drops_one_silently) {
         std::vector<ccd::vertex_index> found(room + 1, 12345);
         std::vector<std::uint32_t> place(n + 1);
         ccd::vertex_index count = 0;
-        ccd::cuda::detail::run_select(launcher, answers.data(), n, found.data(), room, &count,
-                                      place.data());
+        run_select(launcher, ccd::cuda::detail::may_collide_at{answers.data()}, n, found.data(),
+                   room, &count, place.data());
         EXPECT_EQ(count, expected) << "the number needed, whatever the room";
         for (std::size_t k = 0; k < std::min(room, expected); ++k) EXPECT_EQ(found[k], 3 * k);
         EXPECT_EQ(found[room], 12345u) << "nothing is written beyond the room";
     }
     ccd::vertex_index count = 7;
     std::uint32_t place = 0;
-    ccd::cuda::detail::run_select(launcher, answers.data(), 0, nullptr, 0, &count, &place);
+    run_select(launcher, ccd::cuda::detail::may_collide_at{answers.data()}, 0, nullptr, 0, &count,
+               &place);
     EXPECT_EQ(count, 0u);
 }
 
@@ -407,46 +408,11 @@ TEST(device_tree, finds_every_leaf_that_touches_once) {
     }
 }
 
-/// A step through the device's code: all of it but the launches.
-ccd::step_result device_step(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
-    host_launcher launcher;
-    ccd::cuda::detail::step_memory<host_launcher> memory(block);
-    const positions at = positions_of({before, after});
-    const auto edges = ccd::unique_edges(before.faces);
-    const auto faces = ccd::unique_faces(before.faces);
-    memory.set_mesh(launcher, before.vertices.size(), faces, edges);
-    ccd::step_result result;
-    // Twice: the second step finds memory that the first has used.
-    for (int i = 0; i < 2; ++i) {
-        result = {};
-        const auto found = memory.run(
-            launcher, at,
-            [&](const auto& part, outcome* answers, ccd::cuda::detail::scene_extent* scene,
-                ccd::cuda::detail::rounded_position* rows) -> std::size_t {
-                const laid_out<ccd::cuda::detail::exact_memory> all(scene, rows, part.count);
-                run_exact_stages(launcher, at, part, answers, *all, precision::float32);
-                return finish_exact(launcher, at, part, answers, *all).left;
-            });
-        result.candidates.vertex_face = found.vertex_face_candidates;
-        result.candidates.edge_edge = found.edge_edge_candidates;
-        for (std::size_t k = 0; k < found.vertex_face; ++k)
-            result.pairs.vertex_face.push_back(
-                ccd::detail::canonical(memory.vertex_face().data()[k]));
-        for (std::size_t k = 0; k < found.edge_edge; ++k)
-            result.pairs.edge_edge.push_back(ccd::detail::canonical(memory.edge_edge().data()[k]));
-    }
-    std::ranges::sort(result.pairs.vertex_face);
-    std::ranges::sort(result.pairs.edge_edge);
-    return result;
-}
-
 void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
     const auto expected = ccd::step(before, after);
-    const auto found = device_step(before, after, block);
-    EXPECT_EQ(found.candidates.vertex_face, expected.candidates.vertex_face);
-    EXPECT_EQ(found.candidates.edge_edge, expected.candidates.edge_edge);
-    EXPECT_EQ(found.pairs.vertex_face, expected.pairs.vertex_face);
-    EXPECT_EQ(found.pairs.edge_edge, expected.pairs.edge_edge);
+    const auto found = cuda_on_host::step(before, after, {}, block);
+    EXPECT_EQ(found.candidates, expected.candidates);
+    EXPECT_EQ(found.pairs, expected.pairs);
 }
 
 TEST(device_step, finds_the_pairs_of_a_scene) {
@@ -454,7 +420,7 @@ TEST(device_step, finds_the_pairs_of_a_scene) {
     const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
     const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
     EXPECT_FALSE(ccd::step(before, after).pairs.vertex_face.empty());
-    expect_step_as_on_host(before, after, std::size_t(1) << 22);
+    expect_step_as_on_host(before, after, cuda_on_host::default_block);
     expect_step_as_on_host(before, after, 1000);  // blocks that end within an element's candidates
 }
 

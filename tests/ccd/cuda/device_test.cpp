@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <ccd/cuda.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/first_times.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/method.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -76,22 +79,85 @@ TEST_F(on_device, decides_stored_queries_as_the_host_does) {
     expect_all_methods_same(cuda_sets::stored<ccd::edge_edge_pair>(data));
 }
 
-void expect_same_step(const fs::path& scene, const char* first, const char* second) {
-    const ccd::mesh before = ccd::io::read_mesh(scene / first);
-    const ccd::mesh after = ccd::io::read_mesh(scene / second);
-    for (const ccd::method m : {ccd::method::exact, ccd::method::tight}) {
-        const auto expected = ccd::step(before, after, {.method = m});
-        const auto found = ccd::cuda::step(before, after, {.method = m});
-        ASSERT_TRUE(found) << found.error;
-        EXPECT_EQ(found.candidates.vertex_face, expected.candidates.vertex_face);
-        EXPECT_EQ(found.candidates.edge_edge, expected.candidates.edge_edge);
-        EXPECT_EQ(found.pairs.vertex_face, expected.pairs.vertex_face);
-        EXPECT_EQ(found.pairs.edge_edge, expected.pairs.edge_edge);
+template <class Pair>
+void expect_same_times(const batch<Pair>& set) {
+    for (const double t_max : {1.0, 0.5, 0.0}) {
+        std::vector<ccd::first_time> found(set.size());
+        const auto s = ccd::cuda::first_times(set.queries, found, {t_max, nullptr});
+        ASSERT_TRUE(s) << s.error;
+        const auto expected = ccd::first_times(set.queries, {.t_max = t_max});
+        std::size_t differ = 0;
+        for (std::size_t i = 0; i < set.size(); ++i) differ += found[i] != expected[i];
+        EXPECT_EQ(differ, 0u) << "until " << t_max << " of " << set.size() << " queries";
     }
 }
 
-TEST_F(on_device, finds_the_pairs_of_a_step) {
-    expect_same_step(fs::path(ERRBOUND_SCENES) / "cloth-over-ball", "frame0.ply", "frame1.ply");
+TEST_F(on_device, finds_first_times_as_the_host_does) {
+    expect_same_times(difficult<ccd::vertex_face_pair>());
+    expect_same_times(difficult<ccd::edge_edge_pair>());
+}
+
+TEST_F(on_device, finds_first_times_of_stored_queries_as_the_host_does) {
+    const fs::path data = cuda_sets::data_folder();
+    if (!fs::is_directory(data)) GTEST_SKIP() << "No stored queries.";
+    expect_same_times(cuda_sets::stored<ccd::vertex_face_pair>(data));
+    expect_same_times(cuda_sets::stored<ccd::edge_edge_pair>(data));
+}
+
+void expect_same_step(const ccd::mesh& before, const ccd::mesh& after,
+                      const ccd::step_options& options) {
+    const auto expected = ccd::step(before, after, options);
+    const auto found = ccd::cuda::step(before, after, options);
+    ASSERT_TRUE(found) << found.error;
+    EXPECT_EQ(found.candidates, expected.candidates);
+    EXPECT_EQ(found.pairs, expected.pairs);
+    EXPECT_EQ(found.times, expected.times);
+    EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
+    EXPECT_EQ(found.first_contact, expected.first_contact);
+}
+
+TEST_F(on_device, finds_the_pairs_and_times_of_a_step) {
+    const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
+    const ccd::mesh before = ccd::io::read_mesh(scene / "frame0.ply");
+    const ccd::mesh after = ccd::io::read_mesh(scene / "frame1.ply");
+    for (const ccd::method m : {ccd::method::exact, ccd::method::tight})
+        for (const bool initial_contact : {false, true})
+            expect_same_step(before, after, {.method = m, .initial_contact = initial_contact});
+    for (const double t_max : {1.0, 0.5})
+        for (const bool times : {false, true})
+            expect_same_step(before, after,
+                             {.first_contact = true, .times = times, .t_max = t_max});
+}
+
+/// A copy of it on the device, to be freed.
+template <class T>
+void* copied(const std::vector<T>& host) {
+    void* p = nullptr;
+    EXPECT_EQ(cudaMalloc(&p, host.size() * sizeof(T)), cudaSuccess);
+    EXPECT_EQ(cudaMemcpy(p, host.data(), host.size() * sizeof(T), cudaMemcpyHostToDevice),
+              cudaSuccess);
+    return p;
+}
+void expect_done(const ccd::cuda::status& s) {
+    EXPECT_TRUE(s) << s.error;
+}
+
+/// First times of candidates on the device, which are these of a batch.
+template <class Pair>
+void expect_times_of(const batch<Pair>& set, const std::vector<ccd::vertex_index>& numbers,
+                     const ccd::cuda::positions& at, const ccd::cuda::candidates<Pair>& candidates,
+                     const ccd::cuda::scratch& memory, cudaStream_t stream) {
+    constexpr double t_max = 0.75;
+    std::vector<ccd::first_time> found(numbers.size());
+    auto* const times = static_cast<ccd::first_time*>(copied(found));
+    expect_done(ccd::cuda::find_times(at, candidates, times, memory, {t_max, stream}));
+    expect_done(ccd::cuda::finish_times(at, candidates, times, memory, {t_max, stream}));
+    ASSERT_EQ(cudaStreamSynchronize(stream), cudaSuccess);
+    ASSERT_EQ(cudaMemcpy(found.data(), times, found.size() * sizeof *times, cudaMemcpyDeviceToHost),
+              cudaSuccess);
+    for (std::size_t k = 0; k < found.size(); ++k)
+        EXPECT_EQ(found[k], ccd::time_of_impact(set.queries[numbers[k]], t_max));
+    EXPECT_EQ(cudaFree(times), cudaSuccess);
 }
 
 // The calls that a simulation makes: memory, stream and lists of its own.
@@ -99,13 +165,6 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     const auto set = cuda_sets::of_families<ccd::vertex_face_pair>(100, 33);
     cudaStream_t stream = nullptr;
     ASSERT_EQ(cudaStreamCreate(&stream), cudaSuccess);
-    const auto copied = [](const auto& host) {
-        void* p = nullptr;
-        const std::size_t bytes = host.size() * sizeof(host[0]);
-        EXPECT_EQ(cudaMalloc(&p, bytes), cudaSuccess);
-        EXPECT_EQ(cudaMemcpy(p, host.data(), bytes, cudaMemcpyHostToDevice), cudaSuccess);
-        return p;
-    };
     auto* const before = static_cast<double*>(copied(set.before));
     auto* const after = static_cast<double*>(copied(set.after));
     auto* const rows = static_cast<ccd::vertex_face_pair*>(copied(set.rows));
@@ -118,7 +177,6 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     const auto at = cuda_sets::positions_of({before, after, set.before.size()});
     const auto all = ccd::cuda::candidates<ccd::vertex_face_pair>::rows(rows, set.size());
     const ccd::cuda::batch_options options{ccd::method::exact, precision::float64, stream};
-    const auto expect_done = [](const ccd::cuda::status& s) { EXPECT_TRUE(s) << s.error; };
     expect_done(ccd::cuda::decide_batch(at, all, answers, memory, options));
     const auto finished = ccd::cuda::finish(at, all, answers, memory, options);
     expect_done(finished);
@@ -135,6 +193,8 @@ TEST_F(on_device, works_on_device_memory_and_streams) {
     ASSERT_EQ(list.back(), expected.size());
     list.resize(expected.size());
     EXPECT_EQ(list, expected);
+
+    expect_times_of(set, list, at, all.listed(found, list.size()), memory, stream);
     EXPECT_EQ(counts.axes, set.size());
     for (void* p : {static_cast<void*>(before), static_cast<void*>(after), static_cast<void*>(rows),
                     static_cast<void*>(answers), static_cast<void*>(found), memory.data})
@@ -188,6 +248,39 @@ TEST(device_arguments, are_refused_in_words) {
                  std::invalid_argument);
     ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 3);
     EXPECT_NE(steps.run(at).error.find("4 vertices, expected 3"), std::string::npos);
+}
+
+TEST(device_arguments, of_first_times_are_refused_in_words) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    alignas(16) const ccd::vertex_face_pair row{0, 1, 2, 3};
+    alignas(256) std::byte some[256];
+    const double xyz[12]{};
+    const ccd::cuda::positions at(ccd::cuda::coordinates<double>::rows(xyz),
+                                  ccd::cuda::coordinates<double>::rows(xyz), 4);
+    const ccd::cuda::scratch little{some, sizeof some};
+    const auto one = ccd::cuda::candidates<ccd::vertex_face_pair>::rows(&row, 1);
+    ccd::first_time time;
+    const auto expect_refused = [](const ccd::cuda::status& s, const char* what) {
+        EXPECT_NE(s.error.find(what), std::string::npos) << s.error;
+    };
+    expect_refused(ccd::cuda::find_times(at, one, &time, little, {nan, nullptr}), "t_max of nan");
+    expect_refused(ccd::cuda::find_times(at, one, nullptr, little), "null pointer");
+    expect_refused(ccd::cuda::finish_times(at, one, &time, little), "scratch memory of 256");
+    std::vector<ccd::first_time> none;
+    EXPECT_THROW((void)ccd::cuda::first_times(std::vector<ccd::vertex_face<double>>(1), none),
+                 std::invalid_argument);
+
+    ccd::cuda::mesh_steps steps(std::vector<ccd::face>{{0, 1, 2}}, 4);
+    expect_refused(steps.run(at, {.method = ccd::method::tight, .times = true}),
+                   "times asked of the method tight");
+    expect_refused(steps.run(at, {.t_max = nan}), "t_max of nan");
+    const ccd::mesh mesh{std::vector<ccd::point<double>>(4), {{0, 1, 2}}};
+    expect_refused(ccd::cuda::step(mesh, mesh, {.distances = {0.5}}), "distances");
+    const std::vector<int> groups(4);
+    expect_refused(ccd::cuda::step(mesh, mesh, {.filter = {.groups = groups}}), "filter");
+    EXPECT_THROW(
+        (void)ccd::cuda::step(mesh, mesh, {.method = ccd::method::tight, .first_contact = true}),
+        std::invalid_argument);
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <ccd/cuda.hpp>
+#include <ccd/mesh.hpp>
 #include <ccd/method.hpp>
+#include <ccd/step.hpp>
 #include <ccd/verdict.hpp>
 #include <cstddef>
 #include <memory>
@@ -10,6 +12,7 @@
 
 #include "ccd/cuda/launch.hpp"
 #include "ccd/cuda/method_stages.hpp"
+#include "ccd/cuda/step_times.hpp"
 
 namespace cuda_on_host {
 
@@ -55,6 +58,64 @@ std::vector<ccd::outcome> decide_by(const ccd::cuda::positions& at,
     ccd::cuda::detail::run_method<Method, T>(launcher, at, all, answers.data(), *memory);
     if (in_doubles != nullptr) *in_doubles = memory->counters->in_doubles;
     return answers;
+}
+
+/// First times of candidates, to the end, host's part included.
+template <class Pair>
+std::vector<ccd::first_time> first_times(const ccd::cuda::positions& at,
+                                         const ccd::cuda::candidates<Pair>& all,
+                                         const ccd::cuda::detail::times_asked& asked = {1, false},
+                                         ccd::cuda::detail::time_counters* counters = nullptr) {
+    ccd::cuda::detail::host_launcher launcher;
+    // Nothing may rely on what was there.
+    std::vector<ccd::first_time> times(all.count, {ccd::outcome::collides, -1, 2});
+    const laid_out<ccd::cuda::detail::time_memory> memory(all.count);
+    run_time_stages(launcher, at, all, times.data(), *memory, asked);
+    const auto counted = finish_times(launcher, at, all, times.data(), *memory);
+    if (counters != nullptr) *counters = counted;
+    return times;
+}
+
+constexpr std::size_t default_block =
+    ccd::cuda::detail::step_memory<ccd::cuda::detail::host_launcher>::default_block;
+
+/// A step by `exact` through the device's code: all of it but the launches.
+inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
+                             const ccd::cuda::mesh_step_options& asked = {},
+                             std::size_t block = default_block) {
+    using namespace ccd::cuda::detail;
+    host_launcher launcher;
+    asked_steps<host_launcher> steps(block);
+    using coordinates = ccd::cuda::coordinates<double>;
+    const ccd::vertex_rows rows(before, after);
+    const ccd::cuda::positions at(coordinates::rows(rows.before), coordinates::rows(rows.after),
+                                  rows.vertices);
+    steps.set_mesh(launcher, rows.vertices, ccd::unique_faces(before.faces),
+                   ccd::unique_edges(before.faces));
+    const auto decide = [&](const auto& part, ccd::outcome* answers, scene_extent* scene,
+                            rounded_position* rounded) -> std::size_t {
+        const laid_out<exact_memory> all(scene, rounded, part.count);
+        run_exact_stages(launcher, at, part, answers, *all, ccd::cuda::precision::float32);
+        return finish_exact(launcher, at, part, answers, *all).left;
+    };
+    const auto find = [&](const auto& pairs, ccd::first_time* times,
+                          const times_asked& times_of) -> std::size_t {
+        const laid_out<time_memory> all(pairs.count);
+        run_time_stages(launcher, at, pairs, times, *all, times_of);
+        return finish_times(launcher, at, pairs, times, *all).left;
+    };
+    ccd::step_result result;
+    // Twice: the second step finds memory that the first has used.
+    for (int i = 0; i < 2; ++i) {
+        const found_pairs found = steps.run(launcher, at, asked, decide, find);
+        result = {};
+        result.candidates.vertex_face = found.vertex_face_candidates;
+        result.candidates.edge_edge = found.edge_edge_candidates;
+        read_lists<ccd::kind::vertex_face>(launcher, steps.vertex_face(), result);
+        read_lists<ccd::kind::edge_edge>(launcher, steps.edge_edge(), result);
+        result.first_contact = steps.first_contact();
+    }
+    return result;
 }
 
 /// Calls visit<Method>(method) for all methods but `exact`.

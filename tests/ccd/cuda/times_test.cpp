@@ -1,0 +1,198 @@
+// First times on devices: kernel bodies run on the host by loops, against the host's own times.
+#include <gtest/gtest.h>
+
+#include <ccd/first_times.hpp>
+#include <ccd/io/mesh_file.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "ccd/cuda/time_stages.hpp"
+#include "tests/ccd/cuda/on_host.hpp"
+#include "tests/ccd/cuda/sets.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ccd::first_time;
+using ccd::outcome;
+using ccd::cuda::detail::time_counters;
+using cuda_sets::batch;
+using cuda_sets::data_folder;
+
+template <class Pair>
+class device_times : public testing::Test {};
+using kinds = testing::Types<ccd::vertex_face_pair, ccd::edge_edge_pair>;
+TYPED_TEST_SUITE(device_times, kinds);
+
+void expect_equal(const std::vector<first_time>& found, const std::vector<first_time>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        ASSERT_EQ(found[i], expected[i]) << i << ": " << found[i].low << ", " << found[i].high
+                                         << " and " << expected[i].low << ", " << expected[i].high;
+}
+
+/// All queries, those without contact too. Returns how many entered each stage.
+template <class Pair>
+time_counters expect_times(const batch<Pair>& set, double t_max = 1) {
+    time_counters counters{};
+    expect_equal(
+        cuda_on_host::first_times(set.positions(), set.candidates(), {t_max, false}, &counters),
+        ccd::first_times(set.queries, {.t_max = t_max}));
+    return counters;
+}
+
+/// Else a stage could be left out unnoticed: the next ones would answer its queries as well.
+void expect_every_stage_to_settle_some(std::size_t queries, const time_counters& c) {
+    std::cout << "roots " << queries << ", integers, 1 word " << c.one_word << ", roots, 2 words "
+              << c.roots_in_two_words << ", integers, 2 words " << c.two_words << ", host "
+              << c.left << '\n';
+    EXPECT_LT(c.one_word + c.roots_in_two_words, queries);
+    EXPECT_LT(c.two_words, c.roots_in_two_words);
+    EXPECT_LT(c.left, c.one_word + c.two_words);
+}
+
+TYPED_TEST(device_times, are_those_of_the_host) {
+    const auto set = cuda_sets::of_families<TypeParam>(support::scaled(200u), 41);
+    expect_every_stage_to_settle_some(set.size(), expect_times(set));
+}
+
+TYPED_TEST(device_times, of_stored_queries_are_those_of_the_host) {
+    if (!fs::is_directory(data_folder())) GTEST_SKIP() << "No stored queries.";
+    const auto set = cuda_sets::stored<TypeParam>(data_folder());
+    expect_every_stage_to_settle_some(set.size(), expect_times(set));
+}
+
+TYPED_TEST(device_times, are_asked_for_up_to_t_max) {
+    const auto set = cuda_sets::of_families<TypeParam>(support::scaled(50u), 42);
+    for (const double t_max :
+         {-1.0, 0.0, std::numeric_limits<double>::denorm_min(), 0.125, 0.5, 1 - 0x1p-53, 2.0})
+        expect_times(set, t_max);
+    // At the brackets' own ends.
+    const auto times = ccd::first_times(set.queries);
+    const auto at = set.positions();
+    for (std::size_t i = 0; i < set.size(); i += 7) {
+        if (times[i].outcome != outcome::collides) continue;
+        const auto number = static_cast<ccd::vertex_index>(i);
+        const auto alone = set.candidates().listed(&number, 1);
+        for (const double t_max : {times[i].low, times[i].high})
+            ASSERT_EQ(cuda_on_host::first_times(at, alone, {t_max, false}).front(),
+                      ccd::time_of_impact(set.queries[i], t_max));
+    }
+}
+
+// Of all but the start and the earliest, nothing need be told.
+TYPED_TEST(device_times, of_the_earliest_alone) {
+    const auto set = cuda_sets::of_families<TypeParam>(support::scaled(100u), 43);
+    const auto all = ccd::first_times(set.queries);
+    const auto found = cuda_on_host::first_times(set.positions(), set.candidates(), {1, true});
+    const ccd::cuda::detail::earlier_time earlier;
+    const auto earliest = [&](const std::vector<first_time>& times) {
+        first_time least{outcome::separate};
+        for (std::uint32_t i = 0; i < times.size(); ++i)
+            least = earlier(least, ccd::cuda::detail::time_after_start{times.data()}(i));
+        return least;
+    };
+    const first_time first = earliest(all);
+    EXPECT_EQ(first, ccd::earliest(set.queries).time);
+    EXPECT_EQ(earliest(found), first);
+    std::size_t not_asked = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        ASSERT_TRUE(found[i] == all[i] ||
+                    (found[i].outcome == outcome::separate && all[i].high > earliest(all).high));
+        not_asked += found[i] != all[i];
+    }
+    EXPECT_GT(not_asked, 0u);
+}
+
+TYPED_TEST(device_times, of_coordinates_that_are_not_finite_are_uncertain) {
+    auto set = cuda_sets::of_families<TypeParam>(5, 44);
+    for (std::size_t i = 0; i < set.size(); i += 5) {
+        const double bad = i % 2 == 0 ? std::numeric_limits<double>::quiet_NaN()
+                                      : std::numeric_limits<double>::infinity();
+        (i % 3 == 0 ? set.before : set.after)[4 * i + i % 4].y = bad;
+    }
+    const auto found = cuda_on_host::first_times(set.positions(), set.candidates());
+    for (std::size_t i = 0; i < set.size(); ++i)
+        ASSERT_EQ(found[i], i % 5 == 0 ? first_time{} : ccd::time_of_impact(set.queries[i])) << i;
+}
+
+// As a caller asks: those that select_colliding lists.
+TYPED_TEST(device_times, of_listed_candidates_come_in_the_order_of_the_list) {
+    const auto set = cuda_sets::of_families<TypeParam>(20, 45);
+    std::vector<ccd::vertex_index> numbers;
+    std::vector<first_time> expected;
+    for (std::size_t i = set.size(); i-- > 0;) {
+        const first_time time = ccd::time_of_impact(set.queries[i]);
+        if (time.outcome != outcome::collides) continue;
+        numbers.push_back(static_cast<ccd::vertex_index>(i));
+        expected.push_back(time);
+    }
+    expect_equal(cuda_on_host::first_times(set.positions(),
+                                           set.candidates().listed(numbers.data(), numbers.size())),
+                 expected);
+}
+
+/// All that a step can be asked of times.
+void expect_steps_as_on_host(const ccd::mesh& before, const ccd::mesh& after,
+                             std::size_t block = cuda_on_host::default_block) {
+    const auto first = ccd::step(before, after, {.first_contact = true}).first_contact;
+    for (const double t_max : {1.0, first.high, first.low, 0.5, 0.0, -1.0})
+        for (unsigned asked = 0; asked < 8; ++asked) {
+            SCOPED_TRACE(testing::Message() << "t_max " << t_max << ", asked " << asked);
+            const ccd::cuda::mesh_step_options questions{.initial_contact = (asked & 1) != 0,
+                                                         .first_contact = (asked & 2) != 0,
+                                                         .times = (asked & 4) != 0,
+                                                         .t_max = t_max};
+            const auto expected = ccd::step(before, after,
+                                            {.initial_contact = questions.initial_contact,
+                                             .first_contact = questions.first_contact,
+                                             .times = questions.times,
+                                             .t_max = t_max});
+            const auto found = cuda_on_host::step(before, after, questions, block);
+            EXPECT_EQ(found.pairs, expected.pairs);
+            EXPECT_EQ(found.times, expected.times);
+            EXPECT_EQ(found.touching_at_start, expected.touching_at_start);
+            EXPECT_EQ(found.first_contact, expected.first_contact);
+        }
+}
+
+TEST(device_step_times, of_a_scene_are_those_of_the_host) {
+    const fs::path scene = fs::path(ERRBOUND_SCENES) / "cloth-over-ball";
+    expect_steps_as_on_host(ccd::io::read_mesh(scene / "frame0.ply"),
+                            ccd::io::read_mesh(scene / "frame1.ply"));
+}
+
+// On a grid contacts at the start, planar motion and ties abound.
+TEST(device_step_times, of_soups_on_a_grid_are_those_of_the_host) {
+    for (const unsigned seed : {5U, 6U, 7U}) {
+        std::mt19937_64 random(seed);
+        const auto coordinate = [&random] { return static_cast<double>(random() % 12); };
+        ccd::mesh before;
+        for (unsigned i = 0; i < 60; ++i)
+            before.vertices.push_back({coordinate(), coordinate(), coordinate()});
+        for (unsigned i = 0; i < 40; ++i) {
+            const auto v = static_cast<ccd::vertex_index>(random() % 58);
+            before.faces.push_back({v + 2, v, v + 1});
+        }
+        ccd::mesh after = before;
+        for (auto& p : after.vertices) p = {p.x + coordinate() / 4, p.y - coordinate() / 4, p.z};
+        expect_steps_as_on_host(before, after, 7);
+    }
+}
+
+TEST(device_step_times, of_meshes_of_nothing_are_none) {
+    expect_steps_as_on_host({}, {});
+    const ccd::mesh one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}}, {{0, 1, 2}}};
+    ccd::mesh moved = one;
+    expect_steps_as_on_host(one, moved);
+    moved.vertices[3].z = -1;
+    expect_steps_as_on_host(one, moved);
+}
+
+}  // namespace
