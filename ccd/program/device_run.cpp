@@ -27,9 +27,14 @@ void decide_on_device(std::span<const Query> queries, std::span<outcome> answers
                       cuda::precision precision) {
     require(cuda::decide(queries, answers, {m, precision, nullptr}));
 }
-step_result step_on_device(const mesh& before, const mesh& after, method m,
+template <class Query>
+void find_times_on_device(std::span<const Query> queries, std::span<first_time> times,
+                          double t_max) {
+    require(cuda::first_times(queries, times, {t_max, nullptr}));
+}
+step_result step_on_device(const mesh& before, const mesh& after, const step_options& options,
                            cuda::precision precision) {
-    const cuda::step_result result = cuda::step(before, after, {.method = m}, precision);
+    const cuda::step_result result = cuda::step(before, after, options, precision);
     require(result);
     return result;
 }
@@ -50,7 +55,11 @@ template <class Query>
 void decide_on_device(std::span<const Query>, std::span<outcome>, method, cuda::precision) {
     require_device();
 }
-step_result step_on_device(const mesh&, const mesh&, method, cuda::precision) {
+template <class Query>
+void find_times_on_device(std::span<const Query>, std::span<first_time>, double) {
+    require_device();
+}
+step_result step_on_device(const mesh&, const mesh&, const step_options&, cuda::precision) {
     require_device();
     return {};
 }
@@ -61,5 +70,9 @@ template void decide_on_device(std::span<const vertex_face<double>>, std::span<o
                                cuda::precision);
 template void decide_on_device(std::span<const edge_edge<double>>, std::span<outcome>, method,
                                cuda::precision);
+template void find_times_on_device(std::span<const vertex_face<double>>, std::span<first_time>,
+                                   double);
+template void find_times_on_device(std::span<const edge_edge<double>>, std::span<first_time>,
+                                   double);
 
 }  // namespace ccd::program

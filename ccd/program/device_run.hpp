@@ -1,6 +1,7 @@
 // The program's way to CUDA devices, in builds with CUDA and without.
 #pragma once
 
+#include <ccd/contact.hpp>
 #include <ccd/cuda.hpp>
 #include <ccd/query.hpp>
 #include <ccd/step.hpp>
@@ -27,11 +28,14 @@ void require_device();
 /// The methods that devices run.
 std::vector<method> methods_on_device();
 
-/// Of the stored kinds. Throw device_error.
+/// Of the stored kinds, as the functions of ccd::cuda; throw device_error.
 template <class Query>
 void decide_on_device(std::span<const Query> queries, std::span<outcome> answers, method m,
                       cuda::precision precision);
-step_result step_on_device(const mesh& before, const mesh& after, method m,
+template <class Query>
+void find_times_on_device(std::span<const Query> queries, std::span<first_time> times,
+                          double t_max);
+step_result step_on_device(const mesh& before, const mesh& after, const step_options& options,
                            cuda::precision precision);
 
 }  // namespace ccd::program

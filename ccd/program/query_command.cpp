@@ -66,6 +66,27 @@ outcome decide_one(const Query& query, ccd::method method, const time_question& 
 }
 
 template <class Query>
+std::vector<first_time> find_times(const std::vector<Query>& queries, const device_choice& device,
+                                   const time_question& asked) {
+    if (!device.cuda)
+        return first_times(queries,
+                           {.t_max = asked.t_max, .distances = {asked.distance.value_or(0)}});
+    std::vector<first_time> times(queries.size());
+    find_times_on_device<Query>(queries, times, asked.t_max);
+    return times;
+}
+
+template <class Query>
+void answer_on_device(const std::vector<Query>& queries, const device_choice& device, method m,
+                      const time_question& asked, std::vector<outcome>& outcomes) {
+    if (asked.t_max < 1)
+        std::ranges::transform(find_times(queries, device, asked), outcomes.begin(),
+                               &first_time::outcome);
+    else
+        decide_on_device<Query>(queries, outcomes, m, device.precision);
+}
+
+template <class Query>
 void decide_all(const std::vector<Query>& queries, const device_choice& device,
                 const time_question& asked, result& out) {
     // Made into bits afterwards, since that is work which is not the method's.
@@ -75,7 +96,7 @@ void decide_all(const std::vector<Query>& queries, const device_choice& device,
     do {
         const steady_clock::time_point pass = steady_clock::now();
         if (device.cuda)
-            decide_on_device<Query>(queries, outcomes, out.method, device.precision);
+            answer_on_device(queries, device, out.method, asked, outcomes);
         else
             for (std::size_t i = 0; i < queries.size(); ++i)
                 outcomes[i] = decide_one(queries[i], out.method, asked);
@@ -84,9 +105,7 @@ void decide_all(const std::vector<Query>& queries, const device_choice& device,
     out.verdicts.clear();
     for (const outcome o : outcomes) out.verdicts.push_back(o != outcome::separate);
     out.ns_per_query = fastest * 1e9 / static_cast<double>(queries.size());
-    if (asked.times)
-        out.times =
-            first_times(queries, {.t_max = asked.t_max, .distances = {asked.distance.value_or(0)}});
+    if (asked.times) out.times = find_times(queries, device, asked);
 }
 
 result decide_file(const io::query_file& queries, const std::string& file, ccd::method method,
@@ -214,17 +233,17 @@ class query final : public command {
         if (separation_.was_given()) asked.distance = separation_.value(0, most);
         return asked;
     }
-    /// Whether something is asked that only `exact` answers, on this machine's processor.
+    /// Whether something is asked that only `exact` answers.
     bool asks_exact_alone() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
 
     std::vector<ccd::method> methods_on(const device_choice& device) const {
         if (asks_exact_alone()) {
             const bool exact_given =
                 !methods_.was_given() || methods_.methods() == std::vector{method::exact};
-            if (device.cuda || !exact_given)
-                throw usage_error(
-                    "--toi, --separation and --t-max: expected --method exact and "
-                    "--device cpu");
+            if (!exact_given)
+                throw usage_error("--toi, --separation and --t-max: expected --method exact");
+            if (device.cuda && separation_.was_given())
+                throw usage_error("--separation: found --device cuda, expected --device cpu");
             return {method::exact};
         }
         if (device.cuda && !methods_.was_given()) return methods_on_device();

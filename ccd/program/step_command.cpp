@@ -283,9 +283,9 @@ class step final : public command {
         found.read_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-        found.result = asked_.device.cuda
-                           ? step_on_device(before, after, asked_.method, asked_.device.precision)
-                           : ccd::step(before, after, asked_.options());
+        found.result = asked_.device.cuda ? step_on_device(before, after, asked_.options(),
+                                                           asked_.device.precision)
+                                          : ccd::step(before, after, asked_.options());
         if (advance_)
             found.advance = ccd::advance(
                 before, after,
@@ -314,9 +314,11 @@ class step final : public command {
         asked_.advance = advance_.has_value();
         asked_.distance = separation_.value(0, std::numeric_limits<double>::max());
         if (!asked_.times && !asked_.advance && !separation_.was_given()) return;
-        if (asked_.method != method::exact || asked_.device.cuda)
+        if (asked_.method != method::exact)
+            throw usage_error("--toi, --separation and --advance: expected --method exact");
+        if (asked_.device.cuda && (asked_.advance || separation_.was_given()))
             throw usage_error(
-                "--toi, --separation and --advance: expected --method exact and --device cpu");
+                "--separation and --advance: found --device cuda, expected --device cpu");
         if (asked_.explain && asked_.distance != 0)
             throw usage_error(
                 "--explain: found --separation, expected contact, which alone has stages");

@@ -425,6 +425,7 @@ class Device(ProgramTest):
             found = pairs.read_text()
             self.good("step", *frames, "--pairs", pairs)
             self.assertEqual(found, pairs.read_text())
+            self.same_on_device("step", *frames)
             return None
         self.assertFalse(pairs.exists())
         self.assertEqual(done.stdout, "")
@@ -433,9 +434,19 @@ class Device(ProgramTest):
         self.assertIn(expected[done.returncode], done.stderr)
         return done.returncode
 
+    def same_on_device(self, *arguments):
+        times = [self.good(*arguments, "--toi", "-", *device)
+                 for device in ([], ["--device", "cuda"])]
+        self.assertEqual(times[0], times[1])
+
     def test_step_and_query(self):
         error = self.device()
         file = self.write("vf.csv", HIT)
+        for t_max in ([], ["--t-max", "0.5"]):
+            done = self.run_program("query", file, "--kind", "vf", "--device", "cuda", "--toi", "-", *t_max)
+            self.assertEqual(done.returncode, error or 0, done.stderr)
+            if error is None:
+                self.same_on_device("query", file, "--kind", "vf", *t_max)
         for precision in ([], ["--precision", "float32"], ["--precision", "float64"]):
             done = self.run_program("query", file, "--kind", "vf", "--device", "cuda", *precision)
             self.assertEqual(done.returncode, error or 0, done.stderr)
@@ -454,6 +465,9 @@ class Device(ProgramTest):
                           self.bad_usage("query", file, "--device", "cuda", "--method", "provot"))
             self.bad_usage("step", *frames, "--device", "cuda", "--explain")
             self.bad_usage("step", *frames, "--device", "cuda", "--threads", "2")
+            for distance in (["step", *frames], ["query", file, "--kind", "vf"]):
+                self.assertIn("expected --device cpu",
+                              self.bad_usage(*distance, "--device", "cuda", "--separation", "1"))
 
 
 class Stress(ProgramTest):
