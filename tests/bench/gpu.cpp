@@ -1,10 +1,12 @@
-// ./run bench-gpu: every method on the device, beside the host; whole steps; as tables.
+// ./run bench-gpu: every method on the device, beside the host; first times; whole steps; as
+// tables.
 #include <cuda_runtime_api.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <ccd/batch.hpp>
 #include <ccd/cuda.hpp>
+#include <ccd/first_times.hpp>
 #include <ccd/step.hpp>
 #include <cstdio>
 #include <exception>
@@ -99,6 +101,23 @@ class device_batch {
         return finished.stages;
     }
     std::vector<ccd::outcome> answers() const { return answers_.copied(); }
+
+    /// Lists those that collide, once they are decided by `exact`, and finds their times; `times`
+    /// must be at least as many.
+    ccd::cuda::time_stage_counts find_times(const device_array<ccd::vertex_index>& numbers,
+                                            const device_array<ccd::first_time>& times) const {
+        const ccd::cuda::scratch scratch{memory_.data(), memory_.size()};
+        check(select_colliding(answers_.data(), size(), numbers.data(), size(),
+                               numbers.data() + size(), scratch));
+        ccd::vertex_index count = 0;
+        check(cudaMemcpy(&count, numbers.data() + size(), sizeof count, cudaMemcpyDeviceToHost));
+        const auto all = ccd::cuda::candidates<pair>::rows(rows_.data(), rows_.size())
+                             .listed(numbers.data(), count);
+        check(ccd::cuda::find_times(scene_.at, all, times.data(), scratch));
+        const auto finished = finish_times(scene_.at, all, times.data(), scratch);
+        check(finished);
+        return finished.stages;
+    }
 
   private:
     static device_array<pair> repeated(const std::vector<pair>& once, std::size_t copies) {
@@ -223,6 +242,70 @@ void add_stages_table(const bench::scene& s, const device_batch<Query>& batch, d
                row("host", counts.left_open, 0, 1)});
 }
 
+std::vector<bench::cell> row_of_times(const char* where, std::size_t queries, std::size_t contacts,
+                                      const bench::timing& decided, const bench::timing& timed) {
+    const auto each = [&](double seconds) {
+        return bench::number(1e9 * seconds / static_cast<double>(queries), 3);
+    };
+    return {bench::word(where),
+            bench::count(contacts),
+            each(decided.minimum),
+            each(timed.minimum),
+            bench::number(timed.minimum / decided.minimum, 3),
+            bench::number(1e9 * (timed.minimum - decided.minimum) /
+                              static_cast<double>(std::max<std::size_t>(1, contacts)),
+                          1)};
+}
+
+/// First times of all that collide, beside the decision alone, on the device and on the host.
+template <class Query>
+void add_times_table(const bench::scene& s, const device_batch<Query>& batch,
+                     const bench::query_set<Query>& once, const bench::options& o,
+                     bench::report& out) {
+    batch.decide({});
+    const auto colliding = [](ccd::outcome a) { return a != ccd::outcome::separate; };
+    const auto contacts =
+        static_cast<std::size_t>(std::ranges::count_if(batch.answers(), colliding));
+    const device_array<ccd::vertex_index> numbers(batch.size() + 1);
+    const device_array<ccd::first_time> found(contacts);
+    ccd::cuda::time_stage_counts stages;
+    std::vector<ccd::first_time> on_host;
+    const ccd::vertex_rows rows(s.before, s.after);
+    const auto passes = bench::race({[&] {
+                                         batch.decide({});
+                                         check(cudaDeviceSynchronize());
+                                     },
+                                     [&] {
+                                         batch.decide({});
+                                         stages = batch.find_times(numbers, found);
+                                         check(cudaDeviceSynchronize());
+                                     },
+                                     [&] { ccd::decide_batch(rows, once.by_index); },
+                                     [&] { on_host = ccd::first_times(rows, once.by_index); }},
+                                    o.repeats());
+    std::erase_if(on_host, [&](const ccd::first_time& t) { return !colliding(t.outcome); });
+    auto first_copy = found.copied();
+    first_copy.resize(contacts / batch.copies());
+    const std::string kind(short_name(ccd::kind_of<Query>));
+    out.table(
+        "gpu-times", {{"scene", s.name}, {"kind", kind}, {"agree", first_copy == on_host}},
+        "First times of the " + kind + " candidates that collide, and the decision alone, in " +
+            "ns a query; " + (first_copy == on_host ? "the same" : "NOT THE SAME") +
+            " on the host. On the device " + std::to_string(stages.roots_one_word) +
+            " were asked for a root in one word, " + std::to_string(stages.integers_one_word) +
+            " in one word alone, " + std::to_string(stages.roots_two_words) + " and " +
+            std::to_string(stages.integers_two_words) + " in two, " +
+            std::to_string(stages.left_open) + " left to the host",
+        {{"where", "where", true},
+         {"contacts", "contacts"},
+         {"decided", "decided"},
+         {"timed", "with times"},
+         {"ratio", "ratio"},
+         {"ns_per_contact", "ns/contact"}},
+        {row_of_times("device", batch.size(), contacts, passes[0], passes[1]),
+         row_of_times("host", once.size(), on_host.size(), passes[2], passes[3])});
+}
+
 template <class Query>
 void methods(const bench::scene& s, const device_scene& device, const bench::query_set<Query>& once,
              std::size_t least, const bench::device_peaks& peaks, const bench::options& o,
@@ -236,46 +319,67 @@ void methods(const bench::scene& s, const device_scene& device, const bench::que
                                          [](const contestant& c) { return c.options.method; });
     add_stages_table(s, batch, times[static_cast<std::size_t>(exact - contestants.begin())].minimum,
                      peaks, out);
+    add_times_table(s, batch, once, o, out);
 }
+
+/// What a step is asked, on the device and on the host.
+struct step_asked {
+    const char* name;
+    ccd::cuda::mesh_step_options options;
+
+    ccd::step_options on_host() const {
+        return {.method = options.method,
+                .first_contact = options.first_contact,
+                .times = options.times};
+    }
+};
+constexpr step_asked steps_asked[] = {
+    {"exact", {}},
+    {"exact, first contact", {.first_contact = true}},
+    {"exact, times", {.times = true}},
+    {"tight", {.method = ccd::method::tight}},
+};
 
 void steps(const bench::scene& s, const device_scene& device, const bench::options& o,
            bench::report& out) {
     std::vector<std::vector<bench::cell>> table;
-    for (const ccd::method m : {ccd::method::exact, ccd::method::tight}) {
+    for (const step_asked& asked : steps_asked) {
         ccd::cuda::mesh_steps steps(s.before.faces, s.before.vertices.size());
         ccd::cuda::mesh_steps::result found;
         ccd::step_result on_host;
         const auto times =
             bench::race({[&] {
-                             found = steps.run(device.at, {m, precision::float64, nullptr});
+                             found = steps.run(device.at, asked.options);
                              check(found);
                          },
-                         [&] { on_host = ccd::step(s.before, s.after, {.method = m}); }},
+                         [&] { on_host = ccd::step(s.before, s.after, asked.on_host()); }},
                         o.repeats());
         table.push_back(
-            {bench::word(info(m).name),
+            {bench::word(asked.name),
              bench::count(found.candidates.vertex_face + found.candidates.edge_edge),
              bench::count(found.pairs.vertex_face.size() + found.pairs.edge_edge.size()),
              bench::word(found.pairs.vertex_face.size() == on_host.pairs.vertex_face.size() &&
-                                 found.pairs.edge_edge.size() == on_host.pairs.edge_edge.size()
+                                 found.pairs.edge_edge.size() == on_host.pairs.edge_edge.size() &&
+                                 found.first_contact == on_host.first_contact
                              ? "yes"
                              : "NO"),
              bench::number(1e3 * times[0].minimum, 3), bench::number(1e3 * times[0].median, 3),
              bench::number(1e3 * times[1].minimum, 3),
              bench::number(times[1].minimum / times[0].minimum, 1)});
     }
-    out.table("gpu-steps", {{"scene", s.name}},
-              "A step: from vertices on the device to pairs there, in ms; by the host with all "
-              "its threads, from its memory",
-              {{"method", "method", true},
-               {"candidates", "candidates"},
-               {"pairs", "pairs"},
-               {"agree", "agree", true},
-               {"device_ms", "device best"},
-               {"device_median_ms", "median"},
-               {"host_ms", "host best"},
-               {"ratio", "host/device"}},
-              table);
+    out.table(
+        "gpu-steps", {{"scene", s.name}},
+        "A step: from vertices on the device to pairs and times there, in ms; by the host with "
+        "all its threads, from its memory",
+        {{"method", "asked", true},
+         {"candidates", "candidates"},
+         {"pairs", "pairs"},
+         {"agree", "agree", true},
+         {"device_ms", "device best"},
+         {"device_median_ms", "median"},
+         {"host_ms", "host best"},
+         {"ratio", "host/device"}},
+        table);
 }
 
 struct run_options : bench::options {
