@@ -1,0 +1,272 @@
+(** What rounding loses where an axis separates two features by more than a distance
+    (ccd/contact/separation_filter.hpp). double, to nearest.
+
+    Results:
+        scaled_near          differences of coordinates in units of a power of two
+        projection_near      projections to an axis of about unit length
+        separated_right      a gap beyond above_ at a time: points are more than d apart along the axis
+        separated_part       so what `separated` says of a part of the step is what Separation.v asks of an axis *)
+
+From Coq Require Import Reals ZArith Lia Lra Psatz List.
+From Flocq Require Import Core.
+From Errbound Require Import Contact Distance Separation Format.
+Import ListNotations.
+Open Scope R_scope.
+
+#[local] Instance double_precision : Prec_gt_0 53 := eq_refl.
+Notation fl := (rnd 53 (-1074) nearest).
+Notation double := (number 53 (-1074)).
+Notation u := (u 53).
+Notation eta := (eta (-1074)).
+
+Lemma u_small : 0 < u <= / 1048576.
+Proof. split; [apply u_positive |]. unfold Format.u. apply Rle_trans with (bpow radix2 (-20)); [apply bpow_le; lia | simpl; lra]. Qed.
+Lemma fl_number x : double (fl x).
+Proof. apply rnd_number; auto with typeclass_instances. Qed.
+Lemma fl_any x : Rabs (fl x - x) <= u * Rabs x + eta.
+Proof.
+  pose proof (rounding_error_nearest 53 (-1074) ltac:(lia)) as E. pose proof (eta_positive (-1074)). pose proof u_small.
+  pose proof (Rabs_pos x). assert (0 <= u * Rabs x) by (apply Rmult_le_pos; lra).
+  destruct (Rlt_or_le (Rabs x) (smallest_normal 53 (-1074))) as [S | S].
+  - pose proof (error_absolute _ _ _ _ _ E x S). lra.
+  - pose proof (error_relative _ _ _ _ _ E x S). lra.
+Qed.
+(** fl x, of a size at most m. *)
+Lemma fl_within x m : Rabs x <= m -> Rabs (fl x - x) <= u * m + eta /\ Rabs (fl x) <= m + u * m + eta.
+Proof.
+  intros H. pose proof (fl_any x) as F. pose proof u_small. assert (u * Rabs x <= u * m) by (apply Rmult_le_compat_l; lra).
+  split; [lra |]. replace (fl x) with (fl x - x + x) by ring. eapply Rle_trans; [apply Rabs_triang |]. lra.
+Qed.
+Lemma product_within x y A B : Rabs x <= A -> Rabs y <= B -> Rabs (x * y) <= A * B.
+Proof. intros X Y. rewrite Rabs_mult. apply Rmult_le_compat; auto using Rabs_pos. Qed.
+
+(** features::features: a coordinate less the origin's, times a power of two: exactly or, below normal numbers, off by eta. *)
+Theorem scaled_near q o k m : double q -> double o -> 0 < k -> let s := fl (k * fl (q - o)) in
+  Rabs (s - k * fl (q - o)) <= eta -> Rabs s <= m -> Rabs (s - k * (q - o)) <= u * m + 2 * (u * (u * m)) + 3 * eta.
+Proof.
+  intros Q O K s H M. pose proof u_small as U. pose proof (eta_positive (-1074)) as E.
+  pose proof (sum_error 53 (-1074) nearest _ _ (rounding_error_nearest 53 (-1074) ltac:(lia)) q (- o) Q
+    ltac:(now apply number_opp)) as R. change (q + - o) with (q - o) in R. set (d := fl (q - o)) in *.
+  assert (Rk : Rabs (k * d - k * (q - o)) <= u * Rabs (k * (q - o))).
+  { rewrite <- Rmult_minus_distr_l, !Rabs_mult, (Rabs_pos_eq k) by lra.
+    replace (u * (k * Rabs (q - o))) with (k * (u * Rabs (q - o))) by ring. apply Rmult_le_compat_l; lra. }
+  set (X := k * (q - o)) in *. set (Y := k * d) in *.
+  assert (B : Rabs X <= m + eta + u * Rabs X).
+  { replace X with (s + - (s - Y) + - (Y - X)) at 1 by ring.
+    eapply Rle_trans; [apply Rabs_triang |]. rewrite Rabs_Ropp. pose proof (Rabs_triang s (- (s - Y))) as T.
+    rewrite Rabs_Ropp in T. lra. }
+  assert (M0 : 0 <= m) by (pose proof (Rabs_pos s); lra).
+  assert (Um : 0 <= u * m) by (apply Rmult_le_pos; lra).
+  assert (B2 : u * Rabs X <= u * m + 2 * (u * (u * m)) + 2 * eta).
+  { assert (Q1 : Rabs X * (1 - u) <= m + eta) by lra.
+    assert (Q2 : Rabs X <= (m + eta) * (1 + 2 * u)).
+    { apply Rmult_le_reg_r with (1 - u); [lra |]. apply Rle_trans with (1 := Q1).
+      assert (0 <= (m + eta) * u * (1 - 2 * u)) by (apply Rmult_le_pos; [apply Rmult_le_pos |]; lra). lra. }
+    apply (Rmult_le_compat_l u) in Q2; [| lra].
+    assert (u * eta <= / 4 * eta) by (apply Rmult_le_compat_r; lra).
+    assert (0 <= u * eta) by (apply Rmult_le_pos; lra).
+    assert (u * (u * eta) <= / 4 * eta) by (apply Rle_trans with (1 * (u * eta)); [apply Rmult_le_compat_r; lra | lra]). lra. }
+  replace (s - X) with (s - Y + (Y - X)) by ring. eapply Rle_trans; [apply Rabs_triang |]. lra.
+Qed.
+
+Section Filter.
+
+(** The scaled coordinates' largest sizes; their sum is 1 or more, but for scenes below 2^-1000. *)
+Variables mx my mz : R.
+Hypotheses (mx_0 : 0 <= mx) (my_0 : 0 <= my) (mz_0 : 0 <= mz).
+Let S : R := mx + my + mz.
+Hypothesis not_tiny : bpow radix2 (-900) <= S.
+
+Lemma eta_little : 0 < eta <= / 4096 * (u * S).
+Proof.
+  split; [apply eta_positive |]. apply Rle_trans with (/ 4096 * (u * bpow radix2 (-900))).
+  - unfold Format.eta, Format.u. replace (/ 4096) with (bpow radix2 (-12)) by (simpl; lra). rewrite <- !bpow_plus. apply bpow_le. lia.
+  - pose proof u_small. repeat (apply Rmult_le_compat_l; [lra |]). exact not_tiny.
+Qed.
+
+(** A point in doubles, and where it is: what scaled_near says, axis by axis. *)
+Definition off (m s t : R) : Prop := Rabs s <= m /\ Rabs (s - t) <= u * m + 2 * (u * (u * m)) + 3 * eta.
+Definition near_point (s t : point) : Prop := off mx (x s) (x t) /\ off my (y s) (y t) /\ off mz (z s) (z t).
+
+Variable a : point.
+Hypothesis axis_length : norm a <= 1 + 8 * u.
+Lemma axis_component : Rabs (x a) <= 1025 / 1024 /\ Rabs (y a) <= 1025 / 1024 /\ Rabs (z a) <= 1025 / 1024.
+Proof.
+  pose proof u_small. assert (L : norm a <= 1025 / 1024) by lra. pose proof (norm_nonnegative a) as N.
+  pose proof (norm_square a) as Q. unfold dot in Q.
+  assert (C : forall c, c * c <= norm a * norm a -> Rabs c <= 1025 / 1024).
+  { intros c Hc. apply Rle_trans with (2 := L). apply Rsqr_le_abs_0 in Hc. rewrite (Rabs_pos_eq (norm a)) in Hc; auto. }
+  repeat split; apply C; rewrite Q; nra.
+Qed.
+(** dot *)
+Definition projected (s : point) : R := fl (fl (fl (x a * x s) + fl (y a * y s)) + fl (z a * z s)).
+
+Ltac distribute := rewrite ?Rmult_plus_distr_l in *.
+Theorem projection_near s t : near_point s t ->
+  Rabs (projected s - dot a t) <= 405 / 100 * (u * S) /\ Rabs (projected s) <= 101 / 100 * S.
+Proof.
+  intros ((Sx & Ox) & (Sy & Oy) & (Sz & Oz)). pose proof u_small as U. pose proof eta_little as E.
+  unfold projected. destruct axis_component as (Ax & Ay & Az). pose proof (product_within _ _ _ _ Ax Sx) as Px.
+  pose proof (product_within _ _ _ _ Ay Sy) as Py. pose proof (product_within _ _ _ _ Az Sz) as Pz.
+  assert (S0 : 0 <= S) by (unfold S; lra). assert (Us : u * S <= / 1048576 * S) by (apply Rmult_le_compat_r; lra).
+  assert (Ux : 0 <= u * mx /\ 0 <= u * my /\ 0 <= u * mz) by (repeat split; apply Rmult_le_pos; lra).
+  assert (Uu : forall m, 0 <= m -> u * (u * m) <= / 1048576 * (u * m)).
+  { intros m M. apply Rmult_le_compat_r; [apply Rmult_le_pos; lra | lra]. }
+  pose proof (Uu mx mx_0). pose proof (Uu my my_0). pose proof (Uu mz mz_0).
+  assert (Us' : u * S = u * mx + u * my + u * mz) by (unfold S; ring).
+  destruct (fl_within _ _ Px) as (Rx & Bx). destruct (fl_within _ _ Py) as (Ry & By). destruct (fl_within _ _ Pz) as (Rz & Bz).
+  set (px := fl (x a * x s)) in *. set (py := fl (y a * y s)) in *. set (pz := fl (z a * z s)) in *.
+  assert (Small : forall m, 0 <= m -> u * m <= / 1048576 * m) by (intros m M; apply Rmult_le_compat_r; lra).
+  pose proof (Small mx mx_0). pose proof (Small my my_0). pose proof (Small mz mz_0).
+  assert (Bx' : Rabs px <= 1002 / 1000 * mx + eta) by lra. assert (By' : Rabs py <= 1002 / 1000 * my + eta) by lra.
+  assert (Bz' : Rabs pz <= 1002 / 1000 * mz + eta) by lra.
+  assert (B1 : Rabs (px + py) <= 1002 / 1000 * (mx + my) + 2 * eta) by (pose proof (Rabs_triang px py); lra).
+  destruct (fl_within _ _ B1) as (R1 & C1). set (q := fl (px + py)) in *.
+  assert (Ue : 0 <= u * eta <= / 1048576 * eta) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
+  assert (C1' : Rabs q <= 1003 / 1000 * (mx + my) + 4 * eta) by lra.
+  assert (B2 : Rabs (q + pz) <= 1004 / 1000 * S + 5 * eta) by (pose proof (Rabs_triang q pz); unfold S; lra).
+  destruct (fl_within _ _ B2) as (R2 & C2). set (P := fl (q + pz)) in *.
+  split; [| assert (Rabs P <= 1004 / 1000 * S + 5 * eta + (u * (1004 / 1000 * S + 5 * eta) + eta)) by lra; lra].
+  pose proof (product_within _ _ _ _ Ax Ox) as Dx. pose proof (product_within _ _ _ _ Ay Oy) as Dy.
+  pose proof (product_within _ _ _ _ Az Oz) as Dz.
+  assert (Eq : P - dot a t = (P - (q + pz)) + (q - (px + py)) + (px - x a * x s) + (py - y a * y s) + (pz - z a * z s) +
+    x a * (x s - x t) + y a * (y s - y t) + z a * (z s - z t)) by (unfold dot; ring).
+  rewrite Eq. apply Rabs_le_inv in R1, R2, Rx, Ry, Rz, Dx, Dy, Dz. apply Rabs_le.
+  distribute. unfold S in *. distribute. split; lra.
+Qed.
+
+(** at(i), where 1 - t is a double. *)
+Definition at_time (s e : point) (t : R) : R := fl (fl ((1 - t) * projected s) + fl (t * projected e)).
+Lemma at_time_near s e p0 p1 t : near_point s p0 -> near_point e p1 -> 0 <= t <= 1 ->
+  Rabs (at_time s e t - ((1 - t) * dot a p0 + t * dot a p1)) <= 61 / 10 * (u * S) /\ Rabs (at_time s e t) <= 102 / 100 * S.
+Proof.
+  intros N0 N1 T. pose proof u_small as U. pose proof eta_little as E.
+  destruct (projection_near _ _ N0) as (D0 & B0). destruct (projection_near _ _ N1) as (D1 & B1). unfold at_time.
+  set (P0 := projected s) in *. set (P1 := projected e) in *. assert (S0 : 0 <= S) by (unfold S; lra).
+  assert (Us : u * S <= / 1048576 * S) by (apply Rmult_le_compat_r; lra). assert (Us0 : 0 <= u * S) by (apply Rmult_le_pos; lra).
+  assert (Uus : u * (u * S) <= / 1048576 * (u * S)) by (apply Rmult_le_compat_r; lra).
+  assert (A0 : Rabs ((1 - t) * P0) <= (1 - t) * (101 / 100 * S)).
+  { rewrite Rabs_mult, (Rabs_pos_eq (1 - t)) by lra. apply Rmult_le_compat_l; lra. }
+  assert (A1 : Rabs (t * P1) <= t * (101 / 100 * S)).
+  { rewrite Rabs_mult, (Rabs_pos_eq t) by lra. apply Rmult_le_compat_l; lra. }
+  destruct (fl_within _ _ A0) as (R0 & F0). destruct (fl_within _ _ A1) as (R1 & F1).
+  set (q0 := fl ((1 - t) * P0)) in *. set (q1 := fl (t * P1)) in *.
+  assert (Sum : Rabs (q0 + q1) <= 101 / 100 * S + 101 / 100 * (u * S) + 2 * eta).
+  { pose proof (Rabs_triang q0 q1). lra. }
+  destruct (fl_within _ _ Sum) as (R2 & F2). set (r := fl (q0 + q1)) in *.
+  assert (Ue : 0 <= u * eta <= / 1048576 * eta) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra). distribute.
+  split; [| lra]. replace (r - _) with ((r - (q0 + q1)) + (q0 - (1 - t) * P0) + (q1 - t * P1) +
+    ((1 - t) * (P0 - dot a p0) + t * (P1 - dot a p1))) by ring.
+  assert (M0 : Rabs ((1 - t) * (P0 - dot a p0)) <= (1 - t) * (405 / 100 * (u * S))).
+  { rewrite Rabs_mult, (Rabs_pos_eq (1 - t)) by lra. apply Rmult_le_compat_l; lra. }
+  assert (M1 : Rabs (t * (P1 - dot a p1)) <= t * (405 / 100 * (u * S))).
+  { rewrite Rabs_mult, (Rabs_pos_eq t) by lra. apply Rmult_le_compat_l; lra. }
+  apply Rabs_le_inv in R0, R1, R2, M0, M1. apply Rabs_le. split; lra.
+Qed.
+
+(** above_, of a distance D in the scaled units; `sum` and `size` as they are rounded. *)
+Variables D sum size : R.
+Hypothesis D_0 : 0 <= D.
+Hypothesis sum_near : D * (1 - 2 * u) - eta <= sum.
+Hypothesis sum_0 : 0 <= sum.
+Hypothesis size_near : S * (1 - 4 * u) <= size.
+Definition above : R := fl (fl (fl (sum * (1 + 48 * u)) + fl (20 * u * size)) + bpow radix2 (-500)).
+Lemma above_enough : D * (1 + 8 * u) + 15 * (u * S) <= above.
+Proof.
+  pose proof u_small as U. pose proof eta_little as E. assert (S0 : 0 <= S) by (unfold S; lra).
+  assert (Us0 : 0 <= u * S) by (apply Rmult_le_pos; lra).
+  assert (Uus : 0 <= u * (u * S) <= / 1048576 * (u * S)) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
+  assert (Low : forall q, 0 <= q -> q * (1 - u) - eta <= fl q).
+  { intros q Q. pose proof (fl_any q) as F. rewrite (Rabs_pos_eq q) in F by auto. apply Rabs_le_inv in F. lra. }
+  assert (Pos : forall q, 0 <= q -> 0 <= fl q) by (intros q Q; apply rnd_nonnegative; auto with typeclass_instances).
+  assert (Z0 : 0 <= size) by (apply Rle_trans with (2 := size_near); apply Rmult_le_pos; lra).
+  assert (Q1 : 0 <= sum * (1 + 48 * u)) by (apply Rmult_le_pos; lra).
+  assert (Q2 : 0 <= 20 * u * size) by (apply Rmult_le_pos; lra).
+  pose proof (Low _ Q1) as L1. pose proof (Low _ Q2) as L2. pose proof (Pos _ Q1) as P1. pose proof (Pos _ Q2) as P2.
+  unfold above. set (a1 := fl (sum * (1 + 48 * u))) in *. set (a2 := fl (20 * u * size)) in *.
+  pose proof (Low (a1 + a2) ltac:(lra)) as L3. pose proof (Pos (a1 + a2) ltac:(lra)) as P3. set (a3 := fl (a1 + a2)) in *.
+  pose proof (bpow_gt_0 radix2 (-500)) as T. pose proof (Low (a3 + bpow radix2 (-500)) ltac:(lra)) as L4.
+  apply Rle_trans with (2 := L4).
+  assert (B2 : 199 / 10 * (u * S) - eta <= a2).
+  { assert (20 * u * (S * (1 - 4 * u)) <= 20 * u * size) by (apply Rmult_le_compat_l; lra).
+    assert (20 * u * (S * (1 - 4 * u)) * (1 - u) <= 20 * u * size * (1 - u)) by (apply Rmult_le_compat_r; lra).
+    assert (199 / 10 * (u * S) <= 20 * u * (S * (1 - 4 * u)) * (1 - u)); [| lra].
+    replace (20 * u * (S * (1 - 4 * u)) * (1 - u)) with (20 * (u * S) - 100 * (u * (u * S)) + 80 * (u * (u * (u * S)))) by ring.
+    assert (0 <= u * (u * (u * S))) by (apply Rmult_le_pos; lra). lra. }
+  assert (B1 : D * (1 + 40 * u) - 3 * eta <= a1).
+  { assert (H : (D * (1 - 2 * u) - eta) * ((1 + 48 * u) * (1 - u)) <= sum * ((1 + 48 * u) * (1 - u))).
+    { apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra. }
+    assert (F : 1 + 40 * u <= (1 - 2 * u) * ((1 + 48 * u) * (1 - u))) by nra.
+    apply (Rmult_le_compat_l D) in F; auto. assert (G : (1 + 48 * u) * (1 - u) <= 2) by nra.
+    apply (Rmult_le_compat_l eta) in G; lra. }
+  assert (B3 : D * (1 + 30 * u) + 19 * (u * S) <= a3).
+  { apply Rle_trans with ((a1 + a2) * (1 - u) - eta); auto.
+    assert ((D * (1 + 40 * u) - 3 * eta + (199 / 10 * (u * S) - eta)) * (1 - u) <= (a1 + a2) * (1 - u))
+      by (apply Rmult_le_compat_r; lra).
+    assert (F : 1 + 30 * u <= (1 + 40 * u) * (1 - u)) by nra. apply (Rmult_le_compat_l D) in F; auto.
+    assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
+  assert ((D * (1 + 30 * u) + 19 * (u * S)) * (1 - u) <= (a3 + bpow radix2 (-500)) * (1 - u)) by (apply Rmult_le_compat_r; lra).
+  assert (F : 1 + 8 * u <= (1 + 30 * u) * (1 - u)) by nra. apply (Rmult_le_compat_l D) in F; auto. lra.
+Qed.
+
+(** One pair of points at one time, of a gap that exceeds above_. *)
+Theorem separated_right s0 s1 r0 r1 p0 p1 q0 q1 t : near_point s0 p0 -> near_point s1 p1 -> near_point r0 q0 ->
+  near_point r1 q1 -> 0 <= t <= 1 -> above < fl (at_time r0 r1 t - at_time s0 s1 t) ->
+  D * norm a < dot a (minus (along q0 t (minus q1 q0)) (along p0 t (minus p1 p0))).
+Proof.
+  intros N0 N1 M0 M1 T H. pose proof u_small as U. pose proof eta_little as E. pose proof above_enough as A.
+  destruct (at_time_near _ _ _ _ t N0 N1 T) as (Dp & Bp). destruct (at_time_near _ _ _ _ t M0 M1 T) as (Dq & Bq).
+  set (P := at_time s0 s1 t) in *. set (Q := at_time r0 r1 t) in *.
+  assert (S0 : 0 <= S) by (unfold S; lra). assert (Us0 : 0 <= u * S) by (apply Rmult_le_pos; lra).
+  assert (B : Rabs (Q - P) <= 204 / 100 * S).
+  { pose proof (Rabs_triang Q (- P)) as Tr. rewrite Rabs_Ropp in Tr. change (Q + - P) with (Q - P) in Tr. lra. }
+  destruct (fl_within _ _ B) as (R1 & _).
+  replace (dot a _) with ((1 - t) * dot a q0 + t * dot a q1 - ((1 - t) * dot a p0 + t * dot a p1))
+    by (coordinates; ring).
+  assert (L : D * norm a <= D * (1 + 8 * u)) by (apply Rmult_le_compat_l; auto).
+  apply Rabs_le_inv in Dp, Dq, R1. lra.
+Qed.
+
+(** A point as the code has it, at both ends of the step, and where it is. *)
+Record tracked := Tracked { at_start : point; at_end : point; path : moving }.
+Definition right (m : tracked) : Prop := near_point (at_start m) (start (path m)) /\ near_point (at_end m) (finish (path m)).
+Definition at_ (t : R) (m : tracked) : R := at_time (at_start m) (at_end m) t.
+(** gap: the least of one feature less the greatest of the other. *)
+Definition gap (p : tracked) (ps : list tracked) (q : tracked) (qs : list tracked) (t : R) : R :=
+  fl (fold_left Rmin (map (at_ t) qs) (at_ t q) - fold_left Rmax (map (at_ t) ps) (at_ t p)).
+Definition part_of (low high : R) (m : tracked) : moving := Moving (place (path m) low) (place (path m) high).
+
+Lemma fold_max l m : m <= fold_left Rmax l m /\ forall x, In x l -> x <= fold_left Rmax l m.
+Proof.
+  revert m. induction l as [| c l IH]; intros m; cbn [fold_left]; [split; [lra | easy] |].
+  destruct (IH (Rmax m c)) as (A & B). pose proof (Rmax_l m c). pose proof (Rmax_r m c).
+  split; [lra |]. intros e [<- | I]; [lra | auto].
+Qed.
+Lemma fold_min l m : fold_left Rmin l m <= m /\ forall x, In x l -> fold_left Rmin l m <= x.
+Proof.
+  revert m. induction l as [| c l IH]; intros m; cbn [fold_left]; [split; [lra | easy] |].
+  destruct (IH (Rmin m c)) as (A & B). pose proof (Rmin_l m c). pose proof (Rmin_r m c).
+  split; [lra |]. intros e [<- | I]; [lra | auto].
+Qed.
+Lemma gap_of_pair p ps q qs t m n : In m (p :: ps) -> In n (q :: qs) -> gap p ps q qs t <= fl (at_ t n - at_ t m).
+Proof.
+  intros M N. unfold gap. destruct (fold_max (map (at_ t) ps) (at_ t p)) as (A & B).
+  destruct (fold_min (map (at_ t) qs) (at_ t q)) as (C & E). apply rnd_le; auto with typeclass_instances.
+  assert (at_ t m <= fold_left Rmax (map (at_ t) ps) (at_ t p)) by (destruct M as [<- | M]; [lra | now apply B, in_map]).
+  assert (fold_left Rmin (map (at_ t) qs) (at_ t q) <= at_ t n) by (destruct N as [<- | N]; [lra | now apply E, in_map]). lra.
+Qed.
+Theorem separated_part p ps q qs low high : Forall right (p :: ps) -> Forall right (q :: qs) -> 0 <= low <= 1 -> 0 <= high <= 1 ->
+  above < gap p ps q qs low -> above < gap p ps q qs high ->
+  above_along a D (map (part_of low high) (q :: qs)) (map (part_of low high) (p :: ps)).
+Proof.
+  intros Fp Fq L H Gl Gh m' n' M N. apply in_map_iff in M, N. destruct M as (m & <- & M), N as (n & <- & N).
+  rewrite Forall_forall in Fp, Fq. destruct (Fq m M) as (M0 & M1), (Fp n N) as (N0 & N1).
+  assert (At : forall t, 0 <= t <= 1 -> above < gap p ps q qs t ->
+    D * norm a < dot a (minus (place (path m) t) (place (path n) t))).
+  { intros t T G. pose proof (gap_of_pair p ps q qs t n m N M) as P.
+    pose proof (separated_right _ _ _ _ _ _ _ _ t N0 N1 M0 M1 T (Rlt_le_trans _ _ _ G P)) as Q.
+    eapply Rlt_le_trans; [exact Q |]. right. unfold place. coordinates. ring. }
+  split; now apply At.
+Qed.
+
+End Filter.
