@@ -9,18 +9,15 @@
 namespace ccd::report {
 namespace {
 
-/// The first times of all queries, and what is wrong with them.
+/// The first times of all contacts, and what is wrong with them.
 struct brackets {
-    std::size_t contacts = 0, at_start = 0, one_double = 0, neighbours = 0;
-    std::vector<double> widths = {};            ///< of neighbours, in t
+    std::size_t at_start = 0, one_double = 0, neighbours = 0;
+    std::vector<double> widths = {};            ///< of neighbours, in t; sorted
     std::vector<std::size_t> of_contacts = {};  ///< which queries have one
     std::string broken = {};
 
-    void add(std::size_t query, const first_time& time, outcome decided) {
-        if (time.outcome != decided)
-            broken = "query " + std::to_string(query) + ": the first time is of another outcome";
-        if (time.outcome != outcome::collides) return;
-        ++contacts;
+    void add(const timed_contact& contact) {
+        const auto& [query, time] = contact;
         of_contacts.push_back(query);
         if (time.at_start()) {
             ++at_start;
@@ -36,18 +33,20 @@ struct brackets {
 };
 
 template <class Query>
-brackets brackets_of(const query_set<Query>& queries, int threads, const progress& show) {
+brackets brackets_of(const query_set<Query>& queries, int threads) {
     brackets all;
-    constexpr std::size_t block = 1 << 18;  // so that times of millions are not kept
-    std::vector<outcome> decided;
-    for (std::size_t first = 0; first < queries.size(); first += block) {
-        show(0.5 * static_cast<double>(first) / static_cast<double>(queries.size()));
-        decided.resize(std::min(block, queries.size() - first));
-        queries.decide_batch(first, decided, {.threads = threads});
-        const auto times = queries.first_times(first, decided.size(), {.threads = threads});
-        for (std::size_t i = 0; i < times.size(); ++i) all.add(first + i, times[i], decided[i]);
-    }
+    for (const timed_contact& contact : queries.timed_contacts({.threads = threads}))
+        all.add(contact);
     std::ranges::sort(all.widths);
+    std::vector<outcome> decided(queries.size());
+    queries.decide_batch(0, decided, {.threads = threads});
+    std::size_t contact = 0;
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+        const bool listed = contact < all.of_contacts.size() && all.of_contacts[contact] == i;
+        contact += listed;
+        if (listed != (decided[i] == outcome::collides))
+            all.broken = "query " + std::to_string(i) + ": times contradict yes or no";
+    }
     return all;
 }
 
@@ -72,7 +71,7 @@ std::vector<cost> costs(const std::vector<Query>& queries, const query_set<Query
                                               }};
     if (set != nullptr) {
         passes.push_back([&] { set->decide_batch(0, answers, {.threads = 1}); });
-        passes.push_back([&] { keep(set->first_times(0, set->size(), {.threads = 1})); });
+        passes.push_back([&] { keep(set->timed_contacts({.threads = 1})); });
     }
     const std::vector<timing> timings = race(passes, repeats, show);
     const auto ns = [&](std::size_t i) {
@@ -113,12 +112,11 @@ template <class Query>
 rows find_contacts(const query_set<Query>& queries, const sample_sizes& size, int threads,
                    const progress& show) {
     if (queries.size() == 0) return {};
-    const brackets found = brackets_of(queries, threads, show);
+    const brackets found = brackets_of(queries, threads);
     const query_set<Query> sample = queries.at_most(size.speed);
-    const auto in_second_half = [&show](double share) { show(0.5 + share / 2); };
-    const auto all = costs(sample.all_stored(), &sample, size.repeats, in_second_half);
+    const auto all = costs(sample.all_stored(), &sample, size.repeats, show);
     row r = {{"queries", queries.size()},
-             {"contacts", found.contacts},
+             {"contacts", found.of_contacts.size()},
              {"at_start", found.at_start},
              {"one_double", found.one_double},
              {"neighbours", found.neighbours},

@@ -35,12 +35,10 @@ struct query_set {
                    : ccd::decide_batch(rows, std::span(by_index).subspan(first, answers.size()),
                                        answers, options);
     }
-    /// The first times of `count` queries from `first` on.
-    std::vector<first_time> first_times(std::size_t first, std::size_t count,
-                                        const time_options& options) const {
-        return by_index.empty()
-                   ? ccd::first_times(std::span(stored).subspan(first, count), options)
-                   : ccd::first_times(rows, std::span(by_index).subspan(first, count), options);
+    /// Those that collide, with their first times.
+    std::vector<timed_contact> timed_contacts(const time_options& options) const {
+        return by_index.empty() ? ccd::timed_contacts(stored, options)
+                                : ccd::timed_contacts(rows, by_index, options);
     }
     /// So many: drawn evenly where there are more, over and over where there are fewer.
     query_set resized(std::size_t count) const {
