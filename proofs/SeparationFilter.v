@@ -5,7 +5,8 @@
         scaled_near          differences of coordinates in units of a power of two
         projection_near      projections to an axis of about unit length
         separated_right      a gap beyond above_ at a time: points are more than d apart along the axis
-        separated_part       so what `separated` says of a part of the step is what Separation.v asks of an axis *)
+        separated_part       so what `separated` says of a part of the step is what Separation.v asks of an axis
+        axis_length, distance_rounded, size_rounded   what these are given *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List.
 From Flocq Require Import Core.
@@ -270,3 +271,184 @@ Proof.
 Qed.
 
 End Filter.
+
+(** ** What is given above *)
+
+(** decide: the vector between two points, over its length as rounded. *)
+Definition length_of (b : point) : R := fl (sqrt (fl (fl (fl (x b * x b) + fl (y b * y b)) + fl (z b * z b)))).
+Definition axis_of (b : point) : point :=
+  let r := fl (1 / length_of b) in Point (fl (r * x b)) (fl (r * y b)) (fl (r * z b)).
+Lemma norm_sum v p q r : Rabs (x v) <= p -> Rabs (y v) <= q -> Rabs (z v) <= r -> dot v v <= p * p + q * q + r * r.
+Proof.
+  assert (Sq : forall c m, Rabs c <= m -> c * c <= m * m).
+  { intros c m H. pose proof (Rabs_pos c). replace (c * c) with (Rabs c * Rabs c) by (rewrite <- Rabs_mult; apply Rabs_pos_eq; nra).
+    apply Rmult_le_compat; lra. }
+  intros P Q W. unfold dot. pose proof (Sq _ _ P). pose proof (Sq _ _ Q). pose proof (Sq _ _ W). lra.
+Qed.
+(** |b|² is little more than the square as rounded. *)
+Lemma square_rounded b : let q := fl (fl (fl (x b * x b) + fl (y b * y b)) + fl (z b * z b)) in
+  bpow radix2 (-1010) <= q -> dot b b <= q * (1 + 4 * u).
+Proof.
+  intros q Q. pose proof u_small as U.
+  assert (E : eta <= / 1024 * (u * q)).
+  { apply Rle_trans with (/ 1024 * (u * bpow radix2 (-1010))).
+    - unfold Format.eta, Format.u. replace (/ 1024) with (bpow radix2 (-10)) by (simpl; lra). rewrite <- !bpow_plus. apply bpow_le. lia.
+    - repeat (apply Rmult_le_compat_l; [lra |]). exact Q. }
+  pose proof (eta_positive (-1074)) as E0.
+  assert (Low : forall v, 0 <= v -> v * (1 - u) - eta <= fl v /\ 0 <= fl v).
+  { intros v V. pose proof (fl_any v) as F. rewrite (Rabs_pos_eq v) in F by auto. apply Rabs_le_inv in F.
+    split; [lra | apply rnd_nonnegative; auto with typeclass_instances]. }
+  assert (Sq : forall c, 0 <= c * c) by (intros; nra).
+  destruct (Low _ (Sq (x b))) as (L0 & P0). destruct (Low _ (Sq (y b))) as (L1 & P1). destruct (Low _ (Sq (z b))) as (L2 & P2).
+  unfold q in *. set (s0 := fl (x b * x b)) in *. set (s1 := fl (y b * y b)) in *. set (s2 := fl (z b * z b)) in *.
+  destruct (Low (s0 + s1) ltac:(lra)) as (L3 & P3). set (s3 := fl (s0 + s1)) in *.
+  destruct (Low (s3 + s2) ltac:(lra)) as (L4 & P4). set (s4 := fl (s3 + s2)) in *. unfold dot.
+  set (X := x b * x b) in *. set (Y := y b * y b) in *. set (Z := z b * z b) in *.
+  pose proof (Sq (x b)) as X0. pose proof (Sq (y b)) as Y0. pose proof (Sq (z b)) as Z0. fold X in X0. fold Y in Y0. fold Z in Z0. clearbody X Y Z.
+  assert (W : 0 <= 1 - u) by lra.
+  assert (B1 : (X + Y) * (1 - u) - 2 * eta <= s0 + s1) by lra.
+  assert (B2 : (X + Y) * (1 - u) * (1 - u) - 3 * eta <= s3).
+  { apply (Rmult_le_compat_r (1 - u)) in B1; auto. assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
+  assert (B3 : (X + Y + Z) * (1 - u) * (1 - u) - 4 * eta <= s3 + s2).
+  { assert (0 <= Z * (1 - u) * u) by (repeat apply Rmult_le_pos; lra). lra. }
+  assert (B4 : (X + Y + Z) * (1 - u) * (1 - u) * (1 - u) <= s4 * (1 + / 128 * u)).
+  { apply (Rmult_le_compat_r (1 - u)) in B3; auto. assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra. }
+  apply Rmult_le_reg_r with ((1 - u) * (1 - u) * (1 - u)); [repeat apply Rmult_lt_0_compat; lra |].
+  replace ((X + Y + Z) * ((1 - u) * (1 - u) * (1 - u))) with ((X + Y + Z) * (1 - u) * (1 - u) * (1 - u)) by ring.
+  apply Rle_trans with (1 := B4). rewrite Rmult_assoc. apply Rmult_le_compat_l; auto.
+  assert (C : 1 - 3 * u <= (1 - u) * (1 - u) * (1 - u)).
+  { assert (0 <= u * u * (3 - u)) by (repeat apply Rmult_le_pos; lra). lra. }
+  apply (Rmult_le_compat_l (1 + 4 * u)) in C; [| lra]. assert (u * u <= / 1048576 * u) by (apply Rmult_le_compat_r; lra). lra.
+Qed.
+Theorem axis_length b : bpow radix2 (-500) < length_of b -> length_of b <= bpow radix2 400 -> norm (axis_of b) <= 1 + 8 * u.
+Proof.
+  intros L H. pose proof u_small as U. pose proof (eta_positive (-1074)) as E0. unfold axis_of.
+  set (q := fl (fl (fl (x b * x b) + fl (y b * y b)) + fl (z b * z b))) in *.
+  assert (Ed : length_of b = fl (sqrt q)) by easy. set (d := length_of b) in *.
+  pose proof (bpow_gt_0 radix2 (-500)) as T. pose proof (sqrt_pos q) as Sq0.
+  pose proof (fl_any (sqrt q)) as Fd. rewrite <- Ed, (Rabs_pos_eq (sqrt q)) in Fd by auto. apply Rabs_le_inv in Fd.
+  assert (Et : eta <= / 4 * bpow radix2 (-500)).
+  { change (/ 4) with (bpow radix2 (-2)). rewrite <- bpow_plus. unfold Format.eta. apply bpow_le. lia. }
+  assert (Sq1 : / 2 * bpow radix2 (-500) <= sqrt q) by nra.
+  assert (Q0 : 0 < q).
+  { apply Rnot_le_lt. intros N. rewrite sqrt_neg_0 in Sq1 by auto. lra. }
+  assert (Qs : q = sqrt q * sqrt q) by (symmetry; apply sqrt_sqrt; lra).
+  assert (Q : bpow radix2 (-1010) <= q).
+  { rewrite Qs. apply Rle_trans with (/ 2 * bpow radix2 (-500) * (/ 2 * bpow radix2 (-500))).
+    - change (/ 2) with (bpow radix2 (-1)). rewrite <- !bpow_plus. apply bpow_le. lia.
+    - apply Rmult_le_compat; lra. }
+  pose proof (square_rounded b Q) as Sb. fold q in Sb.
+  assert (Nb : norm b <= sqrt q * (1 + 2 * u)).
+  { apply norm_below; [apply Rmult_le_pos; lra |]. apply Rle_trans with (1 := Sb). rewrite Qs at 1.
+    assert (0 <= sqrt q * sqrt q * (u * u)) by (repeat apply Rmult_le_pos; lra). lra. }
+  (* the quotients *)
+  assert (Es : eta <= / 1024 * (u * sqrt q)).
+  { apply Rle_trans with (/ 1024 * (u * (/ 2 * bpow radix2 (-500)))); [| repeat (apply Rmult_le_compat_l; [lra |]); exact Sq1].
+    unfold Format.eta, Format.u. replace (/ 1024) with (bpow radix2 (-10)) by (simpl; lra). change (/ 2) with (bpow radix2 (-1)).
+    rewrite <- !bpow_plus. apply bpow_le. lia. }
+  assert (Dd : sqrt q * (1 - 2 * u) <= d) by lra. assert (D0 : 0 < d) by lra.
+  assert (I0 : 0 < 1 / d) by (apply Rdiv_lt_0_compat; lra).
+  assert (Il : bpow radix2 (-400) <= 1 / d).
+  { change (-400)%Z with (- (400))%Z. rewrite bpow_opp. unfold Rdiv. rewrite Rmult_1_l. apply Rinv_le; auto. }
+  assert (Ei : eta <= / 1024 * (u * (1 / d))).
+  { apply Rle_trans with (/ 1024 * (u * bpow radix2 (-400))); [| repeat (apply Rmult_le_compat_l; [lra |]); exact Il].
+    unfold Format.eta, Format.u. replace (/ 1024) with (bpow radix2 (-10)) by (simpl; lra). rewrite <- !bpow_plus. apply bpow_le. lia. }
+  pose proof (fl_any (1 / d)) as Fr. rewrite (Rabs_pos_eq (1 / d)) in Fr by lra. apply Rabs_le_inv in Fr. set (r := fl (1 / d)) in *.
+  assert (Ru : 0 <= r <= 1 / d * (1 + 1001 / 1000 * u)).
+  { assert (u * (1 / d) <= / 1048576 * (1 / d)) by (apply Rmult_le_compat_r; lra). lra. }
+  assert (Rb : r * norm b <= 1 + 53 / 10 * u).
+  { apply Rle_trans with (1 / d * (1 + 1001 / 1000 * u) * (sqrt q * (1 + 2 * u))).
+    - apply Rmult_le_compat; try lra. apply norm_nonnegative.
+    - apply Rmult_le_reg_l with d; auto.
+      replace (d * (1 / d * (1 + 1001 / 1000 * u) * (sqrt q * (1 + 2 * u)))) with
+        (sqrt q * ((1 + 1001 / 1000 * u) * (1 + 2 * u))) by (field; lra).
+      assert (F : (1 + 1001 / 1000 * u) * (1 + 2 * u) <= (1 - 2 * u) * (1 + 53 / 10 * u)).
+      { assert (u * u <= / 1048576 * u) by (apply Rmult_le_compat_r; lra). lra. }
+      apply (Rmult_le_compat_l (sqrt q)) in F; [| lra].
+      apply Rle_trans with (1 := F). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
+  (* all together: a product's error is u of it and eta *)
+  pose proof (norm_nonnegative b) as Nb0. set (n := r * norm b) in *.
+  assert (N0 : 0 <= n) by (apply Rmult_le_pos; lra).
+  assert (C : forall c, Rabs (fl (r * c)) <= (1 + u) * r * Rabs c + eta).
+  { intros c. pose proof (fl_any (r * c)) as F. rewrite Rabs_mult, (Rabs_pos_eq r) in F by lra.
+    replace (fl (r * c)) with (fl (r * c) - r * c + r * c) by ring. eapply Rle_trans; [apply Rabs_triang |].
+    rewrite Rabs_mult, (Rabs_pos_eq r) by lra. lra. }
+  apply norm_below; [lra |].
+  eapply Rle_trans; [apply norm_sum; cbn [x y z]; apply C |].
+  assert (Abs : forall c, Rabs c * Rabs c = c * c) by (intros; rewrite <- Rabs_mult; apply Rabs_pos_eq; nra).
+  assert (Cm : forall c, c * c <= norm b * norm b -> r * Rabs c <= n).
+  { intros c Hc. apply Rmult_le_compat_l; [lra |]. apply Rsqr_le_abs_0 in Hc. now rewrite (Rabs_pos_eq (norm b)) in Hc. }
+  pose proof (norm_square b) as Nq. unfold dot in Nq.
+  assert (Cx : r * Rabs (x b) <= n) by (apply Cm; rewrite Nq; nra).
+  assert (Cy : r * Rabs (y b) <= n) by (apply Cm; rewrite Nq; nra).
+  assert (Cz : r * Rabs (z b) <= n) by (apply Cm; rewrite Nq; nra).
+  assert (Eu : eta <= / 1024 * u).
+  { unfold Format.eta, Format.u. replace (/ 1024) with (bpow radix2 (-10)) by (simpl; lra). rewrite <- bpow_plus. apply bpow_le. lia. }
+  assert (Expand : forall c, r * Rabs c <= n -> ((1 + u) * r * Rabs c + eta) * ((1 + u) * r * Rabs c + eta) <=
+    (1 + u) * (1 + u) * (r * r * (c * c)) + 5 * eta).
+  { intros c Hc. rewrite <- (Abs c). assert (r0 : 0 <= r * Rabs c) by (apply Rmult_le_pos; [lra | apply Rabs_pos]).
+    set (w := r * Rabs c) in *. replace ((1 + u) * r * Rabs c) with ((1 + u) * w) by (unfold w; ring).
+    replace (r * r * (Rabs c * Rabs c)) with (w * w) by (unfold w; ring).
+    assert (w <= 2) by lra. assert (eta * w <= eta * 2) by (apply Rmult_le_compat_l; lra).
+    assert (0 <= eta * w) by (apply Rmult_le_pos; lra). assert (u * (eta * w) <= / 4 * eta).
+    { apply Rle_trans with (/ 1048576 * (eta * w)); [apply Rmult_le_compat_r |]; lra. }
+    assert (eta * eta <= / 4 * eta) by (apply Rmult_le_compat_r; lra). lra. }
+  pose proof (Expand _ Cx). pose proof (Expand _ Cy). pose proof (Expand _ Cz).
+  assert (Nn : r * r * (x b * x b) + r * r * (y b * y b) + r * r * (z b * z b) = n * n)
+    by (unfold n; replace (r * norm b * (r * norm b)) with (r * r * (norm b * norm b)) by ring; rewrite Nq; ring).
+  assert (Last : (1 + u) * (1 + u) * (n * n) + 15 * eta <= (1 + 8 * u) * (1 + 8 * u)).
+  { assert (n * n <= (1 + 53 / 10 * u) * (1 + 53 / 10 * u)) by (apply Rmult_le_compat; lra).
+    assert (N4 : (1 + u) * (1 + u) * (n * n) <= (1 + u) * (1 + u) * ((1 + 53 / 10 * u) * (1 + 53 / 10 * u)))
+      by (apply Rmult_le_compat_l; [apply Rmult_le_pos |]; lra).
+    assert (U2 : 0 <= u * u <= / 1048576 * u) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
+    assert (U3 : 0 <= u * (u * u) <= 1 * (u * u)) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
+    assert (U4 : u * (u * (u * u)) <= 1 * (u * (u * u))) by (apply Rmult_le_compat_r; lra).
+    clear - N4 U2 U3 U4 Eu U. lra. }
+  assert (All : (1 + u) * (1 + u) * (r * r * (x b * x b)) + (1 + u) * (1 + u) * (r * r * (y b * y b)) +
+    (1 + u) * (1 + u) * (r * r * (z b * z b)) = (1 + u) * (1 + u) * (n * n)) by (rewrite <- Nn; ring).
+  lra.
+Qed.
+
+(** sum, of the distance D = k (d0 + d1). *)
+Theorem distance_rounded k d0 d1 : 0 < k -> double d0 -> double d1 -> 0 <= d0 -> 0 <= d1 ->
+  k * (d0 + d1) * (1 - 2 * u) - eta <= fl (k * fl (d0 + d1)).
+Proof.
+  intros K N0 N1 D0 D1. pose proof u_small as U.
+  pose proof (sum_error 53 (-1074) nearest _ _ (rounding_error_nearest 53 (-1074) ltac:(lia)) d0 d1 N0 N1) as R.
+  rewrite (Rabs_pos_eq (d0 + d1)) in R by lra. apply Rabs_le_inv in R. set (s := fl (d0 + d1)) in *.
+  assert (Ks : k * (d0 + d1) * (1 - u) <= k * s) by (rewrite Rmult_assoc; apply Rmult_le_compat_l; lra).
+  assert (P : 0 <= k * (d0 + d1)) by (apply Rmult_le_pos; lra).
+  assert (P0 : 0 <= k * (d0 + d1) * (1 - u)) by (apply Rmult_le_pos; lra).
+  pose proof (fl_any (k * s)) as F. rewrite (Rabs_pos_eq (k * s)) in F by lra. apply Rabs_le_inv in F.
+  assert (k * (d0 + d1) * (1 - u) * (1 - u) <= k * s * (1 - u)) by (apply Rmult_le_compat_r; lra).
+  assert (0 <= k * (d0 + d1) * (u * u)) by (repeat apply Rmult_le_pos; lra). lra.
+Qed.
+(** size_, of the largest coordinates lx, ly, lz before they are scaled. *)
+Theorem size_rounded k lx ly lz mx my mz : 0 < k -> double lx -> double ly -> double lz -> 0 <= lx -> 0 <= ly -> 0 <= lz ->
+  mx <= k * lx + eta -> my <= k * ly + eta -> mz <= k * lz + eta -> bpow radix2 (-900) <= mx + my + mz ->
+  (mx + my + mz) * (1 - 4 * u) <= fl (k * fl (fl (lx + ly) + lz)).
+Proof.
+  intros K Nx Ny Nz X Y Z Mx My Mz T. pose proof u_small as U. pose proof (eta_positive (-1074)) as E0.
+  assert (E : eta <= / 4096 * (u * (mx + my + mz))).
+  { apply Rle_trans with (/ 4096 * (u * bpow radix2 (-900))); [| repeat (apply Rmult_le_compat_l; [lra |]); exact T].
+    unfold Format.eta, Format.u. replace (/ 4096) with (bpow radix2 (-12)) by (simpl; lra). rewrite <- !bpow_plus. apply bpow_le. lia. }
+  assert (Low : forall v w, double v -> double w -> 0 <= v -> 0 <= w -> (v + w) * (1 - u) <= fl (v + w)).
+  { intros v w V W V0 W0. pose proof (sum_error 53 (-1074) nearest _ _ (rounding_error_nearest 53 (-1074) ltac:(lia)) v w V W) as R.
+    rewrite (Rabs_pos_eq (v + w)) in R by lra. apply Rabs_le_inv in R. lra. }
+  pose proof (Low lx ly Nx Ny X Y) as L1. set (s := fl (lx + ly)) in *. assert (S0 : 0 <= s) by (assert (0 <= (lx + ly) * (1 - u)) by (apply Rmult_le_pos; lra); lra).
+  pose proof (Low s lz (fl_number _) Nz S0 Z) as L2. set (w := fl (s + lz)) in *.
+  set (L := lx + ly + lz). assert (L0 : 0 <= L) by (unfold L; lra).
+  assert (W : L * (1 - 2 * u) <= w).
+  { apply Rle_trans with (2 := L2). apply Rle_trans with (((lx + ly) * (1 - u) + lz) * (1 - u)); [| apply Rmult_le_compat_r; lra].
+    assert (0 <= (lx + ly) * (u * u)) by (repeat apply Rmult_le_pos; lra). assert (0 <= lz * u) by (apply Rmult_le_pos; lra).
+    unfold L. lra. }
+  assert (Kw : k * L * (1 - 2 * u) <= k * w) by (rewrite Rmult_assoc; apply Rmult_le_compat_l; lra).
+  assert (KL : 0 <= k * L) by (apply Rmult_le_pos; lra).
+  assert (K0 : 0 <= k * L * (1 - 2 * u)) by (apply Rmult_le_pos; lra).
+  pose proof (fl_any (k * w)) as F. rewrite (Rabs_pos_eq (k * w)) in F by lra. apply Rabs_le_inv in F.
+  assert (F1 : k * L * (1 - 2 * u) * (1 - u) <= k * w * (1 - u)) by (apply Rmult_le_compat_r; lra).
+  assert (F2 : k * L * (1 - 3 * u) <= k * L * (1 - 2 * u) * (1 - u)).
+  { assert (0 <= k * L * (2 * (u * u))) by (apply Rmult_le_pos; [auto | nra]). lra. }
+  assert (M : (mx + my + mz - 3 * eta) * (1 - 3 * u) <= k * L * (1 - 3 * u)) by (apply Rmult_le_compat_r; [lra | unfold L; lra]).
+  assert (0 <= u * eta) by (apply Rmult_le_pos; lra). lra.
+Qed.

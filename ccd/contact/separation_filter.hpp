@@ -178,7 +178,8 @@ class features {
     /// Whether the features are apart by more than d along the axis, of about unit length, at t =
     /// low and at t = high, the same way. A projection is off by 2.1ε·size_, between the ends of
     /// the step by 3.1ε·size_, a difference of two by 7.3ε·size_; the axis is longer than 1 by 4ε
-    /// at most. Proof: proofs/SeparationFilter.v, projection_near, separated_right, separated_part.
+    /// at most. Proof: proofs/SeparationFilter.v, projection_near, separated_right, separated_part,
+    /// axis_length, distance_rounded, size_rounded.
     bool separated(const vector& axis, double low, double high) const {
         const auto gap = [&](double t) {
             const auto at = [&](std::size_t i) {
