@@ -256,8 +256,9 @@ query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, boo
     if (!kind) kind = kind_from_path(path);
     if (!kind) {
         throw file_error(path.string() +
-                         ": found no kind of query in the path, expected 'vertex-face', "
-                         "'edge-edge', 'vf' or 'ee' there, or --kind");
+                         ": found no kind of query in the path, expected a folder "
+                         "'vertex-face', 'edge-edge', 'vf' or 'ee', a name that ends in 'vf' or "
+                         "'ee', or --kind");
     }
     query_file result = parse_queries(text, path.string(), *kind, round);
     if (result.truth) return result;

@@ -241,7 +241,8 @@ class query final : public command {
             const bool exact_given =
                 !methods_.was_given() || methods_.methods() == std::vector{method::exact};
             if (!exact_given)
-                throw usage_error("--toi, --separation and --t-max: expected --method exact");
+                throw usage_error(
+                    "--toi, --separation and --t-max: found another --method, expected exact");
             if (device.cuda && separation_.was_given())
                 throw usage_error("--separation: found --device cuda, expected --device cpu");
             return {method::exact};

@@ -94,11 +94,18 @@ bool is_shown(const step_result& result) {
     return K == kind::vertex_face || K == kind::edge_edge || result.candidates.of<K>() > 0;
 }
 
+/// The earliest contact; what stops a free step, if there is one.
+const first_time& first_contact_of(const step_outcome& found) {
+    return found.advance ? found.advance->first_contact : found.result.first_contact;
+}
+
 void add_contacts(const step_question& asked, const step_outcome& found,
                   nlohmann::ordered_json& document) {
     if (!asked.times && !asked.advance) return;
-    const first_time& first = found.result.first_contact;
+    const first_time& first = first_contact_of(found);
     document["touching_at_start"] = number_of(found.result.touching_at_start);
+    if (found.advance && asked.distance != 0)
+        document["near_at_start"] = number_of(found.advance->near_at_start);
     document["first_contact"] = nullptr;
     if (first.outcome == outcome::collides) document["first_contact"] = {first.low, first.high};
     if (found.advance) document["advance"] = found.advance->fraction;
@@ -196,8 +203,8 @@ std::string text_of_stages(const step_result& result) {
 /// What touches when, and how far a free step goes.
 std::string text_of_contacts(const step_question& asked, const step_outcome& found) {
     if (!asked.times && !asked.advance) return "";
-    const first_time& first = found.result.first_contact;
-    table rows = {{"touching at start", "first contact"},
+    const first_time& first = first_contact_of(found);
+    table rows = {{asked.distance != 0 ? "within at start" : "touching at start", "first contact"},
                   {std::to_string(number_of(found.result.touching_at_start)),
                    first.outcome == outcome::collides
                        ? fixed(first.low, "%.17g") + " to " + fixed(first.high, "%.17g")
@@ -260,8 +267,14 @@ class step final : public command {
             .add_option(
                 "--advance", advance_,
                 "Write a frame (PLY, in doubles), as far on the way to FRAME1 as is free: a\n"
-                "step to it has no pairs but those that touch at the start")
-            ->type_name("OUT.ply");
+                "step to it has no pairs but those that touch, or are within --separation,\n"
+                "at the start; of the latter contact alone is avoided")
+            ->type_name("OUT.ply")
+            ->check([](const std::string& path) {
+                return path == "-" || path.ends_with(".ply")
+                           ? std::string()
+                           : "found '" + path + "', expected a name that ends in .ply, or -";
+            });
         add_threads_option(line_, asked_.threads, "Threads; 0: one per core");
         line_
             .add_option("--instruction-set", set_,
@@ -315,7 +328,8 @@ class step final : public command {
         asked_.distance = separation_.value(0, std::numeric_limits<double>::max());
         if (!asked_.times && !asked_.advance && !separation_.was_given()) return;
         if (asked_.method != method::exact)
-            throw usage_error("--toi, --separation and --advance: expected --method exact");
+            throw usage_error("--toi, --separation and --advance: found --method " + method_ +
+                              ", expected exact");
         if (asked_.device.cuda && (asked_.advance || separation_.was_given()))
             throw usage_error(
                 "--separation and --advance: found --device cuda, expected --device cpu");

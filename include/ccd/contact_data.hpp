@@ -43,7 +43,8 @@ enum class normal_source : std::uint8_t {
     none,
 };
 
-/// What happens at a first contact. Without one, `time` says why, and all else is as here.
+/// What happens at a first contact. Without one, `time` says why, and all else is as here: weights
+/// are 0, errors infinite.
 struct first_contact {
     first_time time;
     meeting_features features;
@@ -72,6 +73,8 @@ struct first_contact {
 };
 
 /// The data of a contact whose time is known: `time` is what time_of_impact gives for this query.
+/// Where the features certainly do not touch then, all is unknown, as without a contact: such is a
+/// time within a distance (ccd/separation.hpp), at which no call tells features or normals.
 ///
 /// Of several pairs of features that meet at this time, the smallest are named: vertex/vertex
 /// before vertex/edge before the inside, and of several of a size the first.

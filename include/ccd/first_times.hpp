@@ -56,7 +56,7 @@ struct pair_distances {
 };
 
 struct time_options {
-    double t_max = 1;                         ///< times in [0, t_max] are asked for, not decisions
+    double t_max = 1;                         ///< of times; decide_within_batch asks for [0, 1]
     pair_distances distances = {};            ///< of stored queries, the same for all
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
@@ -73,9 +73,10 @@ struct timed_contact {
 /// The earliest of many first times.
 struct earliest_time {
     /// The least of all but those at the start, by `low`, then by `high`; `separate` if there is
-    /// none, `uncertain` if some query has a coordinate that is not finite.
+    /// none; `uncertain` if some queries have a coordinate that is not finite, which then are all
+    /// that is told.
     first_time time;
-    std::vector<std::size_t> queries;   ///< whose time that is, ascending
+    std::vector<std::size_t> queries;   ///< whose time that is, or who is uncertain, ascending
     std::vector<std::size_t> at_start;  ///< those in contact at t = 0 already, ascending
 };
 

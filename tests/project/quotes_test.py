@@ -17,7 +17,7 @@ PROGRAMS = {
     "docs/authoring-predicates.md": ["examples/authoring.cpp"],
     "docs/collision-detection.md": ["examples/batch.cpp", "examples/steps.cpp"],
     "docs/time-of-impact.md": ["examples/curves.cpp", "examples/line_search.cpp", "examples/impact_zones.cpp",
-                               "examples/barriers.cpp"],
+                               "examples/barriers.cpp", "examples/bounce.cpp"],
 }
 # Pages that quote measured figures.
 QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]

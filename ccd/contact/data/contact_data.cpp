@@ -139,10 +139,14 @@ first_contact data_of(const Query& query, const first_time& time) {
     const contact_state state = met == whole ? inside : visit_kind(met, [&]<kind K>() {
         return state_inside<K>(at, result.features.points);
     });
+    if (certainly_apart(state.motion.position)) {
+        result.features = {};
+        return result;
+    }
     set_weights(state, result.features, result);
 
     const bool from_second = result.features.points[0] >= kind_traits<whole>::first_vertices;
-    const auto velocity = from_second ? -state.velocity : state.velocity;
+    const auto velocity = from_second ? -state.motion.velocity : state.motion.velocity;
     if constexpr (whole == kind::vertex_face || whole == kind::edge_edge) {
         if (!set_cross_product(query, inside.across, velocity, result))
             set_substitute_normal(state, velocity, &inside.across, result);

@@ -64,7 +64,21 @@ inline enclosure enclosed_time(const first_time& time) {
 /// One point relative to another.
 struct relative_motion {
     enclosed_vector position, velocity;
+
+    friend relative_motion operator-(const relative_motion& p, const relative_motion& q) {
+        return {p.position - q.position, p.velocity - q.velocity};
+    }
+    friend relative_motion operator*(const enclosure& factor, const relative_motion& p) {
+        return {factor * p.position, factor * p.velocity};
+    }
 };
+/// Whether it certainly is not 0.
+inline bool certainly_apart(const enclosed_vector& p) {
+    return std::ranges::any_of(components(p), [](const enclosure& x) {
+        const auto sign = sign_of(x);
+        return errbound::certain(sign) && sign != errbound::sign_type::zero;
+    });
+}
 
 /// e with 2^(e−1) <= size < 2^e, or 0 where |e| <= moderate.
 inline int excess_exponent(double size, int moderate) {

@@ -18,7 +18,7 @@ namespace ccd::detail {
 /// second.
 struct contact_state {
     std::array<enclosure, 4> weights;
-    enclosed_vector velocity;
+    relative_motion motion;  ///< of the contact point of the first feature relative to the second's
     /// N of faces and of edges that cross; the edge of a vertex and an edge. Times some power of
     /// two.
     enclosed_vector across;
@@ -58,7 +58,7 @@ contact_state state_inside(const contact_moment& at, const point_numbers& i) {
         weights[f0] = one - w1 - w2;
         weights[f1] = w1;
         weights[f2] = w2;
-        return {weights, p.velocity - w1 * b.velocity - w2 * c.velocity, forms.n};
+        return {weights, p - w1 * b - w2 * c, forms.n};
     } else if constexpr (K == kind::edge_edge) {
         const auto b = at.relative(i[1], i[0]), c = at.relative(i[3], i[2]);
         const auto p = at.relative(i[2], i[0]);
@@ -66,18 +66,15 @@ contact_state state_inside(const contact_moment& at, const point_numbers& i) {
         const enclosure n2 = forms.normal_squared()[0];
         const enclosure on_a = dot(cross(forms.p, forms.c), forms.n)[0] / n2;
         const enclosure on_b = dot(cross(forms.p, forms.b), forms.n)[0] / n2;
-        return {{one - on_a, on_a, one - on_b, on_b},
-                on_a * b.velocity - on_b * c.velocity - p.velocity,
-                forms.n};
+        return {{one - on_a, on_a, one - on_b, on_b}, on_a * b - on_b * c - p, forms.n};
     } else if constexpr (K == kind::vertex_edge) {
         const auto w = at.relative(i[0], i[1]), e = at.relative(i[2], i[1]);
         const int excess = excess_exponent(size(e.position), 64);
         const enclosed_vector edge = scaled(e.position, -excess);
         const enclosure on_edge = dot(scaled(w.position, -excess), edge)[0] / dot(edge, edge)[0];
-        return {
-            {one, one - on_edge, on_edge, enclosure()}, w.velocity - on_edge * e.velocity, edge};
+        return {{one, one - on_edge, on_edge, enclosure()}, w - on_edge * e, edge};
     } else {
-        return {{one, one, enclosure(), enclosure()}, at.relative(i[0], i[1]).velocity, {}};
+        return {{one, one, enclosure(), enclosure()}, at.relative(i[0], i[1]), {}};
     }
 }
 

@@ -30,7 +30,8 @@ struct query_file {
 /// What --kind takes: "vf", "ee".
 std::vector<std::string> kind_names();
 
-/// The kind that a path names (`vertex-face`, `edge-edge`, `vf`, `ee`), if it names one.
+/// The kind that a path names, if it names one: its name without extension ends in `vf` or `ee`,
+/// with no letter before, else a folder is named `vertex-face`, `edge-edge`, `vf` or `ee`.
 std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 
 /// Reads queries of a stored kind from text. `name` is used in messages.

@@ -4,6 +4,7 @@
 #include <array>
 #include <ccd/contact_data.hpp>
 #include <ccd/plane.hpp>
+#include <ccd/separation.hpp>
 #include <cmath>
 
 #include "tests/ccd/contact/by_hand.hpp"
@@ -215,6 +216,24 @@ TEST(contact_data, of_what_does_not_meet_is_nothing) {
     const auto unknown = ccd::find_first_contact(over_triangle({infinity, 0, 0}, {0, 0, 0}));
     EXPECT_EQ(unknown.time.outcome, outcome::uncertain);
 }
+/// Where a face's corner or the end of an edge is nearest, the cross product would be no normal.
+TEST(contact_data, of_a_time_within_a_distance_is_nothing) {
+    const vertex_face above_a_corner{from_to({-3, -3, 5}, {-3, -3, 0}), still({0, 0, 0}),
+                                     still({1, 0, 0}), still({0, 1, 0})};
+    const edge_edge beside{from_to({-1, 0, 2}, {-1, 0, -1}), from_to({1, 0, 2}, {1, 0, -1}),
+                           still({1.5, -1, 0}), still({1.5, 1, 0})};
+    const auto expect_nothing = [](const first_contact& found, const ccd::first_time& time) {
+        EXPECT_EQ(time.outcome, outcome::collides);
+        first_contact nothing;
+        nothing.time = time;
+        EXPECT_EQ(found, nothing);
+    };
+    const ccd::first_time at_corner = ccd::time_within(above_a_corner, {4.5, 0});
+    expect_nothing(contact_at(above_a_corner, at_corner), at_corner);
+    const ccd::first_time at_end = ccd::time_within(beside, {1, 0});
+    expect_nothing(contact_at(beside, at_end), at_end);
+}
+
 TEST(contact_data, of_coordinates_of_all_magnitudes) {
     for (const double unit : {0x1p-1070, 0x1p-600, 0x1p600, 0x1p1020}) {
         const auto at = [unit](double x, double y, double z) {

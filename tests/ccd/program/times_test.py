@@ -51,9 +51,9 @@ class QueryTimes(ProgramTest):
     def test_bad_usage(self):
         file, out = self.write("vf.csv", HIT), self.directory / "out"
         for options, message in [
-                (["--toi", out, "--method", "tight"], "expected --method exact"),
-                (["--separation", 1, "--method", "exact,tight"], "expected --method exact"),
-                (["--t-max", 1, "--method", "float"], "expected --method exact"),
+                (["--toi", out, "--method", "tight"], "found another --method, expected exact"),
+                (["--separation", 1, "--method", "exact,tight"], "found another --method, expected exact"),
+                (["--t-max", 1, "--method", "float"], "found another --method, expected exact"),
                 (["--toi", out, file], "expected one FILE"),
                 (["--separation", "-1"], "expected a number from 0"),
                 (["--separation", "nan"], "expected a finite number"),
@@ -76,8 +76,9 @@ class StepTest(ProgramTest):
         pairs, times, out = (self.directory / name for name in ("pairs", "times", "json"))
         text = self.good("step", *arguments, "--pairs", pairs, "--toi", times, "--json", out)
         result = json.loads(out.read_text())
-        self.assertIn("touching at start", text)
-        self.assertIn(f"\n{result['touching_at_start']:>17}  ", text)
+        title = "within at start" if "--separation" in arguments else "touching at start"
+        self.assertIn(title, text)
+        self.assertIn(f"\n{result['touching_at_start']:>{len(title)}}  ", text)
         return pairs.read_text().splitlines(), times.read_text().splitlines(), result
 
 
@@ -119,13 +120,14 @@ class StepTimes(StepTest):
     def test_bad_usage(self):
         out = self.directory / "out"
         for options, message in [
-                (["--toi", out, "--method", "tight"], "expected --method exact"),
-                (["--advance", out, "--method", "tight"], "expected --method exact"),
-                (["--separation", 1, "--method", "float"], "expected --method exact"),
+                (["--toi", out, "--method", "tight"], "found --method tight, expected exact"),
+                (["--advance", "-", "--method", "tight"], "found --method tight, expected exact"),
+                (["--separation", 1, "--method", "float"], "found --method float, expected exact"),
+                (["--advance", out], "expected a name that ends in .ply"),
                 (["--separation", 1, "--explain"], "expected contact"),
                 (["--separation", "inf"], "expected a finite number"),
                 (["--advance", self.frames[0]], "expected a file of its own"),
-                (["--advance", out, "--toi", out], "expected a file of its own")]:
+                (["--advance", "-", "--toi", "-"], "expected a file of its own")]:
             with self.subTest(options=options):
                 self.assertIn(message, self.bad_usage("step", *self.frames, *options))
         self.assertFalse(out.exists())
@@ -156,6 +158,13 @@ class Advance(StepTest):
     def test_keeps_a_distance(self):
         self.assertEqual(self.advance(*self.frames, "--separation", 0.5)["first_contact"],
                          [0.25, 0.25])
+
+    def test_what_is_near_at_the_start_is_stopped_by_contact(self):
+        result = self.advance(*self.frames, "--separation", 4)
+        self.assertEqual(result["first_contact"], [0.5, 0.5])
+        self.assertGreater(result["near_at_start"], 0)
+        self.assertEqual(result["near_at_start"], result["touching_at_start"])
+        self.assertLess(result["advance"], 0.5)
 
     def test_frames_of_rods_keep_them(self):
         rods = "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\nl 1 2\nl 3 4\n"
