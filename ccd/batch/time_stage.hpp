@@ -34,6 +34,7 @@ using pack_values = errbound::roots::control_values<pack, N>;
 
 /// The value, off by 16ε of the largest control value more than those are, and the slope at t of
 /// the polynomial that has these control values (de Casteljau).
+/// Proof: proofs/TimeStage.v, value_near.
 template <int N>
 struct value_and_slope {
     pack value, slope;
@@ -47,6 +48,7 @@ struct value_and_slope {
 };
 
 /// The parts of a cubic before and after t, off by another 32ε of its largest control value.
+/// Proof: proofs/TimeStage.v, lerp_near, parts_at.
 struct parts_of_cubic {
     pack_values<3> before, after;
 
@@ -159,6 +161,7 @@ struct pack_roots {
 };
 
 /// The neighbouring doubles that a part's root is between, from what it is estimated to be.
+/// Proof: proofs/TimeStage.v, bracket_around.
 template <kind K>
 pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
                            const pack_parts& part, const pack_mask& wanted) {
@@ -190,6 +193,7 @@ pack_times bracket_of_root(const twofold_y<K>& exact, const pack_roots& root,
 /// Whether at the first root of Y, near t, all G_i are certainly positive or one is certainly
 /// negative. Certain signs of Y bracket the root, and within the bracket no G_i changes by more
 /// than 8 of its largest control value's size times the bracket's width.
+/// Proof: proofs/TimeStage.v, root_reached, quartic_slope.
 template <kind K>
 struct signs_at_root {
     pack_mask inside = pack_mask(true), outside = pack_mask(false);
@@ -216,6 +220,7 @@ struct signs_at_root {
 };
 
 /// The times of a pack of queries that collide.
+/// Proof: proofs/TimeStage.v, only_root_first, first_of_two, second_of_two.
 template <kind K>
 class time_stage {
     template <class S>
