@@ -1,4 +1,5 @@
-// Motion along curves: see include/ccd/curves.hpp for what it promises.
+// Motion along curves: see include/ccd/curves.hpp for what it promises. That there is a first time
+// where there is any: proofs/Curves.v, face_curves_first, edges_curves_first, smooth_continuous.
 #include <array>
 #include <ccd/curves.hpp>
 #include <ccd/kind.hpp>
