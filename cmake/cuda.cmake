@@ -7,10 +7,12 @@ if(NOT CMAKE_CUDA_COMPILER)
 endif()
 # Where nothing else is asked for: machine code for compute capability 8 and 9, and PTX, which drivers
 # compile for 7.5 and all later ones; all by one pass of the compiler proper, since nothing of the
-# newer instruction sets would be used.
+# newer instruction sets would be used. Each machine takes minutes.
+set(ERRBOUND_CUDA_CODES sm_80 sm_90 compute_75 CACHE STRING
+    "What device code is compiled for, where CMAKE_CUDA_ARCHITECTURES does not say")
 if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
   set(CMAKE_CUDA_ARCHITECTURES OFF)
-  foreach(code sm_80 sm_90 compute_75)
+  foreach(code IN LISTS ERRBOUND_CUDA_CODES)
     list(APPEND errbound_cuda_targets "SHELL:-gencode arch=compute_75,code=${code}")
   endforeach()
 endif()
