@@ -57,21 +57,6 @@ void check_lengths(std::size_t queries, std::size_t answers) {
                                     " answers");
 }
 
-/// Calls decide(first, count) for the runs of finite queries; the others are uncertain.
-template <class IsFinite, class Decide>
-void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
-                   const IsFinite& is_finite, const Decide& decide) {
-    if (all_are_finite) {
-        decide(std::size_t(0), count);
-        return;
-    }
-    for (std::size_t first = 0, end = 0; first < count; first = end) {
-        while (end < count && is_finite(end)) ++end;
-        if (end > first) decide(first, end - first);
-        if (end < count) answers[end++] = outcome::uncertain;
-    }
-}
-
 template <class QueryOrPair>
 constexpr bool has_kernels =
     kind_of<QueryOrPair> == kind::vertex_face || kind_of<QueryOrPair> == kind::edge_edge;
@@ -102,10 +87,6 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     std::optional<rounded_positions> rounded;
     if (all_are_finite) rounded.emplace(rows);
     const batch_positions at = rounded ? batch_positions(rows, *rounded) : batch_positions(rows);
-    const auto finite_vertex = [&rows](vertex_index v) {
-        return all_finite(rows.before + 3 * std::size_t(v), 3) &&
-               all_finite(rows.after + 3 * std::size_t(v), 3);
-    };
     const auto decide = [&](batch_worker& worker, std::span<const Pair> part, outcome* into) {
         if constexpr (has_kernels<Pair>)
             worker.decide(at, part, into);
@@ -113,19 +94,17 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
             std::ranges::transform(
                 part, into, [&](const Pair& p) { return decide_exact(query_of(rows, p)).outcome; });
     };
-    return for_each_chunk(
-        pairs.size(), options, [&](batch_worker& worker, std::size_t first, std::size_t count) {
-            const auto part = pairs.subspan(first, count);
-            check_indices("ccd::decide_batch", part, first, rows.vertices);
-            decide_finite(
-                count, &answers[first], all_are_finite,
-                [&](std::size_t i) {
-                    return std::ranges::all_of(vertices_of(part[i]), finite_vertex);
-                },
-                [&](std::size_t i, std::size_t n) {
-                    decide(worker, part.subspan(i, n), &answers[first + i]);
-                });
-        });
+    return for_each_chunk(pairs.size(), options,
+                          [&](batch_worker& worker, std::size_t first, std::size_t count) {
+                              const auto part = pairs.subspan(first, count);
+                              check_indices("ccd::decide_batch", part, first, rows.vertices);
+                              decide_finite(
+                                  count, &answers[first], all_are_finite,
+                                  [&](std::size_t i) { return has_finite_vertices(rows, part[i]); },
+                                  [&](std::size_t i, std::size_t n) {
+                                      decide(worker, part.subspan(i, n), &answers[first + i]);
+                                  });
+                          });
 }
 
 template <class Query>

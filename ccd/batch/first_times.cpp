@@ -60,8 +60,9 @@ class indexed_questions {
             return decide_batch(positions_, pairs_,
                                 {.threads = options_.threads, .set = options_.set})
                 .answers;
+        const bool all_are_finite = 2 * size() > positions_.vertices && all_positions_finite();
         std::optional<rounded_positions> rounded;
-        if (2 * size() > positions_.vertices && all_positions_finite()) rounded.emplace(positions_);
+        if (all_are_finite) rounded.emplace(positions_);
         const batch_positions at =
             rounded ? batch_positions(positions_, *rounded) : batch_positions(positions_);
         const batch_worker fresh(kernels_for(options_.set), false);
@@ -69,8 +70,14 @@ class indexed_questions {
         std::vector<outcome> answers(size());
         for_each_part(size(), options_.threads, [&](std::size_t begin, std::size_t end) {
             batch_worker worker = fresh;
-            worker.decide_within(at, pairs_.subspan(begin, end - begin), options_.distances, most,
-                                 &answers[begin]);
+            const auto part = pairs_.subspan(begin, end - begin);
+            decide_finite(
+                part.size(), &answers[begin], all_are_finite,
+                [&](std::size_t i) { return has_finite_vertices(positions_, part[i]); },
+                [&](std::size_t first, std::size_t count) {
+                    worker.decide_within(at, part.subspan(first, count), options_.distances, most,
+                                         &answers[begin + first]);
+                });
         });
         return answers;
     }
@@ -101,6 +108,7 @@ class stored_questions {
         : queries_(queries), options_(options) {
         check_distances(caller, options.distances, 0);
         check_t_max(caller, options.t_max);
+        (void)kernels_for(options.set);  // throws if there are none
     }
     std::size_t size() const { return queries_.size(); }
     const time_options& options() const { return options_; }

@@ -183,7 +183,10 @@ void require_writable(const fs::path& path) {
             throw file_error(path.string() + ": cannot be written" + reason());
     };
     const std::optional<std::string> file = file_behind(path);
-    if (!file || fs::exists(*file)) require(file.value_or(path.native()), W_OK);
+    std::error_code error;
+    const bool exists = !file || fs::exists(*file, error);
+    if (error) throw file_error(path.string() + ": cannot be written (" + error.message() + ")");
+    if (exists) require(file.value_or(path.native()), W_OK);
     if (!file) return;
     const std::string folder = file->substr(0, file->rfind('/') + 1);
     require(folder.empty() ? "." : folder, W_OK | X_OK);

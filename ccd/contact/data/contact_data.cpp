@@ -126,6 +126,14 @@ void set_normal_velocity(const enclosed_vector& velocity, int exponent, first_co
     into.normal_velocity_error = std::isfinite(value) && error >= 0 ? error : traits::infinity();
 }
 
+/// Whether the features certainly do not touch then: of a contact all weights are in [0, 1], those
+/// of a feature add up to 1, and the points are the same.
+bool certainly_apart(const contact_state& state) {
+    const auto is_negative = [](const enclosure& w) { return sign_of(w) == sign_type::negative; };
+    return std::ranges::any_of(state.weights, is_negative) ||
+           certainly_not_zero(state.motion.position);
+}
+
 template <class Query>
 first_contact data_of(const Query& query, const first_time& time) {
     constexpr kind whole = kind_of<Query>;
@@ -139,7 +147,7 @@ first_contact data_of(const Query& query, const first_time& time) {
     const contact_state state = met == whole ? inside : visit_kind(met, [&]<kind K>() {
         return state_inside<K>(at, result.features.points);
     });
-    if (certainly_apart(state.motion.position)) {
+    if (certainly_apart(state)) {
         result.features = {};
         return result;
     }

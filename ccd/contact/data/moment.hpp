@@ -72,8 +72,7 @@ struct relative_motion {
         return {factor * p.position, factor * p.velocity};
     }
 };
-/// Whether it certainly is not 0.
-inline bool certainly_apart(const enclosed_vector& p) {
+inline bool certainly_not_zero(const enclosed_vector& p) {
     return std::ranges::any_of(components(p), [](const enclosure& x) {
         const auto sign = sign_of(x);
         return errbound::certain(sign) && sign != errbound::sign_type::zero;

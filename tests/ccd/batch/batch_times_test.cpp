@@ -147,6 +147,30 @@ TEST(FirstTimesOf, CoordinatesThatAreNotFiniteAreUncertain) {
     EXPECT_EQ(first.queries, (std::vector<std::size_t>{1, 3}));
 }
 
+/// Comparisons overlook NaN: at each of the coordinates it must be found before.
+TYPED_TEST(FirstTimes, WithinADistanceOfWhatIsNotFiniteAreUncertain) {
+    const auto before = grid(7), after = grid(8);
+    const auto pairs = random_pairs<TypeParam>(20);
+    const std::vector<double> thickness = thicknesses();
+    for (std::size_t at = 0; at < 6 * before.size(); at += 7) {
+        auto frames = std::array{before, after};
+        ccd::point<double>& broken = frames[at % 2][at / 6];
+        (at / 2 % 3 == 0   ? broken.x
+         : at / 2 % 3 == 1 ? broken.y
+                           : broken.z) = std::numeric_limits<double>::quiet_NaN();
+        const ccd::vertex_rows rows(frames[0], frames[1]);
+        for (const ccd::pair_distances& d :
+             {ccd::pair_distances{0.125}, ccd::pair_distances{0, thickness}}) {
+            const auto expected = one_by_one(rows, pairs, {.distances = d});
+            for (const ccd::instruction_set set : ccd::instruction_sets())
+                EXPECT_EQ(ccd::first_times(rows, pairs, {.distances = d, .set = set}), expected);
+            // Few pairs of many vertices are looked at one by one.
+            EXPECT_EQ(ccd::first_times(rows, std::span(pairs).first(1), {.distances = d})[0],
+                      expected[0]);
+        }
+    }
+}
+
 /// A distance of a pair is the exact sum of two thicknesses: 1 + 2^-60 is no double.
 TEST(FirstTimesOf, ThicknessesAreAddedExactly) {
     const std::vector<ccd::point<double>> before{{0, 0, 0}, {1, 0, 0}}, after = before;
@@ -183,6 +207,10 @@ TEST(FirstTimesOf, RefuseWhatIsNoQuestion) {
     };
     EXPECT_EQ(refused({.t_max = std::numeric_limits<double>::quiet_NaN()}),
               "ccd::first_times: found a t_max of nan, expected a finite one");
+    const std::vector<ccd::vertex_vertex<double>> stored{query_of(rows, pairs[0])};
+    const auto no_set = static_cast<ccd::instruction_set>(77);
+    EXPECT_NE(refusal([&] { ccd::first_times(stored, {.distances = {1}, .set = no_set}); }),
+              "nothing refused");
     EXPECT_EQ(refused({.distances = {-1}}),
               "ccd::first_times: found a distance of -1, expected a finite one that is not "
               "negative");

@@ -232,6 +232,18 @@ TEST(contact_data, of_a_time_within_a_distance_is_nothing) {
     expect_nothing(contact_at(above_a_corner, at_corner), at_corner);
     const ccd::first_time at_end = ccd::time_within(beside, {1, 0});
     expect_nothing(contact_at(beside, at_end), at_end);
+    // In a plane or on a line the features' own planes and lines meet all the time, beside them.
+    const vertex_face in_plane{from_to({5, 0.25, 0}, {1, 0.25, 0}), still({0, 0, 0}),
+                               still({1, 0, 0}), still({0, 1, 0})};
+    const ccd::first_time near_edge = ccd::time_within(in_plane, {1, 0});
+    expect_nothing(contact_at(in_plane, near_edge), near_edge);
+    const edge_edge past_end{still({0, 0, 0}), still({1, 0, 0}), from_to({3, -1, 1}, {3, -1, -1}),
+                             from_to({3, 1, 1}, {3, 1, -1})};
+    const ccd::first_time past = ccd::time_within(past_end, {2, 0});
+    expect_nothing(contact_at(past_end, past), past);
+    const vertex_edge on_line{from_to({3, 0, 0}, {2, 0, 0}), still({0, 0, 0}), still({1, 0, 0})};
+    const ccd::first_time ahead = ccd::time_within(on_line, {1.5, 0});
+    expect_nothing(contact_at(on_line, ahead), ahead);
 }
 
 TEST(contact_data, of_coordinates_of_all_magnitudes) {

@@ -43,6 +43,8 @@ TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
         EXPECT_EQ(refusal(good), "no error") << good;
     EXPECT_NE(refusal(directory.path).find("found a directory"), std::string::npos);
     EXPECT_NE(refusal(directory.path / "no" / "out").find("No such file"), std::string::npos);
+    EXPECT_NE(refusal(directory.path / std::string(300, 'n')).find("cannot be written (File name"),
+              std::string::npos);
     EXPECT_NE(refusal(directory.path / "file" / "out").find("cannot be written"),
               std::string::npos);
     EXPECT_EQ(read_whole(directory.path / "file"), "one");
