@@ -24,7 +24,7 @@ namespace {
 constexpr const char* caller = "ccd::first_times";
 
 /// Copies those queries that `some` name, as many at a time as stay in the first cache, and calls
-/// find(them, times).
+/// find(them, times). What is not finite stays uncertain.
 template <class Query, class Find>
 void time_by_blocks(std::span<timed_contact> some, std::span<const Query> all, const Find& find) {
     constexpr std::size_t most = 64;
@@ -34,7 +34,8 @@ void time_by_blocks(std::span<timed_contact> some, std::span<const Query> all, c
         const std::size_t size = std::min(most, some.size() - first);
         for (std::size_t i = 0; i < size; ++i) queries[i] = all[some[first + i].query];
         find(std::span<const Query>(queries).first(size), times.data());
-        for (std::size_t i = 0; i < size; ++i) some[first + i].time = times[i];
+        for (std::size_t i = 0; i < size; ++i)
+            if (some[first + i].time.outcome == outcome::collides) some[first + i].time = times[i];
     }
 }
 
