@@ -1,5 +1,5 @@
-// A first contact and its response: a vertex bounces off a face that gives way, then in the plane
-// two beads cross an edge, of which a list of pairs in space and one in the plane tell the same.
+// A first contact and its response: a vertex bounces off a face that gives way; then one of two
+// beads falls on an edge in the plane, which one query and a list of pairs tell alike.
 #include <array>
 #include <ccd/contact_data.hpp>
 #include <ccd/first_times.hpp>

@@ -14,6 +14,7 @@
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
+#include "ccd/batch/finite_queries.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/exact/finite.hpp"

@@ -14,6 +14,7 @@
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
+#include "ccd/batch/finite_queries.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/exact/finite.hpp"
@@ -137,29 +138,17 @@ class stored_questions {
     const time_options& options_;
 };
 
-std::vector<std::size_t> all_that_are(outcome wanted, const std::vector<outcome>& answers) {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < answers.size(); ++i)
-        if (answers[i] == wanted) found.push_back(i);
-    return found;
-}
-
-/// Those that are not separate in [0, 1], their times yet unknown. Most are: a pack of bytes at
-/// once is compared in a tenth of the time.
+/// Those that are not separate in [0, 1], their times yet unknown. Blocks of answers are compared
+/// at once, since most are separate.
 std::vector<timed_contact> possible_contacts(const std::vector<outcome>& answers) {
     constexpr std::size_t block = 16;
     std::vector<timed_contact> possible;
-    possible.reserve(answers.size() -
-                     static_cast<std::size_t>(std::ranges::count(answers, outcome::separate)));
     for (std::size_t first = 0; first < answers.size(); first += block) {
-        const std::size_t end = std::min(first + block, answers.size());
-        bool all_separate = end == first + block;
-        if (all_separate)
-            for (std::size_t i = 0; i < block; ++i)
-                all_separate &= answers[first + i] == outcome::separate;
-        if (all_separate) continue;
-        for (std::size_t i = first; i < end; ++i)
-            if (answers[i] != outcome::separate) possible.push_back({i, {answers[i]}});
+        const auto some =
+            std::span(answers).subspan(first, std::min(block, answers.size() - first));
+        if (std::size_t(std::ranges::count(some, outcome::separate)) == some.size()) continue;
+        for (std::size_t i = 0; i < some.size(); ++i)
+            if (some[i] != outcome::separate) possible.push_back({first + i, {some[i]}});
     }
     return possible;
 }
@@ -227,15 +216,20 @@ class earliest_of_thread {
     earliest_time found_;
 };
 
+/// What is told if some queries are uncertain: those.
+std::optional<earliest_time> only_uncertain(const std::vector<timed_contact>& contacts) {
+    std::vector<std::size_t> uncertain;
+    for (const auto& [query, time] : contacts)
+        if (time.outcome == outcome::uncertain) uncertain.push_back(query);
+    if (uncertain.empty()) return std::nullopt;
+    return earliest_time{{}, std::move(uncertain), {}};
+}
+
 /// A contact's time costs less than to see that it is not the earliest.
 earliest_time earliest_of_times(const std::vector<timed_contact>& contacts) {
+    if (auto uncertain = only_uncertain(contacts)) return *std::move(uncertain);
     earliest_of_thread all;
-    std::vector<std::size_t> unknown;
-    for (const auto& [query, time] : contacts) {
-        if (time.outcome == outcome::uncertain) unknown.push_back(query);
-        if (time.outcome == outcome::collides) all.add(time, query);
-    }
-    if (!unknown.empty()) return {{}, std::move(unknown), {}};
+    for (const auto& [query, time] : contacts) all.add(time, query);
     return std::move(all).sorted();
 }
 
@@ -272,21 +266,20 @@ template <class Questions>
 earliest_time earliest_of_all(const Questions& asked) {
     if (asked.options().distances.ask_for_contact())
         return earliest_of_times(contacts_among(asked));
-    const std::vector<outcome> answers = asked.decisions();
-    if (std::vector unknown = all_that_are(outcome::uncertain, answers); !unknown.empty())
-        return {{}, std::move(unknown), {}};
-    const std::vector<std::size_t> contacts = all_that_are(outcome::collides, answers);
+    const std::vector<timed_contact> contacts = possible_contacts(asked.decisions());
+    if (auto uncertain = only_uncertain(contacts)) return *std::move(uncertain);
     std::atomic<double> bound = asked.options().t_max;
     tbb::enumerable_thread_specific<earliest_of_thread> parts;
     for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
         const double t_max = bound;
-        const auto& query = asked.query(contacts[i]);
-        const separation d = asked.distance(contacts[i]);
+        const std::size_t number = contacts[i].query;
+        const auto& query = asked.query(number);
+        const separation d = asked.distance(number);
         if (t_max < 1 && is_certainly_later(query, d, std::max(t_max, 0.0))) return;
         const first_time time = time_within(query, d, t_max);
         if (time.outcome != outcome::collides) return;
         if (!time.at_start()) lower(bound, time.high);
-        parts.local().add(time, contacts[i]);
+        parts.local().add(time, number);
     });
     earliest_of_thread all;
     for (const earliest_of_thread& part : parts) all.add(part);

@@ -3,8 +3,8 @@
 // Every contact is at a root of Y. So where Y certainly has but one root, that is the time; where
 // it has two, contact is at the first if the G_i certainly are positive there, and at the second if
 // one certainly is negative. How many it has is told by signs on two parts of the step. The
-// neighbouring doubles between which a root lies are found by
-// Newton's method, and proved by Y's signs there, in twice double's precision with an error bound.
+// neighbouring doubles between which a root lies are found by Newton's method, and proved by Y's
+// signs there, in twice double's precision with an error bound.
 #pragma once
 
 #include <ccd/kind.hpp>
@@ -201,16 +201,16 @@ struct signs_at_root {
     /// y_error bounds the error of Y's value at any time; before that root its sign is `before`.
     signs_at_root(const static_filter::whole_step<pack, forms_of_kind<K>::template type>& whole,
                   const pack& y_error, const pack& t, const pack& before) {
-        const pack reach(0x1p-28);
+        constexpr double reach = 0x1p-28;
         const auto y_at = [&](const pack& time) {
             return before * value_and_slope<3>(whole.forms.y, time).value;
         };
-        const pack_mask bracketed = (y_at(max(t - reach, pack(0.0))) > y_error) &
-                                    (y_at(min(t + reach, pack(1.0))) < -y_error);
+        const pack_mask bracketed = (y_at(max(t - pack(reach), pack(0.0))) > y_error) &
+                                    (y_at(min(t + pack(reach), pack(1.0))) < -y_error);
         for (const auto& g : whole.forms.g) {
             const pack value = value_and_slope<4>(g, t).value;
             const pack error =
-                whole.errors.g + pack(16 * epsilon + 8 * 0x1p-28) * static_filter::size_of(g);
+                whole.errors.g + pack(16 * epsilon + 8 * reach) * static_filter::size_of(g);
             inside = inside & (value > error);
             outside = outside | (value < -error);
         }

@@ -28,9 +28,9 @@ struct ends_extents {
 };
 
 /// True if some coordinate axis separates the features the same way at t = 0 and at t = 1, and
-/// therefore, the motion being linear, throughout. Coordinates must be finite. Compilers make
-/// vectors of it. Proof: proofs/Decisions.v, face_separated, edges_separated; proofs/AxisUnits.v,
-/// separated_right.
+/// therefore, the motion being linear, throughout. Coordinates must be finite. Without branches:
+/// which axis separates them, if any, is as good as random. Proof: proofs/Decisions.v,
+/// face_separated, edges_separated; proofs/AxisUnits.v, separated_right.
 template <class Query>
 constexpr bool separated_by_coordinates(const Query& query) {
     using traits = kind_traits<kind_constant<Query>::value>;

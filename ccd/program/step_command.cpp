@@ -82,12 +82,6 @@ std::string lines_of_pairs(const step_result& result, bool with_times) {
     return lines;
 }
 
-std::size_t number_of(const pair_lists& pairs) {
-    std::size_t number = 0;
-    for_each_kind([&]<kind K>() { number += pairs.of<K>().size(); });
-    return number;
-}
-
 /// Vertex/edge and vertex/vertex pairs are reported where there are any.
 template <kind K>
 bool is_shown(const step_result& result) {

@@ -90,6 +90,13 @@ using pair_counts = by_kind<detail::count_of_kind>;
 /// with the edge ascending, a vertex_vertex_pair {v, w} with v < w.
 using pair_lists = by_kind<detail::list_of_kind>;
 
+/// How many pairs there are, of all kinds.
+inline std::size_t number_of(const pair_lists& pairs) {
+    std::size_t number = 0;
+    for_each_kind([&]<kind K>() { number += pairs.of<K>().size(); });
+    return number;
+}
+
 /// The first times of such lists, in their order.
 using time_lists = by_kind<detail::times_of_kind>;
 

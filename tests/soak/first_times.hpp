@@ -61,10 +61,10 @@ time_decider by_data(std::string name, const What& what) {
 std::vector<time_decider> contact_deciders();
 std::vector<time_decider> distance_deciders();
 
-/// Queries of every family and all four kinds. The first decider's answer for t_max = 1 is judged
+/// Queries of every family and all four kinds. The first decider's answer for t_max = 1 is checked
 /// by the oracle (tests/support/first_time_faults.hpp). First times are unique, so it is what all
 /// others must say, too, and what follows for another t_max, near that time or not, is what all
-/// must say for that. Data of contacts are judged by rationals
+/// must say for that. Data of contacts are checked by rationals
 /// (tests/support/contact_data_faults.hpp). A block's queries are then asked at once, on every
 /// instruction set, and the earliest of all and of a few. Tables: "family", the queries;
 /// "distance", of distances; "decider", all answers.

@@ -42,8 +42,8 @@ constexpr control_values<S, N> control_values_of(const bernstein<S, N>& p) {
     return c;
 }
 
-/// Of neighbours in a row. By index, so that compilers keep rows in registers: loops over arrays go
-/// through memory, which takes twice as long.
+/// Of neighbours in a row. By index, so that compilers keep rows in registers: of loops over arrays
+/// they make loads of pairs that were stored one by one, which stalls.
 template <class S, std::size_t... I>
 constexpr std::array<S, sizeof...(I)> midpoints(const std::array<S, sizeof...(I) + 1>& row,
                                                 std::index_sequence<I...>) {

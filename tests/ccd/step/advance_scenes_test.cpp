@@ -27,12 +27,6 @@ using brute_force::expect_free;
 using brute_force::goes_far;
 using brute_force::two_frames;
 
-std::size_t size_of(const ccd::pair_lists& pairs) {
-    std::size_t all = 0;
-    ccd::for_each_kind([&]<ccd::kind K>() { all += pairs.of<K>().size(); });
-    return all;
-}
-
 double mean_edge(const ccd::mesh& frame) {
     const auto edges = ccd::unique_edges(frame.faces, frame.edges);
     double sum = 0;
@@ -70,7 +64,7 @@ void advance_scene(const fs::path& before, const fs::path& after) {
             "%s, %s: %.17g of the way (mean of vertices %.3g), first contact %.17g; at the start "
             "%zu touch, %zu are near\n",
             before.stem().c_str(), name, result.fraction, mean, result.first_contact.low,
-            size_of(result.touching_at_start), size_of(result.near_at_start));
+            number_of(result.touching_at_start), number_of(result.near_at_start));
     }
 }
 

@@ -51,9 +51,9 @@ double at_least(ccd::separation d) {
     return std::nextafter(d.first + d.second, std::numeric_limits<double>::infinity());
 }
 
-class judging {
+class checking {
   public:
-    judging(const advance_scene& scene, const ccd::advance_result& result)
+    checking(const advance_scene& scene, const ccd::advance_result& result)
         : scene_(scene), result_(result), whole_(scene.at.first, scene.at.second) {
         check_pairs_at_start();
         check_first_contact();
@@ -61,12 +61,12 @@ class judging {
         check_fractions();
         check_way();
         check_progress();
-        judgement_.pairs = pairs_.size();
+        check_.pairs = pairs_.size();
     }
-    advance_judgement judgement_;
+    advance_check check_;
 
   private:
-    void fault(const std::string& what) { judgement_.faults += what + "; "; }
+    void fault(const std::string& what) { check_.faults += what + "; "; }
 
     void check_pairs_at_start() {
         ccd::pair_lists touching, near;
@@ -174,7 +174,7 @@ class judging {
             if (!is_held(island, number, 1)) fault("nothing holds the vertices of an island");
             // The quotient is rounded, and contacts may be within a bracket.
             const double end = std::nextafter(std::nextafter(f / 0.99, 2), 2);
-            judgement_.is_short |= !is_held(island, number, std::min(end, 1.0));
+            check_.is_short |= !is_held(island, number, std::min(end, 1.0));
         }
     }
     /// Whether a pair of an island meets in [0, end] if all go all the way.
@@ -194,8 +194,8 @@ class judging {
 
 }  // namespace
 
-advance_judgement judge(const advance_scene& scene, const ccd::advance_result& result) {
-    return judging(scene, result).judgement_;
+advance_check check(const advance_scene& scene, const ccd::advance_result& result) {
+    return checking(scene, result).check_;
 }
 
 }  // namespace soak

@@ -9,7 +9,7 @@
 
 namespace soak {
 
-struct advance_judgement {
+struct advance_check {
     std::string faults = {};  ///< what is wrong, or nothing
     std::size_t pairs = 0;
     /// Whether some vertex goes less than 0.99 of the way to the first contact that could hold it.
@@ -22,6 +22,6 @@ struct advance_judgement {
 /// be held by: of its group, or of groups near enough to be joined with it. That this is not
 /// farther off than promised is for the caller to ask of `is_short`, since gaps of a few last
 /// places excuse it.
-advance_judgement judge(const advance_scene& scene, const ccd::advance_result& result);
+advance_check check(const advance_scene& scene, const ccd::advance_result& result);
 
 }  // namespace soak

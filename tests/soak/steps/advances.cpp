@@ -24,26 +24,20 @@ bool is_same(const ccd::advance_result& a, const ccd::advance_result& b) {
            a.near_at_start == b.near_at_start;
 }
 
-std::size_t count_of(const ccd::pair_lists& pairs) {
-    std::size_t all = 0;
-    ccd::for_each_kind([&]<ccd::kind K>() { all += pairs.of<K>().size(); });
-    return all;
-}
-
 void compare(const advance_scene& scene, const std::string& row, const std::string& name,
              const advancer& advance, findings& out) {
     const ccd::advance_result found = advance(scene, 1);
-    const advance_judgement judged = judge(scene, found);
-    std::string faults = judged.faults;
+    const advance_check checked = check(scene, found);
+    std::string faults = checked.faults;
     if (!is_same(advance(scene, 2), found)) faults += "another result on two threads; ";
     const bool has_contact = found.first_contact.outcome == ccd::outcome::collides;
     const std::uint64_t counts[] = {1,
-                                    judged.pairs,
+                                    checked.pairs,
                                     has_contact,
-                                    count_of(found.touching_at_start) > 0,
-                                    count_of(found.near_at_start) > 0,
+                                    number_of(found.touching_at_start) > 0,
+                                    number_of(found.near_at_start) > 0,
                                     found.fraction == 1,
-                                    judged.is_short,
+                                    checked.is_short,
                                     !faults.empty()};
     const auto count = [&](const char* table, std::string_view in_row) {
         auto& sums = out.table(table)[in_row];
