@@ -8,13 +8,14 @@
 #include <bit>
 #include <ccd/batch.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/first_times.hpp>
+#include <ccd/kind.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
-#include "ccd/batch/finite_queries.hpp"
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
 #include "ccd/exact/finite.hpp"
@@ -51,11 +52,34 @@ stage_report for_each_chunk(std::size_t count, const batch_options& options, con
     return all;
 }
 
-void check_lengths(std::size_t queries, std::size_t answers) {
+void check_lengths(const question& asked, std::size_t queries, std::size_t answers) {
     if (queries != answers)
-        throw std::invalid_argument("ccd::decide_batch: " + std::to_string(queries) +
+        throw std::invalid_argument(std::string(asked.caller) + ": " + std::to_string(queries) +
                                     " queries, but room for " + std::to_string(answers) +
                                     " answers");
+}
+
+template <class Pair>
+bool has_finite_vertices(const vertex_rows& rows, const Pair& pair) {
+    return std::ranges::all_of(vertices_of(pair), [&rows](vertex_index v) {
+        return all_finite(rows.before + 3 * std::size_t(v), 3) &&
+               all_finite(rows.after + 3 * std::size_t(v), 3);
+    });
+}
+
+/// Calls decide(first, count) for the runs of finite queries; the others are uncertain.
+template <class IsFinite, class Decide>
+void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
+                   const IsFinite& is_finite, const Decide& decide) {
+    if (all_are_finite) {
+        decide(std::size_t(0), count);
+        return;
+    }
+    for (std::size_t first = 0, end = 0; first < count; first = end) {
+        while (end < count && is_finite(end)) ++end;
+        if (end > first) decide(first, end - first);
+        if (end < count) answers[end++] = outcome::uncertain;
+    }
 }
 
 template <class QueryOrPair>
@@ -75,11 +99,11 @@ Query without_motion(const Query& query) {
 template <class Pair>
 stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
                           std::span<outcome> answers, const batch_options& options,
-                          question asked) {
-    check_lengths(pairs.size(), answers.size());
+                          const question& asked) {
+    check_lengths(asked, pairs.size(), answers.size());
     vertex_rows rows = positions;
-    if (asked == question::contact_at_start) rows.after = rows.before;
-    check_pointers("ccd::decide_batch", rows);
+    if (asked.at_start) rows.after = rows.before;
+    check_pointers(asked.caller, rows);
     // Work on every vertex pays only where there are queries enough: rounding one costs some 5 ns,
     // and saves some 10 ns a query.
     const bool many = has_kernels<Pair> && 2 * pairs.size() > rows.vertices;
@@ -88,8 +112,11 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     std::optional<rounded_positions> rounded;
     if (all_are_finite) rounded.emplace(rows);
     const batch_positions at = rounded ? batch_positions(rows, *rounded) : batch_positions(rows);
+    const double most = asked.within ? asked.within->most() : 0;
     const auto decide = [&](batch_worker& worker, std::span<const Pair> part, outcome* into) {
-        if constexpr (has_kernels<Pair>)
+        if (asked.within)
+            worker.decide_within(at, part, *asked.within, most, into);
+        else if constexpr (has_kernels<Pair>)
             worker.decide(at, part, into);
         else
             std::ranges::transform(
@@ -98,7 +125,7 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
     return for_each_chunk(pairs.size(), options,
                           [&](batch_worker& worker, std::size_t first, std::size_t count) {
                               const auto part = pairs.subspan(first, count);
-                              check_indices("ccd::decide_batch", part, first, rows.vertices);
+                              check_indices(asked.caller, part, first, rows.vertices);
                               decide_finite(
                                   count, &answers[first], all_are_finite,
                                   [&](std::size_t i) { return has_finite_vertices(rows, part[i]); },
@@ -110,8 +137,8 @@ stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pa
 
 template <class Query>
 stage_report decide_queries(std::span<const Query> queries, std::span<outcome> answers,
-                            const batch_options& options, question asked) {
-    check_lengths(queries.size(), answers.size());
+                            const batch_options& options, const question& asked) {
+    check_lengths(asked, queries.size(), answers.size());
     constexpr std::size_t numbers = sizeof(Query) / sizeof(double);
     const auto decide = [](batch_worker& worker, std::span<const Query> part, outcome* into) {
         if constexpr (has_kernels<Query>)
@@ -124,7 +151,7 @@ stage_report decide_queries(std::span<const Query> queries, std::span<outcome> a
         queries.size(), options, [&](batch_worker& worker, std::size_t first, std::size_t count) {
             auto part = queries.subspan(first, count);
             std::vector<Query> still;
-            if (asked == question::contact_at_start) {
+            if (asked.at_start) {
                 still.resize(count);
                 std::ranges::transform(part, still.begin(), without_motion<Query>);
                 part = still;
@@ -140,20 +167,20 @@ stage_report decide_queries(std::span<const Query> queries, std::span<outcome> a
 }
 
 template stage_report decide_pairs(const vertex_rows&, std::span<const vertex_face_pair>,
-                                   std::span<outcome>, const batch_options&, question);
+                                   std::span<outcome>, const batch_options&, const question&);
 template stage_report decide_queries(std::span<const vertex_face<double>>, std::span<outcome>,
-                                     const batch_options&, question);
+                                     const batch_options&, const question&);
 template stage_report decide_pairs(const vertex_rows&, std::span<const edge_edge_pair>,
-                                   std::span<outcome>, const batch_options&, question);
+                                   std::span<outcome>, const batch_options&, const question&);
 template stage_report decide_queries(std::span<const edge_edge<double>>, std::span<outcome>,
-                                     const batch_options&, question);
+                                     const batch_options&, const question&);
 template stage_report decide_pairs(const vertex_rows&, std::span<const vertex_edge_pair>,
-                                   std::span<outcome>, const batch_options&, question);
+                                   std::span<outcome>, const batch_options&, const question&);
 template stage_report decide_queries(std::span<const vertex_edge<double>>, std::span<outcome>,
-                                     const batch_options&, question);
+                                     const batch_options&, const question&);
 template stage_report decide_pairs(const vertex_rows&, std::span<const vertex_vertex_pair>,
-                                   std::span<outcome>, const batch_options&, question);
+                                   std::span<outcome>, const batch_options&, const question&);
 template stage_report decide_queries(std::span<const vertex_vertex<double>>, std::span<outcome>,
-                                     const batch_options&, question);
+                                     const batch_options&, const question&);
 
 }  // namespace ccd::detail

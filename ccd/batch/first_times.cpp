@@ -7,6 +7,7 @@
 #include <bit>
 #include <ccd/first_times.hpp>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -14,10 +15,7 @@
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
-#include "ccd/batch/finite_queries.hpp"
-#include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/threads.hpp"
-#include "ccd/exact/finite.hpp"
 
 namespace ccd::detail {
 namespace {
@@ -47,8 +45,6 @@ class indexed_questions {
     indexed_questions(const vertex_rows& positions, std::span<const Pair> pairs,
                       const time_options& options)
         : positions_(positions), pairs_(pairs), options_(options) {
-        check_pointers(caller, positions);
-        check_indices(caller, pairs, 0, positions.vertices);
         check_distances(caller, options.distances, positions.vertices);
         check_t_max(caller, options.t_max);
     }
@@ -58,29 +54,11 @@ class indexed_questions {
     separation distance(std::size_t i) const { return options_.distances.of(pairs_[i]); }
     /// Whether there is a contact, or a distance within that asked for, in [0, 1].
     std::vector<outcome> decisions() const {
-        if (options_.distances.ask_for_contact())
-            return decide_batch(positions_, pairs_,
-                                {.threads = options_.threads, .set = options_.set})
-                .answers;
-        const bool all_are_finite = 2 * size() > positions_.vertices && all_positions_finite();
-        std::optional<rounded_positions> rounded;
-        if (all_are_finite) rounded.emplace(positions_);
-        const batch_positions at =
-            rounded ? batch_positions(positions_, *rounded) : batch_positions(positions_);
-        const batch_worker fresh(kernels_for(options_.set), false);
-        const double most = options_.distances.most();
+        question asked{.caller = caller};
+        if (!options_.distances.ask_for_contact()) asked.within = &options_.distances;
         std::vector<outcome> answers(size());
-        for_each_part(size(), options_.threads, [&](std::size_t begin, std::size_t end) {
-            batch_worker worker = fresh;
-            const auto part = pairs_.subspan(begin, end - begin);
-            decide_finite(
-                part.size(), &answers[begin], all_are_finite,
-                [&](std::size_t i) { return has_finite_vertices(positions_, part[i]); },
-                [&](std::size_t first, std::size_t count) {
-                    worker.decide_within(at, part.subspan(first, count), options_.distances, most,
-                                         &answers[begin + first]);
-                });
-        });
+        decide_pairs(positions_, pairs_, std::span(answers),
+                     {.threads = options_.threads, .set = options_.set}, asked);
         return answers;
     }
     /// Of some queries, the time in [0, 1].
@@ -93,11 +71,6 @@ class indexed_questions {
     }
 
   private:
-    bool all_positions_finite() const {
-        return all_finite(positions_.before, 3 * positions_.vertices) &&
-               all_finite(positions_.after, 3 * positions_.vertices);
-    }
-
     const vertex_rows& positions_;
     std::span<const Pair> pairs_;
     const time_options& options_;
@@ -138,18 +111,28 @@ class stored_questions {
     const time_options& options_;
 };
 
-/// Those that are not separate in [0, 1], their times yet unknown. Blocks of answers are compared
-/// at once, since most are separate.
+/// Those that are not separate in [0, 1], their times yet unknown. Most are: words of eight answers
+/// are passed over at once, and what is in the others is as good as random, so taken without
+/// branches.
 std::vector<timed_contact> possible_contacts(const std::vector<outcome>& answers) {
-    constexpr std::size_t block = 16;
-    std::vector<timed_contact> possible;
-    for (std::size_t first = 0; first < answers.size(); first += block) {
-        const auto some =
-            std::span(answers).subspan(first, std::min(block, answers.size() - first));
-        if (std::size_t(std::ranges::count(some, outcome::separate)) == some.size()) continue;
-        for (std::size_t i = 0; i < some.size(); ++i)
-            if (some[i] != outcome::separate) possible.push_back({first + i, {some[i]}});
-    }
+    constexpr std::array<outcome, 8> word{};
+    static_assert(outcome{} == outcome::separate && sizeof(word) == 8);
+    const auto number =
+        answers.size() - static_cast<std::size_t>(std::ranges::count(answers, outcome::separate));
+    std::vector<timed_contact> possible(number + 1);  // and one to write what is not kept
+    timed_contact* next = possible.data();
+    const auto take = [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            *next = {i, {answers[i]}};
+            next += answers[i] != outcome::separate;
+        }
+    };
+    const std::size_t whole = answers.size() - answers.size() % word.size();
+    for (std::size_t first = 0; first < whole; first += word.size())
+        if (std::memcmp(&answers[first], word.data(), word.size()) != 0)
+            take(first, first + word.size());
+    take(whole, answers.size());
+    possible.pop_back();
     return possible;
 }
 

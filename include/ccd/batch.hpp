@@ -127,6 +127,8 @@ struct batch_result {
     stage_report stages;  ///< of vertex/face and edge/edge queries, if asked for
 };
 
+struct pair_distances;  // in first_times.hpp
+
 namespace detail {
 
 template <class T>
@@ -144,15 +146,21 @@ concept contiguous_items = std::ranges::contiguous_range<R> && std::ranges::size
 template <class R>
 using items_of = std::span<const std::ranges::range_value_t<R>>;
 
-/// What is asked of each query.
-enum class question : std::uint8_t { contact, contact_at_start };
+/// What is asked of each query, and by whom, for messages.
+struct question {
+    const char* caller = "ccd::decide_batch";
+    bool at_start = false;                   ///< contact at t = 0
+    const pair_distances* within = nullptr;  ///< that a pair comes within these
+};
+constexpr question touches_at_start_asked{"ccd::touches_at_start_batch", true, nullptr};
 
 template <class Pair>
 stage_report decide_pairs(const vertex_rows& positions, std::span<const Pair> pairs,
-                          std::span<outcome> answers, const batch_options& options, question asked);
+                          std::span<outcome> answers, const batch_options& options,
+                          const question& asked);
 template <class Query>
 stage_report decide_queries(std::span<const Query> queries, std::span<outcome> answers,
-                            const batch_options& options, question asked);
+                            const batch_options& options, const question& asked);
 
 }  // namespace detail
 
@@ -184,13 +192,13 @@ template <pair_range Pairs>
 stage_report decide_batch(const vertex_rows& positions, const Pairs& pairs,
                           std::span<outcome> answers, const batch_options& options = {}) {
     return detail::decide_pairs(positions, detail::items_of<Pairs>(pairs), answers, options,
-                                detail::question::contact);
+                                detail::question{});
 }
 template <query_range Queries>
 stage_report decide_batch(const Queries& queries, std::span<outcome> answers,
                           const batch_options& options = {}) {
     return detail::decide_queries(detail::items_of<Queries>(queries), answers, options,
-                                  detail::question::contact);
+                                  detail::question{});
 }
 
 /// Whether the features of each query touch already at t = 0: as decide_batch, but as
@@ -202,7 +210,7 @@ batch_result touches_at_start_batch(const vertex_rows& positions, const Pairs& p
     batch_result result{std::vector<outcome>(std::ranges::size(pairs)), {}};
     result.stages =
         detail::decide_pairs(positions, detail::items_of<Pairs>(pairs), std::span(result.answers),
-                             options, detail::question::contact_at_start);
+                             options, detail::touches_at_start_asked);
     return result;
 }
 template <query_range Queries>
@@ -210,7 +218,7 @@ batch_result touches_at_start_batch(const Queries& queries, const batch_options&
     batch_result result{std::vector<outcome>(std::ranges::size(queries)), {}};
     result.stages =
         detail::decide_queries(detail::items_of<Queries>(queries), std::span(result.answers),
-                               options, detail::question::contact_at_start);
+                               options, detail::touches_at_start_asked);
     return result;
 }
 
