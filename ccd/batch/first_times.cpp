@@ -10,11 +10,14 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/batch/checks.hpp"
+#include "ccd/batch/chunks.hpp"
 #include "ccd/batch/threads.hpp"
 
 namespace ccd::detail {
@@ -22,20 +25,8 @@ namespace {
 
 constexpr const char* caller = "ccd::first_times";
 
-/// Copies those queries that `some` name, as many at a time as stay in the first cache, and calls
-/// find(them, times). What is not finite stays uncertain.
-template <class Query, class Find>
-void time_by_blocks(std::span<timed_contact> some, std::span<const Query> all, const Find& find) {
-    constexpr std::size_t most = 64;
-    std::array<Query, most> queries;
-    std::array<first_time, most> times;
-    for (std::size_t first = 0; first < some.size(); first += most) {
-        const std::size_t size = std::min(most, some.size() - first);
-        for (std::size_t i = 0; i < size; ++i) queries[i] = all[some[first + i].query];
-        find(std::span<const Query>(queries).first(size), times.data());
-        for (std::size_t i = 0; i < size; ++i)
-            if (some[first + i].time.outcome == outcome::collides) some[first + i].time = times[i];
-    }
+batch_options batch_options_of(const time_options& options) {
+    return {.threads = options.threads, .set = options.set};
 }
 
 /// Queries, however they are given, and what is asked of them.
@@ -52,25 +43,21 @@ class indexed_questions {
     const time_options& options() const { return options_; }
     auto query(std::size_t i) const { return query_of(positions_, pairs_[i]); }
     separation distance(std::size_t i) const { return options_.distances.of(pairs_[i]); }
+    pair_batch<Pair> batch() const { return {positions_, pairs_, question()}; }
     /// Whether there is a contact, or a distance within that asked for, in [0, 1].
     std::vector<outcome> decisions() const {
-        question asked{.caller = caller};
-        if (!options_.distances.ask_for_contact()) asked.within = &options_.distances;
         std::vector<outcome> answers(size());
-        decide_pairs(positions_, pairs_, std::span(answers),
-                     {.threads = options_.threads, .set = options_.set}, asked);
+        decide_pairs(positions_, pairs_, std::span(answers), batch_options_of(options_),
+                     question());
         return answers;
-    }
-    /// Of some queries, the time in [0, 1].
-    void time_contacts(std::span<timed_contact> some) const {
-        const batch_positions positions(positions_);
-        const batch_worker worker(kernels_for(options_.set), false);
-        time_by_blocks<Pair>(some, pairs_, [&](std::span<const Pair> block, first_time* times) {
-            worker.find_times(positions, block, times);
-        });
     }
 
   private:
+    detail::question question() const {
+        const bool of_distances = !options_.distances.ask_for_contact();
+        return {caller, false, of_distances ? &options_.distances : nullptr};
+    }
+
     const vertex_rows& positions_;
     std::span<const Pair> pairs_;
     const time_options& options_;
@@ -89,21 +76,15 @@ class stored_questions {
     const time_options& options() const { return options_; }
     const Query& query(std::size_t i) const { return queries_[i]; }
     separation distance(std::size_t) const { return {options_.distances.all, 0}; }
+    query_batch<Query> batch() const { return {queries_, {caller}}; }
     std::vector<outcome> decisions() const {
         if (options_.distances.ask_for_contact())
-            return decide_batch(queries_, {.threads = options_.threads, .set = options_.set})
-                .answers;
+            return decide_batch(queries_, batch_options_of(options_)).answers;
         std::vector<outcome> answers(size());
         for_each_index(size(), options_.threads, [&](std::size_t i) {
             answers[i] = decide_within(queries_[i], distance(i)).outcome;
         });
         return answers;
-    }
-    void time_contacts(std::span<timed_contact> some) const {
-        const batch_worker worker(kernels_for(options_.set), false);
-        time_by_blocks<Query>(some, queries_, [&](std::span<const Query> block, first_time* times) {
-            worker.find_times(block, times);
-        });
     }
 
   private:
@@ -111,48 +92,79 @@ class stored_questions {
     const time_options& options_;
 };
 
-/// Those that are not separate in [0, 1], their times yet unknown. Most are: words of eight answers
-/// are passed over at once, and what is in the others is as good as random, so taken without
-/// branches.
-std::vector<timed_contact> possible_contacts(const std::vector<outcome>& answers) {
+/// Those that are not separate in [0, 1], their times yet unknown; answers[0] is that of query
+/// `first`. Most are separate: words of eight answers are passed over at once.
+std::vector<timed_contact> possible_contacts(std::span<const outcome> answers,
+                                             std::size_t first = 0) {
     constexpr std::array<outcome, 8> word{};
     static_assert(outcome{} == outcome::separate && sizeof(word) == 8);
-    const auto number =
-        answers.size() - static_cast<std::size_t>(std::ranges::count(answers, outcome::separate));
-    std::vector<timed_contact> possible(number + 1);  // and one to write what is not kept
-    timed_contact* next = possible.data();
-    const auto take = [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) {
-            *next = {i, {answers[i]}};
-            next += answers[i] != outcome::separate;
-        }
+    std::vector<timed_contact> possible;
+    const auto take = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (answers[i] != outcome::separate) possible.push_back({first + i, {answers[i]}});
     };
     const std::size_t whole = answers.size() - answers.size() % word.size();
-    for (std::size_t first = 0; first < whole; first += word.size())
-        if (std::memcmp(&answers[first], word.data(), word.size()) != 0)
-            take(first, first + word.size());
+    for (std::size_t i = 0; i < whole; i += word.size())
+        if (std::memcmp(&answers[i], word.data(), word.size()) != 0) take(i, i + word.size());
     take(whole, answers.size());
-    possible.pop_back();
     return possible;
+}
+
+/// Times contacts, as many at a time as stay in the first cache; what is uncertain remains so.
+template <class Batch>
+void find_times(const batch_worker& worker, const Batch& batch, std::span<timed_contact> some) {
+    using item = std::remove_cvref_t<decltype(batch.item(0))>;
+    constexpr std::size_t most = 64;
+    std::array<item, most> items;
+    std::array<first_time, most> times;
+    for (std::size_t first = 0; first < some.size(); first += most) {
+        const auto block = some.subspan(first, std::min(most, some.size() - first));
+        for (std::size_t i = 0; i < block.size(); ++i) items[i] = batch.item(block[i].query);
+        batch.find_times(worker, std::span<const item>(items).first(block.size()), times.data());
+        for (std::size_t i = 0; i < block.size(); ++i)
+            if (block[i].time.outcome == outcome::collides) block[i].time = times[i];
+    }
+}
+
+/// Only those in [0, t_max] are kept.
+void erase_later(std::vector<timed_contact>& contacts, double t_max) {
+    std::erase_if(contacts, [t_max](const timed_contact& c) {
+        return c.time.outcome == outcome::separate ||
+               (c.time.outcome == outcome::collides && c.time.high > t_max);
+    });
+}
+
+/// Chunk by chunk, while what was decided is in the caches.
+template <class Batch>
+std::vector<timed_contact> contacts_of_chunks(const Batch& batch, const time_options& options) {
+    std::vector<std::vector<timed_contact>> found(batch.size() / chunk_size + 1);
+    for_each_chunk(batch.size(), batch_options_of(options),
+                   [&](batch_worker& worker, std::size_t first, std::size_t count) {
+                       std::array<outcome, chunk_size> answers;
+                       batch.decide(worker, first, count, answers.data());
+                       auto& contacts = found[first / chunk_size];
+                       contacts = possible_contacts(std::span(answers).first(count), first);
+                       find_times(worker, batch, contacts);
+                       erase_later(contacts, options.t_max);
+                   });
+    std::size_t number = 0;
+    for (const auto& contacts : found) number += contacts.size();
+    std::vector<timed_contact> all;
+    all.reserve(number);
+    for (const auto& contacts : found) all.insert(all.end(), contacts.begin(), contacts.end());
+    return all;
 }
 
 template <class Questions>
 std::vector<timed_contact> contacts_among(const Questions& asked) {
-    std::vector<timed_contact> found = possible_contacts(asked.decisions());
     const time_options& options = asked.options();
-    if (options.distances.ask_for_contact())
-        for_each_part(found.size(), options.threads, [&](std::size_t begin, std::size_t end) {
-            asked.time_contacts(std::span(found).subspan(begin, end - begin));
-        });
-    else
-        for_each_index(found.size(), options.threads, [&](std::size_t i) {
-            auto& [query, time] = found[i];
-            time = time_within(asked.query(query), asked.distance(query), options.t_max);
-        });
-    std::erase_if(found, [&](const timed_contact& c) {
-        return c.time.outcome == outcome::separate ||
-               (c.time.outcome == outcome::collides && c.time.high > options.t_max);
+    if (options.distances.ask_for_contact()) return contacts_of_chunks(asked.batch(), options);
+    std::vector<timed_contact> found = possible_contacts(asked.decisions());
+    for_each_index(found.size(), options.threads, [&](std::size_t i) {
+        auto& [query, time] = found[i];
+        time = time_within(asked.query(query), asked.distance(query), options.t_max);
     });
+    erase_later(found, options.t_max);
     return found;
 }
 

@@ -1,0 +1,200 @@
+// Batches of queries, by index or stored, and their chunks, which threads decide. Internal.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <ccd/batch.hpp>
+#include <ccd/exact.hpp>
+#include <ccd/first_times.hpp>
+#include <ccd/kind.hpp>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ccd/batch/batch_worker.hpp"
+#include "ccd/batch/checks.hpp"
+#include "ccd/batch/rounded_positions.hpp"
+#include "ccd/batch/threads.hpp"
+#include "ccd/exact/finite.hpp"
+
+namespace ccd::detail {
+
+/// Queries that a thread takes at a time: enough to make the call cheap, few enough for the second
+/// cache.
+constexpr std::size_t chunk_size = 4096;
+
+/// Calls decide(worker, first, count) for chunks of `count` queries. Returns what the stages did.
+template <class Decide>
+stage_report for_each_chunk(std::size_t count, const batch_options& options, const Decide& decide) {
+    const batch_worker fresh(kernels_for(options.set), options.explain);
+    if (options.threads == 1 || count <= chunk_size) {
+        batch_worker worker = fresh;
+        for (std::size_t first = 0; first < count; first += chunk_size)
+            decide(worker, first, std::min(chunk_size, count - first));
+        return worker.report();
+    }
+    tbb::enumerable_thread_specific<batch_worker> workers(fresh);
+    const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+    on_threads(options.threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              batch_worker& worker = workers.local();
+                              for (std::size_t c = range.begin(); c < range.end(); ++c)
+                                  decide(worker, c * chunk_size,
+                                         std::min(chunk_size, count - c * chunk_size));
+                          });
+    });
+    stage_report all;
+    for (const batch_worker& worker : workers) all += worker.report();
+    return all;
+}
+
+template <class Pair>
+bool has_finite_vertices(const vertex_rows& rows, const Pair& pair) {
+    return std::ranges::all_of(vertices_of(pair), [&rows](vertex_index v) {
+        return all_finite(rows.before + 3 * std::size_t(v), 3) &&
+               all_finite(rows.after + 3 * std::size_t(v), 3);
+    });
+}
+
+/// Calls decide(first, count) for the runs of finite queries; the others are uncertain.
+template <class IsFinite, class Decide>
+void decide_finite(std::size_t count, outcome* answers, bool all_are_finite,
+                   const IsFinite& is_finite, const Decide& decide) {
+    if (all_are_finite) {
+        decide(std::size_t(0), count);
+        return;
+    }
+    for (std::size_t first = 0, end = 0; first < count; first = end) {
+        while (end < count && is_finite(end)) ++end;
+        if (end > first) decide(first, end - first);
+        if (end < count) answers[end++] = outcome::uncertain;
+    }
+}
+
+template <class QueryOrPair>
+constexpr bool has_kernels =
+    kind_of<QueryOrPair> == kind::vertex_face || kind_of<QueryOrPair> == kind::edge_edge;
+
+template <class Query>
+Query without_motion(const Query& query) {
+    constexpr std::size_t count = sizeof(Query) / sizeof(moving_point<double>);
+    auto points = std::bit_cast<std::array<moving_point<double>, count>>(query);
+    for (auto& p : points) p.t1 = p.t0;
+    return std::bit_cast<Query>(points);
+}
+
+/// Queries by index. Throws std::invalid_argument, also from decide, as `asked.caller`.
+template <class Pair>
+class pair_batch {
+  public:
+    pair_batch(const vertex_rows& positions, std::span<const Pair> pairs, const question& asked)
+        : rows_(positions), pairs_(pairs), asked_(asked) {
+        if (asked.at_start) rows_.after = rows_.before;
+        check_pointers(asked.caller, rows_);
+        if (asked.within) most_ = asked.within->most();
+        // Work on every vertex pays only where there are queries enough: rounding one costs some
+        // 5 ns, and saves some 10 ns a query.
+        const bool many = has_kernels<Pair> && 2 * pairs.size() > rows_.vertices;
+        all_are_finite_ = many && all_finite(rows_.before, 3 * rows_.vertices) &&
+                          all_finite(rows_.after, 3 * rows_.vertices);
+        if (all_are_finite_) rounded_.emplace(rows_);
+    }
+    std::size_t size() const { return pairs_.size(); }
+
+    void decide(batch_worker& worker, std::size_t first, std::size_t count,
+                outcome* answers) const {
+        const auto part = pairs_.subspan(first, count);
+        check_indices(asked_.caller, part, first, rows_.vertices);
+        decide_finite(
+            count, answers, all_are_finite_,
+            [&](std::size_t i) { return has_finite_vertices(rows_, part[i]); },
+            [&](std::size_t i, std::size_t n) {
+                decide_part(worker, part.subspan(i, n), answers + i);
+            });
+    }
+
+    Pair item(std::size_t i) const { return pairs_[i]; }
+    /// The times in [0, 1] of such items, which decide said collide.
+    void find_times(const batch_worker& worker, std::span<const Pair> some,
+                    first_time* times) const {
+        worker.find_times(positions(), some, times);
+    }
+
+  private:
+    batch_positions positions() const {
+        return rounded_ ? batch_positions(rows_, *rounded_) : batch_positions(rows_);
+    }
+    void decide_part(batch_worker& worker, std::span<const Pair> part, outcome* answers) const {
+        if (asked_.within)
+            worker.decide_within(positions(), part, *asked_.within, most_, answers);
+        else if constexpr (has_kernels<Pair>)
+            worker.decide(positions(), part, answers);
+        else
+            std::ranges::transform(part, answers, [&](const Pair& p) {
+                return decide_exact(query_of(rows_, p)).outcome;
+            });
+    }
+
+    vertex_rows rows_;
+    std::span<const Pair> pairs_;
+    question asked_;
+    double most_ = 0;  ///< of the distances asked for
+    bool all_are_finite_;
+    std::optional<rounded_positions> rounded_;
+};
+
+/// Stored queries; of distances, none are asked for.
+template <class Query>
+class query_batch {
+  public:
+    query_batch(std::span<const Query> queries, const question& asked)
+        : queries_(queries), at_start_(asked.at_start) {}
+    std::size_t size() const { return queries_.size(); }
+
+    void decide(batch_worker& worker, std::size_t first, std::size_t count,
+                outcome* answers) const {
+        auto part = queries_.subspan(first, count);
+        std::vector<Query> still;
+        if (at_start_) {
+            still.resize(count);
+            std::ranges::transform(part, still.begin(), without_motion<Query>);
+            part = still;
+        }
+        constexpr std::size_t numbers = sizeof(Query) / sizeof(double);
+        const auto* at = reinterpret_cast<const double*>(part.data());
+        decide_finite(
+            count, answers, all_finite(at, numbers * count),
+            [&](std::size_t i) { return all_finite(at + numbers * i, numbers); },
+            [&](std::size_t i, std::size_t n) {
+                decide_part(worker, part.subspan(i, n), answers + i);
+            });
+    }
+
+    const Query& item(std::size_t i) const { return queries_[i]; }
+    /// The times in [0, 1] of such items, which decide said collide.
+    void find_times(const batch_worker& worker, std::span<const Query> some,
+                    first_time* times) const {
+        worker.find_times(some, times);
+    }
+
+  private:
+    static void decide_part(batch_worker& worker, std::span<const Query> part, outcome* answers) {
+        if constexpr (has_kernels<Query>)
+            worker.decide(part, answers);
+        else
+            std::ranges::transform(part, answers,
+                                   [](const Query& q) { return decide_exact(q).outcome; });
+    }
+
+    std::span<const Query> queries_;
+    bool at_start_;
+};
+
+}  // namespace ccd::detail
