@@ -46,9 +46,7 @@ int main() {
         next[6].z -= 1;                                       // a bead on the thread
         next[7].z -= 1.5;                                     // and a bead on that bead
         const ccd::step_result result = steps.run({now, next}, options);
-        std::printf("step %d: %zu candidates\n", step,
-                    result.candidates.vertex_face + result.candidates.edge_edge +
-                        result.candidates.vertex_edge + result.candidates.vertex_vertex);
+        std::printf("step %d: %zu pairs\n", step, number_of(result.pairs));
         ccd::for_each_kind([&]<ccd::kind K>() {
             print<K>(result);
             found += result.pairs.of<K>().size();

@@ -65,13 +65,17 @@ std::optional<instruction_set> find_instruction_set(std::string_view wanted) {
 
 namespace detail {
 
-const batch_kernels& kernels_for(std::optional<instruction_set> set) {
+instruction_set runnable(std::optional<instruction_set> set) {
     const auto available = instruction_sets();
     const instruction_set wanted = set.value_or(available.back());
     if (std::ranges::find(available, wanted) == available.end())
         throw std::invalid_argument("ccd: this build or machine does not run the instruction set " +
                                     std::string(name(wanted)));
-    return *std::ranges::find(entries, wanted, &instruction_set_entry::set)->kernels;
+    return wanted;
+}
+
+const batch_kernels& kernels_for(std::optional<instruction_set> set) {
+    return *std::ranges::find(entries, runnable(set), &instruction_set_entry::set)->kernels;
 }
 
 namespace {

@@ -15,8 +15,11 @@
 
 namespace ccd::detail {
 
-/// The kernels for `set`, which must be one of instruction_sets(); by default the strongest.
-/// Throws std::invalid_argument otherwise.
+/// `set`, which must be one of instruction_sets(); by default the strongest. Throws
+/// std::invalid_argument otherwise.
+instruction_set runnable(std::optional<instruction_set> set);
+
+/// The kernels for runnable(set).
 const batch_kernels& kernels_for(std::optional<instruction_set> set);
 
 class batch_worker {

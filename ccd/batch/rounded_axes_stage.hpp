@@ -7,6 +7,7 @@
 
 #include "ccd/batch/query_queue.hpp"
 #include "ccd/batch/rounded_positions.hpp"
+#include "ccd/batch/row_quads.hpp"
 #include "ccd/exact/stage_timer.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
@@ -25,20 +26,11 @@ struct rounded_columns {
 
     /// Fills four lanes of the columns of point p from the rows of four vertices.
     void fill(std::size_t p, std::size_t lane, const float* const (&rows)[4]) {
-        typedef float quad __attribute__((vector_size(16)));
         for (std::size_t end = 0; end < 2; ++end) {
-            quad r[4];
-            for (std::size_t i = 0; i < 4; ++i)
-                __builtin_memcpy(&r[i], rows[i] + 4 * end, sizeof(quad));
-            const quad xy0 = __builtin_shufflevector(r[0], r[2], 0, 4, 1, 5);
-            const quad xy1 = __builtin_shufflevector(r[1], r[3], 0, 4, 1, 5);
-            const quad z0 = __builtin_shufflevector(r[0], r[2], 2, 6, 3, 7);
-            const quad z1 = __builtin_shufflevector(r[1], r[3], 2, 6, 3, 7);
-            const quad columns[3] = {__builtin_shufflevector(xy0, xy1, 0, 4, 1, 5),
-                                     __builtin_shufflevector(xy0, xy1, 2, 6, 3, 7),
-                                     __builtin_shufflevector(z0, z1, 0, 4, 1, 5)};
+            const row_quads quads(rows, end);
             for (std::size_t k = 0; k < 3; ++k)
-                __builtin_memcpy(&at[6 * p + 3 * end + k][lane], &columns[k], sizeof(quad));
+                __builtin_memcpy(&at[6 * p + 3 * end + k][lane], &quads.axis[k],
+                                 sizeof(quads.axis[k]));
         }
     }
 

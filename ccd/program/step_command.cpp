@@ -52,6 +52,7 @@ struct step_question {
         return {.method = method,
                 .threads = threads,
                 .set = set,
+                .count_candidates = method != ccd::method::exact,  // which asks them all anyway
                 .explain = explain,
                 .first_contact = times || advance,
                 .times = times,
@@ -85,7 +86,8 @@ std::string lines_of_pairs(const step_result& result, bool with_times) {
 /// Vertex/edge and vertex/vertex pairs are reported where there are any.
 template <kind K>
 bool is_shown(const step_result& result) {
-    return K == kind::vertex_face || K == kind::edge_edge || result.candidates.of<K>() > 0;
+    return K == kind::vertex_face || K == kind::edge_edge || !result.pairs.of<K>().empty() ||
+           (result.candidates && result.candidates->of<K>() > 0);
 }
 
 /// The earliest contact; what stops a free step, if there is one.
@@ -108,7 +110,7 @@ void add_contacts(const step_question& asked, const step_outcome& found,
 std::string json_of(const step_question& asked, const step_outcome& found) {
     const step_result& result = found.result;
     nlohmann::ordered_json document = {{"method", info(asked.method).name},
-                                       {"candidates", nlohmann::ordered_json::object()},
+                                       {"candidates", nullptr},
                                        {"collisions", nlohmann::ordered_json::object()},
                                        {"seconds",
                                         {{"read", found.read_seconds},
@@ -121,7 +123,8 @@ std::string json_of(const step_question& asked, const step_outcome& found) {
                                        {"peak_memory_bytes", found.memory}};
     for_each_kind([&]<kind K>() {
         if (!is_shown<K>(result)) return;
-        document["candidates"][std::string(name(K))] = result.candidates.of<K>();
+        if (result.candidates)
+            document["candidates"][std::string(name(K))] = result.candidates->of<K>();
         document["collisions"][std::string(name(K))] = result.pairs.of<K>().size();
     });
     add_contacts(asked, found, document);
@@ -157,8 +160,8 @@ std::string text_of_boxes(std::size_t vertices, std::size_t faces, std::size_t e
     const auto v = static_cast<double>(vertices), f = static_cast<double>(faces),
                e = static_cast<double>(edges);
     const table rows = {{"pairs", "of the mesh", "apart", "candidates"},
-                        row("vertex-face", v * f, result.candidates.vertex_face),
-                        row("edge-edge", e * (e - 1) / 2, result.candidates.edge_edge)};
+                        row("vertex-face", v * f, result.candidates->vertex_face),
+                        row("edge-edge", e * (e - 1) / 2, result.candidates->edge_edge)};
     return text_of(rows, 1) + "apart: swept boxes do not touch, or a vertex is shared; found in " +
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
@@ -213,11 +216,13 @@ std::string text_of_contacts(const step_question& asked, const step_outcome& fou
 std::string text_of_step(const step_question& asked, const mesh& before,
                          const step_outcome& found) {
     const step_result& result = found.result;
-    table pairs = {{std::string(info(asked.method).name), "candidates", "collisions"}};
+    table pairs = {{std::string(info(asked.method).name), "collisions"}};
+    if (result.candidates) pairs[0].insert(pairs[0].begin() + 1, "candidates");
     for_each_kind([&]<kind K>() {
-        if (is_shown<K>(result))
-            pairs.push_back({std::string(path_name(K)), std::to_string(result.candidates.of<K>()),
-                             std::to_string(result.pairs.of<K>().size())});
+        if (!is_shown<K>(result)) return;
+        auto& row = pairs.emplace_back(table::value_type{std::string(path_name(K))});
+        if (result.candidates) row.push_back(std::to_string(result.candidates->of<K>()));
+        row.push_back(std::to_string(result.pairs.of<K>().size()));
     });
     const table costs = {
         {"read", "prepare", "broad phase", "narrow phase", "sort", "threads", "peak memory"},
@@ -275,7 +280,8 @@ class step final : public command {
                         "For exact: baseline, avx2 or avx512, else the strongest that runs here")
             ->type_name("SET");
         line_.add_flag("--explain", asked_.explain,
-                       "Say what each stage of exact decided, at what cost, and what was left out");
+                       "Say what each stage of exact decided, at what cost, and what was left out; "
+                       "counts candidates");
         line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
             ->type_name("OUT");
     }

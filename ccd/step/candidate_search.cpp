@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "ccd/batch/batch_worker.hpp"
 #include "ccd/step/candidate_blocks.hpp"
 #include "ccd/step/curve_order.hpp"
 #include "ccd/step/elements.hpp"
@@ -40,23 +41,21 @@ std::vector<edge> edges_of_no_face(std::span<const edge> edges,
 }  // namespace
 
 template <std::size_t N>
-template <class Real>
-void ordered_elements<N>::build_tree(box_tree<Real>& tree, const swept_boxes& boxes) {
-    constexpr bool by_doubles = std::is_same_v<Real, double>;
+template <class Real, class Tree, class Build>
+void ordered_elements<N>::build_tree(const Tree& tree, const swept_boxes& boxes,
+                                     const Build& build) {
     constexpr double worth_sorting = 1.25;  // times as long as the leaves have been
-    const auto box_of = [&](std::size_t i) { return boxes.swept_box<Real>(elements_[i]); };
-    if (ordered_ && by_doubles_ == by_doubles) {
-        tree.build(size(), box_of);
+    if (ordered_for_ == &tree) {
+        build();
         if (tree.length_of_leaves() <= worth_sorting * least_length_) {
             least_length_ = std::min(least_length_, tree.length_of_leaves());
             return;
         }
     }
     order_along_curve<Real>(elements_, boxes);
-    tree.build(size(), box_of);
+    build();
     least_length_ = tree.length_of_leaves();
-    ordered_ = true;
-    by_doubles_ = by_doubles;
+    ordered_for_ = &tree;
 }
 
 candidate_search::candidate_search(std::span<const face> faces, std::span<const edge> edges,
@@ -78,8 +77,14 @@ template <kind K, class Real, class First, class Second>
 std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& asked, First& first,
                                       Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
-    second.build_tree(trees.second, asked.boxes);
-    if constexpr (!within_one) first.build_tree(trees.first, asked.boxes);
+    const auto build = [&](box_tree<Real>& tree, auto& elements) {
+        elements.template build_tree<Real>(tree, asked.boxes, [&] {
+            tree.build(elements.size(),
+                       [&](std::size_t i) { return asked.boxes.swept_box<Real>(elements[i]); });
+        });
+    };
+    build(trees.second, second);
+    if constexpr (!within_one) build(trees.first, first);
     candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter);
     for_each_touching(
         within_one ? trees.second : trees.first,
@@ -101,6 +106,47 @@ std::size_t candidate_search::find_kind(const question& asked, First& first, Sec
                : find_by<K>(in_floats_, asked, first, second);
 }
 
+template <kind K, class First, class Second>
+void candidate_search::find_close_kind(const question& asked, const search_kernels& kernels,
+                                       const float* rounded, First& first, Second& second) {
+    if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return;
+    if (asked.boxes.need_doubles<Second::vertices>(second)) {
+        find_by<K>(in_doubles_, asked, first, second);
+        return;
+    }
+    constexpr bool within_one = std::is_same_v<First, Second>;
+    const auto build = [&](extents_tree& tree, auto& elements) {
+        constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
+        elements.template build_tree<float>(tree, asked.boxes,
+                                            [&] { tree.build<n>(kernels, rounded, elements); });
+    };
+    extents_tree& b = of_extents_.second;
+    extents_tree& a = within_one ? b : of_extents_.first;
+    build(b, second);
+    if constexpr (!within_one) build(a, first);
+
+    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          struct {
+                              First& first;
+                              Second& second;
+                              typename candidate_blocks<pair_of_kind<K>>::block& block;
+                          } context{first, second, blocks.local()};
+                          kernels.find_pairs(
+                              a.levels(), b.levels(), within_one, range.begin(), range.end(),
+                              &context, [](void* to, const element_pair* pairs, std::size_t count) {
+                                  auto& [x, y, block] = *static_cast<decltype(context)*>(to);
+                                  for (std::size_t i = 0; i < count; ++i) {
+                                      const auto& e = x[pairs[i].first];
+                                      const auto& f = y[pairs[i].second];
+                                      block.add(candidate_of(e, f), !share_vertex(e, f));
+                                  }
+                              });
+                      });
+    blocks.finish();
+}
+
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
                                    const candidate_visitor& visitor) {
     const swept_boxes boxes(positions, options.distances);
@@ -116,6 +162,34 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     }
     counts.vertex_vertex = find_kind<kind::vertex_vertex>(asked, points_, points_);
     return counts;
+}
+
+void candidate_search::find_close(const batch_positions& positions, const step_options& options,
+                                  const candidate_visitor& visitor) {
+    candidate_visitor others = visitor;
+    others.vertex_face = nullptr;
+    others.edge_edge = nullptr;
+    find(positions, options, others);
+    if (in_plane_) return;
+    const swept_boxes boxes(positions, options.distances);
+    const question asked{boxes, lets_all_through(options.filter) ? nullptr : &options.filter,
+                         visitor};
+    const search_kernels& kernels = search_kernels_for(options.set);
+    find_close_kind<kind::edge_edge>(asked, kernels, positions.rounded, edges_, edges_);
+    find_close_kind<kind::vertex_face>(asked, kernels, positions.rounded, vertices_, faces_);
+}
+
+const search_kernels& search_kernels_for(std::optional<instruction_set> set) {
+    switch (runnable(set)) {
+#ifdef ERRBOUND_HAVE_X86_KERNELS
+        case instruction_set::avx512:
+            return avx512::searching;
+        case instruction_set::avx2:
+            return avx2::searching;
+#endif
+        default:
+            return baseline::searching;
+    }
 }
 
 }  // namespace ccd::detail

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ccd/step/box_tree.hpp"
+#include "ccd/step/extents_tree.hpp"
 #include "ccd/step/swept_boxes.hpp"
 
 namespace ccd::detail {
@@ -29,15 +30,15 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Makes `tree` one over their boxes, box i that of element i; sorts them anew where they are
-    /// in no good order.
-    template <class Real>
-    void build_tree(box_tree<Real>& tree, const swept_boxes& boxes);
+    /// Makes `tree` one over them by calling build(); sorts them anew where they are in no good
+    /// order.
+    template <class Real, class Tree, class Build>
+    void build_tree(const Tree& tree, const swept_boxes& boxes, const Build& build);
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
-    bool ordered_ = false, by_doubles_ = false;
-    double least_length_ = 0;  ///< of the tree's leaves since they were sorted
+    const void* ordered_for_ = nullptr;  ///< the tree that they are in a good order for
+    double least_length_ = 0;            ///< of its leaves since they were sorted
 };
 
 /// Of one mesh, from step to step. Working memory: about 40 bytes a face or 44 an edge, whichever
@@ -59,6 +60,11 @@ class candidate_search {
     pair_counts find(const batch_positions& positions, const step_options& options,
                      const candidate_visitor& visitor);
 
+    /// The same, but vertex/face and edge/edge pairs that some axis certainly separates may be left
+    /// out. No distances.
+    void find_close(const batch_positions& positions, const step_options& options,
+                    const candidate_visitor& visitor);
+
   private:
     template <class Real>
     struct tree_pair {
@@ -76,11 +82,19 @@ class candidate_search {
     std::size_t find_by(tree_pair<Real>& trees, const question& asked, First& first,
                         Second& second);
 
+    struct extents_trees {
+        extents_tree first, second;
+    };
+    template <kind K, class First, class Second>
+    void find_close_kind(const question& asked, const search_kernels& kernels, const float* rounded,
+                         First& first, Second& second);
+
     ordered_elements<1> vertices_, points_;
     ordered_elements<2> edges_, rods_;
     ordered_elements<3> faces_;
     tree_pair<float> in_floats_;
     tree_pair<double> in_doubles_;
+    extents_trees of_extents_;
     bool in_plane_ = false;
 };
 

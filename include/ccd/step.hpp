@@ -60,11 +60,12 @@ struct step_options {
     ccd::method method = ccd::method::exact;
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< for `exact`; by default the strongest
-    bool explain = false;                     ///< fill step_result::stages; other methods have none
-    bool initial_contact = false;             ///< fill step_result::touching_at_start
-    bool first_contact = false;  ///< fill step_result::first_contact, and touching_at_start
-    bool times = false;          ///< fill step_result::times, and both of these
-    double t_max = 1;            ///< report pairs with a contact in [0, t_max] alone
+    bool count_candidates = false;            ///< fill step_result::candidates
+    bool explain = false;  ///< that, and step_result::stages, which other methods have none of
+    bool initial_contact = false;  ///< fill step_result::touching_at_start
+    bool first_contact = false;    ///< fill step_result::first_contact, and touching_at_start
+    bool times = false;            ///< fill step_result::times, and both of these
+    double t_max = 1;              ///< report pairs with a contact in [0, t_max] alone
     /// Report, in place of those in contact, pairs that come within a distance; times and what is
     /// there at the start are then of that.
     pair_distances distances = {};
@@ -105,8 +106,9 @@ using time_lists = by_kind<detail::times_of_kind>;
 using candidate_visitor = by_kind<detail::block_visitor>;
 
 struct step_result {
-    pair_counts candidates;  ///< pairs whose swept boxes touch and that the filter lets through
-    pair_lists pairs;        ///< those reported, the vertices of faces ascending
+    /// Pairs whose swept boxes touch and that the filter lets through, if counted.
+    std::optional<pair_counts> candidates;
+    pair_lists pairs;  ///< those reported, the vertices of faces ascending
     /// Those of `pairs` that touch already at t = 0, by `exact` whatever the method; if asked for.
     pair_lists touching_at_start;
     time_lists times;                 ///< of `pairs`, if asked for
@@ -127,7 +129,8 @@ struct step_result {
 /// Candidates are the pairs (see above) whose swept boxes (closed, exact doubles) touch and that
 /// the filter lets through; where pairs have a distance, boxes wider by that, rounded outwards.
 /// They are found by trees over the boxes and decided block by block,
-/// never stored as a whole. Results are the same for every number of threads, and whatever steps
+/// never stored as a whole. Where nobody asks for them, `exact` leaves out already in the search
+/// what some axis separates. Results are the same for every number of threads, and whatever steps
 /// went before.
 ///
 /// A face that repeats a vertex is the segment or point that it is, and is paired as any other

@@ -59,7 +59,7 @@ std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
             number(1e3 * r.broad_phase_seconds, 2),
             number(1e3 * r.narrow_phase_seconds, 2),
             number(1e3 * r.sort_seconds, 2),
-            count(r.candidates.vertex_face + r.candidates.edge_edge),
+            count(s.queries.vertex_face.size() + s.queries.edge_edge.size()),
             count(r.pairs.vertex_face.size() + r.pairs.edge_edge.size()),
             number(megabytes(frames), 2),
             number(megabytes(result), 2),
@@ -76,12 +76,12 @@ void steps(const scene& s, const options& o, report& out) {
         contestants.push_back({ccd::method::float_, 1});
     }
     const auto timings = race_steps(s.before, s.after, contestants, o.repeats());
+    const auto counted = ccd::step(s.before, s.after, {.count_candidates = true}).candidates;
+    if (counted->vertex_face != s.queries.vertex_face.size() ||
+        counted->edge_edge != s.queries.edge_edge.size())
+        throw std::runtime_error(s.name + ": the step has other candidates than found here");
     std::vector<std::vector<cell>> rows;
     for (std::size_t i = 0; i < contestants.size(); ++i) {
-        const ccd::step_result& r = contestants[i].quickest;
-        if (r.candidates.vertex_face != s.queries.vertex_face.size() ||
-            r.candidates.edge_edge != s.queries.edge_edge.size())
-            throw std::runtime_error(s.name + ": the step has other candidates than found here");
         rows.push_back(row_of(s, contestants[i], timings[i]));
     }
     out.table("steps", {{"scene", s.name}},
@@ -113,15 +113,15 @@ void growth_with_mesh(const options& o, report& out) {
         std::vector<contestant> contestants{{ccd::method::exact, 1}, {ccd::method::exact, 0}};
         const auto timings = race_steps(before, after, contestants, o.repeats());
         const ccd::step_result& r = contestants[0].quickest;
-        const auto candidates =
-            static_cast<double>(r.candidates.vertex_face + r.candidates.edge_edge);
+        const auto counted = ccd::step(before, after, {.count_candidates = true}).candidates;
+        const std::size_t candidates = counted->vertex_face + counted->edge_edge;
         const auto vertices = static_cast<double>(before.vertices.size());
         rows.push_back({count(before.vertices.size()), count(before.faces.size()),
-                        count(r.candidates.vertex_face + r.candidates.edge_edge),
+                        count(candidates),
                         count(r.pairs.vertex_face.size() + r.pairs.edge_edge.size()),
                         number(1e3 * timings[0].minimum, 2), number(1e3 * timings[1].minimum, 2),
                         number(1e9 * timings[0].minimum / vertices, 0),
-                        number(1e9 * timings[0].minimum / candidates, 1),
+                        number(1e9 * timings[0].minimum / static_cast<double>(candidates), 1),
                         number(timings[0].minimum / timings[1].minimum, 2)});
     }
     out.table("growth", {{"with", "mesh"}},

@@ -19,8 +19,7 @@ auto content(const pair_lists& lists) {
     return std::tuple(lists.vertex_face, lists.edge_edge, lists.vertex_edge, lists.vertex_vertex);
 }
 auto content(const step_result& result) {
-    return std::tuple(content(result.pairs), content(result.touching_at_start),
-                      result.candidates.vertex_face, result.candidates.edge_edge);
+    return std::tuple(content(result.pairs), content(result.touching_at_start), result.candidates);
 }
 /// Each kind in order: threads find candidates in any.
 auto sorted(pair_lists lists) {

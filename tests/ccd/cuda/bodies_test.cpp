@@ -409,7 +409,7 @@ TEST(device_tree, finds_every_leaf_that_touches_once) {
 }
 
 void expect_step_as_on_host(const ccd::mesh& before, const ccd::mesh& after, std::size_t block) {
-    const auto expected = ccd::step(before, after);
+    const auto expected = ccd::step(before, after, {.count_candidates = true});
     const auto found = cuda_on_host::step(before, after, {}, block);
     EXPECT_EQ(found.candidates, expected.candidates);
     EXPECT_EQ(found.pairs, expected.pairs);

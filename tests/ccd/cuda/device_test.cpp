@@ -106,7 +106,9 @@ TEST_F(on_device, finds_first_times_of_stored_queries_as_the_host_does) {
 
 void expect_same_step(const ccd::mesh& before, const ccd::mesh& after,
                       const ccd::step_options& options) {
-    const auto expected = ccd::step(before, after, options);
+    ccd::step_options counted = options;
+    counted.count_candidates = true;
+    const auto expected = ccd::step(before, after, counted);
     const auto found = ccd::cuda::step(before, after, options);
     ASSERT_TRUE(found) << found.error;
     EXPECT_EQ(found.candidates, expected.candidates);

@@ -109,8 +109,7 @@ inline ccd::step_result step(const ccd::mesh& before, const ccd::mesh& after,
     for (int i = 0; i < 2; ++i) {
         const found_pairs found = steps.run(launcher, at, asked, decide, find);
         result = {};
-        result.candidates.vertex_face = found.vertex_face_candidates;
-        result.candidates.edge_edge = found.edge_edge_candidates;
+        result.candidates = {found.vertex_face_candidates, found.edge_edge_candidates};
         read_lists<ccd::kind::vertex_face>(launcher, steps.vertex_face(), result);
         read_lists<ccd::kind::edge_edge>(launcher, steps.edge_edge(), result);
         result.first_contact = steps.first_contact();

@@ -205,6 +205,7 @@ ccd::step_result step(const two_frames& at, const Decide& decide = {},
     if constexpr (requires { decide.distance; }) distance = decide.distance;
     const ccd::vertex_rows rows(at.first, at.second);
     ccd::step_result result;
+    result.candidates.emplace();
     for_each_pair(at.first, [&]<class Pair>(const Pair& pair) {
         constexpr ccd::kind K = ccd::kind_of<Pair>;
         if (!boxes_touch(at, pair, distance)) return;
@@ -213,7 +214,7 @@ ccd::step_result step(const two_frames& at, const Decide& decide = {},
                 return std::ranges::any_of(b, [&](vertex_index w) { return may(v, w); });
             }))
             return;
-        ++result.candidates.of<K>();
+        ++result.candidates->of<K>();
         const auto query = query_of(rows, pair);
         if (!may_collide(decide(query))) return;
         result.pairs.of<K>().push_back(as_reported(pair));

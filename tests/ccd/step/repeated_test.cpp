@@ -20,8 +20,10 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     auto before = mesh.vertices, after = second.vertices;
     for (unsigned step = 0; step < 40; ++step) {
         const ccd::vertex_rows rows(before, after);
-        expect_same(steps.run(rows, {.threads = 1 + static_cast<int>(step % 2)}),
-                    ccd::step(mesh.faces, mesh.edges, rows));
+        const ccd::step_options options{.threads = 1 + static_cast<int>(step % 2),
+                                        .count_candidates = step % 4 == 3};
+        expect_same(steps.run(rows, options),
+                    ccd::step(mesh.faces, mesh.edges, rows, {.count_candidates = true}));
         before = after;
         // Small motions, then a shuffle; parts so far apart that floats do not tell them apart.
         for (auto& p : after) {
@@ -53,12 +55,15 @@ TEST(Filter, LetsThroughPairsOfWhichSomeVerticesMayCollide) {
     const auto one_moves = [&](vertex_index v, vertex_index w) {
         return pinned[v] == 0 || pinned[w] == 0;
     };
-    const auto unfiltered = ccd::step(at.first, at.second);
+    const auto unfiltered = ccd::candidates(at.first, at.second);
     const auto expect = [&](const ccd::pair_filter& filter, const auto& may) {
-        const auto found = ccd::step(at.first, at.second, {.filter = filter});
-        expect_same(found, brute_force::step(at, brute_force::by_method(), may));
-        EXPECT_LT(found.candidates.edge_edge, unfiltered.candidates.edge_edge);
-        EXPECT_GT(found.candidates.edge_edge, 0U);
+        const auto expected = brute_force::step(at, brute_force::by_method(), may);
+        for (const bool counted : {false, true})
+            expect_same(
+                ccd::step(at.first, at.second, {.count_candidates = counted, .filter = filter}),
+                expected);
+        EXPECT_LT(expected.candidates->edge_edge, unfiltered.edge_edge.size());
+        EXPECT_GT(expected.candidates->edge_edge, 0U);
     };
     expect({.can_collide = by_sum}, by_sum);
     expect({.groups = groups}, [&](vertex_index v, vertex_index w) { return !one_group(v, w); });
@@ -79,15 +84,15 @@ TEST(Candidates, AreThoseOfTheStep) {
     const auto counts = steps.for_each_candidate(
         {at.first, at.second}, {.edge_edge = [&](auto block) { in_blocks += block.size(); }});
     ccd::for_each_kind([&]<ccd::kind K>() {
-        EXPECT_EQ(listed.of<K>().size(), expected.candidates.of<K>()) << name(K);
+        EXPECT_EQ(listed.of<K>().size(), expected.candidates->of<K>()) << name(K);
         EXPECT_TRUE(std::ranges::is_sorted(listed.of<K>()));
         // Of vertex/face candidates the faces come in the mesh's order, not ascending.
         if constexpr (K != ccd::kind::vertex_face) {
             EXPECT_TRUE(std::ranges::includes(listed.of<K>(), expected.pairs.of<K>())) << name(K);
         }
     });
-    EXPECT_EQ(in_blocks, expected.candidates.edge_edge);
-    EXPECT_EQ(counts.edge_edge, expected.candidates.edge_edge);
+    EXPECT_EQ(in_blocks, expected.candidates->edge_edge);
+    EXPECT_EQ(counts.edge_edge, expected.candidates->edge_edge);
     EXPECT_EQ(counts.vertex_face, 0U);  // without a visitor
     const auto none = steps.candidates(
         {at.first, at.second},

@@ -96,11 +96,13 @@ TEST(Step, FindsInEachOfManyCopiesWhatItFindsInOne) {
     }
     all_after.faces = all_before.faces;
     for (const int threads : {1, 2, 3}) {
-        const auto all = ccd::step(all_before, all_after, {.threads = threads});
+        const auto all =
+            ccd::step(all_before, all_after, {.threads = threads, .count_candidates = true});
         ccd::for_each_kind([&]<ccd::kind K>() {
-            EXPECT_EQ(all.candidates.of<K>(), copies * one.candidates.of<K>()) << name(K);
+            EXPECT_EQ(all.candidates->of<K>(), copies * one.candidates->of<K>()) << name(K);
         });
         EXPECT_EQ(all.pairs, expected);
+        EXPECT_EQ(ccd::step(all_before, all_after, {.threads = threads}).pairs, expected);
     }
 }
 
@@ -184,9 +186,12 @@ TEST_P(RealScene, HasItsKnownNumbers) {
     if (!fs::exists(frames)) GTEST_SKIP() << "skipped: no real frames at " << frames;
     const auto before = ccd::io::read_mesh(frames / s.before);
     const auto after = ccd::io::read_mesh(frames / s.after);
-    const auto exact = ccd::step(before, after, {.method = ccd::method::exact});
-    EXPECT_EQ(exact.candidates.vertex_face, s.vf_candidates);
-    EXPECT_EQ(exact.candidates.edge_edge, s.ee_candidates);
+    const auto exact = ccd::step(before, after, {.count_candidates = true});
+    EXPECT_EQ(exact.candidates->vertex_face, s.vf_candidates);
+    EXPECT_EQ(exact.candidates->edge_edge, s.ee_candidates);
+    for (const ccd::instruction_set set : ccd::instruction_sets()) {
+        EXPECT_EQ(ccd::step(before, after, {.set = set}).pairs, exact.pairs) << name(set);
+    }
     EXPECT_EQ(exact.pairs.vertex_face.size(), s.vf);
     EXPECT_EQ(exact.pairs.edge_edge.size(), s.ee);
     const auto tight = ccd::step(before, after, {.method = ccd::method::tight});

@@ -35,12 +35,13 @@ void compare(const two_frames& at, const std::string& row, const std::string& na
     auto& counts = out.table("meshes")[row];
     ++counts[0];
     ccd::for_each_kind([&]<kind K>() {
-        counts[1] += expected.candidates.of<K>();
+        counts[1] += expected.candidates->of<K>();
         counts[2 + static_cast<std::size_t>(K)] += expected.pairs.of<K>().size();
     });
     for (const int threads : {1, 2}) {
         const ccd::step_result found = step(at, threads);
-        if (found.pairs == expected.pairs && found.candidates == expected.candidates) continue;
+        const bool as_counted = !found.candidates || found.candidates == expected.candidates;
+        if (found.pairs == expected.pairs && as_counted) continue;
         ++counts[6];
         out.differ({name + ", on " + std::to_string(threads) +
                     " threads: other pairs or candidates than the reference's\n" + text_of(at)});
@@ -65,7 +66,8 @@ findings compare_block(std::uint64_t seed, std::uint64_t block, const stepper& s
 }  // namespace
 
 ccd::step_result exact_step(const two_frames& at, int threads) {
-    return ccd::step(at.first, at.second, {.threads = threads});
+    // On two threads, candidates are counted: another search.
+    return ccd::step(at.first, at.second, {.threads = threads, .count_candidates = threads == 2});
 }
 
 part mesh_part(stepper step) {

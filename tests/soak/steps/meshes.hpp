@@ -13,8 +13,8 @@ using stepper = std::function<ccd::step_result(const brute_force::two_frames&, i
 ccd::step_result exact_step(const brute_force::two_frames& at, int threads);
 
 /// Small meshes of every family of queries, faces, rods and points, some given twice, and soups on
-/// a grid: candidates and pairs of `step`, on one thread and on two, against every pair asked of
-/// the reference.
+/// a grid: the pairs of `step` on one thread, pairs and candidates on two, against every pair asked
+/// of the reference.
 part mesh_part(stepper step = exact_step);
 
 }  // namespace soak

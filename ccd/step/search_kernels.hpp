@@ -1,0 +1,49 @@
+// Building and searching trees of extents, compiled once per instruction set: see
+// ccd/batch/batch_kernels.hpp for what is special about such files. Internal.
+#pragma once
+
+#include <ccd/batch.hpp>
+#include <ccd/kind.hpp>
+#include <cstddef>
+#include <optional>
+
+#include "ccd/step/extents_pack.hpp"
+
+namespace ccd::detail {
+
+struct search_kernels {
+    /// Called with pairs as they are found.
+    using visitor = void (*)(void* context, const element_pair* pairs, std::size_t count);
+
+    /// Sets leaf p and its hull for first <= p < end, of elements of one, two and three vertices.
+    /// `rounded`: rounded_positions::data(); `count` elements in all.
+    using fill_leaves = void (*)(const float* rounded, const vertex_index* elements,
+                                 std::size_t count, std::size_t first, std::size_t end,
+                                 extents_pack* leaves, extents* hulls);
+    fill_leaves of_vertices, of_edges, of_faces;
+
+    /// Sets pack p and its hull for first <= p < end of the level over `count` packs of these
+    /// hulls.
+    void (*fill_nodes)(const extents* below, std::size_t count, std::size_t first, std::size_t end,
+                       extents_pack* packs, extents* hulls);
+
+    /// All pairs that no axis separates, of an element in the leaves first <= p < end of `a` and
+    /// one of `b`; of one tree, with `b` the greater.
+    void (*find_pairs)(const extents_levels& a, const extents_levels& b, bool within_one,
+                       std::size_t first, std::size_t end, void* context, visitor visit);
+};
+
+/// Those for runnable(set).
+const search_kernels& search_kernels_for(std::optional<instruction_set> set);
+
+namespace baseline {
+extern const search_kernels searching;
+}
+namespace avx2 {
+extern const search_kernels searching;
+}
+namespace avx512 {
+extern const search_kernels searching;
+}
+
+}  // namespace ccd::detail
