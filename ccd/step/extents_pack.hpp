@@ -9,6 +9,8 @@
 // rounded_axes.hpp). Along the first three rounding keeps the order: extents that do not meet prove
 // that the exact ones do not. Sums and differences are off by 4.04ε, ε = 2^-23, and a margin of 7ε
 // is added outwards, whose own rounding loses 2.04ε: extents hold the exact ones.
+// Proof: proofs/Extents.v, coordinate_extents_hold, diagonal_extents_hold, group_extents_hold,
+// apart_face_separate, apart_edges_separate.
 #pragma once
 
 #include <cstddef>
