@@ -126,10 +126,14 @@ std::optional<std::size_t> count_roots(const polynomial<C>& p, double a, double 
 }
 
 /// The same of a polynomial whose coefficients are known within bounds: nothing if polynomials
-/// within them may differ in it, as far as floating point can tell.
+/// within them may differ in it, as far as floating point can tell. Of rules that store the
+/// absolute error and nothing else: tight and sharp.
 template <class Rule>
 std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& p, double a,
                                        double b) {
+    static_assert(roots::absolute_rule<Rule>,
+                  "errbound: count_roots takes tracked numbers by a rule that stores the absolute "
+                  "error alone, as tight and sharp do: make such by within(x.value(), x.error())");
     assert(roots::is_interval(a, b));
     // The filter is asked for roots other than 0.
     std::span others(p.coefficients());

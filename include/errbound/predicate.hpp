@@ -26,7 +26,7 @@
 // overflow included. `uncertain` where a coordinate that counts is not finite. No exceptions, no
 // global state. Usable in constant expressions; in device code (compiled, not yet run). Cost:
 // the filters 1 to 2 times the expression in floating point, the integers some ten times that, and
-// in the full range up to 30 µs and some 100 KiB of stack for a degree of 5.
+// in the full range up to 30 µs for a degree of 5 and, optimised, 64 KiB of stack for one of 32.
 #pragma once
 
 #include <array>

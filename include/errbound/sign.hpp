@@ -1,6 +1,10 @@
 // Signs that are certain, and the one answer that is not.
 #pragma once
 
+#if __cplusplus < 202002L
+#error "errbound is written in C++20: compile with -std=c++20 or later"
+#endif
+
 #include <cstdint>
 
 namespace errbound {
@@ -9,11 +13,20 @@ namespace errbound {
 enum class sign_type : std::uint8_t { negative, zero, positive, uncertain };
 
 /// Signs have no order, in which `uncertain` would be the largest: compare by ==, or ask
-/// certainly_nonnegative(s) and the like.
-bool operator<(sign_type, sign_type) = delete;
-bool operator>(sign_type, sign_type) = delete;
-bool operator<=(sign_type, sign_type) = delete;
-bool operator>=(sign_type, sign_type) = delete;
+/// certainly_nonnegative(s) and the like. (Only enumerators compare, as generic code does to learn
+/// of an enumeration whether it is signed, Boost's numbers among it; not what is computed.)
+consteval bool operator<(sign_type s, sign_type t) {
+    return static_cast<int>(s) < static_cast<int>(t);
+}
+consteval bool operator>(sign_type s, sign_type t) {
+    return t < s;
+}
+consteval bool operator<=(sign_type s, sign_type t) {
+    return !(t < s);
+}
+consteval bool operator>=(sign_type s, sign_type t) {
+    return !(s < t);
+}
 
 constexpr bool certain(sign_type s) {
     return s != sign_type::uncertain;

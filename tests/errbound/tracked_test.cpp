@@ -152,6 +152,19 @@ TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
     }
 }
 
+TEST(Tracked, SafeWithinAHugeErrorTookItForASmallOneInSomeDirections) {
+    for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+        ASSERT_EQ(std::fesetround(direction), 0);
+        const auto huge = tracked<double, errbound::safe>::within(0x1p1000, 0x1p1019);
+        const auto large = tracked<double, errbound::safe>::within(0x1p1000, 0x1p971);
+        std::fesetround(FE_TONEAREST);
+        EXPECT_GE(huge.error(), 0x1p1019) << direction;
+        EXPECT_EQ(sign_of(huge), sign_type::uncertain) << direction;
+        EXPECT_GE(large.error(), 0x1p971) << direction;
+        EXPECT_EQ(sign_of(large), sign_type::positive) << direction;
+    }
+}
+
 /// x·y − z and x·y·z + x in straight lines, which a compiler that contracts would fuse; z is the
 /// rounded x·y or near it.
 template <class T, class Rule>

@@ -19,4 +19,12 @@ if [[ -f $work/prefix/lib/liberrbound_ccd_cuda.a ]]; then "$work/build/use_ccd_c
 if [[ -f $work/prefix/lib/liberrbound_validation.a ]]; then "$work/build/use_validation" >/dev/null; fi
 "$work/prefix/bin/ccd" methods | grep -q exact
 test -f "$work/prefix/share/doc/errbound/CITATION.cff"
+mkdir "$work/asks"
+cat >"$work/asks/CMakeLists.txt" <<'CMAKE'
+cmake_minimum_required(VERSION 3.22)
+project(asks CXX)
+find_package(errbound REQUIRED COMPONENTS nosuch)
+CMAKE
+! cmake -S "$work/asks" -B "$work/asks/build" -DCMAKE_PREFIX_PATH="$work/prefix" &>"$work/said"
+grep -q "installed without the component nosuch" "$work/said"
 echo "installed package found, built against and run"

@@ -294,8 +294,8 @@ class descartes_search {
         const int depth = whole.speed + 2;
         if (!whole.local) expand(whole);
         auto found = place_of_roots(*whole.local, depth);
-        const Integer end = Integer(1) << static_cast<unsigned>(depth);
-        const auto inside = [&] { return found && -1 <= found->from && found->from <= end; };
+        const Integer pieces = Integer(1) << static_cast<unsigned>(depth);
+        const auto inside = [&] { return found && -1 <= found->from && found->from <= pieces; };
         for (int tries = 0; tries < 3 && inside(); ++tries) {
             const std::int64_t wanted = std::int64_t(found->roots) * whole.speed + 64;
             const int bits = whole.local->certain_bits();
@@ -305,24 +305,24 @@ class descartes_search {
             expand(whole);
             found = place_of_roots(*whole.local, depth);
         }
-        if (inside() && narrowed(whole, *found, depth, end)) return true;
+        if (inside() && narrowed(whole, *found, depth, pieces)) return true;
         whole.speed = std::max(slowest, whole.speed / 2);
         return false;
     }
-    bool narrowed(const part& whole, const place& found, int depth, const Integer& end) {
+    bool narrowed(const part& whole, const place& found, int depth, const Integer& pieces) {
         const Integer from = std::max(Integer(0), Integer(found.from - 1)),
-                      to = std::min(end, Integer(found.from + 2));
+                      to = std::min(pieces, Integer(found.from + 2));
         charge(whole.local->bits());
         const point width = whole.high - whole.low;
         const auto piece = [&](const Integer& a, const Integer& b) {
             part p{whole.low + width * point(a, -depth), whole.low + width * point(b, -depth)};
             p.root_at_low = a == 0 && whole.root_at_low;
-            p.root_at_high = b == end && whole.root_at_high;
+            p.root_at_high = b == pieces && whole.root_at_high;
             p.local = whole.local->part(a, Integer(b - a), depth);
             return p;
         };
         if (from > 0 && !piece(Integer(0), from).local->surely_rootless()) return false;
-        if (to < end && !piece(to, end).local->surely_rootless()) return false;
+        if (to < pieces && !piece(to, pieces).local->surely_rootless()) return false;
         part narrow = piece(from, to);
         narrow.halvings = whole.halvings + depth;
         narrow.lone_halvings = whole.lone_halvings;

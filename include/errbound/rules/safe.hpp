@@ -40,7 +40,9 @@ struct safe {
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
         if (error == 0) return exact(value);
-        if (!(error > 0)) return {traits::infinity(), 1};
+        // Beyond that error/ε overflows: in some directions to the largest number, which is less.
+        const T most = traits::largest() * traits::epsilon();
+        if (!(error > 0 && error <= most)) return {traits::infinity(), 1};
         return {enlarged<T>(traits::max(traits::abs(value) + error, error / traits::epsilon())), 1};
     }
     /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; unknown beyond.

@@ -7,6 +7,7 @@
 #include <bit>
 #include <ccd/batch.hpp>
 #include <ccd/exact.hpp>
+#include <ccd/first_times.hpp>
 #include <errbound/predicates.hpp>
 #include <functional>
 #include <vector>
@@ -61,13 +62,17 @@ TEST(SmallStacks, HoldExactAndEveryPredicateIn64KiB) {
     EXPECT_EQ(signs, 3 * faces.size());
 }
 
-TEST(SmallStacks, HoldBatchesIn384KiB) {
+TEST(SmallStacks, HoldBatchesIn320KiB) {
     const auto queries = queries_of_every_family<ccd::edge_edge<double>>(5);
     const auto expected = ccd::decide_batch(queries).answers;
     std::vector<ccd::outcome> answers;
-    on_stack_of(std::size_t(384) << 10,
-                [&] { answers = ccd::decide_batch(queries, {.threads = 1}).answers; });
+    std::size_t contacts = 0;
+    on_stack_of(std::size_t(320) << 10, [&] {
+        answers = ccd::decide_batch(queries, {.threads = 1}).answers;
+        contacts = ccd::timed_contacts(queries, {.threads = 1}).size();
+    });
     EXPECT_EQ(answers, expected);
+    EXPECT_GT(contacts, 0U);
 }
 
 // The parent's threads are not in the child, which must not wait for them.
