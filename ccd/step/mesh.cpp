@@ -1,52 +1,18 @@
 // Unique edges and faces: each goes to the bucket of its lowest vertex, which leaves only short
 // runs to sort.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <ccd/mesh.hpp>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "ccd/step/buckets.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
 namespace ccd {
 namespace {
-
-/// Items in buckets, by a vertex of each.
-template <class Item>
-struct buckets {
-    std::vector<Item> items;
-    std::vector<std::size_t> end;  ///< of each bucket
-
-    /// for_each(visit) calls visit(vertex, item) for all `count` items, with vertices up to `last`.
-    template <class ForEach>
-    buckets(std::size_t count, vertex_index last, const ForEach& for_each) : items(count) {
-        unsigned shift = 0;
-        while (last >> shift > count) ++shift;
-        end.resize((last >> shift) + 2);
-        for_each([&](vertex_index v, const Item&) { ++end[(v >> shift) + 1]; });
-        std::partial_sum(end.begin(), end.end(), end.begin());
-        for_each([&](vertex_index v, const Item& item) { items[end[v >> shift]++] = item; });
-        end.pop_back();
-    }
-
-    /// Calls visit(items) of each bucket, on all threads of the arena.
-    template <class Visit>
-    void for_each_bucket(const Visit& visit) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, end.size(), 1024),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                                  const std::size_t begin = b == 0 ? 0 : end[b - 1];
-                                  visit(std::span(items).subspan(begin, end[b] - begin));
-                              }
-                          });
-    }
-};
 
 template <std::size_t N>
 vertex_index largest(std::span<const std::array<vertex_index, N>> elements) {
@@ -85,8 +51,8 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
             for (std::size_t k = 0; k < 3; ++k) take(f[k], f[(k + 1) % 3]);
         for (const edge& e : edges) take(e[0], e[1]);
     };
-    buckets<edge> all(3 * faces.size() + edges.size(), std::max(largest(faces), largest(edges)),
-                      for_each_edge);
+    detail::buckets<edge> all(3 * faces.size() + edges.size(),
+                              std::max(largest(faces), largest(edges)), for_each_edge);
     all.items.resize(all.end.back());
     all.for_each_bucket([](std::span<edge> bucket) { std::ranges::sort(bucket); });
     std::vector<edge> unique = std::move(all.items);
@@ -96,7 +62,7 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
 }
 
 std::vector<face> unique_faces(std::span<const face> faces) {
-    buckets<numbered_face> all(faces.size(), largest(faces), [&](const auto& visit) {
+    detail::buckets<numbered_face> all(faces.size(), largest(faces), [&](const auto& visit) {
         for (std::size_t i = 0; i < faces.size(); ++i) {
             const numbered_face f(faces[i], i);
             visit(f.low, f);

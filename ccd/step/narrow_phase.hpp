@@ -2,16 +2,18 @@
 #pragma once
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <ccd/separation.hpp>
 #include <ccd/step.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
+#include "ccd/step/buckets.hpp"
 #include "ccd/step/elements.hpp"
 #include "ccd/step/stopwatch.hpp"
 
@@ -25,19 +27,22 @@ struct pair_list_of_thread {
 template <kind K>
 using lists_of_threads = tbb::enumerable_thread_specific<pair_list_of_thread<K>>;
 
-/// All pairs of the threads' lists, sorted. Each list is released as it is taken.
+/// All pairs of the threads' lists, sorted. The lists are released.
 template <class Pair, class Parts>
 std::vector<Pair> take_sorted(Parts& parts) {
     std::size_t count = 0;
-    for (const auto& p : parts) count += p.pairs.size();
-    std::vector<Pair> all;
-    all.reserve(count);
-    for (auto& p : parts) {
-        all.insert(all.end(), p.pairs.begin(), p.pairs.end());
-        p.pairs = {};
+    vertex_index last = 0;
+    for (const auto& p : parts) {
+        count += p.pairs.size();
+        for (const Pair& pair : p.pairs) last = std::max(last, vertices_of(pair)[0]);
     }
-    tbb::parallel_sort(all.begin(), all.end());
-    return all;
+    buckets<Pair> all(count, last, [&](const auto& visit) {
+        for (const auto& p : parts)
+            for (const Pair& pair : p.pairs) visit(vertices_of(pair)[0], pair);
+    });
+    for (auto& p : parts) p.pairs = {};
+    all.for_each_bucket([](std::span<Pair> bucket) { std::ranges::sort(bucket); });
+    return std::move(all.items);
 }
 
 template <kind K>
