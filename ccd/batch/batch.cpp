@@ -18,7 +18,7 @@ stage_report decide_chunks(const Batch& batch, std::span<outcome> answers,
         throw std::invalid_argument(std::string(asked.caller) + ": " +
                                     std::to_string(batch.size()) + " queries, but room for " +
                                     std::to_string(answers.size()) + " answers");
-    return for_each_chunk(batch.size(), options,
+    return for_each_chunk(batch.size(), chunk_size, options,
                           [&](batch_worker& worker, std::size_t first, std::size_t count) {
                               batch.decide(worker, first, count, &answers[first]);
                           });

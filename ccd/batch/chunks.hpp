@@ -25,29 +25,30 @@
 
 namespace ccd::detail {
 
-/// Queries that a thread takes at a time: enough to make the call cheap, few enough for the second
-/// cache.
+/// Queries that a thread takes at a time, at most: enough to make the call cheap, few enough for
+/// the second cache.
 constexpr std::size_t chunk_size = 4096;
 
-/// Calls decide(worker, first, count) for chunks of `count` queries. Returns what the stages did.
+/// Calls decide(worker, first, count) for chunks of `size` queries, the last of fewer. Returns what
+/// the stages did.
 template <class Decide>
-stage_report for_each_chunk(std::size_t count, const batch_options& options, const Decide& decide) {
+stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_options& options,
+                            const Decide& decide) {
     const batch_worker fresh(kernels_for(options.set), options.explain);
-    if (options.threads == 1 || count <= chunk_size) {
+    if (options.threads == 1 || count <= size) {
         batch_worker worker = fresh;
-        for (std::size_t first = 0; first < count; first += chunk_size)
-            decide(worker, first, std::min(chunk_size, count - first));
+        for (std::size_t first = 0; first < count; first += size)
+            decide(worker, first, std::min(size, count - first));
         return worker.report();
     }
     tbb::enumerable_thread_specific<batch_worker> workers(fresh);
-    const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+    const std::size_t chunks = (count + size - 1) / size;
     on_threads(options.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks),
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               batch_worker& worker = workers.local();
                               for (std::size_t c = range.begin(); c < range.end(); ++c)
-                                  decide(worker, c * chunk_size,
-                                         std::min(chunk_size, count - c * chunk_size));
+                                  decide(worker, c * size, std::min(size, count - c * size));
                           });
     });
     stage_report all;

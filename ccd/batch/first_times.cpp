@@ -134,15 +134,22 @@ void erase_later(std::vector<timed_contact>& contacts, double t_max) {
     });
 }
 
+/// Few enough that every thread has several: where all collide, a chunk takes milliseconds.
+std::size_t timed_chunk_size(std::size_t queries, int threads) {
+    const auto all = static_cast<std::size_t>(threads_of(threads));
+    return std::clamp<std::size_t>(queries / (8 * all), 256, chunk_size);
+}
+
 /// Chunk by chunk, while what was decided is in the caches.
 template <class Batch>
 std::vector<timed_contact> contacts_of_chunks(const Batch& batch, const time_options& options) {
-    std::vector<std::vector<timed_contact>> found(batch.size() / chunk_size + 1);
-    for_each_chunk(batch.size(), batch_options_of(options),
+    const std::size_t size = timed_chunk_size(batch.size(), options.threads);
+    std::vector<std::vector<timed_contact>> found(batch.size() / size + 1);
+    for_each_chunk(batch.size(), size, batch_options_of(options),
                    [&](batch_worker& worker, std::size_t first, std::size_t count) {
                        std::array<outcome, chunk_size> answers;
                        batch.decide(worker, first, count, answers.data());
-                       auto& contacts = found[first / chunk_size];
+                       auto& contacts = found[first / size];
                        contacts = possible_contacts(std::span(answers).first(count), first);
                        find_times(worker, batch, contacts);
                        erase_later(contacts, options.t_max);

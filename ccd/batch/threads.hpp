@@ -11,12 +11,16 @@
 
 namespace ccd::detail {
 
-/// Runs `work` where parallel loops use at most `threads` threads: 0, or more than the machine has
-/// cores, one per core. Returns that number.
+/// How many are meant by `threads`: 0, or more than the machine has cores, one per core.
+inline int threads_of(int threads) {
+    const int cores = tbb::info::default_concurrency();
+    return threads > 0 ? std::min(threads, cores) : cores;
+}
+
+/// Runs `work` where parallel loops use at most threads_of(threads). Returns that number.
 template <class Work>
 int on_threads(int threads, const Work& work) {
-    const int cores = tbb::info::default_concurrency();
-    tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
+    tbb::task_arena arena(threads_of(threads));
     arena.execute(work);
     return arena.max_concurrency();
 }
