@@ -126,23 +126,23 @@ void candidate_search::find_close_kind(const question& asked, const search_kerne
     if constexpr (!within_one) build(a, first);
 
     candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter);
+    struct context {
+        const First& first;
+        const Second& second;
+        typename candidate_blocks<pair_of_kind<K>>::block& block;
+    };
+    constexpr auto add = [](void* to, const element_pair* pairs, std::size_t count) {
+        auto& [x, y, block] = *static_cast<context*>(to);
+        for (std::size_t i = 0; i < count; ++i)
+            block.add(candidate_of(x[pairs[i].first], y[pairs[i].second]), true);
+    };
+    constexpr auto find =
+        within_one ? &search_kernels::of_two_edges : &search_kernels::of_vertices_and_faces;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
                       [&](const tbb::blocked_range<std::size_t>& range) {
-                          struct {
-                              First& first;
-                              Second& second;
-                              typename candidate_blocks<pair_of_kind<K>>::block& block;
-                          } context{first, second, blocks.local()};
-                          kernels.find_pairs(
-                              a.levels(), b.levels(), within_one, range.begin(), range.end(),
-                              &context, [](void* to, const element_pair* pairs, std::size_t count) {
-                                  auto& [x, y, block] = *static_cast<decltype(context)*>(to);
-                                  for (std::size_t i = 0; i < count; ++i) {
-                                      const auto& e = x[pairs[i].first];
-                                      const auto& f = y[pairs[i].second];
-                                      block.add(candidate_of(e, f), !share_vertex(e, f));
-                                  }
-                              });
+                          context to{first, second, blocks.local()};
+                          (kernels.*find)(a.levels(), b.levels(), range.begin(), range.end(), &to,
+                                          add);
                       });
     blocks.finish();
 }

@@ -42,8 +42,8 @@ class ordered_elements {
 };
 
 /// Of one mesh, from step to step. Working memory: about 40 bytes a face or 44 an edge, whichever
-/// is more, and 14 a vertex, twice as much where floats do not do, or for find_close 175, 179 and
-/// 167; and 32 KB a thread; kept.
+/// is more, and 14 a vertex, twice as much where floats do not do, or for find_close 187, 191 and
+/// 179; and 32 KB a thread; kept.
 class candidate_search {
   public:
     /// Indices must be in range.

@@ -13,6 +13,7 @@
 // apart_face_separate, apart_edges_separate.
 #pragma once
 
+#include <ccd/kind.hpp>
 #include <cstddef>
 #include <limits>
 
@@ -34,6 +35,11 @@ struct extents_pack {
     alignas(64) float at[extents::columns][size];
 };
 
+/// The vertices of a leaf's elements, side by side; elements of fewer leave rows unset.
+struct leaf_vertices {
+    alignas(64) vertex_index at[3][extents_pack::size];
+};
+
 /// A tree as kernels see it. Pack p of level 0 holds elements 16 p to 16 p + 15 and is a leaf; pack
 /// p of the level above holds packs 16 p to 16 p + 15 of this one, and so on up to one root.
 struct extents_levels {
@@ -45,6 +51,7 @@ struct extents_levels {
     };
     level at[most];
     std::size_t count = 0;
+    const leaf_vertices* vertices = nullptr;  ///< of the leaves
 };
 
 /// Positions of elements in a tree.

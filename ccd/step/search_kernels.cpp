@@ -92,7 +92,8 @@ inline void set_nowhere(extents_pack& pack, std::size_t from) {
 
 template <std::size_t N>
 void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t count,
-                 std::size_t first, std::size_t end_leaf, extents_pack* leaves, extents* hulls) {
+                 std::size_t first, std::size_t end_leaf, extents_pack* leaves, extents* hulls,
+                 leaf_vertices* vertices) {
     for (std::size_t p = first; p < end_leaf; ++p) {
         const corner_columns<N> corners(rounded, elements, size * p, count);
         for (std::size_t end = 0; end < 2; ++end)
@@ -112,6 +113,9 @@ void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t
                 }
         if (count < size * (p + 1)) set_nowhere(leaves[p], count - size * p);
         hulls[p] = hull_of(leaves[p]);
+        for (std::size_t i = 0; i < lesser(count - size * p, size); ++i)
+            for (std::size_t v = 0; v < N; ++v)
+                vertices[p].at[v][i] = elements[N * (size * p + i) + v];
     }
 }
 
@@ -165,6 +169,25 @@ lanes touching(const extents_pack& pack, const Extents& other) {
     return found;
 }
 
+typedef vertex_index index_quad __attribute__((vector_size(16)));
+
+/// Those of a leaf's elements of M vertices that share one with element i, of N, of another leaf.
+template <std::size_t N, std::size_t M>
+lanes sharing(const leaf_vertices& leaf, const leaf_vertices& other, std::uint32_t i) {
+    index_quad found{}, bits = {1, 2, 4, 8};
+    for (std::size_t lane = 0; lane < size; lane += 4, bits <<= 4) {
+        index_quad same{};
+        for (std::size_t w = 0; w < M; ++w) {
+            index_quad vertices;
+            __builtin_memcpy(&vertices, &leaf.at[w][lane], sizeof(vertices));
+            for (std::size_t v = 0; v < N; ++v)
+                same |= index_quad(vertices == index_quad{} + other.at[v][i]);
+        }
+        found |= same & bits;
+    }
+    return found[0] | found[1] | found[2] | found[3];
+}
+
 /// What is found, on its way to the visitor.
 struct found_pairs {
     static constexpr std::size_t room = 512;
@@ -188,33 +211,39 @@ struct found_pairs {
     }
 };
 
-/// Pairs of leaf p of the tree `a` and leaf q of `b`; within one tree only those where the
-/// element of `b` is the later.
-inline void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b,
-                            std::size_t q, bool within_one, found_pairs& found) {
+/// Pairs of leaf p of the tree `a`, with elements of N vertices, and leaf q of `b`, of M; within
+/// one tree only those where the element of `b` is the later.
+template <std::size_t N, std::size_t M>
+void pairs_of_leaves(const extents_levels& a, std::size_t p, const extents_levels& b, std::size_t q,
+                     found_pairs& found) {
     const extents_pack &leaf = a.at[0].packs[p], &other = b.at[0].packs[q];
-    const bool is_same = within_one && p == q;
+    const bool is_same = N == M && p == q;
     const lanes of_other = touching(other, hull_reader{a.at[0].hulls[p]});
     if (of_other == 0) return;
     const lanes of_leaf = touching(leaf, hull_reader{b.at[0].hulls[q]});
     if (count_of(of_leaf) <= count_of(of_other))
         for_each_lane(of_leaf, [&](std::uint32_t i) {
-            const lanes some = touching(other, member_reader{leaf, i}) & of_other;
+            lanes some = touching(other, member_reader{leaf, i}) & of_other;
+            if (is_same) some &= ~first_lanes(i + 1);
+            if (some == 0) return;
+            some &= ~sharing<N, M>(b.vertices[q], a.vertices[p], i);
             found.make_room();
-            for_each_lane(is_same ? some & ~first_lanes(i + 1) : some,
-                          [&](std::uint32_t j) { found.add(size * p + i, size * q + j); });
+            for_each_lane(some, [&](std::uint32_t j) { found.add(size * p + i, size * q + j); });
         });
     else
         for_each_lane(of_other, [&](std::uint32_t j) {
-            const lanes some = touching(leaf, member_reader{other, j}) & of_leaf;
+            lanes some = touching(leaf, member_reader{other, j}) & of_leaf;
+            if (is_same) some &= first_lanes(j);
+            if (some == 0) return;
+            some &= ~sharing<M, N>(a.vertices[p], b.vertices[q], j);
             found.make_room();
-            for_each_lane(is_same ? some & first_lanes(j) : some,
-                          [&](std::uint32_t i) { found.add(size * p + i, size * q + j); });
+            for_each_lane(some, [&](std::uint32_t i) { found.add(size * p + i, size * q + j); });
         });
 }
 
-void find_pairs(const extents_levels& a, const extents_levels& b, bool within_one,
-                std::size_t first, std::size_t end, void* context, search_kernels::visitor visit) {
+template <std::size_t N, std::size_t M>
+void find_pairs(const extents_levels& a, const extents_levels& b, std::size_t first,
+                std::size_t end, void* context, search_kernels::visitor visit) {
     struct node {
         std::size_t level, position;
     };
@@ -227,11 +256,11 @@ void find_pairs(const extents_levels& a, const extents_levels& b, bool within_on
         while (opened > 0) {
             const node n = open[--opened];
             if (n.level == 0) {
-                pairs_of_leaves(a, p, b, n.position, within_one, found);
+                pairs_of_leaves<N, M>(a, p, b, n.position, found);
                 continue;
             }
             const std::size_t below = n.level - 1;
-            const std::size_t least = within_one ? p >> (4 * below) : 0;
+            const std::size_t least = N == M ? p >> (4 * below) : 0;
             const lanes some = touching(b.at[n.level].packs[n.position], from);
             for_each_lane(some, [&](std::uint32_t i) {
                 const std::size_t child = size * n.position + i;
@@ -244,7 +273,7 @@ void find_pairs(const extents_levels& a, const extents_levels& b, bool within_on
 
 }  // namespace
 
-constinit const search_kernels searching = {fill_leaves<1>, fill_leaves<2>, fill_leaves<3>,
-                                            fill_nodes, find_pairs};
+constinit const search_kernels searching = {fill_leaves<1>, fill_leaves<2>,   fill_leaves<3>,
+                                            fill_nodes,     find_pairs<1, 3>, find_pairs<2, 2>};
 
 }  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET

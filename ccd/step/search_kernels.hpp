@@ -19,7 +19,7 @@ struct search_kernels {
     /// `rounded`: rounded_positions::data(); `count` elements in all.
     using fill_leaves = void (*)(const float* rounded, const vertex_index* elements,
                                  std::size_t count, std::size_t first, std::size_t end,
-                                 extents_pack* leaves, extents* hulls);
+                                 extents_pack* leaves, extents* hulls, leaf_vertices* vertices);
     fill_leaves of_vertices, of_edges, of_faces;
 
     /// Sets pack p and its hull for first <= p < end of the level over `count` packs of these
@@ -27,10 +27,12 @@ struct search_kernels {
     void (*fill_nodes)(const extents* below, std::size_t count, std::size_t first, std::size_t end,
                        extents_pack* packs, extents* hulls);
 
-    /// All pairs that no axis separates, of an element in the leaves first <= p < end of `a` and
-    /// one of `b`; of one tree, with `b` the greater.
-    void (*find_pairs)(const extents_levels& a, const extents_levels& b, bool within_one,
-                       std::size_t first, std::size_t end, void* context, visitor visit);
+    /// All pairs that share no vertex and that no axis separates, of an element in the leaves
+    /// first <= p < end of `a` and one of `b`: vertices and faces, or edges of one tree, of which
+    /// the second is the later.
+    using find_pairs = void (*)(const extents_levels& a, const extents_levels& b, std::size_t first,
+                                std::size_t end, void* context, visitor visit);
+    find_pairs of_vertices_and_faces, of_two_edges;
 };
 
 /// Those for runnable(set).

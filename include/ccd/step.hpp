@@ -143,7 +143,7 @@ struct step_result {
 /// Time: that of the search, and of decide_exact at worst for each candidate; of which there are
 /// n²/2 where all elements are at one place.
 ///
-/// Memory: about nine times that of the two frames; where candidates are counted or another method
+/// Memory: about ten times that of the two frames; where candidates are counted or another method
 /// decides, about three times, or four where parts of the mesh are so far apart that floats do not
 /// tell their elements' boxes apart; kept.
 class mesh_steps {
