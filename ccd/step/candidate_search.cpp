@@ -44,18 +44,36 @@ template <std::size_t N>
 template <class Real, class Tree, class Build>
 void ordered_elements<N>::build_tree(const Tree& tree, const swept_boxes& boxes,
                                      const Build& build) {
+    constexpr bool by_doubles = std::is_same_v<Real, double>;
     constexpr double worth_sorting = 1.25;  // times as long as the leaves have been
-    if (ordered_for_ == &tree) {
+    auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
+    if (ordered_ && by_doubles_ == by_doubles) {
         build();
-        if (tree.length_of_leaves() <= worth_sorting * least_length_) {
-            least_length_ = std::min(least_length_, tree.length_of_leaves());
+        const double length = tree.length_of_leaves();
+        if (length <= worth_sorting * least.value_or(length)) {
+            least = std::min(length, least.value_or(length));
             return;
         }
     }
     order_along_curve<Real>(elements_, boxes);
     build();
-    least_length_ = tree.length_of_leaves();
-    ordered_for_ = &tree;
+    least_of_boxes_ = least_of_extents_ = std::nullopt;
+    least = tree.length_of_leaves();
+    ordered_ = true;
+    by_doubles_ = by_doubles;
+}
+
+const search_kernels& search_kernels_for(std::optional<instruction_set> set) {
+    switch (runnable(set)) {
+#ifdef ERRBOUND_HAVE_X86_KERNELS
+        case instruction_set::avx512:
+            return avx512::searching;
+        case instruction_set::avx2:
+            return avx2::searching;
+#endif
+        default:
+            return baseline::searching;
+    }
 }
 
 candidate_search::candidate_search(std::span<const face> faces, std::span<const edge> edges,
@@ -99,26 +117,12 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& as
 }
 
 template <kind K, class First, class Second>
-std::size_t candidate_search::find_kind(const question& asked, First& first, Second& second) {
-    if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
-    return asked.boxes.need_doubles<Second::vertices>(second)
-               ? find_by<K>(in_doubles_, asked, first, second)
-               : find_by<K>(in_floats_, asked, first, second);
-}
-
-template <kind K, class First, class Second>
-void candidate_search::find_close_kind(const question& asked, const search_kernels& kernels,
-                                       const float* rounded, First& first, Second& second) {
-    if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return;
-    if (asked.boxes.need_doubles<Second::vertices>(second)) {
-        find_by<K>(in_doubles_, asked, first, second);
-        return;
-    }
+std::size_t candidate_search::find_close(const question& asked, First& first, Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
-        elements.template build_tree<float>(tree, asked.boxes,
-                                            [&] { tree.build<n>(kernels, rounded, elements); });
+        elements.template build_tree<float>(
+            tree, asked.boxes, [&] { tree.build<n>(*asked.close, asked.rounded, elements); });
     };
     extents_tree& b = of_extents_.second;
     extents_tree& a = within_one ? b : of_extents_.first;
@@ -141,17 +145,28 @@ void candidate_search::find_close_kind(const question& asked, const search_kerne
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, a.leaves(), 8),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           context to{first, second, blocks.local()};
-                          (kernels.*find)(a.levels(), b.levels(), range.begin(), range.end(), &to,
-                                          add);
+                          (asked.close->*find)(a.levels(), b.levels(), range.begin(), range.end(),
+                                               &to, add);
                       });
-    blocks.finish();
+    return blocks.finish();
+}
+
+template <kind K, class First, class Second>
+std::size_t candidate_search::find_kind(const question& asked, First& first, Second& second) {
+    if (!asked.visitor.of<K>() || first.size() == 0 || second.size() == 0) return 0;
+    if (asked.boxes.need_doubles<Second::vertices>(second))
+        return find_by<K>(in_doubles_, asked, first, second);
+    if constexpr (K == kind::vertex_face || K == kind::edge_edge)
+        if (asked.close != nullptr) return find_close<K>(asked, first, second);
+    return find_by<K>(in_floats_, asked, first, second);
 }
 
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
-                                   const candidate_visitor& visitor) {
+                                   const candidate_visitor& visitor, wanted pairs) {
     const swept_boxes boxes(positions, options.distances);
-    const pair_filter& filter = options.filter;
-    const question asked{boxes, lets_all_through(filter) ? nullptr : &filter, visitor};
+    const question asked{boxes, lets_all_through(options.filter) ? nullptr : &options.filter,
+                         visitor, positions.rounded,
+                         pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
     pair_counts counts;
     if (in_plane_) {
         counts.vertex_edge = find_kind<kind::vertex_edge>(asked, vertices_, edges_);
@@ -162,34 +177,6 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
     }
     counts.vertex_vertex = find_kind<kind::vertex_vertex>(asked, points_, points_);
     return counts;
-}
-
-void candidate_search::find_close(const batch_positions& positions, const step_options& options,
-                                  const candidate_visitor& visitor) {
-    candidate_visitor others = visitor;
-    others.vertex_face = nullptr;
-    others.edge_edge = nullptr;
-    find(positions, options, others);
-    if (in_plane_) return;
-    const swept_boxes boxes(positions, options.distances);
-    const question asked{boxes, lets_all_through(options.filter) ? nullptr : &options.filter,
-                         visitor};
-    const search_kernels& kernels = search_kernels_for(options.set);
-    find_close_kind<kind::edge_edge>(asked, kernels, positions.rounded, edges_, edges_);
-    find_close_kind<kind::vertex_face>(asked, kernels, positions.rounded, vertices_, faces_);
-}
-
-const search_kernels& search_kernels_for(std::optional<instruction_set> set) {
-    switch (runnable(set)) {
-#ifdef ERRBOUND_HAVE_X86_KERNELS
-        case instruction_set::avx512:
-            return avx512::searching;
-        case instruction_set::avx2:
-            return avx2::searching;
-#endif
-        default:
-            return baseline::searching;
-    }
 }
 
 }  // namespace ccd::detail

@@ -5,6 +5,7 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,12 +38,13 @@ class ordered_elements {
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
-    const void* ordered_for_ = nullptr;  ///< the tree that they are in a good order for
-    double least_length_ = 0;            ///< of its leaves since they were sorted
+    bool ordered_ = false, by_doubles_ = false;
+    /// Of a tree's leaves since they were sorted; unknown where there was none yet.
+    std::optional<double> least_of_boxes_, least_of_extents_;
 };
 
 /// Of one mesh, from step to step. Working memory: about 40 bytes a face or 44 an edge, whichever
-/// is more, and 14 a vertex, twice as much where floats do not do, or for find_close 187, 191 and
+/// is more, and 14 a vertex, twice as much where floats do not do, or for close pairs 187, 191 and
 /// 179; and 32 KB a thread; kept.
 class candidate_search {
   public:
@@ -56,15 +58,14 @@ class candidate_search {
     std::size_t vertices() const { return vertices_.size(); }
     bool is_in_plane() const { return in_plane_; }
 
-    /// Hands all candidates of the kinds that have a visitor to it, each once, as
-    /// candidate_visitor tells. Positions must be finite, distances valid.
-    pair_counts find(const batch_positions& positions, const step_options& options,
-                     const candidate_visitor& visitor);
+    /// What is handed out: all candidates, or of vertex/face and edge/edge pairs only those that no
+    /// axis separates as floats tell, where that was found out. The latter know no distances.
+    enum class wanted : bool { candidates, close_pairs };
 
-    /// The same, but vertex/face and edge/edge pairs that some axis certainly separates may be left
-    /// out. No distances.
-    void find_close(const batch_positions& positions, const step_options& options,
-                    const candidate_visitor& visitor);
+    /// Hands pairs of the kinds that have a visitor to it, each once, as candidate_visitor tells.
+    /// Positions must be finite, distances valid. Returns how many.
+    pair_counts find(const batch_positions& positions, const step_options& options,
+                     const candidate_visitor& visitor, wanted pairs = wanted::candidates);
 
   private:
     template <class Real>
@@ -75,6 +76,8 @@ class candidate_search {
         const swept_boxes& boxes;
         const pair_filter* filter;  // null: all pass
         const candidate_visitor& visitor;
+        const float* rounded;
+        const search_kernels* close;  // null: all candidates
     };
 
     struct extents_trees {
@@ -87,8 +90,7 @@ class candidate_search {
     std::size_t find_by(tree_pair<Real>& trees, const question& asked, First& first,
                         Second& second);
     template <kind K, class First, class Second>
-    void find_close_kind(const question& asked, const search_kernels& kernels, const float* rounded,
-                         First& first, Second& second);
+    std::size_t find_close(const question& asked, First& first, Second& second);
 
     ordered_elements<1> vertices_, points_;
     ordered_elements<2> edges_, rods_;

@@ -42,12 +42,13 @@ step_result run_step(detail::candidate_search& search, const vertex_rows& positi
             phases.of<K>().decide(block);
         };
     });
-    if (options.count_candidates || options.explain)
-        result.candidates = search.find(at, options, visitor);
-    else if (options.method == method::exact && options.distances.ask_for_contact())
-        search.find_close(at, options, visitor);
-    else
-        search.find(at, options, visitor);
+    using wanted = detail::candidate_search::wanted;
+    const bool counted = options.count_candidates || options.explain;
+    const bool close_do =
+        !counted && options.method == method::exact && options.distances.ask_for_contact();
+    const pair_counts counts =
+        search.find(at, options, visitor, close_do ? wanted::close_pairs : wanted::candidates);
+    if (counted) result.candidates = counts;
     for_each_kind([&]<kind K>() { result.narrow_phase_seconds += phases.of<K>().seconds(); });
     result.narrow_phase_seconds /= tbb::this_task_arena::max_concurrency();
     result.broad_phase_seconds = watch.lap() - result.narrow_phase_seconds;

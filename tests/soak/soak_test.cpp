@@ -244,8 +244,8 @@ TEST_F(soak_test, exact_answers_uncertain_are_differences) {
 }
 
 TEST_F(soak_test, a_step_that_loses_one_pair_is_found) {
-    const auto losing = [](const brute_force::two_frames& at, int threads) {
-        ccd::step_result result = soak::exact_step(at, threads);
+    const auto losing = [](const brute_force::two_frames& at, int threads, bool counted) {
+        ccd::step_result result = soak::exact_step(at, threads, counted);
         auto& pairs = result.pairs.edge_edge;
         if (threads == 2 && pairs.size() > 3) pairs.pop_back();
         return result;

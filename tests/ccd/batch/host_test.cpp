@@ -42,6 +42,19 @@ void on_stack_of(std::size_t bytes, std::function<void()> work) {
     pthread_join(thread, nullptr);
 }
 
+/// Of degree 32: (a − b)^32 − (a − c)^32, squared again and again.
+constexpr auto of_degree_32 =
+    errbound::predicate<errbound::points<1, 1, 1>>([](const auto& a, const auto& b, const auto& c) {
+        const auto power = [](const auto& x) {
+            const auto square = x * x;
+            const auto fourth = square * square;
+            const auto eighth = fourth * fourth;
+            const auto sixteenth = eighth * eighth;
+            return sixteenth * sixteenth;
+        };
+        return power(a[0] - b[0]) - power(a[0] - c[0]);
+    });
+
 // A page below it is not mapped: a stack that is too small ends the program.
 TEST(SmallStacks, HoldExactAndEveryPredicateIn64KiB) {
     const auto faces = queries_of_every_family<ccd::vertex_face<double>>(5);
@@ -57,6 +70,11 @@ TEST(SmallStacks, HoldExactAndEveryPredicateIn64KiB) {
             signs += certain(errbound::orient3d_line_plane(x, x + 3, x + 6, x + 9, x + 12, x + 15,
                                                            x + 18, x + 21));
         }
+        // Coordinates 2^2000 apart, and a tie but for the least: all the last stage's words.
+        constexpr double large = 0x1.1p1000, least = 0x1p-1074;
+        EXPECT_EQ(of_degree_32(&large, &least, &least), errbound::sign_type::zero);
+        constexpr double other = 3 * least;
+        EXPECT_EQ(of_degree_32(&large, &least, &other), errbound::sign_type::positive);
     });
     EXPECT_EQ(uncertain, 0U);
     EXPECT_EQ(signs, 3 * faces.size());

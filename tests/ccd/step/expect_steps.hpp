@@ -7,11 +7,20 @@
 
 namespace brute_force {
 
-/// The same pairs, of the same candidates if they were counted.
+/// The same pairs, and the same candidates, counted or not.
 inline void expect_same(const ccd::step_result& found, const ccd::step_result& expected) {
-    if (found.candidates) {
-        EXPECT_EQ(found.candidates, expected.candidates);
-    }
+    EXPECT_EQ(found.candidates, expected.candidates);
+    EXPECT_EQ(found.pairs, expected.pairs);
+}
+
+/// What `run(options)` gives where candidates are counted, and where they are not.
+template <class Run>
+void expect_both_ways(const ccd::step_result& expected, ccd::step_options options, const Run& run) {
+    options.count_candidates = true;
+    expect_same(run(options), expected);
+    options.count_candidates = false;
+    const ccd::step_result found = run(options);
+    EXPECT_FALSE(found.candidates.has_value());
     EXPECT_EQ(found.pairs, expected.pairs);
 }
 
@@ -19,13 +28,9 @@ inline void expect_same(const ccd::step_result& found, const ccd::step_result& e
 inline void expect_as_by_brute_force(const two_frames& at, ccd::method method) {
     const auto expected = step(at, by_method{method});
     for (const int threads : {1, 2, 3})
-        for (const bool counted : {false, true}) {
-            const ccd::step_options options{
-                .method = method, .threads = threads, .count_candidates = counted};
-            const auto found = ccd::step(at.first, at.second, options);
-            EXPECT_EQ(found.candidates.has_value(), counted);
-            expect_same(found, expected);
-        }
+        expect_both_ways(
+            expected, {.method = method, .threads = threads},
+            [&](const auto& options) { return ccd::step(at.first, at.second, options); });
 }
 
 }  // namespace brute_force

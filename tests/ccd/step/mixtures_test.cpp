@@ -142,17 +142,20 @@ TEST(Mixture, PairsComeOnceHoweverOftenFacesAndEdgesAreGiven) {
         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, 1}, {0.25, 0.25, 2}}, {{0, 1, 2}}, {{3, 4}}};
     ccd::mesh after = before;
     for (const std::size_t v : {3, 4}) after.vertices[v].z -= 3;
-    const auto once = ccd::step(before, after);
+    const auto once = ccd::step(before, after, {.count_candidates = true});
     EXPECT_EQ(once.pairs.vertex_face.size(), 2U);
     const ccd::pair_lists candidates_once = ccd::candidates(before, after);
     for (auto* m : {&before, &after}) {
         m->faces.insert(m->faces.end(), {{2, 1, 0}, {1, 2, 0}, {0, 1, 2}});
         m->edges.insert(m->edges.end(), {{4, 3}, {0, 1}, {1, 0}});
     }
-    brute_force::expect_same(ccd::step(before, after), once);
+    brute_force::expect_both_ways(
+        once, {}, [&](const auto& options) { return ccd::step(before, after, options); });
     const ccd::vertex_rows positions(before.vertices, after.vertices);
     ccd::mesh_steps steps(before);
-    for (int run = 0; run < 2; ++run) brute_force::expect_same(steps.run(positions), once);
+    for (int run = 0; run < 2; ++run)
+        brute_force::expect_both_ways(
+            once, {}, [&](const auto& options) { return steps.run(positions, options); });
     const ccd::pair_lists found = steps.candidates(positions);
     ccd::for_each_kind(
         [&]<ccd::kind K>() { EXPECT_EQ(found.of<K>().size(), candidates_once.of<K>().size()); });

@@ -38,11 +38,13 @@ struct timed {
 TEST(StepTimes, AreThoseOfEachPair) {
     for (const unsigned seed : {1U, 2U, 3U}) {
         const auto at = random_mixture(seed);
-        const auto plain = ccd::step(at.first, at.second);
+        const auto plain = ccd::step(at.first, at.second, {.count_candidates = true});
         const timed expected(at, plain.pairs, 0);
         for (const int threads : {1, 3}) {
             const auto found = ccd::step(at.first, at.second, {.threads = threads, .times = true});
-            brute_force::expect_same(found, plain);
+            brute_force::expect_both_ways(
+                plain, {.threads = threads, .times = true},
+                [&](const auto& options) { return ccd::step(at.first, at.second, options); });
             EXPECT_EQ(found.times, expected.times);
             EXPECT_EQ(found.first_contact, expected.first);
             EXPECT_EQ(found.touching_at_start, expected.at_start);

@@ -8,13 +8,14 @@
 
 namespace soak {
 
-/// What must report the pairs of a mesh: ccd::step on so many threads.
-using stepper = std::function<ccd::step_result(const brute_force::two_frames&, int threads)>;
-ccd::step_result exact_step(const brute_force::two_frames& at, int threads);
+/// What must report the pairs of a mesh: ccd::step on so many threads, candidates counted or not.
+using stepper =
+    std::function<ccd::step_result(const brute_force::two_frames&, int threads, bool counted)>;
+ccd::step_result exact_step(const brute_force::two_frames& at, int threads, bool counted);
 
 /// Small meshes of every family of queries, faces, rods and points, some given twice, and soups on
-/// a grid: the pairs of `step` on one thread, pairs and candidates on two, against every pair asked
-/// of the reference.
+/// a grid: candidates and pairs of `step`, counted or not, on one thread and on two, against every
+/// pair asked of the reference.
 part mesh_part(stepper step = exact_step);
 
 }  // namespace soak

@@ -37,12 +37,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto at = mesh_from(from);
     const auto expected =
         brute_force::step(at, [](const auto& query) { return ccd::decide_reference(query); });
-    for (const int threads : {1, 2}) {
-        const auto found = ccd::step(
-            at.first, at.second,
-            {.threads = threads, .count_candidates = threads > 1, .initial_contact = true});
-        if (found.candidates && found.candidates != expected.candidates)
-            fuzz::fail("other candidates");
+    for (const int number : {0, 1, 2, 3}) {
+        const int threads = 1 + number / 2;
+        const bool counted = number % 2 == 1;
+        const auto found =
+            ccd::step(at.first, at.second,
+                      {.threads = threads, .count_candidates = counted, .initial_contact = true});
+        if (counted && found.candidates != expected.candidates) fuzz::fail("other candidates");
         if (found.pairs != expected.pairs) fuzz::fail("other pairs");
         if (found.touching_at_start != expected.touching_at_start)
             fuzz::fail("other pairs that touch at the start");
