@@ -40,10 +40,11 @@ struct safe {
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
         if (error == 0) return exact(value);
-        // Beyond that error/ε overflows: in some directions to the largest number, which is less.
-        const T most = traits::largest() * traits::epsilon();
-        if (!(error > 0 && error <= most)) return {traits::infinity(), 1};
-        return {enlarged<T>(traits::max(traits::abs(value) + error, error / traits::epsilon())), 1};
+        if (!(error > 0)) return {traits::infinity(), 1};
+        // error/ε overflows beyond that: in some directions to the largest number, which is less.
+        const bool overflows = error > traits::largest() * traits::epsilon();
+        const T least = overflows ? traits::infinity() : error / traits::epsilon();
+        return {enlarged<T>(traits::max(traits::abs(value) + error, least)), 1};
     }
     /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; unknown beyond.
     /// Proof: proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v,
