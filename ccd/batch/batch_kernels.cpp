@@ -11,19 +11,21 @@
 #include "ccd/batch/pack_subdivision.hpp"
 #include "ccd/batch/query_queue.hpp"
 #include "ccd/batch/rounded_axes_stage.hpp"
+#include "ccd/batch/stored_coordinates.hpp"
 #include "ccd/batch/time_stage.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
-/// The stages of ccd/exact/stages.cpp in their order, but that all axes are asked at once: where
-/// there are rounded positions by test_rounded_axes, before the queries come here.
+/// The stages of ccd/exact/stages.cpp in their order, but that all axes are asked first: where
+/// there are rounded positions by test_rounded_axes, of stored queries the coordinate axes by
+/// test_stored_coordinates, before the queries come here.
 template <kind K>
 class pipeline {
   public:
     /// For features within that distance, 0 for contact: then axes must have been asked.
-    explicit pipeline(const decisions& decided, double distance = 0)
-        : decided_(decided), distance_(distance) {}
+    explicit pipeline(const decisions& decided, axes_left axes, double distance = 0)
+        : decided_(decided), axes_(axes), distance_(distance) {}
 
     /// Takes in queries. `read(id, at)` writes the 24 coordinates of one to at[0], at[stride],
     /// at[2·stride], ... of coordinate_columns: by point, end of the step, axis. Where `pause` is
@@ -35,7 +37,7 @@ class pipeline {
             const std::size_t size = lesser(count - first, block);
             for (std::size_t i = 0; i < size; ++i) read(ids[first + i], &coordinates_.at[0][i]);
             coordinates_.pad(size);
-            test_axes<K>(coordinates_, ids + first, size, pause, decided_, to_coplanarity_);
+            test_axes<K>(axes_, coordinates_, ids + first, size, pause, decided_, to_coplanarity_);
             run_stages(block);
         }
     }
@@ -60,6 +62,7 @@ class pipeline {
     }
 
     decisions decided_;
+    axes_left axes_;
     double distance_;
     coordinate_columns coordinates_;
     difference_queue<K> to_coplanarity_, to_inside_;
@@ -90,7 +93,7 @@ void decide_indexed(const batch_positions& positions, const typename kind_traits
                     std::size_t count, const distance_asked& within, outcome* answers,
                     axes_pauses& pauses, stage_report* report) {
     const decisions decided{answers, report};
-    pipeline<K> stages(decided, within.distance);
+    pipeline<K> stages(decided, axes_left::all, within.distance);
     const auto read = reader_of<K>(positions, queries);
     for (std::size_t first = 0; first < count; first += rounded_block) {
         const std::size_t size = lesser(count - first, rounded_block);
@@ -114,16 +117,14 @@ void decide_indexed(const batch_positions& positions, const typename kind_traits
 template <kind K>
 void decide_stored(const typename kind_traits<K>::template query<double>* queries,
                    std::size_t count, outcome* answers, axes_pauses& pauses, stage_report* report) {
-    pipeline<K> stages({answers, report});
+    const decisions decided{answers, report};
+    pipeline<K> stages(decided, axes_left::diagonals);
     const auto read = reader_of<K>(queries);
-    std::uint32_t ids[block];
-    for (std::size_t first = 0; first < count; first += block) {
-        const std::size_t size = lesser(count - first, block);
-        for (std::size_t i = 0; i < size; ++i) {
-            ids[i] = static_cast<std::uint32_t>(first + i);
-            answers[first + i] = outcome::uncertain;
-        }
-        stages.process(ids, size, read, &pauses.in_doubles);
+    std::uint32_t ids[stored_block];
+    for (std::size_t first = 0; first < count; first += stored_block) {
+        const std::size_t size = lesser(count - first, stored_block);
+        const std::size_t open = test_stored_coordinates<K>(queries, first, size, decided, ids);
+        stages.process(ids, open, read, &pauses.in_doubles);
     }
     stages.finish();
 }

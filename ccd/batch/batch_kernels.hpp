@@ -35,8 +35,9 @@ struct distance_asked {
     rounded_axes::least_gaps gaps = {};
 };
 
-/// Decide `count` queries of finite coordinates in floating point: `uncertain` in answers[i] leaves
-/// the query to exact arithmetic. `report` may be null. No allocation; some 300 KB of stack.
+/// Decide `count` queries in floating point: `uncertain` in answers[i] leaves the query to exact
+/// arithmetic. Indexed coordinates must be finite; stored queries that are not are `uncertain`.
+/// `report` may be null. No allocation; some 300 KB of stack.
 template <kind K>
 struct kernels_of_kind {
     using pair = typename kind_traits<K>::pair;

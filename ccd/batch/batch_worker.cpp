@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ccd/exact/finite.hpp"
 #include "ccd/exact/stages.hpp"
 
 namespace ccd {
@@ -80,13 +81,15 @@ const batch_kernels& kernels_for(std::optional<instruction_set> set) {
 
 namespace {
 
-/// What the kernels left uncertain, by the exact stages.
+/// What the kernels left uncertain, by the exact stages; what is not finite stays so.
 template <class At>
 void decide_uncertain(std::size_t count, outcome* answers, stage_report* report,
                       const At& query_at) {
-    for (std::size_t i = 0; i < count; ++i)
-        if (answers[i] == outcome::uncertain)
-            answers[i] = decide_exactly(query_at(i), report).outcome;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (answers[i] != outcome::uncertain) continue;
+        const auto query = query_at(i);
+        if (is_finite(query)) answers[i] = decide_exactly(query, report).outcome;
+    }
 }
 
 template <kind K, class Pair>

@@ -28,7 +28,8 @@ class batch_worker {
     batch_worker(const batch_kernels& kernels, bool counted)
         : kernels_(&kernels), counted_(counted) {}
 
-    /// Decides by `exact`. Coordinates must be finite and indices in range.
+    /// Decides by `exact`. Indexed coordinates must be finite and indices in range; stored queries
+    /// that are not finite are uncertain.
     void decide(const batch_positions& positions, std::span<const vertex_face_pair> queries,
                 outcome* answers);
     void decide(const batch_positions& positions, std::span<const edge_edge_pair> queries,

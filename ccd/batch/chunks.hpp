@@ -168,14 +168,11 @@ class query_batch {
             std::ranges::transform(part, still.begin(), without_motion<Query>);
             part = still;
         }
-        constexpr std::size_t numbers = sizeof(Query) / sizeof(double);
-        const auto* at = reinterpret_cast<const double*>(part.data());
-        decide_finite(
-            count, answers, all_finite(at, numbers * count),
-            [&](std::size_t i) { return all_finite(at + numbers * i, numbers); },
-            [&](std::size_t i, std::size_t n) {
-                decide_part(worker, part.subspan(i, n), answers + i);
-            });
+        if constexpr (has_kernels<Query>)
+            worker.decide(part, answers);
+        else
+            std::ranges::transform(part, answers,
+                                   [](const Query& q) { return decide_exact(q).outcome; });
     }
 
     const Query& item(std::size_t i) const { return queries_[i]; }
@@ -186,14 +183,6 @@ class query_batch {
     }
 
   private:
-    static void decide_part(batch_worker& worker, std::span<const Query> part, outcome* answers) {
-        if constexpr (has_kernels<Query>)
-            worker.decide(part, answers);
-        else
-            std::ranges::transform(part, answers,
-                                   [](const Query& q) { return decide_exact(q).outcome; });
-    }
-
     std::span<const Query> queries_;
     bool at_start_;
 };

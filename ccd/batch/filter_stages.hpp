@@ -60,11 +60,14 @@ struct coordinate_columns {
     }
 };
 
-/// All nine axes at once. Where `pause` is null or the stage pauses, nothing is decided.
+/// Which of the nine axes have not been asked.
+enum class axes_left { all, diagonals };
+
+/// These axes at once. Where `pause` is null or the stage pauses, nothing is decided.
 template <kind K>
-[[gnu::flatten]] void test_axes(const coordinate_columns& coordinates, const std::uint32_t* ids,
-                                std::size_t size, stage_pause* pause, const decisions& decided,
-                                difference_queue<K>& open) {
+[[gnu::flatten]] void test_axes(axes_left axes, const coordinate_columns& coordinates,
+                                const std::uint32_t* ids, std::size_t size, stage_pause* pause,
+                                const decisions& decided, difference_queue<K>& open) {
     stage_timer timer(pause != nullptr ? decided.report : nullptr, stage::axes);
     const bool asked = pause != nullptr && is_due(*pause);
     std::size_t separate = 0;
@@ -73,9 +76,10 @@ template <kind K>
         lanes left = first_lanes(lesser(size - at, width));
         if (asked) {
             const static_filter::difference_extents<pack> extents(forms);
-            const lanes separated =
-                left & lanes_of<double>(static_filter::separated_by_axes<pack>(forms, extents) &
-                                        extents.usable);
+            pack_mask apart = static_filter::separated_by_diagonals<pack>(forms, extents);
+            if (axes == axes_left::all)
+                apart = apart | static_filter::separated_by_coordinates<pack>(forms, extents);
+            const lanes separated = left & lanes_of<double>(apart & extents.usable);
             decided.write(ids + at, separated, outcome::separate);
             separate += count_of(separated);
             left &= ~separated;
