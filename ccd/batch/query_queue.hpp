@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ccd/batch/simd.hpp"
+#include "ccd/exact/simd.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "ccd/batch/simd.hpp"
+#include "ccd/exact/simd.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <errbound/error_free.hpp>
 
-#include "ccd/batch/simd.hpp"
+#include "ccd/exact/simd.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

@@ -6,8 +6,7 @@
 #include <ccd/reference.hpp>
 #include <errbound/roots/control_values.hpp>
 
-#include "ccd/exact/features.hpp"
-#include "ccd/exact/finite.hpp"
+#include "ccd/exact/coordinate_axes.hpp"
 #include "ccd/exact/integers.hpp"
 #include "ccd/exact/stage_timer.hpp"
 #include "ccd/exact/static_filter/coefficient_signs.hpp"
@@ -26,10 +25,14 @@ template <template <class> class Forms, template <class> class Query>
                                              static_filter::contact_part* found,
                                              std::size_t deepest) {
     constexpr verdict separate{outcome::separate, cause::none};
-    if (!is_finite(query)) return {outcome::uncertain, cause::range};
+    static_assert(sizeof(query) == 24 * sizeof(double));
+    const auto* numbers = reinterpret_cast<const double*>(&query);
+    if (!ERRBOUND_INSTRUCTION_SET::are_finite(numbers, 24))
+        return {outcome::uncertain, cause::range};
     {
         stage_timer timer(report, stage::axes);
-        const bool separated = separated_by_coordinates(query);
+        const bool separated =
+            ERRBOUND_INSTRUCTION_SET::separated_by_coordinates<kind_of<Query<double>>>(numbers);
         timer.count(1, separated, 0);
         if (separated) return separate;
     }

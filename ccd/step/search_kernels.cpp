@@ -7,7 +7,7 @@
 
 #include "ccd/batch/rounded_positions.hpp"
 #include "ccd/batch/row_quads.hpp"
-#include "ccd/batch/simd.hpp"
+#include "ccd/exact/simd.hpp"
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

@@ -1,10 +1,14 @@
-// Packs of doubles and of floats for the batch kernels, and what xsimd 8 lacks of them. Internal:
-// see ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
+// Packs of doubles and of floats, and what xsimd 8 lacks of them. Internal: see
+// ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
+
+#ifndef ERRBOUND_INSTRUCTION_SET  // what is compiled but once
+#define ERRBOUND_INSTRUCTION_SET baseline
+#endif
 
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {

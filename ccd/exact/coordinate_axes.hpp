@@ -1,0 +1,111 @@
+// The coordinate axes of one query, over packs, on its numbers as they lie in memory. Internal; for
+// kernels and for one query at a time.
+#pragma once
+
+#include <ccd/kind.hpp>
+#include <cstddef>
+#include <cstdint>
+
+#include "ccd/exact/simd.hpp"
+
+namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
+namespace {
+
+/// The coordinates of a point in motion: x y z at the start, x y z at the end of the step.
+class six_numbers {
+  public:
+    explicit six_numbers(const double* at) {
+#if defined __AVX512F__
+        part_[0] = _mm512_maskz_loadu_pd(0x3f, at);
+#else
+        for (std::size_t i = 0; i < parts; ++i) part_[i] = pack::load_unaligned(at + first(i));
+#endif
+    }
+
+    friend six_numbers min(const six_numbers& a, const six_numbers& b) {
+        return of(a, b, [](const pack& x, const pack& y) { return xsimd::min(x, y); });
+    }
+    friend six_numbers max(const six_numbers& a, const six_numbers& b) {
+        return of(a, b, [](const pack& x, const pack& y) { return xsimd::max(x, y); });
+    }
+    /// Those of a that exceed b's: bit k is the k-th.
+    friend lanes above(const six_numbers& a, const six_numbers& b) {
+        lanes all = 0;
+        for (std::size_t i = 0; i < parts; ++i) {
+            const pack_mask m = a.part_[i] > b.part_[i];
+            all |= lanes_of<double>(m) << first(i);
+        }
+        return all;
+    }
+
+  private:
+    /// Of four lanes there are two parts, which overlap.
+    static constexpr std::size_t parts = (6 + width - 1) / width;
+    static constexpr std::size_t first(std::size_t part) {
+        return width < 6 ? part * width < 6 - width ? part * width : 6 - width : 0;
+    }
+    six_numbers() = default;
+    template <class Of>
+    static six_numbers of(const six_numbers& a, const six_numbers& b, const Of& f) {
+        six_numbers c;
+        for (std::size_t i = 0; i < parts; ++i) c.part_[i] = f(a.part_[i], b.part_[i]);
+        return c;
+    }
+
+    pack part_[parts];
+};
+
+/// The least and the greatest coordinates of `Count` points.
+template <std::size_t Count>
+six_numbers least_of(const double* points) {
+    if constexpr (Count == 1)
+        return six_numbers(points);
+    else
+        return min(six_numbers(points), least_of<Count - 1>(points + 6));
+}
+template <std::size_t Count>
+six_numbers greatest_of(const double* points) {
+    if constexpr (Count == 1)
+        return six_numbers(points);
+    else
+        return max(six_numbers(points), greatest_of<Count - 1>(points + 6));
+}
+
+/// Whether a coordinate axis separates the features of a query of finite numbers:
+/// separated_by_coordinates of ccd/exact/features.hpp, over packs.
+template <kind K>
+bool separated_by_coordinates(const double* p) {
+    constexpr std::size_t first = kind_traits<K>::first_vertices;
+    constexpr std::size_t second = kind_traits<K>::second_vertices;
+    const double* q = p + 6 * first;
+    const lanes p_above = above(least_of<first>(p), greatest_of<second>(q));
+    const lanes q_above = above(least_of<second>(q), greatest_of<first>(p));
+    return (((p_above & p_above >> 3) | (q_above & q_above >> 3)) & 7) != 0;
+}
+
+/// Whether the numbers of queries are finite: x - x is 0, or NaN if x is not. Numbers that lie
+/// `Ahead` queries further on are sent for.
+template <std::size_t Ahead = 0>
+bool are_finite(const double* numbers, std::size_t count) {
+    constexpr std::size_t line = 8, packs = 24 / width;
+    pack zeros[packs];
+    for (pack& z : zeros) z = pack(0.0);
+    for (std::size_t at = 0; at < count; at += 24)
+        for (std::size_t i = 0; i < packs; ++i) {
+            const double* next = &numbers[at + i * width];
+            if (Ahead > 0 && i * width % line == 0) {
+                // Perhaps beyond the last query, where no pointer may be.
+                const auto address = std::uintptr_t(next) + Ahead * 24 * sizeof(double);
+                __builtin_prefetch(reinterpret_cast<const void*>(address));
+            }
+            const pack x = pack::load_unaligned(next);
+            zeros[i] += x - x;
+        }
+    pack sum(0.0);
+    for (const pack& z : zeros) sum += z;
+    const pack_mask zero = sum == pack(0.0);
+    return lanes_of<double>(zero) == first_lanes(width);
+}
+
+}  // namespace
+}  // namespace ccd::detail::ERRBOUND_INSTRUCTION_SET
