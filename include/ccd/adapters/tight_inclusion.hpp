@@ -1,0 +1,122 @@
+// Calls of the shape of Tight-Inclusion's, answered by `exact` (optional header; needs Eigen, and
+// nothing of Tight-Inclusion).
+//
+//   namespace ticcd = ccd::adapters::tight_inclusion;
+//
+// in place of its header leaves calls as they are, with doubles or floats (which are exact
+// doubles). What its answers promise is kept:
+//
+// * `false`: the features are certainly free in [0, t_max]; with ms > 0, at no time is the distance
+//   of a point of the one and a point of the other at most ms on every axis. `toi` is infinite.
+// * `true`: they touch, or come as near as that. `toi` is not after the first such time.
+//
+// What differs is how many are reported. With ms = 0: those that touch, and no others; `toi` is
+// the last number of type Scalar that is not after the first contact. With ms > 0: those whose
+// Euclidean distance gets to the half diagonal of the box, sqrt(3) ms, rounded up by less than two
+// last places: the least ball around the box, so that `false` promises what it did. It reports
+// pairs up to 1.74 times as far apart along an axis as the box does. Who means the Euclidean
+// distance asks ccd::time_within (ccd/separation.hpp).
+//
+// The other arguments:
+//
+// * err, tolerance, max_itr, ccd_method: not needed, since nothing is rounded, and not read;
+//   output_tolerance is set to tolerance, as after a search that was not cut short.
+// * no_zero_toi: a pair that is within ms at the start is asked for contact alone, so that `toi` is
+//   0 only if it touches at the start, or before the least positive Scalar.
+//
+// Coordinates, ms >= 0 and t_max must be finite; if not, nothing is known, and the answer is true
+// with `toi` 0. Safe to be called by many threads at once. Cost: that of time_within.
+#pragma once
+
+#include <Eigen/Core>
+#include <ccd/adapters/points.hpp>
+#include <ccd/contact.hpp>
+#include <ccd/query.hpp>
+#include <ccd/separation.hpp>
+#include <ccd/verdict.hpp>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <type_traits>
+
+namespace ccd::adapters::tight_inclusion {
+
+using Scalar = double;
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+using Array3 = Eigen::Array<Scalar, 3, 1>;
+
+enum class CCDRootFindingMethod { DEPTH_FIRST_SEARCH, BREADTH_FIRST_SEARCH };
+
+inline constexpr bool DEFAULT_NO_ZERO_TOI = false;
+inline constexpr Scalar DEFAULT_CCD_DISTANCE_TOL = 1e-6;
+
+namespace detail {
+
+/// Types of arguments that `toi` alone decides about, so that others convert.
+template <class T>
+using scalar = std::type_identity_t<T>;
+template <class T>
+using vector = std::type_identity_t<Eigen::Matrix<T, 3, 1>>;
+template <class T>
+using array = std::type_identity_t<Eigen::Array<T, 3, 1>>;
+
+/// At least sqrt(3) ms, without overflow: the second part, (sqrt(3) - 1) ms, is rounded up.
+inline separation ball_around_box(double ms) {
+    constexpr double sqrt_3_less_1 = 0x1.76cf5d0b09955p-1;  // the least double above it
+    return {ms, ms == 0 ? 0 : std::nextafter(sqrt_3_less_1 * ms, 2 * ms)};
+}
+
+/// The last number of type T that is not after t.
+template <std::floating_point T>
+T not_after(double t) {
+    const T rounded = static_cast<T>(t);
+    return rounded <= t ? rounded : std::nextafter(rounded, T(0));
+}
+
+template <class T, class Query>
+bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& toi) {
+    first_time found = time_within(query, ball_around_box(ms), t_max);
+    if (no_zero_toi && found.at_start()) found = time_of_impact(query, t_max);
+    toi = found.outcome == outcome::separate ? std::numeric_limits<T>::infinity()
+                                             : not_after<T>(found.low);
+    return found.outcome != outcome::separate;
+}
+
+}  // namespace detail
+
+/// Vertex v and triangle f0 f1 f2, whose positions move linearly from t0 to t1.
+template <class T>
+requires std::same_as<T, double> || std::same_as<T, float>
+bool vertexFaceCCD(
+    const detail::vector<T>& v_t0, const detail::vector<T>& f0_t0, const detail::vector<T>& f1_t0,
+    const detail::vector<T>& f2_t0, const detail::vector<T>& v_t1, const detail::vector<T>& f0_t1,
+    const detail::vector<T>& f1_t1, const detail::vector<T>& f2_t1, const detail::array<T>& /*err*/,
+    detail::scalar<T> ms, T& toi, detail::scalar<T> tolerance, detail::scalar<T> t_max,
+    long /*max_itr*/, detail::scalar<T>& output_tolerance, bool no_zero_toi = DEFAULT_NO_ZERO_TOI,
+    CCDRootFindingMethod /*ccd_method*/ = CCDRootFindingMethod::BREADTH_FIRST_SEARCH) {
+    using adapters::detail::moving;
+    output_tolerance = tolerance;
+    return detail::answer(vertex_face<double>{moving(v_t0, v_t1), moving(f0_t0, f0_t1),
+                                              moving(f1_t0, f1_t1), moving(f2_t0, f2_t1)},
+                          ms, t_max, no_zero_toi, toi);
+}
+
+/// Edge ea0 ea1 and edge eb0 eb1, the same.
+template <class T>
+requires std::same_as<T, double> || std::same_as<T, float>
+bool edgeEdgeCCD(const detail::vector<T>& ea0_t0, const detail::vector<T>& ea1_t0,
+                 const detail::vector<T>& eb0_t0, const detail::vector<T>& eb1_t0,
+                 const detail::vector<T>& ea0_t1, const detail::vector<T>& ea1_t1,
+                 const detail::vector<T>& eb0_t1, const detail::vector<T>& eb1_t1,
+                 const detail::array<T>& /*err*/, detail::scalar<T> ms, T& toi,
+                 detail::scalar<T> tolerance, detail::scalar<T> t_max, long /*max_itr*/,
+                 detail::scalar<T>& output_tolerance, bool no_zero_toi = DEFAULT_NO_ZERO_TOI,
+                 CCDRootFindingMethod /*ccd_method*/ = CCDRootFindingMethod::BREADTH_FIRST_SEARCH) {
+    using adapters::detail::moving;
+    output_tolerance = tolerance;
+    return detail::answer(edge_edge<double>{moving(ea0_t0, ea0_t1), moving(ea1_t0, ea1_t1),
+                                            moving(eb0_t0, eb0_t1), moving(eb1_t0, eb1_t1)},
+                          ms, t_max, no_zero_toi, toi);
+}
+
+}  // namespace ccd::adapters::tight_inclusion

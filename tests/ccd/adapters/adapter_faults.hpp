@@ -1,0 +1,54 @@
+// What adapters are asked, and whether their answers are right, by the oracle: no bracket is taken
+// from the library.
+#pragma once
+
+#include <algorithm>
+#include <ccd/kind.hpp>
+#include <ccd/methods/transform.hpp>
+#include <ccd/separation.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "tests/support/distance_families.hpp"
+#include "tests/support/oracle.hpp"
+#include "tests/support/query_families.hpp"
+
+namespace support {
+
+/// A distance worth asking of the query: 0 and what is about its own at some time among them.
+template <class Query>
+double some_distance(query_families::source& random, const Query& query) {
+    query_families::points p{};
+    std::ranges::copy(ccd::points_of(query), p.begin());
+    const auto d = distance_families::draw(random).make(random, ccd::kind_of<Query>, p);
+    return std::max(d.first, d.second);
+}
+
+/// What is wrong with an answer and its time, given as a T, as those of whether `holds(interval)`
+/// does at a time in [0, t_max], and when first; or nothing. The time must be no later than the
+/// first, and the next T must not be before it.
+template <class T, class Holds>
+std::string answer_fault(bool answer, T toi, double t_max, const Holds& holds) {
+    const double last = std::min(t_max, 1.0);
+    if (!answer) {
+        if (toi != std::numeric_limits<T>::infinity()) return "a time without a contact";
+        return holds(oracle::interval{0, last}) ? "missed" : "";
+    }
+    if (!(0 <= toi && toi <= last)) return "the time is not one of those asked";
+    if (toi > 0 && holds(oracle::interval{.high = toi, .with_high = false})) return "late";
+    const double next = std::nextafter(toi, T(2));
+    return holds(oracle::interval{toi, std::min(next, last)}) ? "" : "early, or no contact at all";
+}
+
+/// The same of a query's answer: contact, or a distance of at most d.
+template <class T, class Query>
+std::string answer_fault(const Query& query, ccd::separation d, bool answer, T toi, double t_max) {
+    return answer_fault(answer, toi, t_max, [&](const oracle::interval& when) {
+        return d.first == 0 && d.second == 0
+                   ? oracle::collides(query, oracle::shortcuts::on, when)
+                   : oracle::within(query, d.first, d.second, oracle::shortcuts::on, when);
+    });
+}
+
+}  // namespace support

@@ -1,0 +1,311 @@
+// `exact` as a narrow phase of ipc-toolkit: by hand, and against the oracle on all families of
+// queries and distances, through the interface alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/adapters/ipc_toolkit.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/ccd/adapters/adapter_faults.hpp"
+#include "tests/support/query_families.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using ccd::adapters::exact_narrow_phase;
+using query_families::points;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+struct answer {
+    bool collides;
+    double toi;
+    friend bool operator==(const answer&, const answer&) = default;
+};
+std::ostream& operator<<(std::ostream& out, const answer& a) {
+    return out << (a.collides ? "true, " : "false, ") << a.toi;
+}
+constexpr answer never{false, infinity};
+answer at(double t) {
+    return {true, t};
+}
+
+ipc::VectorMax3d in(int dimensions, const ccd::point<double>& p) {
+    return Eigen::Vector3d(p.x, p.y, p.z).head(dimensions);
+}
+Eigen::Vector3d in_space(const ccd::point<double>& p) {
+    return {p.x, p.y, p.z};
+}
+
+answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::vertex_vertex<double>& q, double d = 0,
+           double tmax = 1, int dimensions = 3) {
+    const auto p = [&](const auto& x) { return in(dimensions, x); };
+    answer a{};
+    a.collides = ccd.point_point_ccd(p(q.v.t0), p(q.w.t0), p(q.v.t1), p(q.w.t1), a.toi, d, tmax);
+    return a;
+}
+answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::vertex_edge<double>& q, double d = 0,
+           double tmax = 1, int dimensions = 3) {
+    const auto p = [&](const auto& x) { return in(dimensions, x); };
+    answer a{};
+    a.collides = ccd.point_edge_ccd(p(q.v.t0), p(q.e0.t0), p(q.e1.t0), p(q.v.t1), p(q.e0.t1),
+                                    p(q.e1.t1), a.toi, d, tmax);
+    return a;
+}
+answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::vertex_face<double>& q, double d = 0,
+           double tmax = 1) {
+    const auto p = in_space;
+    answer a{};
+    a.collides = ccd.point_triangle_ccd(p(q.v.t0), p(q.f0.t0), p(q.f1.t0), p(q.f2.t0), p(q.v.t1),
+                                        p(q.f0.t1), p(q.f1.t1), p(q.f2.t1), a.toi, d, tmax);
+    return a;
+}
+answer ask(const ipc::NarrowPhaseCCD& ccd, const ccd::edge_edge<double>& q, double d = 0,
+           double tmax = 1) {
+    const auto p = in_space;
+    answer a{};
+    a.collides = ccd.edge_edge_ccd(p(q.a0.t0), p(q.a1.t0), p(q.b0.t0), p(q.b1.t0), p(q.a0.t1),
+                                   p(q.a1.t1), p(q.b0.t1), p(q.b1.t1), a.toi, d, tmax);
+    return a;
+}
+
+ccd::moving_point<double> still(const ccd::point<double>& p) {
+    return {p, p};
+}
+
+// From 1 above a face to 3 below, and an edge across another the same way.
+constexpr ccd::moving_point<double> falling{{0.25, 0.25, 1}, {0.25, 0.25, -3}};
+const ccd::vertex_face<double> onto_face{falling, still({0, 0, 0}), still({1, 0, 0}),
+                                         still({0, 1, 0})};
+const ccd::edge_edge<double> across{
+    {{0, -1, 1}, {0, -1, -3}}, {{0, 1, 1}, {0, 1, -3}}, still({-1, 0, 0}), still({1, 0, 0})};
+const ccd::vertex_vertex<double> meeting{{{0, 0, 0}, {6, 8, 0}}, still({3, 4, 0})};
+const ccd::vertex_edge<double> onto_edge{
+    {{0.5, 1, 0}, {0.5, -3, 0}}, still({0, 0, 0}), still({1, 0, 0})};
+
+TEST(narrow_phase, finds_first_contacts) {
+    const exact_narrow_phase exact;
+    EXPECT_EQ(ask(exact, onto_face), at(0.25));
+    EXPECT_EQ(ask(exact, across), at(0.25));
+    EXPECT_EQ(ask(exact, meeting), at(0.5));
+    EXPECT_EQ(ask(exact, onto_edge), at(0.25));
+}
+TEST(narrow_phase, takes_the_defaults_of_the_interface) {
+    const exact_narrow_phase exact;
+    double toi = 2;
+    const ipc::VectorMax3d p = Eigen::Vector2d(0, 0), q = Eigen::Vector2d(1, 0);
+    EXPECT_TRUE(exact.point_point_ccd(p, q, q, p, toi));
+    EXPECT_EQ(toi, 0.5);
+}
+TEST(narrow_phase, finds_contacts_until_tmax_alone) {
+    const exact_narrow_phase exact;
+    EXPECT_EQ(ask(exact, onto_face, 0, 0.25), at(0.25));
+    EXPECT_EQ(ask(exact, onto_face, 0, std::nextafter(0.25, 0)), never);
+    EXPECT_EQ(ask(exact, onto_face, 0, 0), never);
+    EXPECT_EQ(ask(exact, onto_face, 0, -1), never);
+    EXPECT_EQ(ask(exact, onto_face, 0, infinity), at(0.25));
+    const ccd::vertex_face<double> missed{still({2, 2, 1}), onto_face.f0, onto_face.f1,
+                                          onto_face.f2};
+    EXPECT_EQ(ask(exact, missed, 0, infinity), never);
+}
+TEST(narrow_phase, keeps_a_distance) {
+    const exact_narrow_phase exact;
+    EXPECT_EQ(ask(exact, onto_face, 0.5), at(0.125));
+    EXPECT_EQ(ask(exact, across, 0.5), at(0.125));
+    EXPECT_EQ(ask(exact, meeting, 2.5), at(0.25));
+    EXPECT_EQ(ask(exact, onto_edge, 0.5, 0.125), at(0.125));
+    EXPECT_EQ(ask(exact, onto_edge, 0.5, 0.1), never);
+}
+TEST(narrow_phase, says_0_of_what_is_within_the_distance_at_the_start) {
+    const exact_narrow_phase exact;
+    EXPECT_EQ(ask(exact, onto_face, 1), at(0));
+    EXPECT_EQ(ask(exact, onto_face, 1, 0), at(0));
+    EXPECT_EQ(ask(exact, onto_face, 2), at(0));
+    EXPECT_EQ(ask(exact, onto_face, std::nextafter(1.0, 0)), at(0x1p-55));
+    const ccd::vertex_vertex<double> same{still({1, 2, 3}), still({1, 2, 3})};
+    EXPECT_EQ(ask(exact, same), at(0));
+    // At rest, or going apart: the start counts.
+    const ccd::vertex_vertex<double> leaving{{{1, 2, 3}, {1, 2, 4}}, still({1, 2, 3})};
+    EXPECT_EQ(ask(exact, leaving), at(0));
+}
+TEST(narrow_phase, says_0_where_no_double_is_between_the_start_and_the_contact) {
+    const exact_narrow_phase exact;
+    const ccd::vertex_vertex<double> fast{{{0x1p-1000, 0, 0}, {-0x1p1000, 0, 0}}, still({0, 0, 0})};
+    EXPECT_EQ(ask(exact, fast), at(0));
+    EXPECT_EQ(ask(exact, fast, 0, 0), never) << "at the start itself there is none";
+    EXPECT_EQ(ask(exact, fast, 0, least), at(0));
+    const ccd::vertex_vertex<double> at_least{still({0x1p-537, 0, 0}),
+                                              {{0, 0, 0}, {0x1p537, 0, 0}}};
+    EXPECT_EQ(ask(exact, at_least), at(least));
+    EXPECT_EQ(ask(exact_narrow_phase(0.125), at_least), at(least)) << "no contact at the start";
+}
+TEST(narrow_phase, knows_nothing_of_what_is_not_finite) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const exact_narrow_phase exact;
+    EXPECT_EQ(ask(exact, meeting, nan), at(0));
+    EXPECT_EQ(ask(exact, meeting, -1), at(0));
+    EXPECT_EQ(ask(exact, meeting, infinity), at(0));
+    EXPECT_EQ(ask(exact, meeting, 0, nan), at(0));
+    for (const double x : {nan, infinity}) {
+        const ccd::vertex_vertex<double> query{still({x, 0, 0}), still({1, 1, 1})};
+        EXPECT_EQ(ask(exact, query), at(0));
+        EXPECT_EQ(ask(exact_narrow_phase(0.5), query, 0, 0.25), at(0));
+    }
+}
+TEST(narrow_phase, takes_positions_of_the_plane) {
+    const exact_narrow_phase exact;
+    EXPECT_EQ(ask(exact, meeting, 0, 1, 2), at(0.5));
+    EXPECT_EQ(ask(exact, onto_edge, 0, 1, 2), at(0.25));
+    EXPECT_EQ(ask(exact, onto_edge, 0.5, 1, 2), at(0.125));
+    const ccd::vertex_edge<double> along{{{-1, 0, 0}, {3, 0, 0}}, onto_edge.e0, onto_edge.e1};
+    EXPECT_EQ(ask(exact, along, 0, 1, 2), at(0.25));
+}
+
+TEST(conservative_rescaling, is_1_unless_given) {
+    EXPECT_EQ(exact_narrow_phase().conservative_rescaling, 1);
+    EXPECT_EQ(exact_narrow_phase(0.8).conservative_rescaling, 0.8);
+}
+TEST(conservative_rescaling, makes_times_less) {
+    exact_narrow_phase exact(0.5);
+    EXPECT_EQ(ask(exact, onto_face), at(0.125));
+    EXPECT_EQ(ask(exact, onto_face, 0.5), at(0.0625));
+    EXPECT_EQ(ask(exact, onto_face, 1), at(0));
+    exact.conservative_rescaling = 0.75;
+    EXPECT_EQ(ask(exact, onto_face), at(0.1875));
+}
+TEST(conservative_rescaling, reports_what_it_brings_to_tmax_or_before) {
+    const exact_narrow_phase exact(0.5);
+    EXPECT_EQ(ask(exact, onto_face, 0, 0.125), at(0.125));
+    EXPECT_EQ(ask(exact, onto_face, 0, std::nextafter(0.125, 0)), never);
+    EXPECT_EQ(ask(exact, onto_face, 0, -1), never);
+    // Beyond t = 1 there is nothing to report.
+    const ccd::vertex_vertex<double> later{{{0, 0, 0}, {1, 0, 0}}, still({1.25, 0, 0})};
+    EXPECT_EQ(ask(exact, later), never);
+}
+
+/// A query's answers at tmax on and around its first time, from that time.
+void expect_right_around(const exact_narrow_phase& exact, const auto& query, double d,
+                         const std::string& text) {
+    const ccd::first_time time = ccd::time_within(query, {d});
+    const bool some = time.outcome == ccd::outcome::collides;
+    for (const double tmax : {0.0, std::nextafter(time.low, -1.0), time.low, time.high,
+                              std::nextafter(time.high, 2.0), 0.5}) {
+        const bool until = some && (time.low == time.high ? tmax >= time.low : tmax > time.low);
+        EXPECT_EQ(ask(exact, query, d, tmax), until ? at(time.low) : never) << tmax << " " << text;
+    }
+}
+
+TEST(families, are_answered_as_the_oracle_says) {
+    const exact_narrow_phase exact;
+    std::size_t queries = 0, true_answers = 0;
+    std::uint64_t seed = 0;
+    query_families::for_some_queries(
+        support::scaled(16U), 18, [&](const auto& query, const std::string& text) {
+            query_families::source random(++seed);
+            for (const double d : {0.0, support::some_distance(random, query)}) {
+                for (const double tmax : {1.0, random.unit()}) {
+                    const answer a = ask(exact, query, d, tmax);
+                    EXPECT_EQ(support::answer_fault(query, {d}, a.collides, a.toi, tmax), "")
+                        << "distance " << d << ", tmax " << tmax << ", " << text;
+                    true_answers += a.collides;
+                    ++queries;
+                }
+                expect_right_around(exact, query, d, text);
+            }
+        });
+    std::printf("%zu answers, %zu true\n", queries, true_answers);
+}
+
+/// In the plane of x and z, which the adapter is not asked about.
+ccd::moving_point<double> upright(const ccd::moving_point<double>& p) {
+    return {{p.t0.x, 0, p.t0.y}, {p.t1.x, 0, p.t1.y}};
+}
+
+TEST(families, of_the_plane_are_answered_as_the_oracle_says) {
+    const exact_narrow_phase exact;
+    std::mt19937_64 random(18);
+    for (int i = 0; i < support::scaled(1500); ++i) {
+        const int size = static_cast<int>(random() % 8);
+        const auto coordinate = [&] {
+            return static_cast<double>(static_cast<int>(random() % 17) % (2 * size + 1) - size);
+        };
+        const auto moving = [&] {
+            const ccd::point<double> from{coordinate(), coordinate(), 0};
+            return ccd::moving_point<double>{from, {coordinate(), coordinate(), 0}};
+        };
+        const ccd::vertex_edge<double> ve{moving(), moving(), moving()};
+        const ccd::vertex_vertex<double> vv{ve.v, ve.e0};
+        for (const double d : {0.0, std::ldexp(1, static_cast<int>(random() % 4) - 2)}) {
+            const answer of_ve = ask(exact, ve, d, 1, 2), of_vv = ask(exact, vv, d, 1, 2);
+            EXPECT_EQ(support::answer_fault(
+                          ccd::vertex_edge<double>{upright(ve.v), upright(ve.e0), upright(ve.e1)},
+                          {d}, of_ve.collides, of_ve.toi, 1),
+                      "");
+            EXPECT_EQ(
+                support::answer_fault(ccd::vertex_vertex<double>{upright(vv.v), upright(vv.w)}, {d},
+                                      of_vv.collides, of_vv.toi, 1),
+                "");
+        }
+    }
+}
+
+TEST(families, are_rescaled_to_times_before_the_contact) {
+    std::uint64_t seed = 0;
+    query_families::for_some_queries(
+        support::scaled(8U), 19, [&](const auto& query, const std::string& text) {
+            query_families::source random(++seed);
+            const double scale = random.one_in(2) ? 0.8 : 1 - 0.999 * random.unit();
+            const exact_narrow_phase exact(scale);
+            const answer full = ask(exact_narrow_phase(), query);
+            const answer a = ask(exact, query);
+            EXPECT_EQ(a.collides, full.collides) << text;
+            if (!full.collides) return;
+            EXPECT_EQ(a.toi, full.toi * scale > 0 ? full.toi * scale : std::min(full.toi, least));
+            EXPECT_EQ(ask(exact, query, 0, a.toi), a) << text;
+            EXPECT_EQ(ask(exact, query, 0, std::nextafter(a.toi, -1.0)), never) << text;
+        });
+}
+
+/// As the toolkit finds a step's length: each pair with the least time before as tmax.
+double step_length(const std::vector<ccd::vertex_face<double>>& queries,
+                   const ipc::NarrowPhaseCCD& ccd) {
+    double length = 1;
+    for (const auto& query : queries) {
+        const answer a = ask(ccd, query, 0, length);
+        if (a.collides) length = std::min(length, a.toi);
+    }
+    return length;
+}
+
+TEST(families, have_a_least_time_that_does_not_depend_on_their_order) {
+    query_families::source random(20);
+    for (int i = 0; i < support::scaled(300); ++i) {
+        std::vector<ccd::vertex_face<double>> queries;
+        double first = 1;
+        for (int j = 0; j < 6; ++j) {
+            const auto family = static_cast<std::size_t>(
+                random.between(0, static_cast<int>(std::size(query_families::families)) - 1));
+            const points p = query_families::make(query_families::families[family],
+                                                  ccd::kind::vertex_face, 20, random.bits());
+            queries.push_back({p[0], p[1], p[2], p[3]});
+            const answer a = ask(exact_narrow_phase(), queries.back());
+            if (a.collides) first = std::min(first, a.toi);
+        }
+        for (const double scale : {1.0, 0.8, random.unit() / 2 + 0.5}) {
+            const exact_narrow_phase exact(scale);
+            const double length = step_length(queries, exact);
+            std::ranges::reverse(queries);
+            EXPECT_EQ(step_length(queries, exact), length);
+            EXPECT_LE(length, first);
+        }
+    }
+}
+
+}  // namespace
