@@ -4,16 +4,22 @@
 //   const ccd::adapters::exact_narrow_phase exact(0.8);
 //   ipc::compute_collision_free_stepsize(mesh, before, after, min_distance, nullptr, exact);
 //
-// The meaning is that of the interface, without tolerance and without a limit of iterations:
+// The meaning is that of the interface, without tolerance and without a limit of iterations. With
+// conservative_rescaling 1, the default:
 //
 // * An answer is true exactly if the features come within min_distance of each other, or touch if
 //   it is 0, at some time in [0, tmax]. Distances are Euclidean and closed: that distance counts.
-// * `toi` is never after the first such time, and never more than a last place before it: it is
-//   `low` of ccd/contact.hpp. Where the first time is a double, `toi` is that double. With a
-//   conservative_rescaling below 1 it is as much less.
+// * `toi` is never after the first such time, and less than a last place before it: `low` of
+//   ccd/contact.hpp. Where the first time is a double, `toi` is that double.
 // * `toi` is 0 if they are within min_distance at the start; and where they come within it after
 //   the start, but before the least double above 0, since no other double is before that.
 // * `toi` is infinite where the answer is false.
+//
+// A step of that length may end in contact. Who needs a gap, as barriers do, gives less than 1.
+// Then the distance asked for is min_distance and the fraction 1 - conservative_rescaling of what
+// is above it at the start: so that part of the gap is left at every time up to `toi`, and all that
+// get nearer are reported. Where rounding leaves nothing of that fraction, min_distance is asked
+// for, and the time multiplied by conservative_rescaling; so `toi` is 0 in no other cases.
 //
 // Coordinates, min_distance >= 0 and tmax must be finite; if not, nothing is known, and the answer
 // is true with `toi` 0. Degenerate triangles and edges are the segments and points that they are.
@@ -23,6 +29,7 @@
 #include <algorithm>
 #include <cassert>
 #include <ccd/adapters/points.hpp>
+#include <ccd/adapters/start_distance.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/query.hpp>
 #include <ccd/separation.hpp>
@@ -58,12 +65,8 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     using position_3d = decltype(detail::first_parameter(&ipc::NarrowPhaseCCD::edge_edge_ccd));
 
   public:
-    /// `rescaling`, in (0, 1], is by what times are multiplied before they are returned, so that
-    /// steps end before the contact: the public member conservative_rescaling, which the toolkit
-    /// reads as well. With 1 a step may end in contact, and barriers are infinite there. Whether
-    /// there is a contact does not depend on it; but contacts after tmax are reported if the
-    /// rescaled time is not, so that the least time of many pairs, each asked with the least before
-    /// as tmax, does not depend on their order.
+    /// `rescaling`, in (0, 1], is the public member conservative_rescaling, which the toolkit reads
+    /// as well.
     explicit exact_narrow_phase(double rescaling = 1) { conservative_rescaling = rescaling; }
 
     bool point_point_ccd(position p0_t0, position p1_t0, position p0_t1, position p1_t1,
@@ -105,27 +108,34 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
   private:
     template <class Query>
     bool answer(const Query& query, double& toi, double min_distance, double tmax) const {
-        const first_time found = time_within(query, {min_distance}, before_rescaling(tmax));
-        toi = after_rescaling(found.low);
-        if (found.outcome == outcome::uncertain) return true;
-        if (found.outcome == outcome::collides && toi <= tmax) return true;
-        toi = std::numeric_limits<double>::infinity();
-        return false;
-    }
-
-    /// Not before any first time that rescaling brings to tmax or before: what is rounded to tmax
-    /// is less than tmax's upper neighbour, and a first time at most the neighbour of its `low`.
-    double before_rescaling(double tmax) const {
         assert(0 < conservative_rescaling && conservative_rescaling <= 1);
-        if (conservative_rescaling == 1) return std::min(tmax, 1.0);
-        const auto above = [](double t) { return std::nextafter(t, 2.0); };
-        return std::min(above(above(tmax) / conservative_rescaling), 1.0);
+        if (conservative_rescaling < 1) return answer_with_gap(query, toi, min_distance, tmax);
+        const first_time found = time_within(query, {min_distance}, std::min(tmax, 1.0));
+        return reported(found.outcome, found.low, toi);
     }
 
-    /// Not 0 unless t is: that would be a contact at the start.
-    double after_rescaling(double t) const {
+    template <class Query>
+    bool answer_with_gap(const Query& query, double& toi, double min_distance, double tmax) const {
+        const double above = detail::start_distance(query) - min_distance;
+        const double gap = (1 - conservative_rescaling) * above;
+        if (gap > 0 && std::isfinite(gap)) {
+            const first_time found = time_within(query, {min_distance, gap}, std::min(tmax, 1.0));
+            if (!found.at_start()) return reported(found.outcome, found.low, toi);
+        }
+        // Asked until 1, for the rescaled time to be compared: the least of many answers must not
+        // depend on their order, each with the least before as its tmax.
+        const first_time found = time_within(query, {min_distance}, std::isnan(tmax) ? tmax : 1);
         const double least = std::numeric_limits<double>::denorm_min();
-        return std::max(conservative_rescaling * t, std::min(t, least));
+        const double time =
+            std::max(conservative_rescaling * found.low, std::min(found.low, least));
+        const bool late = found.outcome == outcome::collides && time > tmax;
+        return reported(late ? outcome::separate : found.outcome, time, toi);
+    }
+
+    static bool reported(outcome found, double time, double& toi) {
+        const bool is_reported = found != outcome::separate;
+        toi = is_reported ? time : std::numeric_limits<double>::infinity();
+        return is_reported;
     }
 };
 
