@@ -1,6 +1,7 @@
 // About how far the features of a query are apart at the start, in doubles: a length to choose gaps
-// by, of which nothing is promised. Where products of the coordinates' differences underflow or
-// overflow it may be 0, infinite or NaN.
+// by, of which nothing is promised. It is far too large for some slivers and nearly parallel edges,
+// and may be 0, infinite or NaN where products of the coordinates' differences underflow or
+// overflow.
 #pragma once
 
 #include <algorithm>
@@ -20,20 +21,17 @@ inline point<double> cross(const point<double>& a, const point<double>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+inline point<double> along(const point<double>& p, const point<double>& direction, double s) {
+    return {p.x + s * direction.x, p.y + s * direction.y, p.z + s * direction.z};
+}
+
 /// Of p and the segment e0 e1.
 inline double distance(const point<double>& p, const point<double>& e0, const point<double>& e1) {
     const point<double> e = difference(e1, e0), to_p = difference(p, e0);
     const double square = dot(e, e);
     const double s = square > 0 ? std::clamp(dot(to_p, e) / square, 0.0, 1.0) : 0;
-    const point<double> rest = difference(to_p, {s * e.x, s * e.y, s * e.z});
+    const point<double> rest = along(to_p, e, -s);
     return std::sqrt(dot(rest, rest));
-}
-
-/// Of two planes with the normal n and the difference w of a point of each; infinite if n is 0.
-inline double between_planes(const point<double>& n, const point<double>& w) {
-    const double square = dot(n, n);
-    return square > 0 ? std::abs(dot(n, w)) / std::sqrt(square)
-                      : std::numeric_limits<double>::infinity();
 }
 
 inline double start_distance(const vertex_vertex<double>& q) {
@@ -43,30 +41,36 @@ inline double start_distance(const vertex_edge<double>& q) {
     return distance(q.v.t0, q.e0.t0, q.e1.t0);
 }
 
-/// The least distance to an edge, or that to the plane if the foot is inside.
+/// The least distance to an edge, or to the foot on the plane if that is inside. (To a point of the
+/// face, wherever rounding puts it: along the normal of a sliver it might be far too small, too.)
 inline double start_distance(const vertex_face<double>& q) {
     const point<double> v = q.v.t0, f[] = {q.f0.t0, q.f1.t0, q.f2.t0};
     const point<double> n = cross(difference(f[1], f[0]), difference(f[2], f[0]));
-    double least = std::numeric_limits<double>::infinity();
-    bool inside = true;
+    double least = std::numeric_limits<double>::infinity(), weights[3];
     for (int i = 0; i < 3; ++i) {
         const point<double> a = f[i], b = f[(i + 1) % 3];
         least = std::min(least, distance(v, a, b));
-        inside &= dot(n, cross(difference(b, a), difference(v, a))) >= 0;
+        weights[(i + 2) % 3] = dot(n, cross(difference(b, a), difference(v, a)));
     }
-    return inside ? std::min(least, between_planes(n, difference(v, f[0]))) : least;
+    if (!(weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0)) return least;
+    const double sum = weights[0] + weights[1] + weights[2];
+    const point<double> towards_f1 = along(f[0], difference(f[1], f[0]), weights[1] / sum);
+    const point<double> foot = along(towards_f1, difference(f[2], f[0]), weights[2] / sum);
+    return std::min(least, distance(v, foot, foot));
 }
 
-/// The least distance of an end to the other edge, or that of the lines if it is at inner points.
+/// The least distance of an end to the other edge, or that of the lines' nearest points if these
+/// are inner ones.
 inline double start_distance(const edge_edge<double>& q) {
     const point<double> a0 = q.a0.t0, a1 = q.a1.t0, b0 = q.b0.t0, b1 = q.b1.t0;
     const point<double> a = difference(a1, a0), b = difference(b1, b0), w = difference(b0, a0);
     const double ends = std::min(
         {distance(b1, a0, a1), distance(b0, a0, a1), distance(a1, b0, b1), distance(a0, b0, b1)});
     const point<double> n = cross(a, b);
-    const double square = dot(n, n), s = dot(cross(w, b), n), t = dot(cross(w, a), n);
-    const bool inside = 0 <= s && s <= square && 0 <= t && t <= square;
-    return inside ? std::min(ends, between_planes(n, w)) : ends;
+    const double s = dot(cross(w, b), n) / dot(n, n), t = dot(cross(w, a), n) / dot(n, n);
+    if (!(0 <= s && s <= 1 && 0 <= t && t <= 1)) return ends;
+    const point<double> on_b = along(b0, b, t);
+    return std::min(ends, distance(along(a0, a, s), on_b, on_b));
 }
 
 }  // namespace ccd::adapters::detail
