@@ -11,6 +11,7 @@ cmake -G "$generator" -S "$source/tests/install/user" -B "$work/build" -DCMAKE_P
 cmake --build "$work/build" >"$work/log" || { cat "$work/log"; exit 1; }
 "$work/build/use_headers"
 "$work/build/use_ccd"
+if [[ -f $work/build/use_adapters ]]; then "$work/build/use_adapters"; fi
 scene=$work/prefix/share/errbound/scenes/cloth-over-ball
 "$work/build/use_ccd_io" "$scene"/frame{0,1}.ply
 ! "$work/build/use_ccd_io" "$scene"/frame0.ply missing.ply 2>"$work/said"

@@ -18,6 +18,8 @@ PROGRAMS = {
     "docs/collision-detection.md": ["examples/batch.cpp", "examples/steps.cpp"],
     "docs/time-of-impact.md": ["examples/curves.cpp", "examples/line_search.cpp", "examples/impact_zones.cpp",
                                "examples/barriers.cpp", "examples/bounce.cpp"],
+    "docs/from-ipc-toolkit.md": ["examples/from_ipc_toolkit.cpp"],
+    "docs/from-tight-inclusion.md": ["examples/from_tight_inclusion.cpp"],
 }
 # Pages that quote measured figures.
 QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]
