@@ -23,11 +23,14 @@
 //
 // Coordinates, min_distance >= 0 and tmax must be finite; if not, nothing is known, and the answer
 // is true with `toi` 0. Degenerate triangles and edges are the segments and points that they are.
-// Safe to be called by many threads at once. Cost: that of time_within (ccd/separation.hpp).
+// Safe to be called by many threads at once. Cost: that of time_of_impact (ccd/contact.hpp); with a
+// distance or a gap that of time_within (ccd/separation.hpp), but far less where tmax is below 1
+// and the features are not that near by then.
 #pragma once
 
 #include <algorithm>
 #include <cassert>
+#include <ccd/adapters/first_within.hpp>
 #include <ccd/adapters/points.hpp>
 #include <ccd/adapters/start_distance.hpp>
 #include <ccd/contact.hpp>
@@ -110,7 +113,7 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     bool answer(const Query& query, double& toi, double min_distance, double tmax) const {
         assert(0 < conservative_rescaling && conservative_rescaling <= 1);
         if (conservative_rescaling < 1) return answer_with_gap(query, toi, min_distance, tmax);
-        const first_time found = time_within(query, {min_distance}, std::min(tmax, 1.0));
+        const first_time found = detail::first_within(query, {min_distance}, std::min(tmax, 1.0));
         return reported(found.outcome, found.low, toi);
     }
 
@@ -119,7 +122,8 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
         const double above = detail::start_distance(query) - min_distance;
         const double gap = (1 - conservative_rescaling) * above;
         if (gap > 0 && std::isfinite(gap)) {
-            const first_time found = time_within(query, {min_distance, gap}, std::min(tmax, 1.0));
+            const first_time found =
+                detail::first_within(query, {min_distance, gap}, std::min(tmax, 1.0));
             if (!found.at_start()) return reported(found.outcome, found.low, toi);
         }
         // Asked until 1, for the rescaled time to be compared: the least of many answers must not

@@ -25,10 +25,12 @@
 //   0 only if it touches at the start, or before the least positive Scalar.
 //
 // Coordinates, ms >= 0 and t_max must be finite; if not, nothing is known, and the answer is true
-// with `toi` 0. Safe to be called by many threads at once. Cost: that of time_within.
+// with `toi` 0. Safe to be called by many threads at once. Cost: that of time_of_impact
+// (ccd/contact.hpp); with ms > 0 that of time_within, or less where t_max is below 1.
 #pragma once
 
 #include <Eigen/Core>
+#include <ccd/adapters/first_within.hpp>
 #include <ccd/adapters/points.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/query.hpp>
@@ -75,7 +77,7 @@ T not_after(double t) {
 
 template <class T, class Query>
 bool answer(const Query& query, double ms, double t_max, bool no_zero_toi, T& toi) {
-    first_time found = time_within(query, ball_around_box(ms), t_max);
+    first_time found = adapters::detail::first_within(query, ball_around_box(ms), t_max);
     if (no_zero_toi && found.at_start()) found = time_of_impact(query, t_max);
     toi = found.outcome == outcome::separate ? std::numeric_limits<T>::infinity()
                                              : not_after<T>(found.low);
