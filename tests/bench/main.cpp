@@ -46,7 +46,10 @@ void run_scene(const std::string& name, const bench::options& o, bench::report& 
     if (o.wants("stages")) bench::stages(s, o, out);
     if (o.wants("contacts")) bench::contacts(s, o, out);
     if (o.wants("steps") && s.is_step()) bench::steps(s, o, out);
-    if (o.wants("growth") && s.is_step()) bench::growth_with_queries(s, o, out);
+    if (o.wants("growth") && s.is_step()) {
+        bench::growth_with_queries(s, o, out);
+        bench::growth_with_copies(s, o, out);
+    }
 }
 
 }  // namespace

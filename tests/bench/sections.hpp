@@ -24,6 +24,10 @@ void steps(const scene& s, const options& o, report& out);
 /// ns per query of batches against the number of queries.
 void growth_with_queries(const scene& s, const options& o, report& out);
 
+/// Whole steps of ever more copies of a scene side by side, up to ten million faces: time and
+/// memory, and repeated steps of one mesh beside fresh ones.
+void growth_with_copies(const scene& s, const options& o, report& out);
+
 /// Whole steps against the size of the mesh.
 void growth_with_mesh(const options& o, report& out);
 

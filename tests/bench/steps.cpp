@@ -1,4 +1,5 @@
 #include <ccd/step.hpp>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -102,6 +103,81 @@ void steps(const scene& s, const options& o, report& out) {
                {"result_mb", "result MB"},
                {"peak_mb", "peak MB"},
                {"peak_to_frames", "peak/frames"}},
+              rows);
+}
+
+namespace {
+
+/// Copies of a frame in rows of a square, `apart` from one another.
+ccd::mesh copies_of(const ccd::mesh& frame, std::size_t copies, double apart) {
+    const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(copies))));
+    ccd::mesh all;
+    for (std::size_t i = 0; i < copies; ++i) {
+        const auto offset = static_cast<ccd::vertex_index>(all.vertices.size());
+        const double x = apart * static_cast<double>(i % side);
+        const double z = apart * static_cast<double>(i / side);
+        for (const auto& p : frame.vertices) all.vertices.push_back({p.x + x, p.y, p.z + z});
+        for (const auto& [a, b, c] : frame.faces)
+            all.faces.push_back({a + offset, b + offset, c + offset});
+    }
+    return all;
+}
+
+/// More than the scene is wide.
+double width_of(const scene& s) {
+    double least = 0, greatest = 0;
+    for (const ccd::mesh* frame : {&s.before, &s.after})
+        for (const auto& p : frame->vertices) {
+            least = std::min({least, p.x, p.z});
+            greatest = std::max({greatest, p.x, p.z});
+        }
+    return 1.1 * (greatest - least);
+}
+
+}  // namespace
+
+void growth_with_copies(const scene& s, const options& o, report& out) {
+    std::vector<std::vector<cell>> rows;
+    const std::size_t most = o.quick ? 10 * s.before.faces.size() : 10'000'000;
+    for (std::size_t faces = s.before.faces.size(), n = 1; n * faces < 10 * most; n *= 10) {
+        const std::size_t copies = std::min(n, most / faces);
+        const ccd::mesh before = copies_of(s.before, copies, width_of(s));
+        const ccd::mesh after = copies_of(s.after, copies, width_of(s));
+        std::vector<contestant> fresh{{ccd::method::exact, 1}, {ccd::method::exact, 0}};
+        ccd::mesh_steps steps(before);
+        const ccd::vertex_rows frames(before.vertices, after.vertices);
+        std::size_t pairs = 0;
+        const auto again = [&] { pairs = number_of(steps.run(frames, {.threads = 1}).pairs); };
+        again();
+        const auto timings = race(
+            {[&] { run(before, after, fresh[0]); }, [&] { run(before, after, fresh[1]); }, again},
+            copies > 10 ? 3 : o.repeats());
+        if (pairs != number_of(fresh[0].quickest.pairs))
+            throw std::runtime_error(s.name + ": a repeated step found other pairs");
+        const std::size_t heap = peak_heap([&] { keep(ccd::step(before, after, {.threads = 1})); });
+        const auto ms = [&](std::size_t i) { return 1e3 * timings[i].minimum; };
+        rows.push_back(
+            {count(copies), count(before.faces.size()), count(pairs), number(ms(0), 1),
+             number(ms(1), 1), number(ms(0) / ms(1), 2), number(ms(2), 1), number(ms(2) / ms(0), 2),
+             number(1e6 * ms(0) / static_cast<double>(before.faces.size()), 0),
+             number(megabytes(bytes_of(before) + bytes_of(after)), 1), number(megabytes(heap), 1),
+             number(static_cast<double>(heap) / static_cast<double>(before.faces.size()), 0)});
+        if (copies < n) break;
+    }
+    out.table("growth", {{"scene", s.name}, {"with", "copies"}},
+              s.name + ": whole steps of copies of the scene side by side, by exact",
+              {{"copies", "copies"},
+               {"faces", "faces"},
+               {"pairs", "pairs"},
+               {"ms_one_thread", "min ms, 1 thread"},
+               {"ms_all_threads", "all threads"},
+               {"speedup", "speed-up"},
+               {"ms_again", "again, 1 thread"},
+               {"again_to_fresh", "again/fresh"},
+               {"ns_per_face", "ns per face"},
+               {"frames_mb", "frames MB"},
+               {"peak_mb", "peak MB"},
+               {"bytes_per_face", "bytes per face"}},
               rows);
 }
 
