@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -34,19 +35,29 @@ class unit_axis {
     double middle_ = 0, scale_ = 1;
 };
 
-/// Position on the curve in the upper half, element in the lower.
+/// A position on the curve, above it the class of a box, below it the element.
 using curve_key = std::uint64_t;
 
-vertex_index element_of(curve_key key) {
-    return static_cast<vertex_index>(key);
-}
-std::uint32_t position_of(curve_key key) {
-    return static_cast<std::uint32_t>(key >> 32);
-}
+/// Which bits of a key are what.
+struct key_layout {
+    unsigned element_bits, axis_bits;
 
-/// Cells of the curve along an axis.
-constexpr std::uint32_t cells = 1024;
-constexpr unsigned curve_bits = 30;
+    /// Along each axis four cells for every one that a surface of so many elements needs, so that
+    /// cells are seldom shared; 1,024 at least.
+    explicit key_layout(std::size_t elements)
+        : element_bits(static_cast<unsigned>(std::bit_width(elements - 1))),
+          axis_bits(std::clamp(element_bits / 2 + 2, 10U, (62 - element_bits) / 3)) {}
+
+    vertex_index element_of(curve_key key) const {
+        return static_cast<vertex_index>(key & ((curve_key(1) << element_bits) - 1));
+    }
+    /// With the class, which has two bits.
+    std::uint64_t position_of(curve_key key) const { return key >> element_bits; }
+    unsigned curve_bits() const { return 3 * axis_bits; }
+    /// Cells of the curve along an axis.
+    double cells() const { return static_cast<double>(1U << axis_bits); }
+};
+
 constexpr std::size_t leaf_size = box_pack<float>::size;
 
 template <class Real>
@@ -62,9 +73,10 @@ void widen(box<double>& b, const box<double>& other) {
 }
 
 template <class BoxOf>
-box<double> box_of_middles(std::span<const curve_key> keys, const BoxOf& box_of) {
+box<double> box_of_middles(std::span<const curve_key> keys, const key_layout& layout,
+                           const BoxOf& box_of) {
     const auto middle_of = [&](curve_key key) {
-        const auto b = box_of(element_of(key));
+        const auto b = box_of(layout.element_of(key));
         const std::array<double, 3> m{middle(b, 0), middle(b, 1), middle(b, 2)};
         return box<double>{m, m};
     };
@@ -83,17 +95,22 @@ box<double> box_of_middles(std::span<const curve_key> keys, const BoxOf& box_of)
 
 /// By radix: serial, but beside the rest of the work hardly to be seen, which no sort by
 /// comparisons on a few cores was.
-void sort_keys(std::span<curve_key> keys) {
-    constexpr std::size_t few = 4096, digit_bits = 8;
+void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
+    constexpr std::size_t few = 4096;
+    constexpr unsigned passes = 4;
     if (keys.size() < few) {
         std::ranges::sort(keys);
         return;
     }
+    const unsigned digit_bits = (layout.curve_bits() + 2 + passes - 1) / passes;
+    const curve_key digits = curve_key(1) << digit_bits;
+    std::vector<std::size_t> start(digits + 1);
     std::vector<curve_key> buffer(keys.size());
     std::span<curve_key> from = keys, to = buffer;
-    for (std::size_t shift = 32; shift < 64; shift += digit_bits) {
-        const auto digit = [shift](curve_key key) { return (key >> shift) % (1U << digit_bits); };
-        std::array<std::size_t, (1U << digit_bits) + 1> start{};
+    for (unsigned shift = layout.element_bits, pass = 0; pass < passes;
+         shift += digit_bits, ++pass) {
+        const auto digit = [=](curve_key key) { return (key >> shift) % digits; };
+        std::ranges::fill(start, 0);
         for (const curve_key key : from) ++start[digit(key) + 1];
         std::partial_sum(start.begin(), start.end(), start.begin());
         for (const curve_key key : from) to[start[digit(key)]++] = key;
@@ -103,8 +120,9 @@ void sort_keys(std::span<curve_key> keys) {
 
 /// Calls visit(run) for all runs of keys whose positions have the same upper bits.
 template <class Visit>
-void for_each_run(std::span<curve_key> keys, unsigned lower_bits, const Visit& visit) {
-    const auto upper = [lower_bits](curve_key key) { return position_of(key) >> lower_bits; };
+void for_each_run(std::span<curve_key> keys, const key_layout& layout, unsigned lower_bits,
+                  const Visit& visit) {
+    const auto upper = [&](curve_key key) { return layout.position_of(key) >> lower_bits; };
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
         while (end < keys.size() && upper(keys[end]) == upper(keys[begin])) ++end;
         visit(keys.subspan(begin, end - begin));
@@ -119,8 +137,8 @@ template <class BoxOf>
 class curve_grid {
   public:
     /// `keys` must not be empty.
-    curve_grid(std::span<const curve_key> keys, const BoxOf& box_of)
-        : box_of_(box_of), middles_(box_of_middles(keys, box_of)) {
+    curve_grid(std::span<const curve_key> keys, const key_layout& layout, const BoxOf& box_of)
+        : box_of_(box_of), layout_(layout), middles_(box_of_middles(keys, layout, box_of)) {
         for (std::size_t k = 0; k < 3; ++k) axes_[k] = unit_axis(middles_.low[k], middles_.high[k]);
         const std::array<double, 3> mean = mean_lengths(keys);
         std::array<double, 3> half_spread;  // halved, so that it does not overflow
@@ -132,9 +150,9 @@ class curve_grid {
         // Ratios of spreads first: a cube's length may underflow.
         for (std::size_t k = 0; k < 3; ++k)
             if (half_spread[k] > 0)
-                half_cells_[k] = 1 / std::max(mean[k], widest / half_spread[k] / cells);
+                half_cells_[k] = 1 / std::max(mean[k], widest / half_spread[k] / layout.cells());
         const double largest = *std::ranges::max_element(half_cells_);
-        for (double& half : half_cells_) half *= 0.5 * (cells - 1) / largest;
+        for (double& half : half_cells_) half *= 0.5 * (layout.cells() - 1) / largest;
     }
 
     /// Whether all middles are one point, which has no cells.
@@ -142,29 +160,30 @@ class curve_grid {
 
     /// The key with its element's position: the cell's, after its class's if they are told apart.
     curve_key place(curve_key key, bool one_class) const {
-        const vertex_index element = element_of(key);
+        const vertex_index element = layout_.element_of(key);
         const auto b = box_of_(element);
-        std::uint32_t position = one_class ? 0 : class_of(b) << curve_bits;
+        std::uint64_t position = one_class ? 0 : class_of(b) << layout_.curve_bits();
         for (std::size_t k = 0; k < 3; ++k) {
             const double cell = half_cells_[k] + half_cells_[k] * axes_[k](middle(b, k));
-            position |= spread_bits(static_cast<std::uint32_t>(std::clamp(cell, 0.0, cells - 1.0)))
-                        << k;
+            position |=
+                spread_bits(static_cast<std::uint64_t>(std::clamp(cell, 0.0, layout_.cells() - 1)))
+                << k;
         }
-        return curve_key(position) << 32 | element;
+        return position << layout_.element_bits | element;
     }
 
   private:
     /// As a part of the spread of the middles; bounded, since it may be infinite.
     template <class Box>
     double length(const Box& b, std::size_t k) const {
-        return std::min<double>(0.5 * (axes_[k](b.high[k]) - axes_[k](b.low[k])), cells);
+        return std::min<double>(0.5 * (axes_[k](b.high[k]) - axes_[k](b.low[k])), layout_.cells());
     }
 
     std::array<double, 3> mean_lengths(std::span<const curve_key> keys) const {
         std::array<double, 3> mean{};
         const std::size_t stride = sampling_stride(keys.size());
         for (std::size_t i = 0; i < keys.size(); i += stride) {
-            const auto b = box_of_(element_of(keys[i]));
+            const auto b = box_of_(layout_.element_of(keys[i]));
             for (std::size_t k = 0; k < 3; ++k) mean[k] += length(b, k);
         }
         for (double& m : mean)
@@ -174,9 +193,9 @@ class curve_grid {
 
     /// 0, or 1 + the axis on which a box is long beside the whole, and longest.
     template <class Box>
-    std::uint32_t class_of(const Box& b) const {
+    std::uint64_t class_of(const Box& b) const {
         double longest = 1.0 / 16;
-        std::uint32_t found = 0;
+        std::uint64_t found = 0;
         for (std::uint32_t k = 0; k < 3; ++k)
             if (length(b, k) > longest) {
                 longest = length(b, k);
@@ -186,6 +205,7 @@ class curve_grid {
     }
 
     const BoxOf& box_of_;
+    const key_layout& layout_;
     box<double> middles_;
     std::array<unit_axis, 3> axes_;
     std::array<double, 3> half_cells_{};  // half the number of cells along each axis
@@ -199,24 +219,25 @@ class curve_grid {
 /// that cross, would make a leaf of everything. What shares a cell in the end is sorted again by
 /// finer cells, so that nothing remote leaves the others in disorder.
 template <class BoxOf>
-void sort_along_curve(std::span<curve_key> keys, const BoxOf& box_of, bool one_class) {
-    const curve_grid<BoxOf> grid(keys, box_of);
+void sort_along_curve(std::span<curve_key> keys, const key_layout& layout, const BoxOf& box_of,
+                      bool one_class) {
+    const curve_grid<BoxOf> grid(keys, layout, box_of);
     if (grid.is_one_point()) return;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 4096),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t i = range.begin(); i < range.end(); ++i)
                               keys[i] = grid.place(keys[i], one_class);
                       });
-    sort_keys(keys);
+    sort_keys(keys, layout);
 
-    for_each_run(keys, curve_bits, [&](std::span<curve_key> members) {
-        if (position_of(members.front()) >> curve_bits != 0) {
-            sort_along_curve(members, box_of, true);
+    for_each_run(keys, layout, layout.curve_bits(), [&](std::span<curve_key> members) {
+        if (layout.position_of(members.front()) >> layout.curve_bits() != 0) {
+            sort_along_curve(members, layout, box_of, true);
             return;
         }
-        for_each_run(members, 0, [&](std::span<curve_key> cell) {
+        for_each_run(members, layout, 0, [&](std::span<curve_key> cell) {
             if (cell.size() > leaf_size && cell.size() < keys.size())
-                sort_along_curve(cell, box_of, one_class);
+                sort_along_curve(cell, layout, box_of, one_class);
         });
     });
 }
@@ -229,10 +250,12 @@ void order_along_curve(std::vector<std::array<vertex_index, N>>& elements,
     if (elements.empty()) return;
     std::vector<curve_key> keys(elements.size());
     std::iota(keys.begin(), keys.end(), curve_key(0));
+    const key_layout layout(elements.size());
     sort_along_curve(
-        std::span(keys), [&](vertex_index i) { return boxes.swept_box<Real>(elements[i]); }, false);
+        std::span(keys), layout, [&](vertex_index i) { return boxes.swept_box<Real>(elements[i]); },
+        false);
     std::vector<std::array<vertex_index, N>> ordered(elements.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = elements[element_of(keys[i])];
+    for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = elements[layout.element_of(keys[i])];
     elements = std::move(ordered);
 }
 

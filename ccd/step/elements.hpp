@@ -61,5 +61,13 @@ constexpr std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | (x << 4)) & 0x030C30C3;
     return (x | (x << 2)) & 0x09249249;
 }
+/// Of 21 bits.
+constexpr std::uint64_t spread_bits(std::uint64_t x) {
+    x = (x | (x << 32)) & 0x001F00000000FFFF;
+    x = (x | (x << 16)) & 0x001F0000FF0000FF;
+    x = (x | (x << 8)) & 0x100F00F00F00F00F;
+    x = (x | (x << 4)) & 0x10C30C30C30C30C3;
+    return (x | (x << 2)) & 0x1249249249249249;
+}
 
 }  // namespace ccd::detail
