@@ -30,15 +30,17 @@ namespace ccd::detail {
 constexpr std::size_t chunk_size = 4096;
 
 /// Calls decide(worker, first, count) for chunks of `size` queries, the last of fewer. Returns what
-/// the stages did.
+/// the stages did. Throws ccd::stopped if options.stop says so.
 template <class Decide>
 stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_options& options,
                             const Decide& decide) {
     const batch_worker fresh(kernels_for(options.set), options.explain);
     if (options.threads == 1 || count <= size) {
         batch_worker worker = fresh;
-        for (std::size_t first = 0; first < count; first += size)
+        for (std::size_t first = 0; first < count; first += size) {
+            stop_if_asked(options.stop);
             decide(worker, first, std::min(size, count - first));
+        }
         return worker.report();
     }
     tbb::enumerable_thread_specific<batch_worker> workers(fresh);
@@ -47,8 +49,10 @@ stage_report for_each_chunk(std::size_t count, std::size_t size, const batch_opt
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks),
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               batch_worker& worker = workers.local();
-                              for (std::size_t c = range.begin(); c < range.end(); ++c)
+                              for (std::size_t c = range.begin(); c < range.end(); ++c) {
+                                  stop_if_asked(options.stop);
                                   decide(worker, c * size, std::min(size, count - c * size));
+                              }
                           });
     });
     stage_report all;

@@ -26,7 +26,7 @@ namespace {
 constexpr const char* caller = "ccd::first_times";
 
 batch_options batch_options_of(const time_options& options) {
-    return {.threads = options.threads, .set = options.set};
+    return {.threads = options.threads, .set = options.set, .stop = options.stop};
 }
 
 /// Queries, however they are given, and what is asked of them.
@@ -82,6 +82,7 @@ class stored_questions {
             return decide_batch(queries_, batch_options_of(options_)).answers;
         std::vector<outcome> answers(size());
         for_each_index(size(), options_.threads, [&](std::size_t i) {
+            stop_if_asked(options_.stop);
             answers[i] = decide_within(queries_[i], distance(i)).outcome;
         });
         return answers;
@@ -168,6 +169,7 @@ std::vector<timed_contact> contacts_among(const Questions& asked) {
     if (options.distances.ask_for_contact()) return contacts_of_chunks(asked.batch(), options);
     std::vector<timed_contact> found = possible_contacts(asked.decisions());
     for_each_index(found.size(), options.threads, [&](std::size_t i) {
+        stop_if_asked(options.stop);
         auto& [query, time] = found[i];
         time = time_within(asked.query(query), asked.distance(query), options.t_max);
     });
@@ -273,6 +275,7 @@ earliest_time earliest_of_all(const Questions& asked) {
     std::atomic<double> bound = asked.options().t_max;
     tbb::enumerable_thread_specific<earliest_of_thread> parts;
     for_each_index(contacts.size(), asked.options().threads, [&](std::size_t i) {
+        stop_if_asked(asked.options().stop);
         const double t_max = bound;
         const std::size_t number = contacts[i].query;
         const auto& query = asked.query(number);

@@ -104,10 +104,11 @@ class advancing {
         return {.threads = options_.threads,
                 .set = options_.set,
                 .distances = options_.distances,
-                .filter = options_.filter};
+                .filter = options_.filter,
+                .stop = options_.stop};
     }
     time_options times_asked(const pair_distances& distances) const {
-        return {1, distances, options_.threads, options_.set};
+        return {1, distances, options_.threads, options_.set, options_.stop};
     }
 
     mesh_steps& steps_;

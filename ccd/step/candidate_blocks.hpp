@@ -45,7 +45,8 @@ class candidate_blocks {
 
     class block {
       public:
-        block(const visitor& visit, const pair_filter* filter) : visit_(&visit), filter_(filter) {}
+        block(const visitor& visit, const pair_filter* filter, const stop_query& stop)
+            : visit_(&visit), filter_(filter), stop_(&stop) {}
 
         /// Adds the candidate if `is_one`.
         void add(const Pair& c, bool is_one) {
@@ -54,6 +55,7 @@ class candidate_blocks {
             if (size_ == block_size) flush();
         }
         void flush() {
+            stop_if_asked(*stop_);
             std::span<const Pair> found(candidates_.data(), size_);
             if (filter_ != nullptr) {
                 const auto end =
@@ -70,15 +72,20 @@ class candidate_blocks {
       private:
         const visitor* visit_;
         const pair_filter* filter_;
+        const stop_query* stop_;
         std::size_t size_ = 0, count_ = 0;
         std::array<Pair, block_size> candidates_;
     };
 
     /// `filter` may be null: all pass.
-    candidate_blocks(const visitor& visit, const pair_filter* filter)
-        : blocks_([&visit, filter] { return block(visit, filter); }) {}
+    candidate_blocks(const visitor& visit, const pair_filter* filter, const stop_query& stop)
+        : stop_(stop), blocks_([&visit, filter, &stop] { return block(visit, filter, stop); }) {}
 
-    block& local() { return blocks_.local(); }
+    /// Throws ccd::stopped if the caller asked for it, as flush() does.
+    block& local() {
+        stop_if_asked(stop_);
+        return blocks_.local();
+    }
 
     /// Hands out what is left. Returns the number of candidates.
     std::size_t finish() {
@@ -88,6 +95,7 @@ class candidate_blocks {
     }
 
   private:
+    const stop_query& stop_;
     tbb::enumerable_thread_specific<block> blocks_;
 };
 

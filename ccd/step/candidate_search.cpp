@@ -103,7 +103,7 @@ std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& as
     };
     build(trees.second, second);
     if constexpr (!within_one) build(trees.first, first);
-    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter);
+    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter, asked.stop);
     for_each_touching(
         within_one ? trees.second : trees.first,
         trees.second, [&]() -> auto& { return blocks.local(); },
@@ -129,7 +129,7 @@ std::size_t candidate_search::find_close(const question& asked, First& first, Se
     build(b, second);
     if constexpr (!within_one) build(a, first);
 
-    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter);
+    candidate_blocks<pair_of_kind<K>> blocks(asked.visitor.of<K>(), asked.filter, asked.stop);
     struct context {
         const First& first;
         const Second& second;
@@ -164,8 +164,11 @@ std::size_t candidate_search::find_kind(const question& asked, First& first, Sec
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
                                    const candidate_visitor& visitor, wanted pairs) {
     const swept_boxes boxes(positions, options.distances);
-    const question asked{boxes, lets_all_through(options.filter) ? nullptr : &options.filter,
-                         visitor, positions.rounded,
+    const question asked{boxes,
+                         lets_all_through(options.filter) ? nullptr : &options.filter,
+                         visitor,
+                         options.stop,
+                         positions.rounded,
                          pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
     pair_counts counts;
     if (in_plane_) {

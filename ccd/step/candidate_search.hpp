@@ -76,6 +76,7 @@ class candidate_search {
         const swept_boxes& boxes;
         const pair_filter* filter;  // null: all pass
         const candidate_visitor& visitor;
+        const stop_query& stop;
         const float* rounded;
         const search_kernels* close;  // null: all candidates
     };

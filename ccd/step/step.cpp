@@ -112,7 +112,8 @@ void find_touching_at_start(const vertex_rows& positions, time_options asked, st
     std::vector<outcome> answers;
     if (asked.distances.ask_for_contact())
         answers =
-            touches_at_start_batch(positions, pairs, {.threads = asked.threads, .set = asked.set})
+            touches_at_start_batch(positions, pairs,
+                                   {.threads = asked.threads, .set = asked.set, .stop = asked.stop})
                 .answers;
     else
         for (const first_time& time : first_times(positions, pairs, asked))
@@ -123,7 +124,8 @@ void find_touching_at_start(const vertex_rows& positions, time_options asked, st
 
 /// What is asked of the reported pairs.
 void ask_pairs(const vertex_rows& positions, const step_options& options, step_result& result) {
-    const time_options asked{options.t_max, options.distances, options.threads, options.set};
+    const time_options asked{options.t_max, options.distances, options.threads, options.set,
+                             options.stop};
     if (options.times || options.first_contact || options.t_max < 1)
         result.first_contact = {outcome::separate};
     for_each_kind([&]<kind K>() {

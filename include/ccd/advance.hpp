@@ -24,6 +24,7 @@ struct advance_options {
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
     pair_filter filter = {};                  ///< which pairs are looked at
+    stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
 };
 
 struct advance_result {

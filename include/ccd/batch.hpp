@@ -8,6 +8,7 @@
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/query.hpp>
+#include <ccd/stop.hpp>
 #include <ccd/verdict.hpp>
 #include <concepts>
 #include <cstddef>
@@ -120,6 +121,7 @@ struct batch_options {
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
     bool explain = false;                     ///< fill the stages' report: costs a few per cent
+    stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
 };
 
 struct batch_result {

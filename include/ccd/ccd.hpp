@@ -27,4 +27,5 @@
 #include <ccd/reference.hpp>
 #include <ccd/separation.hpp>
 #include <ccd/step.hpp>
+#include <ccd/stop.hpp>
 #include <ccd/verdict.hpp>

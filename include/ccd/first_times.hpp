@@ -60,6 +60,7 @@ struct time_options {
     pair_distances distances = {};            ///< of stored queries, the same for all
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
+    stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
 };
 
 /// The first time of one of many queries.

@@ -70,6 +70,7 @@ struct step_options {
     /// there at the start are then of that.
     pair_distances distances = {};
     pair_filter filter = {};
+    stop_query stop = {};  ///< ends the call by throwing ccd::stopped
 };
 
 namespace detail {
@@ -169,7 +170,8 @@ class mesh_steps {
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// All candidates of a step, the vertices of faces in the mesh's order, for narrow phases of
-    /// one's own. Of the options, `threads`, `filter` and `distances` count. Memory: up to 33 bytes
+    /// one's own. Of the options, `threads`, `filter`, `distances` and
+    /// `stop` count. Memory: up to 33 bytes
     /// a candidate. Throws as run(); the instruction set is not looked at.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
