@@ -1,0 +1,26 @@
+"""Exact continuous collision detection, predicates, roots, and numbers that know their rounding error.
+
+ccd         which features of moving meshes touch, when first, where; steps, and steps that are free
+predicates  signs of geometric expressions, right on every finite input
+roots       real roots of polynomials, counted and isolated exactly
+tracked     arrays of numbers that carry a certified bound on their rounding error
+io          files of meshes and of queries
+
+Arrays may be in any memory order and of float64, float32 (each float32 is a double, so nothing is
+lost) or whole numbers that doubles hold; they are copied only where they are not C-contiguous
+float64, or indices not C-contiguous int32 or uint32. What is wrong with an argument is a ValueError, TypeError or
+IndexError that names the argument, the row, what was found and what was expected. Long calls
+release the interpreter's lock, and Ctrl-C ends them.
+"""
+from importlib.metadata import version as _version
+
+from . import ccd, io, predicates, roots, tracked
+from ._native import FileError
+
+__all__ = ["FileError", "ccd", "io", "predicates", "roots", "tracked"]
+
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":
+        return _version("errbound")
+    raise AttributeError(f"module 'errbound' has no attribute {name!r}")

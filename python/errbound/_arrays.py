@@ -1,0 +1,92 @@
+"""Arguments as the extension wants them: contiguous, of the right type, or an error that says what is wrong."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Doubles = NDArray[np.float64]
+Indices = NDArray[np.uint32]
+
+
+def doubles(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Doubles:
+    """A C-contiguous float64 array of that shape (None: any length); the argument itself if it is one."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu" or array.dtype.itemsize > 8:
+        raise TypeError(f"{name}: found {array.dtype}, expected float64, float32 or whole numbers")
+    if array.size == 0 and array.ndim == 1 and len(shape) > 1:
+        array = array.reshape([length or 0 for length in shape])
+    check_shape(name, array, shape)
+    converted = np.require(array, np.float64, ["C", "A"])
+    if array.dtype.kind in "iu" and array.dtype.itemsize == 8:
+        limit = 2**53
+        wrong = (array > limit) | (array < -limit) if array.dtype.kind == "i" else array > limit
+        if wrong.any():
+            row = int(np.argwhere(wrong)[0][0])
+            raise ValueError(f"{name}: row {row}: found a whole number beyond 2^53, "
+                             "expected one that a double equals")
+    return converted
+
+
+def check_shape(name: str, array: NDArray[Any], shape: tuple[int | None, ...]) -> None:
+    fits = array.ndim == len(shape) and all(n is None or n == found
+                                            for n, found in zip(shape, array.shape))
+    if not fits:
+        expected = ", ".join("n" if n is None else str(n) for n in shape)
+        raise ValueError(f"{name}: found shape {array.shape}, expected ({expected})")
+
+
+def indices(name: str, values: ArrayLike, columns: int) -> Indices:
+    """C-contiguous uint32 rows of vertex indices, the argument itself if it is such of uint32 or int32.
+
+    Negative int32 become large ones, which the library refuses.
+    """
+    array = np.asarray(values)
+    if array.size == 0:
+        return np.empty((0, columns), np.uint32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: found {array.dtype}, expected whole numbers")
+    check_shape(name, array, (None, columns))
+    if array.dtype == np.int32:
+        return np.require(array, np.int32, ["C", "A"]).view(np.uint32)
+    if array.dtype.itemsize > 4 or array.dtype.kind == "i":
+        check_range(name, array, 2**32 - 1)
+    return np.require(array, np.uint32, ["C", "A"])
+
+
+def check_range(name: str, array: NDArray[Any], vertices: int) -> None:
+    """That every index is below the number of vertices and not negative."""
+    wrong = (array < 0) | (array >= vertices)
+    if wrong.any():
+        row = int(np.argwhere(wrong)[0][0])
+        found = array[row][wrong[row]][0]
+        raise IndexError(f"{name}: row {row}: found vertex {found}, expected 0 to {vertices - 1}")
+
+
+def check_finite(name: str, array: Doubles) -> None:
+    wrong = ~np.isfinite(array.reshape(len(array), -1)).all(axis=1)
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        raise ValueError(f"{name}: row {row}: found {array[row].tolist()}, expected finite numbers")
+
+
+def frames(before: ArrayLike, after: ArrayLike, columns: int = 3) -> tuple[Doubles, Doubles]:
+    at_start = doubles("before", before, (None, columns))
+    at_end = doubles("after", after, (None, columns))
+    if len(at_start) != len(at_end):
+        raise ValueError(f"after: found {len(at_end)} vertices, expected {len(at_start)} as before has")
+    return at_start, at_end
+
+
+def of_vertices(name: str, values: ArrayLike | None, dtype: Any, vertices: int) -> Any:
+    """One number a vertex, or None."""
+    if values is None:
+        return None
+    array = np.asarray(values)
+    check_shape(name, array, (vertices,))
+    if dtype is np.int32 and array.dtype.kind not in "iu":
+        raise TypeError(f"{name}: found {array.dtype}, expected whole numbers")
+    if dtype is np.int32 and array.size and not (-2**31 <= array.min() and array.max() < 2**31):
+        raise ValueError(f"{name}: found numbers of {array.min()} to {array.max()}, expected int32")
+    return np.require(array, dtype, ["C", "A"])

@@ -1,0 +1,85 @@
+// Arrays of NumPy's, as the library wants them and as it makes them.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace errbound::python {
+
+namespace nb = nanobind;
+
+/// Arguments: read where they are. errbound/_arrays.py makes them contiguous.
+template <class T, nb::ssize_t... Shape>
+using input = nb::ndarray<const T, nb::shape<Shape...>, nb::c_contig, nb::device::cpu>;
+
+template <class Item, class Array>
+std::span<const Item> items_of(const Array& array) {
+    static_assert(sizeof(Item) % sizeof(*array.data()) == 0);
+    return {reinterpret_cast<const Item*>(array.data()),
+            array.size() * sizeof(*array.data()) / sizeof(Item)};
+}
+
+/// A vector that arrays look into: it lives as long as the last of them.
+template <class Item>
+class shared_items {
+  public:
+    explicit shared_items(std::vector<Item>&& items)
+        : items_(new std::vector<Item>(std::move(items))),
+          owner_(items_, [](void* p) noexcept { delete static_cast<std::vector<Item>*>(p); }) {}
+
+    /// One number of each item: a view with the items' stride.
+    template <class Number>
+    nb::object column(const Number& of_first) const {
+        return view(&of_first, {items_->size()}, {stride<Number>()});
+    }
+    /// Several numbers of each item that lie side by side.
+    template <class Number>
+    nb::object columns(const Number* of_first, std::size_t count) const {
+        return view(of_first, {items_->size(), count}, {stride<Number>(), 1});
+    }
+    /// The first item; where there is none, one by which columns can be named.
+    const Item& first() const {
+        static const Item none{};
+        return items_->empty() ? none : items_->front();
+    }
+
+  private:
+    template <class Number>
+    static constexpr std::int64_t stride() {
+        static_assert(sizeof(Item) % sizeof(Number) == 0);
+        return sizeof(Item) / sizeof(Number);
+    }
+    template <class Number>
+    nb::object view(const Number* data, std::initializer_list<std::size_t> shape,
+                    std::initializer_list<std::int64_t> strides) const {
+        return nb::cast(
+            nb::ndarray<nb::numpy, Number>(const_cast<Number*>(data), shape, owner_, strides));
+    }
+
+    std::vector<Item>* items_;
+    nb::capsule owner_;
+};
+
+/// Rows of `columns` numbers each: all that the items are.
+template <class Number, class Item>
+nb::object rows_of(std::vector<Item>&& items) {
+    static_assert(sizeof(Item) % sizeof(Number) == 0);
+    const shared_items<Item> shared(std::move(items));
+    return shared.columns(reinterpret_cast<const Number*>(&shared.first()),
+                          sizeof(Item) / sizeof(Number));
+}
+/// A number an item.
+template <class Number, class Item>
+nb::object numbers_of(std::vector<Item>&& items) {
+    static_assert(sizeof(Item) == sizeof(Number));
+    const shared_items<Item> shared(std::move(items));
+    return shared.column(reinterpret_cast<const Number&>(shared.first()));
+}
+
+}  // namespace errbound::python

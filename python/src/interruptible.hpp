@@ -1,0 +1,58 @@
+// Long calls: without the interpreter's lock, and ended by signals whose handlers raise.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <algorithm>
+#include <ccd/stop.hpp>
+#include <chrono>
+#include <cstddef>
+#include <thread>
+
+namespace errbound::python {
+
+namespace nb = nanobind;
+
+/// A ccd::stop_query: runs the handlers of pending signals, now and then, on the calling thread;
+/// Python runs them on its main thread alone. True if one raised, as that of Ctrl-C does.
+class pending_signals {
+  public:
+    bool operator()() {
+        if (std::this_thread::get_id() != caller_) return false;
+        const auto now = clock::now();
+        if (now < next_) return false;
+        next_ = now + pause;
+        nb::gil_scoped_acquire held;
+        return PyErr_CheckSignals() != 0;
+    }
+
+  private:
+    using clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds pause{50};
+    std::thread::id caller_ = std::this_thread::get_id();
+    clock::time_point next_ = clock::now() + pause;
+};
+
+/// Returns call(stop) and throws what it throws; what a signal's handler raised if that stopped it.
+template <class Call>
+auto without_gil(const Call& call) {
+    try {
+        nb::gil_scoped_release released;
+        return call(ccd::stop_query(pending_signals()));
+    } catch (const ccd::stopped&) {
+        throw nb::python_error();
+    }
+}
+
+/// Calls visit(first, count) for parts of so many, and looks for signals between them.
+template <class Visit>
+void in_parts(std::size_t count, std::size_t size, const Visit& visit) {
+    without_gil([&](const ccd::stop_query& stop) {
+        for (std::size_t first = 0; first < count; first += size) {
+            if (stop()) throw ccd::stopped();
+            visit(first, std::min(size, count - first));
+        }
+    });
+}
+
+}  // namespace errbound::python

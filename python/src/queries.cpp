@@ -1,0 +1,223 @@
+// Many queries at once, stored or by index: decisions, first times, first contacts.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <ccd/batch.hpp>
+#include <ccd/first_contacts.hpp>
+#include <ccd/first_times.hpp>
+#include <ccd/method.hpp>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "interruptible.hpp"
+#include "results.hpp"
+
+namespace errbound::python {
+namespace {
+
+using positions = input<double, -1, 3>;
+using numbers = input<double, -1>;
+
+/// Queries of one kind. They, and positions, are the caller's arrays.
+class questions {
+  public:
+    questions(const std::string& kind, std::optional<input<double, -1, -1>> stored,
+              std::optional<input<std::uint32_t, -1, -1>> pairs, std::optional<positions> before,
+              std::optional<positions> after)
+        : kind_(kind_named(kind)),
+          stored_(std::move(stored)),
+          pairs_(std::move(pairs)),
+          before_(std::move(before)),
+          after_(std::move(after)) {
+        if (pairs_) rows_ = {before_->data(), after_->data(), before_->shape(0)};
+    }
+
+    /// Returns visit(queries) or visit(positions, pairs).
+    template <class Visit>
+    auto visit(const Visit& visit) const {
+        return ccd::visit_kind(kind_, [&]<ccd::kind K>() {
+            using query = typename ccd::kind_traits<K>::template query<double>;
+            if (pairs_) return visit(rows_, items_of<ccd::pair_of_kind<K>>(*pairs_));
+            return visit(items_of<query>(*stored_));
+        });
+    }
+    std::size_t size() const { return pairs_ ? pairs_->shape(0) : stored_->shape(0); }
+
+  private:
+    static ccd::kind kind_named(const std::string& wanted) {
+        std::optional<ccd::kind> found;
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            if (wanted == ccd::kind_traits<K>::name) found = K;
+        });
+        if (!found) throw std::invalid_argument("kind: found '" + wanted + "'");
+        return *found;
+    }
+
+    ccd::kind kind_;
+    std::optional<input<double, -1, -1>> stored_;
+    std::optional<input<std::uint32_t, -1, -1>> pairs_;
+    std::optional<positions> before_, after_;
+    ccd::vertex_rows rows_;
+};
+
+nb::tuple decide(const questions& asked, int threads, bool explain, bool at_start) {
+    ccd::batch_result result = without_gil([&](const ccd::stop_query& stop) {
+        const ccd::batch_options options{.threads = threads, .explain = explain, .stop = stop};
+        return asked.visit([&](const auto&... queries) {
+            return at_start ? ccd::touches_at_start_batch(queries..., options)
+                            : ccd::decide_batch(queries..., options);
+        });
+    });
+    const nb::object stages = explain ? nb::object(stages_of(result.stages)) : nb::none();
+    return nb::make_tuple(numbers_of<std::uint8_t>(std::move(result.answers)), stages);
+}
+
+template <class Query>
+concept has_methods = ccd::kind_of<Query>
+== ccd::kind::vertex_face || ccd::kind_of<Query> == ccd::kind::edge_edge;
+
+template <class Query>
+ccd::outcome decide_one(ccd::method method, const Query& query) {
+    if constexpr (has_methods<Query>) return ccd::decide(method, query).outcome;
+    throw std::invalid_argument(
+        "method: vertex/edge and vertex/vertex queries are decided by 'exact' alone");
+}
+
+nb::object decide_by(const questions& asked, const std::string& name) {
+    const ccd::method method = method_of(name);
+    std::vector<ccd::outcome> answers(asked.size());
+    in_parts(answers.size(), 4096, [&](std::size_t first, std::size_t count) {
+        asked.visit([&](const auto& queries, const auto&... pairs) {
+            for (std::size_t i = first; i < first + count; ++i)
+                if constexpr (sizeof...(pairs) == 0)
+                    answers[i] = decide_one(method, queries[i]);
+                else
+                    answers[i] = decide_one(method, query_of(queries, pairs[i]...));
+        });
+    });
+    return numbers_of<std::uint8_t>(std::move(answers));
+}
+
+ccd::time_options time_options_of(double t_max, double distance,
+                                  const std::optional<numbers>& thickness, int threads,
+                                  const ccd::stop_query& stop) {
+    ccd::time_options options{.t_max = t_max, .threads = threads, .stop = stop};
+    options.distances.all = distance;
+    if (thickness) options.distances.thickness = items_of<double>(*thickness);
+    return options;
+}
+
+nb::object decide_within(const questions& asked, double distance,
+                         const std::optional<numbers>& thickness, int threads) {
+    return numbers_of<std::uint8_t>(without_gil([&](const ccd::stop_query& stop) {
+        const auto options = time_options_of(1, distance, thickness, threads, stop);
+        return asked.visit(
+            [&](const auto&... queries) { return ccd::decide_within_batch(queries..., options); });
+    }));
+}
+
+std::vector<ccd::timed_contact> timed(const questions& asked, double t_max, double distance,
+                                      const std::optional<numbers>& thickness, int threads) {
+    return without_gil([&](const ccd::stop_query& stop) {
+        const auto options = time_options_of(t_max, distance, thickness, threads, stop);
+        return asked.visit(
+            [&](const auto&... queries) { return ccd::timed_contacts(queries..., options); });
+    });
+}
+
+nb::dict times_among(std::vector<ccd::timed_contact>&& contacts) {
+    const shared_items<ccd::timed_contact> shared(std::move(contacts));
+    nb::dict found;
+    found["query"] = shared.column(shared.first().query);
+    found["outcome"] =
+        shared.column(reinterpret_cast<const std::uint8_t&>(shared.first().time.outcome));
+    found["low"] = shared.column(shared.first().time.low);
+    found["high"] = shared.column(shared.first().time.high);
+    return found;
+}
+
+nb::dict first_times(const questions& asked, double t_max, double distance,
+                     const std::optional<numbers>& thickness, int threads) {
+    return times_among(timed(asked, t_max, distance, thickness, threads));
+}
+
+/// The data of each contact, from its query and time.
+std::vector<ccd::first_contact> contacts_at(const questions& asked,
+                                            const std::vector<ccd::timed_contact>& contacts,
+                                            int threads) {
+    std::vector<ccd::first_contact> found(contacts.size());
+    in_parts(contacts.size(), 65536, [&](std::size_t first, std::size_t count) {
+        std::vector<ccd::first_time> times;
+        for (std::size_t i = first; i < first + count; ++i) times.push_back(contacts[i].time);
+        const auto chosen = [&](const auto& all) {
+            std::vector<std::ranges::range_value_t<decltype(all)>> some;
+            for (std::size_t i = first; i < first + count; ++i)
+                some.push_back(all[contacts[i].query]);
+            return some;
+        };
+        const auto data = asked.visit([&](const auto& queries, const auto&... pairs) {
+            if constexpr (sizeof...(pairs) == 0)
+                return ccd::first_contacts(chosen(queries), times, threads);
+            else
+                return ccd::first_contacts(queries, chosen(pairs)..., times, threads);
+        });
+        std::copy(data.begin(), data.end(), found.begin() + static_cast<std::ptrdiff_t>(first));
+    });
+    return found;
+}
+
+nb::dict first_contacts(const questions& asked, double t_max, int threads) {
+    std::vector<ccd::timed_contact> contacts = timed(asked, t_max, 0, std::nullopt, threads);
+    const shared_items shared(contacts_at(asked, contacts, threads));
+    nb::dict found = times_among(std::move(contacts));
+    const ccd::first_contact& c = shared.first();
+    const auto code = [](const auto& x) -> auto& {
+        return reinterpret_cast<const std::uint8_t&>(x);
+    };
+    found["features"] = shared.column(code(c.features.kind));
+    found["points"] = shared.columns(c.features.points.data(), 4);
+    found["weights"] = shared.columns(c.weights.data(), 4);
+    found["weight_error"] = shared.column(c.weight_error);
+    found["normal"] = shared.columns(&c.normal.x, 3);
+    found["normal_error"] = shared.column(c.normal_error);
+    found["normal_from"] = shared.column(code(c.normal_from));
+    found["sided"] = shared.column(c.sided);
+    found["normal_velocity"] = shared.column(c.normal_velocity);
+    found["normal_velocity_error"] = shared.column(c.normal_velocity_error);
+    return found;
+}
+
+nb::list methods() {
+    nb::list all;
+    for (const ccd::method_info& m : ccd::methods())
+        all.append(nb::make_tuple(std::string(m.name), m.may_lose_collisions,
+                                  m.may_report_false_collisions, std::string(m.promise),
+                                  std::string(m.source)));
+    return all;
+}
+
+}  // namespace
+
+void bind_queries(nb::module_& m) {
+    nb::class_<questions>(m, "Questions")
+        .def(nb::init<const std::string&, std::optional<input<double, -1, -1>>,
+                      std::optional<input<std::uint32_t, -1, -1>>, std::optional<positions>,
+                      std::optional<positions>>(),
+             nb::arg("kind"), nb::arg("stored").none(), nb::arg("pairs").none(),
+             nb::arg("before").none(), nb::arg("after").none())
+        .def("decide", decide, nb::arg("threads"), nb::arg("explain"), nb::arg("at_start"))
+        .def("decide_by", decide_by, nb::arg("method"))
+        .def("decide_within", decide_within, nb::arg("distance"), nb::arg("thickness").none(),
+             nb::arg("threads"))
+        .def("first_times", first_times, nb::arg("t_max"), nb::arg("distance"),
+             nb::arg("thickness").none(), nb::arg("threads"))
+        .def("first_contacts", first_contacts, nb::arg("t_max"), nb::arg("threads"));
+    m.def("methods", methods);
+}
+
+}  // namespace errbound::python

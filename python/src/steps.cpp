@@ -1,0 +1,213 @@
+// Steps of meshes, their candidates, and advances.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <ccd/advance.hpp>
+#include <ccd/step.hpp>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bindings.hpp"
+#include "interruptible.hpp"
+#include "results.hpp"
+
+namespace errbound::python {
+namespace {
+
+using positions = input<double, -1, 3>;
+using numbers = input<double, -1>;
+using group_numbers = input<std::int32_t, -1>;
+using flags = input<std::uint8_t, -1>;
+
+/// What Python sets by name; arrays are kept for as long as spans of them are used.
+struct step_question {
+    std::string method = "exact";
+    int threads = 0;
+    bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,
+         times = false, between_groups = true;
+    double t_max = 1, distance = 0;
+    std::optional<numbers> thickness;
+    std::optional<group_numbers> groups, islands;
+    std::optional<flags> pinned;
+    nb::object can_collide = nb::none();
+
+    ccd::pair_distances distances() const {
+        ccd::pair_distances of_pairs{.all = distance};
+        if (thickness) of_pairs.thickness = items_of<double>(*thickness);
+        return of_pairs;
+    }
+    ccd::pair_filter filter() const {
+        using rule = ccd::pair_filter::group_rule;
+        ccd::pair_filter of_pairs;
+        of_pairs.rule = between_groups ? rule::between_groups : rule::within_groups;
+        if (groups) of_pairs.groups = items_of<int>(*groups);
+        if (pinned) of_pairs.pinned = items_of<std::uint8_t>(*pinned);
+        if (!can_collide.is_none())
+            of_pairs.can_collide = [this](ccd::vertex_index v, ccd::vertex_index w) {
+                nb::gil_scoped_acquire held;
+                return nb::cast<bool>(can_collide(v, w));
+            };
+        return of_pairs;
+    }
+    ccd::step_options step_options() const {
+        return {.method = method_of(method),
+                .threads = threads,
+                .count_candidates = count_candidates,
+                .explain = stages,
+                .initial_contact = initial_contact,
+                .first_contact = first_contact,
+                .times = times,
+                .t_max = t_max,
+                .distances = distances(),
+                .filter = filter()};
+    }
+    ccd::advance_options advance_options() const {
+        ccd::advance_options options{
+            .distances = distances(), .threads = threads, .filter = filter()};
+        if (islands) options.groups = items_of<int>(*islands);
+        return options;
+    }
+};
+
+template <template <ccd::kind> class Of, class Convert>
+nb::dict of_each_kind(ccd::by_kind<Of>&& all, const Convert& convert) {
+    nb::dict found;
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        found[std::string(ccd::kind_traits<K>::name).c_str()] =
+            convert(std::move(all.template of<K>()));
+    });
+    return found;
+}
+nb::dict pairs_of(ccd::pair_lists&& pairs) {
+    return of_each_kind(std::move(pairs),
+                        [](auto&& list) { return rows_of<ccd::vertex_index>(std::move(list)); });
+}
+nb::object counts_of(std::optional<ccd::pair_counts>&& counts) {
+    if (!counts) return nb::none();
+    return of_each_kind(std::move(*counts), [](std::size_t count) { return nb::cast(count); });
+}
+
+nb::dict result_of(ccd::step_result&& result, const step_question& asked) {
+    nb::dict seconds, found;
+    seconds["prepare"] = result.prepare_seconds;
+    seconds["broad_phase"] = result.broad_phase_seconds;
+    seconds["narrow_phase"] = result.narrow_phase_seconds;
+    seconds["sort"] = result.sort_seconds;
+    seconds["contact"] = result.contact_seconds;
+    seconds["total"] = result.total_seconds;
+    found["candidates"] = counts_of(std::move(result.candidates));
+    found["pairs"] = pairs_of(std::move(result.pairs));
+    found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
+    found["times"] = nb::none();
+    if (asked.times)
+        found["times"] = of_each_kind(std::move(result.times),
+                                      [](auto&& times) { return times_of(std::move(times)); });
+    found["first_contact"] = time_of(result.first_contact);
+    found["seconds"] = seconds;
+    found["threads"] = result.threads;
+    found["stages"] = asked.stages ? nb::object(stages_of(result.stages)) : nb::none();
+    return found;
+}
+
+ccd::vertex_rows rows(const positions& before, const positions& after) {
+    if (before.shape(0) != after.shape(0))
+        throw std::invalid_argument("after: found " + std::to_string(after.shape(0)) +
+                                    " vertices, expected " + std::to_string(before.shape(0)) +
+                                    " as before has");
+    return {before.data(), after.data(), before.shape(0)};
+}
+
+class steps {
+    /// One call at a time: a second thread, or a callback, would wait for itself.
+    template <class Call>
+    auto alone(const Call& call) {
+        const std::unique_lock held(mutex_, std::try_to_lock);
+        if (!held)
+            throw std::runtime_error("Steps: found another call under way, expected one at a time");
+        return without_gil(call);
+    }
+
+  public:
+    steps(const input<std::uint32_t, -1, 3>& faces, const input<std::uint32_t, -1, 2>& edges,
+          std::size_t vertices)
+        : steps_(items_of<ccd::face>(faces), items_of<ccd::edge>(edges), vertices) {}
+    explicit steps(ccd::mesh_steps&& made) : steps_(std::move(made)) {}
+
+    nb::dict run(const positions& before, const positions& after, const step_question& asked) {
+        ccd::step_options options = asked.step_options();
+        return result_of(alone([&](const ccd::stop_query& stop) {
+                             options.stop = stop;
+                             return steps_.run(rows(before, after), options);
+                         }),
+                         asked);
+    }
+    nb::dict candidates(const positions& before, const positions& after,
+                        const step_question& asked) {
+        ccd::step_options options = asked.step_options();
+        return pairs_of(alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return steps_.candidates(rows(before, after), options);
+        }));
+    }
+    nb::dict advance(const positions& before, const positions& after, const step_question& asked) {
+        ccd::advance_options options = asked.advance_options();
+        ccd::advance_result result = alone([&](const ccd::stop_query& stop) {
+            options.stop = stop;
+            return ccd::advance(steps_, rows(before, after), options);
+        });
+        nb::dict found;
+        found["positions"] = rows_of<double>(std::move(result.positions));
+        found["fraction"] = result.fraction;
+        found["fractions"] = numbers_of<double>(std::move(result.fractions));
+        found["first_contact"] = time_of(result.first_contact);
+        found["touching_at_start"] = pairs_of(std::move(result.touching_at_start));
+        found["near_at_start"] = pairs_of(std::move(result.near_at_start));
+        return found;
+    }
+
+  private:
+    ccd::mesh_steps steps_;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+void bind_steps(nb::module_& m) {
+    nb::class_<step_question>(m, "StepQuestion")
+        .def(nb::init<>())
+        .def_rw("method", &step_question::method)
+        .def_rw("threads", &step_question::threads)
+        .def_rw("count_candidates", &step_question::count_candidates)
+        .def_rw("stages", &step_question::stages)
+        .def_rw("initial_contact", &step_question::initial_contact)
+        .def_rw("first_contact", &step_question::first_contact)
+        .def_rw("times", &step_question::times)
+        .def_rw("between_groups", &step_question::between_groups)
+        .def_rw("t_max", &step_question::t_max)
+        .def_rw("distance", &step_question::distance)
+        .def_rw("thickness", &step_question::thickness, nb::arg("value").none())
+        .def_rw("groups", &step_question::groups, nb::arg("value").none())
+        .def_rw("islands", &step_question::islands, nb::arg("value").none())
+        .def_rw("pinned", &step_question::pinned, nb::arg("value").none())
+        .def_rw("can_collide", &step_question::can_collide, nb::arg("value").none());
+    nb::class_<steps>(m, "Steps")
+        .def(nb::init<const input<std::uint32_t, -1, 3>&, const input<std::uint32_t, -1, 2>&,
+                      std::size_t>(),
+             nb::arg("faces"), nb::arg("edges"), nb::arg("vertices"))
+        .def_static(
+            "in_plane",
+            [](const input<std::uint32_t, -1, 2>& edges, std::size_t vertices) {
+                return new steps(ccd::mesh_steps::in_plane(items_of<ccd::edge>(edges), vertices));
+            },
+            nb::arg("edges"), nb::arg("vertices"), nb::rv_policy::take_ownership)
+        .def("run", &steps::run, nb::arg("before"), nb::arg("after"), nb::arg("question"))
+        .def("candidates", &steps::candidates, nb::arg("before"), nb::arg("after"),
+             nb::arg("question"))
+        .def("advance", &steps::advance, nb::arg("before"), nb::arg("after"), nb::arg("question"));
+}
+
+}  // namespace errbound::python

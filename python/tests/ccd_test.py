@@ -1,0 +1,136 @@
+"""Decisions, times and contacts of queries against what is known, each other, and other ways of asking."""
+import threading
+
+import numpy as np
+import pytest
+
+from errbound import ccd
+
+# A vertex that falls through a triangle: at t = 1/2, at (1/4, 1/4, 0).
+FALLING = np.array([[[.25, .25, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0],
+                     [.25, .25, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+RANDOM = np.random.default_rng(1)
+
+
+def random_queries(count, points):
+    """Small whole coordinates, so that many touch in degenerate ways."""
+    return RANDOM.integers(-3, 4, (count, 2 * points, 3)).astype(float)
+
+
+def as_pairs(queries):
+    points = queries.shape[1] // 2
+    before = queries[:, :points].reshape(-1, 3)
+    after = queries[:, points:].reshape(-1, 3)
+    return (before, after), np.arange(len(before)).reshape(-1, points)
+
+
+@pytest.mark.parametrize("kind", ccd.POINTS)
+def test_ways_of_asking_agree(kind):
+    queries = random_queries(3000, ccd.POINTS[kind])
+    expected = ccd.decide(queries, kind).outcome
+    assert 0 < (expected == 1).sum() < len(queries)
+    positions, pairs = as_pairs(queries)
+    for dtype in np.int32, np.int64, np.uint32, np.uint16:
+        found = ccd.decide(pairs.astype(dtype), kind, positions=positions).outcome
+        np.testing.assert_array_equal(found, expected)
+    for order in "C", "F":
+        for number in np.float32, np.float64, np.int8:
+            some = np.asarray(queries, number, order=order)
+            np.testing.assert_array_equal(ccd.decide(some, kind, threads=1).outcome, expected)
+            some = tuple(np.asarray(p, number, order=order) for p in positions)
+            np.testing.assert_array_equal(ccd.decide(pairs, kind, positions=some).outcome, expected)
+    every_other = ccd.decide(queries[::2], kind).outcome
+    np.testing.assert_array_equal(every_other, expected[::2])
+    times = ccd.first_time(queries, kind)
+    np.testing.assert_array_equal(times.query, np.flatnonzero(expected))
+    np.testing.assert_array_equal(times.at_start, ccd.touches_at_start(queries, kind).collides[expected == 1])
+    contacts = ccd.first_contact(pairs, kind, positions=positions)
+    np.testing.assert_array_equal(contacts.low, times.low)
+    np.testing.assert_array_equal(contacts.high, times.high)
+    np.testing.assert_array_equal(ccd.decide(queries, kind, distance=1e-300).collides | (expected == 1),
+                                  ccd.decide(queries, kind, distance=1e-300).collides)
+
+
+def test_contact_by_hand():
+    found = ccd.first_contact(FALLING, "vertex_face")
+    assert found.query.tolist() == [0] and found.low.tolist() == found.high.tolist() == [0.5]
+    assert found.features.tolist() == [ccd.Features.VERTEX_FACE]
+    assert found.points.tolist() == [[0, 1, 2, 3]]
+    np.testing.assert_allclose(found.weights, [[1, .5, .25, .25]], atol=found.weight_error[0])
+    np.testing.assert_allclose(found.normal, [[0, 0, 1]], atol=found.normal_error[0])
+    assert found.sided.tolist() == [True]
+    np.testing.assert_allclose(found.normal_velocity, [-2], atol=found.normal_velocity_error[0])
+    assert len(ccd.first_contact(FALLING, "vertex_face", t_max=0.25)) == 0
+    within = ccd.first_time(FALLING, "vertex_face", distance=0.5)
+    assert within.low.tolist() == within.high.tolist() == [0.25]
+
+
+def test_methods():
+    queries = random_queries(2000, 4)
+    exact = ccd.decide(queries, "edge_edge").collides
+    for method in ccd.methods():
+        found = ccd.decide(queries, "edge_edge", method=method.name)
+        assert method.may_lose_collisions or (found.may_collide >= exact).all(), method
+        assert method.may_report_false_collisions or (found.may_collide <= exact).all(), method
+
+
+def test_stages_count_every_query():
+    stages = ccd.decide(random_queries(1000, 4), "vertex_face", stages=True).stages
+    assert [s.name for s in stages][0] == "axes"
+    assert sum(s.separate + s.collides for s in stages) == 1000
+
+
+def test_empty():
+    assert len(ccd.decide(np.empty((0, 8, 3)), "vertex_face").outcome) == 0
+    assert len(ccd.first_contact([], "edge_edge", positions=([[0, 0, 0]], [[0, 0, 0]]))) == 0
+
+
+def with_nan():
+    wrong = np.repeat(FALLING, 3, axis=0)
+    wrong[2, 5, 1] = np.nan
+    return wrong
+
+
+@pytest.mark.parametrize("call, error, said", [
+    (lambda: ccd.decide(FALLING, "vf"), ValueError, "kind: found 'vf', expected one of vertex_face"),
+    (lambda: ccd.decide(FALLING[:, :6], "vertex_face"), ValueError,
+     r"queries: found shape \(1, 6, 3\), expected \(n, 8, 3\)"),
+    (lambda: ccd.decide(FALLING.astype(complex), "vertex_face"), TypeError, "queries: found complex128"),
+    (lambda: ccd.decide(with_nan(), "vertex_face"), ValueError, "queries: row 2: found .*nan"),
+    (lambda: ccd.first_time(with_nan(), "vertex_face"), ValueError, "queries: row 2: found .*nan"),
+    (lambda: ccd.decide(FALLING, "vertex_face", method="best"), ValueError,
+     "method: found 'best', expected one of float"),
+    (lambda: ccd.decide(FALLING, "vertex_face", distance=-1), ValueError, "-1"),
+    (lambda: ccd.first_time(FALLING, "vertex_face", t_max=np.inf), ValueError, "t_max"),
+])
+def test_what_is_wrong_is_said(call, error, said):
+    with pytest.raises(error, match=said):
+        call()
+
+
+@pytest.mark.parametrize("dtype, index", [(np.int32, -1), (np.int64, -1), (np.int64, 2**40),
+                                          (np.uint32, 12), (np.int32, 12)])
+@pytest.mark.parametrize("method", ["exact", "tight"])
+def test_indices_out_of_range(dtype, index, method):
+    positions, pairs = as_pairs(np.repeat(FALLING, 3, axis=0))
+    pairs = pairs.astype(dtype)
+    pairs[1, 2] = index
+    with pytest.raises(IndexError, match=f"queries: row 1: found vertex {index}, expected 0 to"):
+        ccd.decide(pairs, "vertex_face", positions=positions, method=method)
+
+
+def test_threads_of_python_run_side_by_side():
+    queries = random_queries(20000, 4)
+    expected = ccd.decide(queries, "vertex_face").outcome
+    found = [None] * 4
+
+    def ask(i):
+        found[i] = ccd.decide(queries, "vertex_face", threads=1).outcome
+
+    threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for outcome in found:
+        np.testing.assert_array_equal(outcome, expected)

@@ -1,0 +1,162 @@
+"""Steps of the bundled scene against the program ccd, candidates, and advances."""
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from conftest import SCENE
+
+from errbound import ccd, io
+
+
+def lines_of(pairs):
+    return ([f"vf,{','.join(map(str, p))}" for p in pairs.vertex_face.tolist()] +
+            [f"ee,{','.join(map(str, p))}" for p in pairs.edge_edge.tolist()])
+
+
+@pytest.mark.parametrize("method", ["exact", "tight", "float"])
+def test_step_is_the_programs(scene, program, tmp_path, method):
+    before, after = scene
+    out = tmp_path / "pairs.csv"
+    subprocess.run([program, "step", SCENE / "frame0.ply", SCENE / "frame1.ply", "--method", method,
+                    "--pairs", out], check=True, stdout=subprocess.DEVNULL)
+    found = ccd.step(before.vertices, after.vertices, before.faces, method=method)
+    assert sorted(lines_of(found.pairs)) == sorted(out.read_text().split())
+    assert len(found.pairs) > 0
+
+
+def test_first_contact_is_the_programs(scene, program, tmp_path):
+    before, after = scene
+    out = tmp_path / "step.json"
+    subprocess.run([program, "step", SCENE / "frame0.ply", SCENE / "frame1.ply", "--json", out,
+                    "--toi", tmp_path / "toi.csv"], check=True, stdout=subprocess.DEVNULL)
+    expected = json.loads(out.read_text())["first_contact"]
+    found = ccd.step(before.vertices, after.vertices, before.faces, times=True)
+    assert list(found.first_contact) == expected
+    assert min(t["low"].min(initial=2) for t in found.times.values()) == expected[0]
+    single = ccd.first_time(found.pairs.edge_edge, "edge_edge",
+                            positions=(before.vertices, after.vertices))
+    np.testing.assert_array_equal(single.low, found.times["edge_edge"]["low"])
+
+
+def test_repeated_steps_and_memory_orders(scene):
+    before, after = scene
+    steps = ccd.Steps(before.faces.astype(np.int64), vertices=len(before.vertices))
+    expected = lines_of(steps.run(before.vertices, after.vertices).pairs)
+    assert lines_of(steps.run(np.asfortranarray(before.vertices), after.vertices, threads=1).pairs) == expected
+    rounded = [np.float32(mesh.vertices) for mesh in scene]
+    assert (lines_of(steps.run(*rounded).pairs) ==
+            lines_of(steps.run(*(r.astype(float) for r in rounded)).pairs))
+    counted = steps.run(before.vertices, after.vertices, stages=True)
+    assert counted.candidates["edge_edge"] == len(steps.candidates(before.vertices, after.vertices).edge_edge)
+    assert sum(s.collides for s in counted.stages) == len(counted.pairs)
+
+
+def test_filters(scene):
+    before, after = scene
+    steps = ccd.Steps(before.faces, vertices=len(before.vertices))
+    everything = steps.run(before.vertices, after.vertices)
+    count = len(before.vertices)
+    assert len(steps.run(before.vertices, after.vertices, pinned=np.ones(count, bool)).pairs) == 0
+    assert len(steps.run(before.vertices, after.vertices, groups=np.zeros(count, int)).pairs) == 0
+    within = steps.run(before.vertices, after.vertices, groups=np.zeros(count, int), between_groups=False)
+    assert len(within.pairs) == len(everything.pairs)
+    called = steps.run(before.vertices, after.vertices, can_collide=lambda v, w: False)
+    assert len(called.pairs) == 0
+    with pytest.raises(ZeroDivisionError):
+        steps.run(before.vertices, after.vertices, can_collide=lambda v, w: 1 / 0)
+    assert len(steps.run(before.vertices, after.vertices).pairs) == len(everything.pairs)
+
+
+def test_advance_is_free(scene):
+    before, after = scene
+    steps = ccd.Steps(before.faces, vertices=len(before.vertices))
+    free = steps.advance(before.vertices, after.vertices)
+    assert 0 < free.fraction < 1 and free.first_contact[0] >= free.fraction
+    assert len(steps.run(before.vertices, free.positions).pairs) == len(free.touching_at_start)
+    islands = steps.advance(before.vertices, after.vertices, islands=np.arange(len(before.vertices)))
+    assert islands.fractions.mean() > free.fraction
+    assert len(steps.run(before.vertices, islands.positions).pairs) == len(islands.touching_at_start)
+
+
+def test_plane():
+    steps = ccd.Steps.in_plane([[0, 1]], vertices=3)
+    found = steps.run([[-1, 0], [1, 0], [0, 1]], [[-1, 0], [1, 0], [0, -1]], times=True)
+    assert found.pairs.vertex_edge.tolist() == [[2, 0, 1]] and found.first_contact == (0.5, 0.5)
+
+
+@pytest.mark.parametrize("call, error, said", [
+    (lambda s, x: ccd.step(x, x[:-1], s), ValueError, "after: found 8 vertices, expected 9"),
+    (lambda s, x: ccd.step(x, x, [[0, 1, 9]]), IndexError, "faces: row 0: found vertex 9, expected 0 to 8"),
+    (lambda s, x: ccd.step(x, x * np.nan, s), ValueError, "vertex 0"),
+    (lambda s, x: ccd.step(x, x, s, colour=1), TypeError, "'colour'"),
+    (lambda s, x: ccd.step(x, x, s, pinned=[1]), ValueError, r"pinned: found shape \(1,\), expected \(9\)"),
+    (lambda s, x: ccd.step(x, x, s, method="x"), ValueError, "method: found 'x'"),
+])
+def test_what_is_wrong_is_said(call, error, said):
+    positions = np.arange(27.0).reshape(9, 3)
+    with pytest.raises(error, match=said):
+        call(np.arange(9).reshape(3, 3), positions)
+
+
+def test_one_call_at_a_time():
+    x = np.zeros((9, 3))
+    steps = ccd.Steps(np.arange(9).reshape(3, 3), vertices=9)
+    with pytest.raises(RuntimeError, match="one at a time"):
+        steps.run(x, x, can_collide=lambda v, w: bool(steps.run(x, x)))
+
+
+INTERRUPTED = """
+import numpy as np, sys
+from errbound import ccd, predicates
+n = 3000000
+x = np.zeros(({points}, 3))
+print("ready", flush=True)
+try:
+    while True: {call}
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+@pytest.mark.parametrize("points, call", [
+    (20000, "ccd.step(x, x + 1, (), np.arange(20000).reshape(-1, 2))"),
+    (4, "ccd.decide(np.tile(np.arange(4), (n, 1)), 'edge_edge', positions=(x, x), method='exact')"),
+    (4, "ccd.decide(np.tile(np.arange(4), (n, 1)), 'edge_edge', positions=(x, x), method='bsc-exact')"),
+    (1, "predicates.insphere(*[np.zeros((n, 3))] * 5)"),
+])
+def test_ctrl_c(points, call):
+    code = INTERRUPTED.format(points=points, call=call)
+    running = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert running.stdout.readline() == "ready\n"
+    time.sleep(0.7)
+    sent = time.monotonic()
+    running.send_signal(signal.SIGINT)
+    out, _ = running.communicate(timeout=60)
+    assert out == "interrupted\n" and time.monotonic() - sent < 5
+
+
+def test_files(scene, shared_data, program, tmp_path):
+    before, _ = scene
+    io.write_mesh(tmp_path / "mesh.ply", np.asfortranarray(before.vertices), before.faces)
+    again = io.read_mesh(tmp_path / "mesh.ply")
+    np.testing.assert_array_equal(again.vertices, before.vertices)
+    np.testing.assert_array_equal(again.faces, before.faces)
+    stored = sorted((shared_data / "queries").rglob("*.csv"))
+    read = next(q for q in map(io.read_queries, stored) if q.truth is not None)
+    np.testing.assert_array_equal(ccd.decide(read.queries, read.kind).collides, read.truth)
+
+
+def test_queries_are_written_exactly(tmp_path):
+    queries = np.random.default_rng(2).standard_normal((50, 8, 3)) * 1e-300
+    truth = np.arange(50) % 2 == 0
+    io.write_queries(tmp_path / "vf.csv", queries, truth)
+    read = io.read_queries(tmp_path / "vf.csv")
+    np.testing.assert_array_equal(read.queries, queries)
+    np.testing.assert_array_equal(read.truth, truth)
+    assert read.kind == "vertex_face"
+    with pytest.raises(io.FileError, match="no such file"):
+        io.read_mesh(tmp_path / "missing.ply")
