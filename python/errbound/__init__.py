@@ -12,8 +12,6 @@ float64, or indices not C-contiguous int32 or uint32. What is wrong with an argu
 IndexError that names the argument, the row, what was found and what was expected. Long calls
 release the interpreter's lock, and Ctrl-C ends them.
 """
-from importlib.metadata import version as _version
-
 from . import ccd, io, predicates, roots, tracked
 from ._native import FileError
 
@@ -21,6 +19,8 @@ __all__ = ["FileError", "ccd", "io", "predicates", "roots", "tracked"]
 
 
 def __getattr__(name: str) -> str:
-    if name == "__version__":
-        return _version("errbound")
+    if name == "__version__":  # asked of the package's metadata, which takes long to import
+        from importlib.metadata import version
+
+        return version("errbound")
     raise AttributeError(f"module 'errbound' has no attribute {name!r}")

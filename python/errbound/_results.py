@@ -67,12 +67,12 @@ class Decisions:
     @property
     def collides(self) -> Flags:
         """Which certainly collide, (n,)."""
-        return self.outcome == Outcome.COLLIDES
+        return np.asarray(self.outcome == Outcome.COLLIDES)
 
     @property
     def may_collide(self) -> Flags:
         """Which are not certainly separate, (n,): the same, if the method is "exact"."""
-        return self.outcome != Outcome.SEPARATE
+        return np.asarray(self.outcome != Outcome.SEPARATE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ class FirstTimes:
     @property
     def at_start(self) -> Flags:
         """Which hold at t = 0 already, (k,)."""
-        return self.high == 0
+        return np.asarray(self.high == 0)
 
 
 @dataclass(frozen=True, eq=False)

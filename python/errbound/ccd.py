@@ -106,7 +106,7 @@ def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
         if distance or near is not None:
             raise ValueError(f"method: found {method!r}, expected 'exact' where a distance is asked for")
         asked.check_indices()
-        return Decisions(asked.native.decide_by(method))
+        return Decisions(asked.call(lambda q: q.decide_by(method)))
     if distance or near is not None:
         if stages:
             raise ValueError("stages: found True, expected False where a distance is asked for")

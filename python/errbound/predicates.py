@@ -32,7 +32,7 @@ def _signs(predicate: str, dimension: int, **points: ArrayLike) -> Signs:
         raise ValueError(f"{predicate}: found different numbers of points ({found}), expected one")
     count = lengths.pop() if lengths else 1
     rows = [np.ascontiguousarray(np.broadcast_to(a, (count, dimension))) for a in arrays.values()]
-    signs: NDArray[np.int8] = getattr(_native.predicates, predicate)(rows)
+    signs: NDArray[np.int8] = getattr(_native, predicate)(rows)
     if signs.max(initial=0) > 1:
         for name, array in zip(arrays, rows):
             check_finite(name, array)

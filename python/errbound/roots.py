@@ -56,7 +56,7 @@ class Roots:
 
     def __init__(self, p: Coefficients, a: float = -math.inf, b: float = math.inf) -> None:
         _check_interval(a, b)
-        self._roots = _native.roots.Roots(_coefficients("p", p), a, b)
+        self._roots = _native.Roots(_coefficients("p", p), a, b)
         self._interval = a, b
         found = [self._roots.neighbouring_doubles(k) for k in range(len(self._roots))]
         ends = np.array(found, np.float64).reshape(-1, 2)
@@ -77,8 +77,9 @@ class Roots:
         """An interval of at most that width, if given: root k is strictly inside, or is both ends."""
         if width is not None:
             self._roots.refine(self._check(k), width)
-        low, high = self._roots.interval(self._check(k))
-        return tuple(Fraction(int(n, 16)) * Fraction(2)**e for n, e in (low, high))  # type: ignore
+        low, high = (Fraction(int(n, 16)) * Fraction(2)**e
+                     for n, e in self._roots.interval(self._check(k)))
+        return low, high
 
     def sign_at(self, g: Coefficients) -> NDArray[np.int8]:
         """The signs, (k,), of another polynomial at each root."""
@@ -87,7 +88,7 @@ class Roots:
 
     def signs_taken(self) -> tuple[bool, bool, bool]:
         """Whether p is negative, zero, positive somewhere in [a, b]."""
-        return tuple(self._roots.signs_on(*self._interval))  # type: ignore
+        return self._roots.signs_on(*self._interval)
 
 
 def isolate(p: Coefficients, a: float = -math.inf, b: float = math.inf) -> Roots:
@@ -104,11 +105,11 @@ def count(p: ArrayLike, a: float = -math.inf, b: float = math.inf) -> int | NDAr
     if isinstance(p, np.ndarray) and p.ndim == 2:
         rows = doubles("p", p, (None, None))
         check_finite("p", rows)
-        return _native.roots.count_of_rows(rows, a, b)  # type: ignore[no-any-return]
-    found = _native.roots.Roots(_coefficients("p", p), a, b)  # type: ignore[arg-type]
+        return np.asarray(_native.count_of_rows(rows, a, b))
+    found = _native.Roots(_coefficients("p", p), a, b)  # type: ignore[arg-type]
     return INFINITELY_MANY if found.everywhere() else len(found)
 
 
 def common_factor(p: Coefficients, q: Coefficients) -> list[int]:
     """The greatest common divisor of both, primitive over the integers; coefficients ascend."""
-    return [int(c, 16) for c in _native.roots.common_factor(_coefficients("p", p), _coefficients("q", q))]
+    return [int(c, 16) for c in _native.common_factor(_coefficients("p", p), _coefficients("q", q))]

@@ -119,5 +119,5 @@ def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype:
     if values.dtype.kind not in "fiu":
         raise TypeError(f"value: found {values.dtype}, expected numbers")
     errors = np.broadcast_to(np.asarray(error), values.shape)
-    flat = (np.ascontiguousarray(x, number).reshape(-1) for x in (values, errors))
-    return Array(_native.tracked_row(*flat, rule), values.shape, rule, number)
+    flat = [np.ascontiguousarray(x, number).reshape(-1) for x in (values, errors)]
+    return Array(_native.tracked_row(flat[0], flat[1], rule), values.shape, rule, number)

@@ -57,8 +57,7 @@ void bind(nb::module_& m, const char* name, const Predicate& predicate) {
 
 }  // namespace
 
-void bind_predicates(nb::module_& module) {
-    nb::module_ m = module.def_submodule("predicates");
+void bind_predicates(nb::module_& m) {
     bind(m, "orient2d", orient2d);
     bind(m, "orient3d", orient3d);
     bind(m, "incircle", incircle);

@@ -80,8 +80,7 @@ std::vector<std::string> common_factor_of(const coefficients& p, const coefficie
 
 }  // namespace
 
-void bind_roots(nb::module_& module) {
-    nb::module_ m = module.def_submodule("roots");
+void bind_roots(nb::module_& m) {
     nb::class_<roots_type>(m, "Roots")
         .def("__init__", [](roots_type* self, const coefficients& p, double a,
                             double b) { new (self) roots_type(staged_of(p), a, b); })
