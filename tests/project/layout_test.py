@@ -41,6 +41,7 @@ LAYERS = [
     ("stress", r"ccd/stress/"),
     ("reports", r"ccd/report/"),
     ("programs", r"(ccd|errbound)/program/"),
+    ("Python package", r"python/"),
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
 INTERNAL = r"(errbound/(detail|integers|filters|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
