@@ -104,8 +104,8 @@ class advancing {
         return {.threads = options_.threads,
                 .set = options_.set,
                 .distances = options_.distances,
-                .filter = options_.filter,
-                .stop = options_.stop};
+                .stop = options_.stop,
+                .filter = options_.filter};
     }
     time_options times_asked(const pair_distances& distances) const {
         return {1, distances, options_.threads, options_.set, options_.stop};

@@ -23,8 +23,8 @@ struct advance_options {
     pair_distances distances = {};            ///< to be kept; by default contact alone is avoided
     int threads = 0;                          ///< at most; 0: one per core
     std::optional<instruction_set> set = {};  ///< by default the strongest
-    pair_filter filter = {};                  ///< which pairs are looked at
     stop_query stop = {};                     ///< ends the call by throwing ccd::stopped
+    pair_filter filter = {};                  ///< which pairs are looked at
 };
 
 struct advance_result {

@@ -69,8 +69,8 @@ struct step_options {
     /// Report, in place of those in contact, pairs that come within a distance; times and what is
     /// there at the start are then of that.
     pair_distances distances = {};
-    pair_filter filter = {};
     stop_query stop = {};  ///< ends the call by throwing ccd::stopped
+    pair_filter filter = {};
 };
 
 namespace detail {
@@ -170,9 +170,8 @@ class mesh_steps {
     step_result run(const vertex_rows& positions, const step_options& options = {});
 
     /// All candidates of a step, the vertices of faces in the mesh's order, for narrow phases of
-    /// one's own. Of the options, `threads`, `filter`, `distances` and
-    /// `stop` count. Memory: up to 33 bytes
-    /// a candidate. Throws as run(); the instruction set is not looked at.
+    /// one's own. Of the options, `threads`, `stop`, `filter` and `distances` count. Memory: up to
+    /// 33 bytes a candidate. Throws as run(); the instruction set is not looked at.
     pair_lists candidates(const vertex_rows& positions, const step_options& options = {});
 
     /// The same in blocks as they are found, in no particular order, never stored as a whole. The
