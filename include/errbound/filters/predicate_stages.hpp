@@ -23,7 +23,10 @@ template <class Shape, class F, class Options>
 class predicate_stages {
     static_assert(takes_points<Shape, F>,
                   "errbound: a predicate's expression takes one argument for each point of the "
-                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>");
+                  "shape, of any type: [](const auto& a, const auto& b) for points<2, 2>; where it "
+                  "does, it uses of points and coordinates what they do not have, as other errors "
+                  "say: they have a[0], +, -, *, sign_of and the like, but no a.dot(b), no "
+                  "std::abs(x)");
     using result = result_over<Shape, F, counted_scalars<Shape>>;
     static_assert(std::is_same_v<result, expression_count> || std::is_same_v<result, sign_type>,
                   "errbound: a predicate's expression returns a number made of coordinates, whose "
