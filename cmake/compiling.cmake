@@ -31,6 +31,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "
   # False alarms for "text" + std::string: GCC bug 105651.
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>")
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # Masks of one lane are bool, and & of them evaluates both sides, as of those of many.
+  # GCC's -Wconversion means no changes of sign.
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical;-Wno-sign-conversion>")
+endif()
 if(ERRBOUND_WERROR)
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Werror>")
 endif()

@@ -127,7 +127,8 @@ condition<R> contact_condition(const vertex_edge_paths<R>& q) {
 /// Where the plane or the pair of lines is one, and the nearest points inside.
 template <class Forms>
 auto inside_conditions(const Forms& forms) {
-    return side_conditions{list(forms.inside()), list(forms.n)};
+    const auto inside = list(forms.inside());
+    return side_conditions<typename decltype(inside)::value_type>{inside, list(forms.n)};
 }
 
 /// Of VF and EE at times at which Y = 0.

@@ -40,6 +40,23 @@ void check_length(const char* of, std::size_t found, std::size_t vertices) {
                                     std::to_string(vertices));
 }
 
+std::string text(std::span<const vertex_index> indices) {
+    std::string s;
+    for (const vertex_index i : indices) s += (s.empty() ? "(" : ", ") + std::to_string(i);
+    return s + ")";
+}
+
+template <class Elements>
+void check_same(const std::string& of, const Elements& before, const Elements& after) {
+    if (before.size() != after.size())
+        throw std::invalid_argument("ccd::step: " + std::to_string(before.size()) + " " + of +
+                                    "s before, " + std::to_string(after.size()) + " after");
+    const auto [b, a] = std::ranges::mismatch(before, after);
+    if (b != before.end())
+        throw std::invalid_argument("ccd::step: " + of + " " + std::to_string(b - before.begin()) +
+                                    " is " + text(*b) + " before, " + text(*a) + " after");
+}
+
 }  // namespace
 
 void check_frames(const mesh& before, const mesh& after) {
@@ -47,10 +64,8 @@ void check_frames(const mesh& before, const mesh& after) {
         throw std::invalid_argument("ccd::step: " + std::to_string(before.vertices.size()) +
                                     " vertices before, " + std::to_string(after.vertices.size()) +
                                     " after");
-    if (before.faces != after.faces)
-        throw std::invalid_argument("ccd::step: the two frames differ in their faces");
-    if (before.edges != after.edges)
-        throw std::invalid_argument("ccd::step: the two frames differ in their edges");
+    check_same("face", before.faces, after.faces);
+    check_same("edge", before.edges, after.edges);
 }
 
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,

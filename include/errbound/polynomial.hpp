@@ -44,13 +44,17 @@ namespace roots {
 /// The integer type to decide in: the one named, or that of the coefficients.
 template <class Named, class C>
 struct integer_for {
+    static_assert(exact_number<Named>,
+                  "errbound: the integer type to decide in never overflows: Boost.Multiprecision's "
+                  "cpp_int, or GMP's, by errbound/multiprecision.hpp");
     using type = Named;
 };
 template <class C>
 struct integer_for<void, C> {
     static_assert(
         exact_number<C>,
-        "errbound: name the integer type to decide in, as in count_roots<integer>(p, a, b)");
+        "errbound: name the integer type to decide in, as in count_roots<integer>(p, a, b), with "
+        "using integer = boost::multiprecision::cpp_int");
     static auto of(const C& c) {
         if constexpr (std::numeric_limits<C>::is_integer)
             return c;

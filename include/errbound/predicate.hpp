@@ -199,14 +199,15 @@ class predicate_type {
     template <class... Points>
     struct number {
         static_assert(sizeof...(Points) == Shape::count,
-                      "errbound: as many points as the predicate's shape says");
+                      "errbound: a call takes as many arguments as the predicate's shape says");
         using type = std::common_type_t<decltype(coordinate_of(std::declval<Points>(), 0))...>;
         static_assert(has_dimensions<Points...>(std::index_sequence_for<Points...>()),
                       "errbound: a point has fewer coordinates than the predicate's shape says");
-        static_assert((std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> &&
-                       ...) &&
-                          sizeof(type) <= sizeof(double),
-                      "errbound: coordinates must be float or double");
+        static_assert(
+            (std::floating_point<decltype(coordinate_of(std::declval<Points>(), 0))> && ...) &&
+                sizeof(type) <= sizeof(double),
+            "errbound: coordinates must be float or double: convert whole ones of at most "
+            "53 bits, as by static_cast<double>(n) or p.cast<double>()");
     };
     template <class... Points>
     using number_of = typename number<Points...>::type;

@@ -157,15 +157,18 @@ bool collides(const ccd::edge_edge_curves& query, shortcuts use, const interval&
     const vector a = a1 - a0;
     const vector b = b1 - b0;
     const vector w = b0 - a0;
+    const vector w00 = a0 - b0;
+    const vector w01 = b1 - a0;
+    const vector w10 = a1 - b0;
     const vector normal = cross(a, b);
     return planar_contact(stretch_of(when), dot(normal, w), [&] {
         // a0 + s a = b0 + u b, crossed with b and with a: s normal = w x b and u normal = w x a.
         const vector s = cross(w, b);
         const vector u = cross(w, a);
-        return planar_features{normal,
-                               {s, normal - s, u, normal - u},
-                               {on_segment(w, a), on_segment(b1 - a0, a), on_segment(a0 - b0, b),
-                                on_segment(a1 - b0, b)}};
+        return planar_features{
+            normal,
+            {s, normal - s, u, normal - u},
+            {on_segment(w, a), on_segment(w01, a), on_segment(w00, b), on_segment(w10, b)}};
     });
 }
 

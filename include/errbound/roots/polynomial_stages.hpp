@@ -40,6 +40,9 @@ class polynomial {
   private:
     std::vector<Coefficient> c_;
 };
+/// Of numbers of several types, as in {1, 2.5}: those of the one that holds all.
+template <class... Numbers>
+polynomial(Numbers...) -> polynomial<std::common_type_t<Numbers...>>;
 
 }  // namespace errbound
 

@@ -30,10 +30,14 @@ TEST(StepRefuses, FramesThatDoNotBelongTogether) {
     const auto [before, after] = random_soup(1, 10, 5);
     ccd::mesh other = after;
     other.faces.pop_back();
-    EXPECT_EQ(refusal_of(before, other), "ccd::step: the two frames differ in their faces");
+    EXPECT_EQ(refusal_of(before, other), "ccd::step: 5 faces before, 4 after");
+    other = after;
+    other.faces[2] = {1, 2, 4};
+    EXPECT_TRUE(refusal_of(before, other).starts_with("ccd::step: face 2 is ("));
+    EXPECT_TRUE(refusal_of(before, other).ends_with(" before, (1, 2, 4) after"));
     other = after;
     other.edges = {{0, 1}};
-    EXPECT_EQ(refusal_of(before, other), "ccd::step: the two frames differ in their edges");
+    EXPECT_EQ(refusal_of(before, other), "ccd::step: 0 edges before, 1 after");
     other = after;
     other.vertices.pop_back();
     EXPECT_EQ(refusal_of(before, other), "ccd::step: 10 vertices before, 9 after");

@@ -412,6 +412,12 @@ TEST(Roots, EndWithAValueTooSmallForADouble) {
     EXPECT_TRUE(found.empty());
 }
 
+TEST(Roots, PolynomialOfDoublesAndInts) {
+    const polynomial p{1, -2.5, 1};
+    static_assert(std::is_same_v<decltype(p), const polynomial<double>>);
+    EXPECT_EQ(count_roots<integer>(p, 0, 1), 1U);
+}
+
 // One library's polynomial at the roots of another's.
 TEST(Roots, MixedNumberTypes) {
     using boost::multiprecision::cpp_int;
