@@ -9,7 +9,7 @@ namespace brute_force {
 /// Adds four vertices, and the face or the edges that make a query of this kind of them; those that
 /// it has no use for are points.
 inline void add_query(two_frames& at, ccd::kind which, const ccd::stress::points& points) {
-    auto& [before, after] = at;
+    ccd::mesh &before = at.first, &after = at.second;
     const auto v = static_cast<vertex_index>(before.vertices.size());
     for (const auto& p : points) {
         before.vertices.push_back(p.t0);

@@ -27,7 +27,8 @@ std::string refusal_of(const ccd::mesh& before, const ccd::mesh& after,
 }
 
 TEST(StepRefuses, FramesThatDoNotBelongTogether) {
-    const auto [before, after] = random_soup(1, 10, 5);
+    const two_frames frames = random_soup(1, 10, 5);
+    const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.faces.pop_back();
     EXPECT_EQ(refusal_of(before, other), "ccd::step: 5 faces before, 4 after");
@@ -52,7 +53,8 @@ TEST(StepRefuses, FramesThatDoNotBelongTogether) {
 }
 
 TEST(StepRefuses, CoordinatesThatAreNotFinite) {
-    const auto [before, after] = random_soup(1, 10, 5);
+    const two_frames frames = random_soup(1, 10, 5);
+    const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.vertices[3].y = -std::numeric_limits<double>::infinity();
     EXPECT_EQ(refusal_of(before, other),
@@ -65,7 +67,8 @@ TEST(StepRefuses, CoordinatesThatAreNotFinite) {
 }
 
 TEST(StepRefuses, IndicesOutOfRange) {
-    auto [before, after] = random_soup(1, 10, 5);
+    two_frames frames = random_soup(1, 10, 5);
+    ccd::mesh &before = frames.first, &after = frames.second;
     before.faces[2][1] = after.faces[2][1] = 10;
     EXPECT_EQ(refusal_of(before, after), "ccd::mesh_steps: face 2 names vertex 10 of 10");
     const ccd::mesh rods{{{0, 0, 0}}, {}, {{0, 0}, {0, 1}}};
@@ -73,7 +76,8 @@ TEST(StepRefuses, IndicesOutOfRange) {
 }
 
 TEST(StepRefuses, OptionsThatAreNone) {
-    const auto [before, after] = random_soup(1, 10, 5);
+    const two_frames frames = random_soup(1, 10, 5);
+    const ccd::mesh &before = frames.first, &after = frames.second;
     EXPECT_EQ(refusal_of(before, after, {.method = ccd::method(77)}),
               "ccd::step: found method 77, expected one of ccd::methods()");
     EXPECT_THROW(ccd::step({}, {}, {.set = ccd::instruction_set(7)}), std::invalid_argument);

@@ -77,7 +77,7 @@ TEST_P(Stop, EndsStepsAndLeavesThemUsable) {
 }
 
 TEST_P(Stop, PassesOnWhatTheQueryThrows) {
-    const stop_query stop = [this]() -> bool { throw std::string("enough"); };
+    const stop_query stop = []() -> bool { throw std::string("enough"); };
     EXPECT_THROW(ccd::step(before_, after_, {.threads = GetParam(), .stop = stop}), std::string);
 }
 
