@@ -1,4 +1,17 @@
-# Makes a C++ source of a text file: cmake -DINPUT=FILE -DOUTPUT=FILE -DNAME=a::b::name -P ...
+# errbound_embed_text(TARGET FILE NAME): the text of FILE is the string a::b::name in the target. Makes a
+# C++ source of it, when this runs as a script: cmake -DINPUT=FILE -DOUTPUT=FILE -DNAME=a::b::name -P ...
+if(NOT CMAKE_SCRIPT_MODE_FILE)
+  function(errbound_embed_text target file name)
+    string(MAKE_C_IDENTIFIER ${name} source)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/${source}.cpp)
+    set(script ${PROJECT_SOURCE_DIR}/cmake/embed_text.cmake)
+    add_custom_command(OUTPUT ${source} DEPENDS ${file} ${script}
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${source}
+              -DNAME=${name} -P ${script} VERBATIM)
+    target_sources(${target} PRIVATE ${source})
+  endfunction()
+  return()
+endif()
 file(READ ${INPUT} text)
 string(FIND "${text}" ")embedded\"" delimiter)
 if(NOT delimiter EQUAL -1)

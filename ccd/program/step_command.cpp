@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "ccd/io/view/view_files.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
 #include "errbound/support/command_line.hpp"
@@ -251,29 +252,7 @@ class step final : public command {
             ->required()
             ->transform(errbound::support::input_named);
         line_.add_option("--method", method_, "The method, else exact")->type_name("M");
-        line_
-            .add_option(
-                "--pairs", pairs_,
-                "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 where the\n"
-                "mesh has rods or points), vertex indices; -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option("--toi", toi_,
-                        "Write the lines of --pairs, each followed by ,low,high: between these\n"
-                        "times is the first contact (see ccd query --help); -: standard output")
-            ->type_name("OUT");
-        line_
-            .add_option(
-                "--advance", advance_,
-                "Write a frame (PLY, in doubles), as far on the way to FRAME1 as is free: a\n"
-                "step to it has no pairs but those that touch, or are within --separation,\n"
-                "at the start; of the latter contact alone is avoided")
-            ->type_name("OUT.ply")
-            ->check([](const std::string& path) {
-                return path == "-" || path.ends_with(".ply")
-                           ? std::string()
-                           : "found '" + path + "', expected a name that ends in .ply, or -";
-            });
+        add_outputs();
         add_threads_option(line_, asked_.threads, "Threads; 0: one per core");
         line_
             .add_option("--instruction-set", set_,
@@ -304,14 +283,55 @@ class step final : public command {
                 before, after,
                 {.distances = {asked_.distance}, .threads = asked_.threads, .set = asked_.set});
         found.memory = peak_memory_bytes();
-        write(before, found);
-        errbound::support::stream_for_people({pairs_, toi_, advance_, json_})
+        write(before, after, found);
+        errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_})
             << text_of_step(asked_, before, found);
         return done;
     }
 
   private:
-    void write(const mesh& before, step_outcome& found) const {
+    void add_outputs() {
+        line_
+            .add_option(
+                "--pairs", pairs_,
+                "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 where the\n"
+                "mesh has rods or points), vertex indices; -: standard output")
+            ->type_name("OUT");
+        line_
+            .add_option("--toi", toi_,
+                        "Write the lines of --pairs, each followed by ,low,high: between these\n"
+                        "times is the first contact (see ccd query --help); -: standard output")
+            ->type_name("OUT");
+        line_
+            .add_option(
+                "--advance", advance_,
+                "Write a frame (PLY, in doubles), as far on the way to FRAME1 as is free: a\n"
+                "step to it has no pairs but those that touch, or are within --separation,\n"
+                "at the start; of the latter contact alone is avoided")
+            ->type_name("OUT.ply")
+            ->check([](const std::string& path) {
+                return path == "-" || path.ends_with(".ply")
+                           ? std::string()
+                           : "found '" + path + "', expected a name that ends in .ply, or -";
+            });
+        line_
+            .add_option(
+                "--view", view_,
+                "Write the step to look at, with times if --toi is given. OUT.html, or -: a page\n"
+                "for a browser; for ParaView, OUT.vtp: FRAME0 with its way, OUT.pvd: both frames,\n"
+                "in OUT-0.vtp and OUT-1.vtp")
+            ->type_name("OUT")
+            ->check([](const std::string& path) {
+                try {
+                    io::view_paths(path);
+                } catch (const std::invalid_argument& error) {
+                    return std::string(error.what());
+                }
+                return std::string();
+            });
+    }
+
+    void write(const mesh& before, const mesh& after, step_outcome& found) const {
         std::vector<errbound::support::output> outputs;
         if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.result, false)});
         if (toi_) outputs.push_back({*toi_, lines_of_pairs(found.result, true)});
@@ -319,6 +339,11 @@ class step final : public command {
             outputs.push_back({*advance_, io::ply_of({std::move(found.advance->positions),
                                                       before.faces, before.edges})});
         if (json_) outputs.push_back({*json_, json_of(asked_, found)});
+        if (view_)
+            for (auto& file :
+                 io::view_files(*view_, {vertex_rows(before, after), before.faces, before.edges,
+                                         found.result.pairs, found.result.times}))
+                outputs.push_back(std::move(file));
         write_whole(outputs);
     }
 
@@ -357,15 +382,17 @@ class step final : public command {
                     "--device cpu");
         }
         check_times();
-        errbound::support::require_good_outputs({pairs_, toi_, advance_, json_},
-                                                {asked_.before, asked_.after});
+        std::vector<std::optional<std::filesystem::path>> outputs = {pairs_, toi_, advance_, json_};
+        if (view_)
+            for (auto& path : io::view_paths(*view_)) outputs.push_back(std::move(path));
+        errbound::support::require_good_outputs(outputs, {asked_.before, asked_.after});
         if (asked_.before == "/dev/stdin" && asked_.after == "/dev/stdin")
             throw usage_error("FRAME0 and FRAME1: found standard input twice, expected once");
     }
 
     step_question asked_;
     std::string method_ = "exact", set_;
-    std::optional<std::filesystem::path> pairs_, toi_, advance_, json_;
+    std::optional<std::filesystem::path> pairs_, toi_, advance_, json_, view_;
     number_option separation_{line_, "--separation",
                               "Report pairs that come within that distance, in place of contacts"};
     device_options device_{line_};

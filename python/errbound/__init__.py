@@ -4,7 +4,8 @@ ccd         which features of moving meshes touch, when first, where; steps, and
 predicates  signs of geometric expressions, right on every finite input
 roots       real roots of polynomials, counted and isolated exactly
 tracked     arrays of numbers that carry a certified bound on their rounding error
-io          files of meshes and of queries
+io          files of meshes, of queries, and of steps to look at
+show        looks at a step: in polyscope, or on a page for a browser
 
 Arrays may be in any memory order and of float64, float32 (each float32 is a double, so nothing is
 lost) or whole numbers that doubles hold; they are copied only where they are not C-contiguous
@@ -14,8 +15,9 @@ release the interpreter's lock, and Ctrl-C ends them.
 """
 from . import ccd, io, predicates, roots, tracked
 from ._native import FileError
+from ._show import show
 
-__all__ = ["FileError", "ccd", "io", "predicates", "roots", "tracked"]
+__all__ = ["FileError", "ccd", "io", "predicates", "roots", "show", "tracked"]
 
 
 def __getattr__(name: str) -> str:

@@ -1,4 +1,5 @@
-"""Files of meshes (PLY, OBJ) and of stored queries (CSV), coordinates bit for bit.
+"""Files of meshes (PLY, OBJ), of stored queries (CSV) and of steps to look at (HTML, VTP, PVD),
+coordinates bit for bit.
 
 FileError, a ValueError, names file, line or element, found and expected. Files are written whole or
 not at all.
@@ -6,13 +7,16 @@ not at all.
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, Indices, check_finite, check_range, doubles, indices
+from ._arrays import Doubles, Indices, check_finite, check_range, doubles, frames, indices
+from ._results import StepResult
+from .ccd import POINTS
 
 FileError = _native.FileError
 
@@ -22,7 +26,7 @@ class Mesh:
     """One frame: vertices (n, 3) float64; faces (m, 3) and edges beside the faces' (k, 2), uint32."""
     vertices: Doubles
     faces: Indices
-    edges: Indices
+    edges: Indices = field(default_factory=lambda: np.empty((0, 2), np.uint32))
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,3 +82,53 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
         end = "" if known is None else f",{int(known[i])}"
         lines += [",".join(map(float.hex, row)) + end + "\n" for row in query]
     _native.write_text(os.fspath(path), "".join(lines))
+
+
+def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices, Indices]:
+    """Both frames' positions, and their faces and edges."""
+    at_start, at_end = frames(before.vertices, after.vertices)
+    check_finite("before", at_start)
+    check_finite("after", at_end)
+    faces, edges = indices("faces", before.faces, 3), indices("edges", before.edges, 2)
+    for name, found, others in ("faces", faces, after.faces), ("edges", edges, after.edges):
+        check_range(name, found, len(at_start))
+        if not np.array_equal(found, indices(name, others, found.shape[1])):
+            raise ValueError(f"after: found other {name}, expected those of before")
+    return at_start, at_end, faces, edges
+
+
+def _checked_result(result: StepResult, vertices: int) -> tuple[dict[str, Indices], dict[str, Doubles]]:
+    """Pairs by kind; times, rows of low and high, where there are any."""
+    pairs, times = {}, {}
+    for kind, points in POINTS.items():
+        pairs[kind] = indices(f"result.pairs.{kind}", getattr(result.pairs, kind), points)
+        check_range(f"result.pairs.{kind}", pairs[kind], vertices)
+        if result.times is not None:
+            times[kind] = np.column_stack([result.times[kind]["low"], result.times[kind]["high"]])
+    return pairs, times
+
+
+def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: StepResult) -> None:
+    """A step to look at, with times if result has them; the name's end says how.
+
+    NAME.html: a page for a browser, whole in itself. For ParaView: NAME.vtp, the frame before, with each
+    vertex's displacement; NAME.pvd, both frames, in NAME-0.vtp and NAME-1.vtp. What the arrays in them
+    mean: docs/program.md. Faces and edges are the same in both frames, else ValueError; indices out of
+    range are an IndexError.
+    """
+    at_start, at_end, faces, edges = _checked_mesh(before, after)
+    pairs, times = _checked_result(result, len(at_start))
+    _native.write_view(os.fspath(path), at_start, at_end, faces, edges, pairs, times)
+
+
+def write_pvd(path: str | os.PathLike[str], times: ArrayLike, files: Sequence[str | os.PathLike[str]]) -> None:
+    """A series for ParaView: of files, as write_view's NAME.vtp, and the time of each.
+
+    It holds the way to them from its own folder: move them together.
+    """
+    moments = doubles("times", times, (None,))
+    if len(moments) != len(files):
+        raise ValueError(f"files: found {len(files)}, expected {len(moments)}, one a time")
+    check_finite("times", moments)
+    folder = os.path.dirname(os.path.abspath(path))
+    _native.write_pvd(os.fspath(path), moments.tolist(), [os.path.relpath(file, folder) for file in files])

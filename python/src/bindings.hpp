@@ -11,5 +11,6 @@ void bind_queries(nanobind::module_& m);
 void bind_roots(nanobind::module_& m);
 void bind_steps(nanobind::module_& m);
 void bind_tracked(nanobind::module_& m);
+void bind_views(nanobind::module_& m);
 
 }  // namespace errbound::python

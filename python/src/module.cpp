@@ -11,6 +11,7 @@ NB_MODULE(_native, m) {
     errbound::python::bind_queries(m);
     errbound::python::bind_steps(m);
     errbound::python::bind_files(m);
+    errbound::python::bind_views(m);
     errbound::python::bind_predicates(m);
     errbound::python::bind_roots(m);
     errbound::python::bind_tracked(m);

@@ -1,0 +1,95 @@
+// The page: the template with a step's arrays put in.
+#include <array>
+#include <bit>
+#include <ccd/io/step_view.hpp>
+#include <cstdint>
+#include <string_view>
+
+#include "ccd/io/view/base64.hpp"
+#include "ccd/io/view/checks.hpp"
+
+namespace ccd::io {
+
+// Made of the files in page/ when this is built.
+extern const std::string_view page_template, page_style, page_camera, page_picture, page_script;
+
+namespace {
+
+/// Numbers as a page reads them: the least significant byte first, on every machine.
+template <class Number>
+void append_number(std::string& bytes, Number number) {
+    auto text = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+    if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(text);
+    bytes.append(text.data(), text.size());
+}
+
+template <class Rows>
+std::string bytes_of_rows(const Rows& rows) {
+    std::string bytes;
+    for (const auto& row : rows)
+        for (const auto number : row) append_number(bytes, number);
+    return bytes;
+}
+
+/// An array of the page: `id` is what its script asks for.
+void append_array(std::string& text, std::string_view id, std::string bytes) {
+    text += "<script type=\"text/plain\" id=\"array-";
+    text += id;
+    text += "\">";
+    detail::append_base64(text, std::move(bytes));
+    text += "</script>\n";
+}
+
+/// Bodies, numbered from 0 to 5 and then again: the page's colours.
+std::string bytes_of_parts(const step_view& step) {
+    constexpr int colours = 6;
+    std::string bytes;
+    for (const int part : connected_parts(step.faces, step.edges, step.positions.vertices))
+        bytes += static_cast<char>(part % colours);
+    return bytes;
+}
+
+std::string arrays_of(const step_view& step) {
+    std::string text;
+    const std::size_t vertices = step.positions.vertices;
+    const auto rows = [vertices](const double* frame) {
+        return std::span(reinterpret_cast<const std::array<double, 3>*>(frame), vertices);
+    };
+    append_array(text, "before", bytes_of_rows(rows(step.positions.before)));
+    append_array(text, "after", bytes_of_rows(rows(step.positions.after)));
+    append_array(text, "faces", bytes_of_rows(step.faces));
+    append_array(text, "edges", bytes_of_rows(step.edges));
+    append_array(text, "parts", bytes_of_parts(step));
+    for_each_kind([&]<kind K>() {
+        std::string pairs, times;
+        for (const auto& pair : step.pairs.of<K>())
+            for (const vertex_index v : vertices_of(pair)) append_number(pairs, v);
+        for (const first_time& time : step.times.of<K>())
+            for (const double end : {time.low, time.high}) append_number(times, end);
+        const std::string id(name(K));
+        append_array(text, id, std::move(pairs));
+        append_array(text, id + "_times", std::move(times));
+    });
+    return text;
+}
+
+}  // namespace
+
+std::string page_of(const step_view& step) {
+    detail::require_view(step);
+    const std::string arrays = arrays_of(step);
+    const std::pair<std::string_view, std::string_view> parts[] = {
+        {"{{style}}", page_style},     {"{{arrays}}", arrays},      {"{{camera}}", page_camera},
+        {"{{picture}}", page_picture}, {"{{script}}", page_script},
+    };
+    std::string text;
+    std::string_view rest = page_template;
+    for (const auto& [place, part] : parts) {
+        const std::size_t at = rest.find(place);
+        text.append(rest.substr(0, at)).append(part);
+        rest.remove_prefix(at + place.size());
+    }
+    return text.append(rest);
+}
+
+}  // namespace ccd::io

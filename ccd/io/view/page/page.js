@@ -1,0 +1,341 @@
+// The page: what its arrays say, the list of pairs, and what the mouse, fingers and keys do.
+const NAMES = ["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"];
+const SHORT = ["vf", "ee", "ve", "vv"], WORDS = ["vertex", "edge", "face"];
+const FIRST = [1, 2, 1, 1], POINTS = [4, 4, 3, 2];  // vertices of the first element, of both
+const ROW = 22;                                     // pixels, as the style says
+const TALLEST = 8e6;                                // browsers hold no element much taller
+
+const element = id => document.getElementById(id);
+
+function bytes(id) {
+  const text = atob(element("array-" + id).textContent.trim()), found = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) found[i] = text.charCodeAt(i);
+  return found.buffer;
+}
+
+/// The step: positions in doubles, all pairs one after the other, by kind. `times` is empty
+/// where times are unknown.
+function readStep() {
+  const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
+    faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
+  step.kinds = NAMES.map((name, k) => {
+    const vertices = new Uint32Array(bytes(name)), times = new Float64Array(bytes(name + "_times"));
+    return {vertices, times, count: vertices.length / POINTS[k]};
+  });
+  step.count = step.kinds.reduce((sum, kind) => sum + kind.count, 0);
+  step.timed = step.kinds.some(kind => kind.times.length > 0);
+  return step;
+}
+
+/// Kind and vertices of a pair, and its times where they are known.
+function pairOf(step, i) {
+  let k = 0;
+  while (i >= step.kinds[k].count) i -= step.kinds[k++].count;
+  const {vertices, times} = step.kinds[k], all = Array.from(vertices.subarray(POINTS[k] * i, POINTS[k] * (i + 1)));
+  return {kind: k, vertices: all, elements: [all.slice(0, FIRST[k]), all.slice(FIRST[k])],
+    low: times[2 * i], high: times[2 * i + 1]};
+}
+
+/// The picture's coordinates: floats, relative to the middle of both frames and to their largest extent.
+function sceneOf(step) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const frame of [step.before, step.after])
+    frame.forEach((c, i) => {
+      low[i % 3] = Math.min(low[i % 3], c);
+      high[i % 3] = Math.max(high[i % 3], c);
+    });
+  const middle = low.map((c, a) => c / 2 + high[a] / 2);
+  const half = Math.max(...low.map((c, a) => high[a] / 2 - c / 2)) || 1;
+  const scaled = frame => Float32Array.from(frame, (c, i) => (c - middle[i % 3]) / half);
+  const scene = {before: scaled(step.before), after: scaled(step.after), faces: step.faces, parts: step.parts,
+    rods: step.edges, points: pointsOf(step), marks: marksOf(step, scaled(step.before), scaled(step.after)),
+    struck: elementsOf(step, 0, 3), crossed: elementsOf(step, 1, 2)};
+  scene.edgeLength = typicalLength(scene);
+  return scene;
+}
+
+/// Vertices on no face and no edge.
+function pointsOf(step) {
+  const used = new Uint8Array(step.before.length / 3);
+  for (const list of [step.faces, step.edges]) list.forEach(v => used[v] = 1);
+  return Uint32Array.from(used.keys()).filter(v => !used[v]);
+}
+
+/// The faces, of three vertices, or edges, of two, of all pairs of a kind: each once.
+function elementsOf(step, k, size) {
+  const found = new Map();
+  for (let i = 0; i < step.kinds[k].count; ++i)
+    for (const element of pairOf(step, i + (k ? step.kinds[0].count : 0)).elements)
+      if (element.length === size) found.set(element.join(), element);
+  return Uint32Array.from([...found.values()].flat());
+}
+
+/// A mark a pair: at its vertex, or in the middle of its two edges.
+function marksOf(step, before, after) {
+  const marks = {before: new Float32Array(3 * step.count), after: new Float32Array(3 * step.count),
+    kinds: new Uint8Array(step.count)};
+  for (let i = 0; i < step.count; ++i) {
+    const pair = pairOf(step, i), at = pair.kind === 1 ? pair.vertices : pair.elements[0];
+    marks.kinds[i] = pair.kind;
+    for (let a = 0; a < 3; ++a)
+      for (const v of at) {
+        marks.before[3 * i + a] += before[3 * v + a] / at.length;
+        marks.after[3 * i + a] += after[3 * v + a] / at.length;
+      }
+  }
+  return marks;
+}
+
+/// The mean over some faces' and rods' edges.
+function typicalLength(scene) {
+  const list = scene.faces.length ? scene.faces : scene.rods, size = scene.faces.length ? 3 : 2;
+  const stride = size * Math.max(1, Math.floor(list.length / size / 1000));
+  let sum = 0, count = 0;
+  for (let i = 0; i + 1 < list.length; i += stride, ++count)
+    sum += Math.hypot(...[0, 1, 2].map(a => scene.before[3 * list[i] + a] - scene.before[3 * list[i + 1] + a]));
+  return sum / count || .05;
+}
+
+const step = readStep();
+const scene = sceneOf(step);
+const camera = new Camera(element("up").selectedIndex);
+let picture = null, order = Uint32Array.from({length: step.count}, (_, i) => i), chosen = -1, waiting = false;
+
+const time = () => Number(element("time").value);
+
+function redraw() {
+  if (!picture || waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    waiting = false;
+    const show = Object.fromEntries(["faces", "wires", "pairs", "through"].map(id => [id, element(id).checked]));
+    picture.show(camera, time(), show);
+  });
+}
+
+function setTime(t) {
+  element("time").value = t;
+  element("shown-time").textContent = String(t);
+  redraw();
+}
+
+// The list: of its rows only those in sight exist.
+
+function inSight() { return Math.max(1, Math.floor(element("list").clientHeight / ROW)); }
+
+/// How far the list scrolls, in pixels and in rows.
+function reach() {
+  const list = element("list");
+  return {pixels: Math.max(1, list.scrollHeight - list.clientHeight), rows: Math.max(0, order.length - inSight())};
+}
+
+function rowOf(i, place) {
+  const pair = pairOf(step, i), row = document.createElement("div");
+  const add = (kind, text) => row.appendChild(Object.assign(document.createElement("span"), {className: kind, textContent: text}));
+  row.className = "row";
+  row.id = "pair-" + i;
+  row.setAttribute("role", "option");
+  row.setAttribute("aria-selected", i === chosen);
+  row.setAttribute("aria-setsize", order.length);
+  row.setAttribute("aria-posinset", place + 1);
+  add("number", i);
+  add("kind " + SHORT[pair.kind], SHORT[pair.kind]);
+  add("vertices", pair.elements.map(e => e.join(" ")).join(" | "));
+  if (step.timed) add("low", pair.high === 0 ? "at start" : pair.low.toPrecision(6));
+  row.onclick = () => choose(i);
+  return row;
+}
+
+function showRows() {
+  const {pixels, rows} = reach(), first = Math.round(element("list").scrollTop / pixels * rows);
+  const places = Array.from(order.subarray(first, first + inSight()).keys(), place => first + place);
+  element("rows").replaceChildren(...places.map(place => rowOf(order[place], place)));
+}
+
+function showList() {
+  const height = order.length * ROW;
+  element("height").style.height = Math.min(height, TALLEST) + "px";
+  element("list").scrollTop = 0;
+  element("chosen").textContent = order.length === step.count ? "" : order.length + " of them";
+  showRows();
+}
+
+function arrange() {
+  const vertex = element("vertex").value;
+  let found = Array.from({length: step.count}, (_, i) => i);
+  if (vertex !== "") found = found.filter(i => pairOf(step, i).vertices.includes(Number(vertex)));
+  if (element("order").value === "time") {
+    const lows = Float64Array.from({length: step.count}, (_, i) => pairOf(step, i).low);
+    found.sort((i, j) => lows[i] - lows[j] || i - j);
+  }
+  order = Uint32Array.from(found);
+  showList();
+}
+
+function reveal(place) {
+  const {pixels, rows} = reach(), list = element("list");
+  const first = Math.round(list.scrollTop / pixels * rows);
+  if (place >= first && place < first + inSight()) return;
+  list.scrollTop = rows ? Math.min(rows, Math.max(0, place - Math.floor(inSight() / 2))) / rows * pixels : 0;
+}
+
+// The chosen pair.
+
+function said(elements) {
+  return elements.map(e => WORDS[e.length - 1] + " " + e.join(" ")).join(" and ");
+}
+
+function whenOf(pair) {
+  if (!step.timed) return "When it is first there was not asked for.";
+  if (pair.high === 0) return "There at the start.";
+  return pair.low === pair.high ? `First at t = ${pair.low}.` : `First between t = ${pair.low} and ${pair.high}.`;
+}
+
+function queryOf(pair) {
+  const row = (frame, v) => Array.from(frame.subarray(3 * v, 3 * v + 3)).join(",");
+  return [step.before, step.after].flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
+}
+
+/// Looks at it when it is first there.
+function lookAt(pair) {
+  const t = step.timed ? pair.low : time();
+  const at = pair.vertices.map(v =>
+    [0, 1, 2].map(a => scene.before[3 * v + a] * (1 - t) + scene.after[3 * v + a] * t));
+  const middle = [0, 1, 2].map(a => at.reduce((sum, p) => sum + p[a], 0) / at.length);
+  const radius = Math.max(...at.map(p => Math.hypot(...p.map((c, a) => c - middle[a]))));
+  setTime(t);
+  camera.look(middle, 2.5 * radius || .05);
+}
+
+function choose(i) {
+  chosen = i;
+  const pair = pairOf(step, i);
+  element("detail").hidden = false;
+  element("what").textContent = said(pair.elements);
+  element("when").textContent = whenOf(pair);
+  element("query").textContent = queryOf(pair);
+  if (picture) picture.choose(pair.elements);
+  lookAt(pair);
+  reveal(order.indexOf(i));
+  showRows();
+  redraw();
+}
+
+function chooseNext(by) {
+  const place = order.indexOf(chosen) + by;
+  if (place >= 0 && place < order.length) choose(order[place]);
+}
+
+function chooseAt(x, y) {
+  const {marks} = scene, t = time();
+  let best = -1, nearest = 12;  // pixels
+  for (let i = 0; i < step.count; ++i) {
+    const at = [0, 1, 2].map(a => marks.before[3 * i + a] * (1 - t) + marks.after[3 * i + a] * t);
+    const [right, below, depth] = camera.project(at), height = element("picture").clientHeight;
+    const away = Math.hypot(right * height - x, below * height - y);
+    if (depth > 0 && away < nearest) [best, nearest] = [i, away];
+  }
+  if (best >= 0) choose(best);
+}
+
+// Mouse, fingers, keys.
+
+/// In pixels right of and below the middle of the picture.
+function placeOf(event) {
+  const box = element("picture").getBoundingClientRect();
+  return [event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2];
+}
+
+function listenToPointers(canvas) {
+  const down = new Map();
+  let travelled = 0;
+  const spread = () => {
+    const [p, q] = [...down.values()];
+    return {middle: [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2], width: Math.hypot(p[0] - q[0], p[1] - q[1])};
+  };
+  canvas.addEventListener("pointerdown", event => {
+    canvas.setPointerCapture(event.pointerId);
+    if (down.size === 0) travelled = 0;
+    down.set(event.pointerId, placeOf(event));
+  });
+  canvas.addEventListener("pointermove", event => {
+    const before = down.get(event.pointerId), now = placeOf(event), height = canvas.clientHeight;
+    if (!before) return;
+    const [x, y] = [(now[0] - before[0]) / height, (now[1] - before[1]) / height];
+    travelled += Math.hypot(x, y) * height;
+    if (down.size === 1) {
+      down.set(event.pointerId, now);
+      if (event.buttons & 6 || event.shiftKey) camera.move(x, y); else camera.turn(x, y);
+    } else if (down.size === 2) {
+      const from = spread();
+      down.set(event.pointerId, now);
+      const to = spread();
+      camera.move((to.middle[0] - from.middle[0]) / height, (to.middle[1] - from.middle[1]) / height);
+      camera.zoom(from.width / Math.max(to.width, 1), to.middle[0] / height, to.middle[1] / height);
+    }
+    redraw();
+  });
+  canvas.addEventListener("pointerup", event => {
+    if (down.delete(event.pointerId) && travelled < 4 && event.button === 0) chooseAt(...placeOf(event));
+  });
+  canvas.addEventListener("pointercancel", event => down.delete(event.pointerId));
+  canvas.addEventListener("contextmenu", event => event.preventDefault());
+  canvas.addEventListener("wheel", event => {
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 30 : 1;
+    const [x, y] = placeOf(event).map(c => c / canvas.clientHeight);
+    camera.zoom(Math.exp(.0015 * lines * event.deltaY), x, y);
+    redraw();
+  }, {passive: false});
+}
+
+function listenToControls() {
+  element("time").oninput = () => setTime(time());
+  for (const id of ["faces", "wires", "pairs", "through"]) element(id).onchange = redraw;
+  element("up").onchange = () => {
+    camera.up = element("up").selectedIndex;
+    redraw();
+  };
+  element("whole").onclick = () => {
+    camera.reset();
+    redraw();
+  };
+  element("order").onchange = arrange;
+  element("vertex").oninput = arrange;
+  for (const id of ["controls", "choice"]) element(id).onsubmit = () => false;
+  element("list").onscroll = showRows;
+  element("copy").onclick = () => {
+    getSelection().selectAllChildren(element("query"));
+    document.execCommand("copy");
+  };
+  for (const id of ["list", "picture"])
+    element(id).onkeydown = event => {
+      const by = {ArrowDown: 1, ArrowUp: -1}[event.key];
+      if (!by) return;
+      event.preventDefault();
+      chooseNext(by);
+    };
+}
+
+function start() {
+  const counted = step.kinds.map((kind, k) => `${kind.count.toLocaleString("en")} ${NAMES[k].replace("_", "/")}`);
+  element("count").textContent = step.count.toLocaleString("en") + (step.count === 1 ? " pair" : " pairs");
+  element("kinds").textContent = counted.filter((_, k) => k < 2 || step.kinds[k].count > 0).join(", ");
+  if (step.timed) element("order").add(new Option("by time", "time"));
+  try {
+    picture = new Picture(element("picture"), scene);
+  } catch (error) {
+    element("trouble").textContent = error.message;
+    element("trouble").hidden = false;
+  }
+  listenToControls();
+  listenToPointers(element("picture"));
+  new ResizeObserver(() => {
+    showRows();
+    redraw();
+  }).observe(document.body);
+  new ResizeObserver(redraw).observe(element("picture"));
+  showList();
+}
+
+start();
