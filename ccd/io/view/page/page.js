@@ -2,6 +2,7 @@
 const NAMES = ["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"];
 const SHORT = ["vf", "ee", "ve", "vv"], WORDS = ["vertex", "edge", "face"];
 const FIRST = [1, 2, 1, 1], POINTS = [4, 4, 3, 2];  // vertices of the first element, of both
+const BOXES = ["faces", "wires", "pairs", "through", "cut"];
 const ROW = 22;                                     // pixels, as the style says
 const TALLEST = 8e6;                                // browsers hold no element much taller
 
@@ -14,7 +15,7 @@ function bytes(id) {
 }
 
 /// The step: positions in doubles, all pairs one after the other, by kind. `times` is empty
-/// where times are unknown.
+/// where they are unknown.
 function readStep() {
   const step = {before: new Float64Array(bytes("before")), after: new Float64Array(bytes("after")),
     faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
@@ -108,7 +109,7 @@ function redraw() {
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
-    const show = Object.fromEntries(["faces", "wires", "pairs", "through"].map(id => [id, element(id).checked]));
+    const show = Object.fromEntries(BOXES.map(id => [id, element(id).checked]));
     picture.show(camera, time(), show);
   });
 }
@@ -196,15 +197,14 @@ function queryOf(pair) {
   return [step.before, step.after].flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
 }
 
-/// Looks at it when it is first there.
-function lookAt(pair) {
+/// When it is first there, if that is known: the time, and the middle of its vertices and their reach.
+function placeOfPair(pair) {
   const t = step.timed ? pair.low : time();
   const at = pair.vertices.map(v =>
     [0, 1, 2].map(a => scene.before[3 * v + a] * (1 - t) + scene.after[3 * v + a] * t));
   const middle = [0, 1, 2].map(a => at.reduce((sum, p) => sum + p[a], 0) / at.length);
   const radius = Math.max(...at.map(p => Math.hypot(...p.map((c, a) => c - middle[a]))));
-  setTime(t);
-  camera.look(middle, 2.5 * radius || .05);
+  return {t, middle, radius: radius || .02};
 }
 
 function choose(i) {
@@ -214,8 +214,10 @@ function choose(i) {
   element("what").textContent = said(pair.elements);
   element("when").textContent = whenOf(pair);
   element("query").textContent = queryOf(pair);
-  if (picture) picture.choose(pair.elements);
-  lookAt(pair);
+  const {t, middle, radius} = placeOfPair(pair);
+  if (picture) picture.choose(pair.elements, middle, radius);
+  setTime(t);
+  camera.look(middle, 2.5 * radius);
   reveal(order.indexOf(i));
   showRows();
   redraw();
@@ -291,7 +293,7 @@ function listenToPointers(canvas) {
 
 function listenToControls() {
   element("time").oninput = () => setTime(time());
-  for (const id of ["faces", "wires", "pairs", "through"]) element(id).onchange = redraw;
+  for (const id of BOXES) element(id).onchange = redraw;
   element("up").onchange = () => {
     camera.up = element("up").selectedIndex;
     redraw();

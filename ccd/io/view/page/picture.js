@@ -159,8 +159,8 @@ class Picture {
     gl.uniform3fv(at.target, camera.target);
     gl.uniformMatrix3fv(at.rotation, false, [0, 1, 2].flatMap(i => [right[i], above[i], back[i]]));
     gl.uniform2f(at.lens, height / (width * LENS), 1 / LENS);
-    const reach = 2 + Math.hypot(...camera.target);
-    gl.uniform2f(at.range, Math.max(camera.distance - reach, .02 * camera.distance), camera.distance + reach);
+    const reach = 2 + Math.hypot(...camera.target), near = Math.max(camera.distance - reach, .02 * camera.distance);
+    gl.uniform2f(at.range, Math.max(near, this.shown.cut), camera.distance + reach);
     if (at.screen) gl.uniform2f(at.screen, width, height);
     return at;
   }
@@ -225,14 +225,15 @@ class Picture {
     this.draw(this.marks, gl.POINTS, null, {colours: KINDS, opacity, bias, dots: this.dots(.25, 1.5, 9)});
   }
 
-  /// The vertices of the chosen pair, its edges and its face.
-  choose(elements) {
+  /// The chosen pair, if any: its vertices, edges and face; and where it is.
+  choose(elements, middle, radius) {
     const gl = this.gl;
     if (this.chosen) {
       for (const made of [this.chosen.dots, this.chosen.face, this.chosen.lines]) gl.deleteBuffer(made.buffer);
       gl.deleteVertexArray(this.chosen.lines.layout);
     }
     this.chosen = elements && {
+      middle, radius,
       dots: this.indices(new Uint32Array(elements.flat())),
       face: this.indices(new Uint32Array(elements.filter(e => e.length === 3).flat())),
       lines: this.segments(new Uint32Array(elements.flatMap(edgesOf))),
@@ -241,7 +242,7 @@ class Picture {
 
   drawChosen() {
     const gl = this.gl;
-    this.draw(this.vertices, gl.TRIANGLES, this.chosen.face, {colours: [CHOSEN], opacity: .45});
+    this.draw(this.vertices, gl.TRIANGLES, this.chosen.face, {colours: [CHOSEN], opacity: .7});
     this.drawLines(this.chosen.lines, CHOSEN, 3, 1, 0);
     this.draw(this.vertices, gl.POINTS, this.chosen.dots, {colours: [CHOSEN], dots: this.dots(0, 8, 8)});
   }
@@ -252,7 +253,8 @@ class Picture {
     this.scale = window.devicePixelRatio || 1;
     this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * this.scale));
     this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * this.scale));
-    this.shown = {camera, time};
+    const cut = show.cut && this.chosen ? camera.project(this.chosen.middle)[2] - this.chosen.radius : 0;
+    this.shown = {camera, time, cut};
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clearColor(1, 1, 1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
