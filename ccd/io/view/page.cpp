@@ -1,9 +1,12 @@
 // The page: the template with a step's arrays put in.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <ccd/io/step_view.hpp>
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include "ccd/io/view/base64.hpp"
 #include "ccd/io/view/checks.hpp"
