@@ -1,0 +1,14 @@
+// What all parts of the simulation share: positions as one row of x y z a vertex, in doubles.
+#pragma once
+
+#include <Eigen/Core>
+#include <ccd/mesh.hpp>
+
+namespace simulation {
+
+using ccd::vertex_index;
+using vec3 = Eigen::Vector3d;
+/// n rows, contiguous, as ccd::vertex_rows takes them.
+using rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+}  // namespace simulation

@@ -1,0 +1,169 @@
+#include "examples/simulation/bodies/projective_solver.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace simulation {
+namespace {
+
+using gradient = Eigen::Matrix3d;  ///< as many columns as the term has
+
+gradient gradient_of(const elastic_term& term, const rows& x) {
+    gradient g = gradient::Zero();
+    for (std::size_t i = 0; i < std::size_t(term.vertices); ++i)
+        for (int c = 0; c < term.columns; ++c)
+            g.col(c) += term.gradients[i][std::size_t(c)] * x.row(term.vertex[i]).transpose();
+    return g;
+}
+
+/// Of three columns: the nearest matrix whose singular values are within the limits and whose
+/// determinant is positive.
+gradient clamped_solid(const gradient& f, double low, double high) {
+    const Eigen::JacobiSVD<gradient> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    vec3 s = svd.singularValues();
+    gradient u = svd.matrixU();
+    if ((u * svd.matrixV().transpose()).determinant() < 0) {
+        u.col(2) = -u.col(2);  // the least singular value's
+        s[2] = -s[2];
+    }
+    for (double& value : s) value = std::clamp(value, low, high);
+    return u * s.asDiagonal() * svd.matrixV().transpose();
+}
+
+/// Of two columns, by the eigenvectors of FᵀF, a rotation by an angle.
+gradient clamped_sheet(const gradient& f, double low, double high) {
+    const double a = f.col(0).squaredNorm(), b = f.col(0).dot(f.col(1)), c = f.col(1).squaredNorm();
+    const double angle = std::atan2(2 * b, a - c) / 2, cosine = std::cos(angle), sine = std::sin(angle);
+    vec3 first = cosine * f.col(0) + sine * f.col(1), second = cosine * f.col(1) - sine * f.col(0);
+    const auto clamp = [&](vec3& stretched) {
+        const double s = stretched.norm();
+        if (s > 0) stretched *= std::clamp(s, low, high) / s;
+    };
+    clamp(first);
+    clamp(second);
+    gradient g = gradient::Zero();
+    g.col(0) = cosine * first - sine * second;
+    g.col(1) = sine * first + cosine * second;
+    return g;
+}
+
+gradient projected(const elastic_term& term, const gradient& g) {
+    if (term.kind == elastic_term::target::length) {
+        const double length = g.col(0).norm();
+        return length > 0 ? gradient(g * (std::clamp(length, term.low, term.high) / length)) : g;
+    }
+    return term.columns == 3 ? clamped_solid(g, term.low, term.high)
+                             : clamped_sheet(g, term.low, term.high);
+}
+
+}  // namespace
+
+projective_solver::projective_solver(const model& bodies, const solver_options& options)
+    : bodies_(bodies), options_(options) {
+    for (std::size_t v = 0; v < bodies.vertices(); ++v)
+        unknown_.push_back(bodies.driven(v) ? -1 : unknowns_++);
+    for (const elastic_term& term : bodies.terms) {
+        first_row_.push_back(projected_);
+        projected_ += term.columns;
+    }
+    assemble();
+}
+
+void projective_solver::assemble() {
+    using triplet = Eigen::Triplet<double>;
+    std::vector<triplet> matrix, coupling, forces;
+    const double per_square = 1 / (options_.time_step * options_.time_step);
+    for (std::size_t v = 0; v < bodies_.vertices(); ++v)
+        if (unknown_[v] >= 0) matrix.emplace_back(unknown_[v], unknown_[v], bodies_.mass[v] * per_square);
+    for (std::size_t t = 0; t < bodies_.terms.size(); ++t) {
+        const elastic_term& term = bodies_.terms[t];
+        for (std::size_t i = 0; i < std::size_t(term.vertices); ++i) {
+            const Eigen::Index row = unknown_[term.vertex[i]];
+            if (row < 0) continue;
+            for (std::size_t c = 0; c < std::size_t(term.columns); ++c) {
+                const double force = term.weight * term.gradients[i][c];
+                forces.emplace_back(row, first_row_[t] + Eigen::Index(c), force);
+                for (std::size_t j = 0; j < std::size_t(term.vertices); ++j) {
+                    const vertex_index w = term.vertex[j];
+                    const double entry = force * term.gradients[j][c];
+                    if (unknown_[w] >= 0)
+                        matrix.emplace_back(row, unknown_[w], entry);
+                    else
+                        coupling.emplace_back(row, w, entry);
+                }
+            }
+        }
+    }
+    forces_.resize(unknowns_, projected_);
+    forces_.setFromTriplets(forces.begin(), forces.end());
+    to_driven_.resize(unknowns_, Eigen::Index(bodies_.vertices()));
+    to_driven_.setFromTriplets(coupling.begin(), coupling.end());
+    sparse a(unknowns_, unknowns_);
+    a.setFromTriplets(matrix.begin(), matrix.end());
+    for (const Eigen::Index row : unknown_) per_force_.push_back(row < 0 ? 0 : 1 / a.coeff(row, row));
+    factor_.compute(a);
+    if (factor_.info() != Eigen::Success)
+        throw std::invalid_argument("projective_solver: the system is not positive definite");
+}
+
+rows projective_solver::projections(const rows& x) const {
+    rows all(projected_, 3);
+    for (std::size_t t = 0; t < bodies_.terms.size(); ++t) {
+        const elastic_term& term = bodies_.terms[t];
+        const gradient p = projected(term, gradient_of(term, x));
+        for (int c = 0; c < term.columns; ++c) all.row(first_row_[t] + c) = p.col(c).transpose();
+    }
+    return all;
+}
+
+rows projective_solver::propose(const rows& x, const rows& v, const rows& driven) const {
+    const double h = options_.time_step, kept = std::pow(1 - options_.damping, h);
+    rows next = driven, inertia(unknowns_, 3);
+    for (std::size_t i = 0; i < bodies_.vertices(); ++i) {
+        if (unknown_[i] < 0) continue;
+        const auto at = Eigen::Index(i);
+        next.row(at) = x.row(at) + h * kept * v.row(at) + h * h * options_.gravity.transpose();
+        inertia.row(unknown_[i]) = bodies_.mass[i] / (h * h) * next.row(at);
+    }
+    const rows constant = inertia - to_driven_ * driven;
+    const double moved = (next - x).cwiseAbs().maxCoeff();
+    for (int k = 0; k < options_.iterations; ++k) {
+        const rows right = constant + forces_ * projections(next);
+        const rows solved = factor_.solve(right);
+        double correction = 0;
+        for (std::size_t i = 0; i < bodies_.vertices(); ++i) {
+            if (unknown_[i] < 0) continue;
+            const auto at = Eigen::Index(i);
+            correction = std::max(
+                correction, (solved.row(unknown_[i]) - next.row(at)).cwiseAbs().maxCoeff());
+            next.row(at) = solved.row(unknown_[i]);
+        }
+        if (correction <= options_.converged * moved) break;
+    }
+    return next;
+}
+
+rows projective_solver::displacements(const rows& forces) const {
+    rows right(unknowns_, 3);
+    for (std::size_t v = 0; v < unknown_.size(); ++v)
+        if (unknown_[v] >= 0) right.row(unknown_[v]) = forces.row(Eigen::Index(v));
+    const rows solved = factor_.solve(right);
+    rows all = rows::Zero(forces.rows(), 3);
+    for (std::size_t v = 0; v < unknown_.size(); ++v)
+        if (unknown_[v] >= 0) all.row(Eigen::Index(v)) = solved.row(unknown_[v]);
+    return all;
+}
+
+double projective_solver::elastic_energy(const rows& x) const {
+    double energy = 0;
+    for (const elastic_term& term : bodies_.terms) {
+        const gradient g = gradient_of(term, x);
+        energy += term.weight / 2 * (g - projected(term, g)).squaredNorm();
+    }
+    return energy;
+}
+
+}  // namespace simulation

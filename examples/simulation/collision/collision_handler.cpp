@@ -1,0 +1,244 @@
+#include "examples/simulation/collision/collision_handler.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "examples/simulation/collision/nearest.hpp"
+#include "examples/simulation/collision/zones.hpp"
+
+namespace simulation {
+namespace {
+
+/// Adds the seconds of its life to a sum.
+class stopwatch {
+  public:
+    explicit stopwatch(double& sum) : sum_(sum) {}
+    stopwatch(const stopwatch&) = delete;
+    stopwatch& operator=(const stopwatch&) = delete;
+    ~stopwatch() {
+        sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+ccd::vertex_rows way(const rows& before, const rows& after) { return {before, after}; }
+
+/// A pair's four vertices; where it has fewer, the first again, which then has no weight there.
+template <class Pair>
+std::array<vertex_index, 4> four_vertices(const Pair& pair) {
+    const auto some = vertices_of(pair);
+    std::array<vertex_index, 4> four;
+    four.fill(some[0]);
+    std::copy(some.begin(), some.end(), four.begin());
+    return four;
+}
+
+std::array<vec3, 4> at(const std::array<vertex_index, 4>& vertices, const rows& positions) {
+    std::array<vec3, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) x[i] = positions.row(vertices[i]).transpose();
+    return x;
+}
+
+template <ccd::kind K>
+nearest_points nearest_of_kind(const std::array<vec3, 4>& x) {
+    if constexpr (K == ccd::kind::vertex_face) return nearest_vertex_face(x);
+    if constexpr (K == ccd::kind::edge_edge) return nearest_edges(x);
+    if constexpr (K == ccd::kind::vertex_edge) return nearest_vertex_edge(x);
+    return {{1, -1, 0, 0}, x[0] - x[1]};
+}
+
+/// Of pairs that do not touch: they have a normal.
+contact contact_of(const std::array<vertex_index, 4>& vertices, const nearest_points& nearest) {
+    return {vertices, nearest.weights, nearest.between / nearest.distance(), 0};
+}
+
+double gap(const contact& c, const rows& positions) {
+    vec3 sum = vec3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) sum += c.weight[i] * positions.row(c.vertex[i]).transpose();
+    return c.normal.dot(sum);
+}
+
+/// The method's pairs, and whether it is certain of them.
+std::size_t uncertain_among(const ccd::pair_lists& pairs, ccd::method method,
+                            const ccd::vertex_rows& positions) {
+    std::size_t count = 0;
+    const auto look = [&](const auto& list) {
+        for (const auto& pair : list)
+            count += ccd::decide(method, query_of(positions, pair)).outcome ==
+                     ccd::outcome::uncertain;
+    };
+    look(pairs.vertex_face);
+    look(pairs.edge_edge);
+    return count;
+}
+
+}  // namespace
+
+collision_handler::collision_handler(const std::vector<ccd::face>& faces,
+                                     const std::vector<ccd::edge>& edges,
+                                     const std::vector<double>& masses, std::vector<int> bodies,
+                                     double time_step, const collision_options& options)
+    : steps_(faces, edges, masses.size()),
+      particles_(masses, time_step),
+      masses_(masses),
+      bodies_(std::move(bodies)),
+      options_(options) {
+    for (const double mass : masses) pinned_.push_back(mass > 0 ? 0 : 1);
+}
+
+ccd::pair_filter collision_handler::filter() const {
+    ccd::pair_filter filter;
+    filter.pinned = pinned_;
+    return filter;
+}
+
+std::vector<contact> collision_handler::near_at_start(const rows& before,
+                                                      response_report& report) {
+    ccd::step_options options{.threads = options_.threads};
+    options.distances.all = options_.thickness;
+    options.filter = filter();
+    std::vector<std::pair<double, contact>> found;
+    std::mutex mutex;
+    ccd::candidate_visitor visitor;
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        visitor.of<K>() = [&](std::span<const ccd::pair_of_kind<K>> block) {
+            std::vector<std::pair<double, contact>> near;
+            for (const auto& pair : block) {
+                const auto vertices = four_vertices(pair);
+                const nearest_points nearest = nearest_of_kind<K>(at(vertices, before));
+                const double distance = nearest.distance();
+                if (distance < options_.thickness && distance > 0)
+                    near.emplace_back(distance, contact_of(vertices, nearest));
+            }
+            const std::scoped_lock lock(mutex);
+            found.insert(found.end(), near.begin(), near.end());
+        };
+    });
+    steps_.for_each_candidate(way(before, before), visitor, options);
+    // Blocks come in any order; a face and a pair of edges may have the same vertices.
+    std::ranges::sort(found, {}, [](const auto& f) {
+        return std::pair(f.second.vertex, f.second.weight);
+    });
+    std::vector<contact> contacts;
+    report.near_at_start = found.size();
+    report.least_distance = options_.thickness;
+    for (auto& [distance, contact] : found) {
+        contact.least = options_.push * (options_.thickness - distance);
+        if (const auto last = last_forces_.find(contact.vertex); last != last_forces_.end())
+            contact.force = last->second;
+        report.least_distance = std::min(report.least_distance, distance);
+        contacts.push_back(contact);
+    }
+    return contacts;
+}
+
+ccd::pair_lists collision_handler::detect(const rows& before, const rows& after,
+                                          response_report& report) {
+    ccd::step_options options{.method = options_.method, .threads = options_.threads};
+    options.filter = filter();
+    ccd::step_result result;
+    {
+        const stopwatch watch(report.detection_seconds);
+        result = steps_.run(way(before, after), options);
+    }
+    const std::size_t found = number_of(result.pairs);
+    if (report.iterations++ == 0) report.contacts = found;
+    report.reported += found;
+    report.uncertain += uncertain_among(result.pairs, options_.method, way(before, after));
+    if (result.candidates) {
+        std::size_t candidates = 0;
+        ccd::for_each_kind([&]<ccd::kind K>() { candidates += result.candidates->of<K>(); });
+        report.candidates = report.candidates.value_or(0) + candidates;
+    }
+    return std::move(result.pairs);
+}
+
+/// Motion along the normal may use up what there is beyond the thickness.
+void collision_handler::add_contacts(const ccd::pair_lists& pairs, const rows& before,
+                                     const rows& after, std::vector<contact>& contacts) const {
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        for (const auto& pair : pairs.of<K>()) {
+            const auto vertices = four_vertices(pair);
+            const nearest_points nearest =
+                approach(at(vertices, before), at(vertices, after), nearest_of_kind<K>);
+            if (!(nearest.distance() > 0)) continue;
+            contact c = contact_of(vertices, nearest);
+            c.least = std::min(0.0, options_.thickness - gap(c, before));
+            contacts.push_back(c);
+        }
+    });
+}
+
+void collision_handler::solve(std::vector<contact>& contacts, const compliance& bodies,
+                              const rows& before, rows& after) const {
+    solve_contacts(contacts, bodies, options_.contacts, before, after);
+    finish_contacts(contacts, particles_, options_.finishing_sweeps,
+                    1e-3 * options_.contacts.tolerance, before, after);
+}
+
+void collision_handler::advance_instead(const rows& before, rows& after,
+                                        response_report& report) {
+    report.converged = false;
+    const ccd::advance_options options{
+        .groups = bodies_, .threads = options_.threads, .filter = filter()};
+    const ccd::advance_result result = ccd::advance(steps_, way(before, after), options);
+    report.fraction = result.fraction;
+    for (std::size_t v = 0; v < result.positions.size(); ++v) {
+        const auto& [x, y, z] = result.positions[v];
+        after.row(Eigen::Index(v)) << x, y, z;
+    }
+}
+
+response_report collision_handler::resolve(const rows& before, rows& after,
+                                           const compliance& bodies) {
+    response_report report;
+    const rows proposed = after;
+    impact_zones zones(masses_.size());
+    std::vector<contact> contacts;
+    {
+        const stopwatch watch(report.response_seconds);
+        contacts = near_at_start(before, report);
+        solve(contacts, bodies, before, after);
+    }
+    while (true) {
+        const ccd::pair_lists pairs = detect(before, after, report);
+        if (number_of(pairs) == 0) break;
+        const stopwatch watch(report.response_seconds);
+        if (report.iterations >= options_.rounds) {
+            advance_instead(before, after, report);
+            break;
+        }
+        if (report.iterations <= options_.impulse_rounds) {
+            add_contacts(pairs, before, after, contacts);
+            after = proposed;
+            solve(contacts, bodies, before, after);
+        } else {
+            ccd::for_each_kind([&]<ccd::kind K>() {
+                for (const auto& pair : pairs.of<K>()) zones.join(vertices_of(pair));
+            });
+            zones.move(masses_, before, after);
+        }
+    }
+    report.zones = zones.count();
+    last_forces_.clear();
+    for (const contact& c : contacts)
+        if (!c.force.isZero(0)) last_forces_[c.vertex] = c.force;
+    if (!options_.certify) return report;
+    if (options_.method == ccd::method::exact) {
+        report.passed_through = 0;  // that is what it just said
+        if (report.converged) return report;
+    }
+    const stopwatch watch(report.certification_seconds);
+    ccd::step_options exact{.threads = options_.threads};
+    exact.filter = filter();
+    report.passed_through = number_of(steps_.run(way(before, after), exact).pairs);
+    return report;
+}
+
+}  // namespace simulation

@@ -1,0 +1,97 @@
+// From positions that a solver proposes to positions that can be gone to without a collision, by a
+// method of choice: the part to put into a simulation of one's own.
+//
+//   simulation::collision_handler handler(faces, edges, masses, bodies, time_step, options);
+//   ...
+//   rows next = solver's proposal;
+//   const simulation::response_report report = handler.resolve(positions, next, solver);
+//
+// where the solver says how its bodies yield to forces (compliance), or as particles would.
+//
+// A step is looked at by the method (ccd::mesh_steps). What it reports, uncertain pairs too, is
+// responded to, and the step looked at again, until nothing is reported:
+//  1. for some rounds by impulses with friction that keep all contacts found in this step apart
+//     (collision/contacts.hpp), also those that are nearer than a thickness at its start;
+//  2. then by rigid zones of what is still reported (collision/zones.hpp);
+//  3. in the end, and this is said, by ccd::advance, which goes as far as is free.
+// Where and along which normal a pair meets is told by its nearest points, in plain doubles, the
+// same for all methods. No method but `exact` is helped by exact answers, except in 3.
+//
+// Of the positions that are accepted `exact` tells, if it is asked, which pairs pass through each
+// other on the straight way there.
+#pragma once
+
+#include <ccd/advance.hpp>
+#include <ccd/method.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "examples/simulation/bodies/positions.hpp"
+#include "examples/simulation/collision/contacts.hpp"
+
+namespace simulation {
+
+struct collision_options {
+    ccd::method method = ccd::method::exact;
+    double thickness = 1e-3;    ///< in metres: nearer than that is pushed apart
+    contact_options contacts = {};
+    double push = 0.1;          ///< share of what lacks to the thickness that is given back a step
+    int finishing_sweeps = 100;
+    int impulse_rounds = 12;
+    int rounds = 40;            ///< all together; then the response has not converged
+    bool certify = true;        ///< ask `exact` about what is accepted
+    int threads = 0;            ///< at most; 0: one per core
+};
+
+struct response_report {
+    int iterations = 0;             ///< looks at the step by the method
+    std::size_t near_at_start = 0;  ///< pairs nearer than the thickness
+    double least_distance = 0;      ///< of these, in metres; meaningless if there are none
+    std::size_t contacts = 0;       ///< pairs reported at the first look
+    std::size_t reported = 0;       ///< pairs reported at all looks
+    std::size_t uncertain = 0;      ///< those of them that the method cannot decide
+    std::optional<std::size_t> candidates;  ///< of all looks, where the method counts them
+    std::size_t zones = 0;          ///< rigid zones at the last look
+    bool converged = true;          ///< the method reports nothing any more
+    double fraction = 1;            ///< of the way, where it has not converged
+    std::optional<std::size_t> passed_through;  ///< pairs that collide on the way, by `exact`
+    double detection_seconds = 0, response_seconds = 0, certification_seconds = 0;
+};
+
+class collision_handler {
+  public:
+    /// Of a mesh whose vertices have these masses (0: driven, and not moved by any response) and
+    /// bodies (each advances by a fraction of its own, if need be). Throws what ccd::mesh_steps
+    /// throws.
+    collision_handler(const std::vector<ccd::face>& faces, const std::vector<ccd::edge>& edges,
+                      const std::vector<double>& masses, std::vector<int> bodies,
+                      double time_step, const collision_options& options);
+
+    /// Moves `after`, rows of driven vertices only where it has not converged. `before` must be
+    /// without contact.
+    response_report resolve(const rows& before, rows& after, const compliance& bodies);
+
+  private:
+    ccd::pair_filter filter() const;
+    std::vector<contact> near_at_start(const rows& before, response_report& report);
+    ccd::pair_lists detect(const rows& before, const rows& after, response_report& report);
+    void solve(std::vector<contact>& contacts, const compliance& bodies, const rows& before,
+               rows& after) const;
+    void add_contacts(const ccd::pair_lists& pairs, const rows& before, const rows& after,
+                      std::vector<contact>& contacts) const;
+    void advance_instead(const rows& before, rows& after, response_report& report);
+
+    ccd::mesh_steps steps_;
+    particle_compliance particles_;
+    std::vector<double> masses_;
+    std::vector<std::uint8_t> pinned_;
+    std::map<std::array<vertex_index, 4>, vec3> last_forces_;  ///< of a pair, in the last step
+    std::vector<int> bodies_;
+    collision_options options_;
+};
+
+}  // namespace simulation

@@ -1,0 +1,110 @@
+// The program `simulate`: runs a scene, with a method of choice in its collision handling.
+//
+//   simulate funnel1 --out out/funnel1
+//
+// Ctrl-C ends it after a frame; the same command goes on from there. Exit status 0 done or stopped,
+// 1 bad input, 2 bad usage.
+#include <CLI/CLI.hpp>
+#include <ccd/method.hpp>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/program.hpp"
+#include "errbound/support/progress_line.hpp"
+#include "examples/simulation/output/run_folder.hpp"
+#include "examples/simulation/output/summary.hpp"
+#include "examples/simulation/scenes/scene.hpp"
+#include "examples/simulation/simulation.hpp"
+
+namespace simulation {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+struct arguments {
+    std::string scene, method = "exact", out;
+    std::optional<int> frames, resolution;
+    bool full = false;
+    int threads = 0;
+    std::uint64_t seed = 0;
+};
+
+const scene_maker& maker_of(const std::string& name) {
+    return errbound::support::entry_named("SCENE", name, scenes(), &scene_maker::name);
+}
+
+scene made(const arguments& given, const scene_maker& maker) {
+    scene s = maker.make(given.resolution.value_or(given.full ? maker.full : maker.small));
+    const auto& method = errbound::support::entry_named("--method", given.method, ccd::methods(),
+                                                        &ccd::method_info::name);
+    s.collision.method = method.method;
+    s.collision.threads = given.threads;
+    if (given.frames) s.frames = *given.frames;
+    return s;
+}
+
+/// What must be the same for a run to be gone on with: not how many frames or threads.
+std::string description(const arguments& given, const scene_maker& maker) {
+    const int resolution = given.resolution.value_or(given.full ? maker.full : maker.small);
+    return maker.name + " --resolution " + std::to_string(resolution) + " --method " +
+           given.method + " --seed " + std::to_string(given.seed) + "\n";
+}
+
+int simulate(const arguments& given) {
+    const scene_maker& maker = maker_of(given.scene);
+    simulation_run run(made(given, maker), given.seed);
+    run_folder folder(given.out.empty() ? "out/simulation/" + maker.name : given.out,
+                      description(given, maker));
+    folder.restore(run);
+    folder.store_start(run);
+    std::signal(SIGINT, [](int) { interrupted = 1; });
+    errbound::support::progress_line progress;
+    while (run.state().frame < run.of().frames && interrupted == 0) {
+        progress.show(std::size_t(run.state().frame), std::size_t(run.of().frames), maker.name);
+        folder.store(run, run.next_frame());
+    }
+    progress.clear();
+    std::fputs(summary_of(folder.path() / "frames.csv").c_str(), stdout);
+    std::printf("frames and table: %s\n", folder.path().c_str());
+    if (run.state().frame < run.of().frames)
+        std::printf("stopped after frame %d of %d; the same command goes on\n", run.state().frame,
+                    run.of().frames);
+    return 0;
+}
+
+int run_command_line(int argc, char** argv) {
+    arguments given;
+    CLI::App app{"Simulates cloth and solids that do not pass through each other.", "simulate"};
+    std::string names;
+    for (const scene_maker& maker : scenes())
+        names += "\n  " + maker.name + ": " + maker.what + " (resolution " +
+                 std::to_string(maker.small) + ", --full " + std::to_string(maker.full) + ")";
+    app.add_option("SCENE", given.scene, "one of:" + names)->required();
+    app.add_option("--method", given.method, "of collision detection; ccd methods lists them")
+        ->capture_default_str();
+    app.add_option("--frames", given.frames, "else the scene's own")->check(CLI::NonNegativeNumber);
+    app.add_option("--resolution", given.resolution, "of the scene")->check(CLI::Range(4, 2000));
+    app.add_flag("--full", given.full, "the scene at its full size");
+    app.add_option("--out", given.out, "folder, else out/simulation/SCENE");
+    app.add_option("--threads", given.threads, "at most; 0: one per core")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--seed", given.seed, "moves the start by up to 1e-5 m at random; 0: not");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return simulate(given);
+}
+
+}  // namespace
+}  // namespace simulation
+
+int main(int argc, char** argv) {
+    return errbound::support::run_program(
+        "simulate", [&] { return simulation::run_command_line(argc, argv); });
+}

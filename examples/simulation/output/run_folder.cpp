@@ -1,0 +1,134 @@
+#include "examples/simulation/output/run_folder.hpp"
+
+#include <ccd/io/mesh_file.hpp>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <errbound/support/error.hpp>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "errbound/support/output_file.hpp"
+
+namespace simulation {
+namespace {
+
+using errbound::support::file_error;
+using errbound::support::read_whole;
+using errbound::support::write_whole;
+
+constexpr char magic[8] = {'s', 'i', 'm', 's', 't', 'a', 't', '1'};
+
+std::string bytes_of(const run_state& state) {
+    const std::int64_t numbers[] = {state.frame, state.positions.rows()};
+    std::string text(magic, sizeof magic);
+    text.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+    for (const rows* part : {&state.positions, &state.velocities})
+        text.append(reinterpret_cast<const char*>(part->data()),
+                    sizeof(double) * static_cast<std::size_t>(part->size()));
+    return text;
+}
+
+run_state state_of(const std::string& text, const std::filesystem::path& path,
+                   Eigen::Index vertices) {
+    std::int64_t numbers[2] = {};
+    const std::size_t head = sizeof magic + sizeof numbers;
+    const std::size_t expected = head + 6 * sizeof(double) * std::size_t(vertices);
+    if (text.size() >= head) std::memcpy(numbers, text.data() + sizeof magic, sizeof numbers);
+    if (text.size() != expected || std::memcmp(text.data(), magic, sizeof magic) != 0 ||
+        numbers[1] != vertices)
+        throw file_error(path.string() + ": found " + std::to_string(text.size()) +
+                         " bytes, expected a state of " + std::to_string(vertices) +
+                         " vertices, " + std::to_string(expected) + " bytes");
+    run_state state{int(numbers[0]), rows(vertices, 3), rows(vertices, 3)};
+    const std::size_t part = 3 * sizeof(double) * std::size_t(vertices);
+    std::memcpy(state.positions.data(), text.data() + head, part);
+    std::memcpy(state.velocities.data(), text.data() + head + part, part);
+    return state;
+}
+
+std::string text_of(double x) {
+    char buffer[32];
+    return {buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr};
+}
+
+}  // namespace
+
+std::string csv_heading() {
+    return "frame,solver_seconds,detection_seconds,response_seconds,certification_seconds,"
+           "candidates,contacts,reported,uncertain,iterations,zones,converged,fraction,"
+           "passed_through,near_at_start,least_distance,kinetic_energy,elastic_energy,"
+           "potential_energy\n";
+}
+
+std::string csv_row(const frame_record& r) {
+    const response_report& c = r.response;
+    const auto optional = [](const std::optional<std::size_t>& n) {
+        return n ? std::to_string(*n) : std::string();
+    };
+    const std::string cells[] = {
+        std::to_string(r.frame), text_of(r.solver_seconds), text_of(c.detection_seconds),
+        text_of(c.response_seconds), text_of(c.certification_seconds), optional(c.candidates),
+        std::to_string(c.contacts), std::to_string(c.reported), std::to_string(c.uncertain),
+        std::to_string(c.iterations), std::to_string(c.zones), c.converged ? "1" : "0",
+        text_of(c.fraction), optional(c.passed_through), std::to_string(c.near_at_start),
+        c.near_at_start > 0 ? text_of(c.least_distance) : std::string(),
+        text_of(r.kinetic_energy), text_of(r.elastic_energy), text_of(r.potential_energy)};
+    std::string row;
+    for (const std::string& cell : cells) row += (row.empty() ? "" : ",") + cell;
+    return row + '\n';
+}
+
+run_folder::run_folder(std::filesystem::path folder, const std::string& description)
+    : folder_(std::move(folder)), is_new_(!std::filesystem::exists(folder_ / "state")) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder_ / "frames", failed);
+    if (failed)
+        throw file_error(folder_.string() + ": " + failed.message() + ", expected a folder that can be written");
+    const std::filesystem::path about = folder_ / "run.txt";
+    if (!is_new_) {
+        if (const std::string found = read_whole(about); found != description)
+            throw file_error(about.string() + ": found '" + found + "', expected the run to go on with, '" + description + "'");
+        return;
+    }
+    write_whole(about, description);
+    write_whole(folder_ / "frames.csv", csv_heading());
+}
+
+void run_folder::write_frame(const simulation_run& run) const {
+    char name[16];
+    std::snprintf(name, sizeof name, "%05d.ply", run.state().frame);
+    write_whole(folder_ / "frames" / name,
+                ccd::io::ply_of(run.of().bodies.surface(run.state().positions)));
+}
+
+void run_folder::store_start(const simulation_run& run) {
+    if (is_new_) write_frame(run);
+}
+
+void run_folder::restore(simulation_run& run) const {
+    if (is_new_) return;
+    const std::filesystem::path path = folder_ / "state";
+    run.restore(state_of(read_whole(path), path, run.state().positions.rows()));
+    // Rows of frames after the state's are of a run that was stopped between the two.
+    std::istringstream table(read_whole(folder_ / "frames.csv"));
+    std::string kept = csv_heading(), line;
+    std::getline(table, line);
+    for (int frame = 1; frame <= run.state().frame && std::getline(table, line); ++frame)
+        kept += line + '\n';
+    write_whole(folder_ / "frames.csv", kept);
+}
+
+void run_folder::store(const simulation_run& run, const frame_record& record) {
+    write_frame(run);
+    const std::filesystem::path table = folder_ / "frames.csv";
+    std::ofstream out(table, std::ios::app);
+    out << csv_row(record) << std::flush;
+    if (!out) throw file_error(table.string() + ": cannot be written");
+    write_whole(folder_ / "state", bytes_of(run.state()));
+    is_new_ = false;
+}
+
+}  // namespace simulation

@@ -1,0 +1,47 @@
+// A run: bodies move frame by frame, by a solver, a response to collisions, and driven vertices.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "examples/simulation/bodies/projective_solver.hpp"
+#include "examples/simulation/collision/collision_handler.hpp"
+#include "examples/simulation/scenes/scene.hpp"
+
+namespace simulation {
+
+/// Where a run is: what the next frame is made of, and nothing else.
+struct run_state {
+    int frame = 0;
+    rows positions, velocities;
+};
+
+/// What one frame took and found.
+struct frame_record {
+    int frame = 0;
+    double solver_seconds = 0;
+    response_report response;
+    double kinetic_energy = 0, elastic_energy = 0, potential_energy = 0;  ///< in joules
+};
+
+class simulation_run {
+  public:
+    /// From the scene's start, where free vertices are moved by up to 1e-5 m at random where `seed`
+    /// is not 0. Throws std::invalid_argument if there are contacts at the start.
+    simulation_run(scene scene, std::uint64_t seed);
+
+    frame_record next_frame();
+
+    const scene& of() const { return scene_; }
+    const run_state& state() const { return state_; }
+    /// Goes on from there: the same scene's state.
+    void restore(run_state state) { state_ = std::move(state); }
+
+  private:
+    scene scene_;
+    projective_solver solver_;
+    collision_handler collisions_;
+    run_state state_;
+};
+
+}  // namespace simulation
