@@ -27,7 +27,9 @@ simulation_run::simulation_run(scene made, std::uint64_t seed)
                   scene_.solver.time_step, scene_.collision) {
     state_.positions = scene_.bodies.start;
     if (seed != 0) perturb(scene_.bodies, seed, state_.positions);
-    state_.velocities = rows::Zero(state_.positions.rows(), 3);
+    state_.velocities = scene_.velocities;
+    if (state_.velocities.rows() == 0)
+        state_.velocities = rows::Zero(state_.positions.rows(), 3);
     const ccd::mesh start = scene_.bodies.surface(state_.positions);
     ccd::step_options options{.threads = scene_.collision.threads};
     if (const std::size_t found = number_of(ccd::step(start, start, options).pairs); found > 0)

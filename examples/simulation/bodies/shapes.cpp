@@ -78,41 +78,88 @@ surface_shape revolved(const std::vector<std::array<double, 2>>& profile, int se
     }, true);
 }
 
-solid_shape block(const std::array<int, 3>& cells, const vec3& from, const vec3& to) {
-    const auto [nx, ny, nz] = cells;
-    solid_shape shape{rows((nx + 1) * (ny + 1) * (nz + 1), 3), {}};
-    const auto index = [nx, ny](int i, int j, int k) {
-        return vertex_index((k * (ny + 1) + j) * (nx + 1) + i);
-    };
-    for (int k = 0; k <= nz; ++k)
-        for (int j = 0; j <= ny; ++j)
-            for (int i = 0; i <= nx; ++i)
-                shape.points.row(index(i, j, k))
-                    << std::lerp(from.x(), to.x(), double(i) / nx),
-                    std::lerp(from.y(), to.y(), double(j) / ny),
-                    std::lerp(from.z(), to.z(), double(k) / nz);
-    for (int k = 0; k < nz; ++k)
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) {
-                // Corners by their three bits; mirrored in every other cell.
-                const int mirror = (i + j + k) % 2;
-                const auto corner = [&](int x, int y, int z) {
-                    return index(i + (mirror ? 1 - x : x), j + y, k + z);
-                };
-                const auto add = [&](vertex_index a, vertex_index b, vertex_index c, vertex_index d) {
-                    shape.tetrahedra.push_back(mirror ? std::array{a, c, b, d}
-                                                      : std::array{a, b, c, d});
-                };
-                const auto c000 = corner(0, 0, 0), c100 = corner(1, 0, 0), c010 = corner(0, 1, 0),
-                           c110 = corner(1, 1, 0), c001 = corner(0, 0, 1), c101 = corner(1, 0, 1),
-                           c011 = corner(0, 1, 1), c111 = corner(1, 1, 1);
-                add(c000, c100, c010, c001);
-                add(c110, c010, c100, c111);
-                add(c101, c001, c111, c100);
-                add(c011, c001, c010, c111);
-                add(c100, c010, c001, c111);
-            }
+surface_shape capsule(int refinements, double radius, const vec3& from, const vec3& to) {
+    surface_shape shape = sphere(refinements, radius, vec3::Zero());
+    const double length = (to - from).norm();
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(vec3::UnitZ(), to - from);
+    for (Eigen::Index v = 0; v < shape.points.rows(); ++v) {
+        vec3 x = shape.points.row(v).transpose();
+        if (x.z() >= 0) x.z() += length;
+        shape.points.row(v) = (from + turn * x).transpose();
+    }
     return shape;
+}
+
+namespace {
+
+/// The five tetrahedra of a cell with these corners, by their three bits; of a mirrored cell the
+/// corners are mirrored, too.
+void add_cell(const std::array<vertex_index, 8>& c, bool mirrored,
+              std::vector<std::array<vertex_index, 4>>& tetrahedra) {
+    constexpr std::array<std::array<std::size_t, 4>, 5> parts{
+        {{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 4, 2, 7}, {1, 2, 4, 7}}};
+    for (const auto& [p, q, r, s] : parts)
+        tetrahedra.push_back(mirrored ? std::array{c[p], c[r], c[q], c[s]}
+                                      : std::array{c[p], c[q], c[r], c[s]});
+}
+
+}  // namespace
+
+solid_shape block(const std::array<int, 3>& cells, const vec3& from, const vec3& to,
+                  const std::function<bool(int, int, int)>& keep) {
+    std::vector<vec3> points;
+    std::map<std::array<int, 3>, vertex_index> number;
+    const auto vertex_at = [&](int i, int j, int k) {
+        const auto [entry, is_new] =
+            number.try_emplace({i, j, k}, static_cast<vertex_index>(points.size()));
+        if (is_new)
+            points.emplace_back(std::lerp(from.x(), to.x(), double(i) / cells[0]),
+                                std::lerp(from.y(), to.y(), double(j) / cells[1]),
+                                std::lerp(from.z(), to.z(), double(k) / cells[2]));
+        return entry->second;
+    };
+    solid_shape shape;
+    for (int k = 0; k < cells[2]; ++k)
+        for (int j = 0; j < cells[1]; ++j)
+            for (int i = 0; i < cells[0]; ++i) {
+                if (keep && !keep(i, j, k)) continue;
+                const bool mirrored = (i + j + k) % 2 != 0;
+                std::array<vertex_index, 8> corners;
+                for (int bits = 0; bits < 8; ++bits) {
+                    const int x = bits & 1, y = bits >> 1 & 1, z = bits >> 2;
+                    corners[std::size_t(bits)] =
+                        vertex_at(i + (mirrored ? 1 - x : x), j + y, k + z);
+                }
+                add_cell(corners, mirrored, shape.tetrahedra);
+            }
+    shape.points.resize(Eigen::Index(points.size()), 3);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        shape.points.row(Eigen::Index(v)) = points[v].transpose();
+    return shape;
+}
+
+surface_shape spike(int sides, double radius, const vec3& base, const vec3& apex) {
+    surface_shape shape{rows(sides + 2, 3), {}};
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(vec3::UnitZ(), apex - base);
+    const auto last = static_cast<vertex_index>(sides);
+    for (vertex_index i = 0; i < last; ++i) {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        shape.points.row(i) =
+            (base + turn * vec3(radius * std::cos(angle), radius * std::sin(angle), 0)).transpose();
+        const vertex_index next = (i + 1) % last;
+        shape.faces.push_back({i, next, last});
+        shape.faces.push_back({next, i, last + 1});
+    }
+    shape.points.row(sides) = apex.transpose();
+    shape.points.row(sides + 1) = base.transpose();
+    return shape;
+}
+
+rows line(int edges, const vec3& from, const vec3& to) {
+    rows points(edges + 1, 3);
+    for (int i = 0; i <= edges; ++i)
+        points.row(i) = (from + double(i) / edges * (to - from)).transpose();
+    return points;
 }
 
 void translate(rows& points, const vec3& by) { points.rowwise() += by.transpose(); }

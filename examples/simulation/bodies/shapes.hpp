@@ -27,10 +27,18 @@ surface_shape grid(int columns, int rows, const std::function<vec3(double, doubl
 surface_shape square(int cells, double side, double height);
 /// A sphere of 20·4^refinements triangles.
 surface_shape sphere(int refinements, double radius, const vec3& centre);
-/// A surface of revolution about z, from a curve of (radius, z).
+/// The points within a radius of a segment, of as many triangles.
+surface_shape capsule(int refinements, double radius, const vec3& from, const vec3& to);
+/// A surface of revolution about z, from a curve of (radius, z); open at its ends.
 surface_shape revolved(const std::vector<std::array<double, 2>>& profile, int segments);
-/// A block of cells^3 cells, of five tetrahedra each, in turns, so that they fit.
-solid_shape block(const std::array<int, 3>& cells, const vec3& from, const vec3& to);
+/// A block of cells, of five tetrahedra each, in turns, so that they fit; of those cells alone that
+/// `keep`, by its place, lets stay.
+solid_shape block(const std::array<int, 3>& cells, const vec3& from, const vec3& to,
+                  const std::function<bool(int, int, int)>& keep = {});
+/// A closed cone: a polygon of `sides` about `base`, and an apex.
+surface_shape spike(int sides, double radius, const vec3& base, const vec3& apex);
+/// Straight, of so many edges.
+rows line(int edges, const vec3& from, const vec3& to);
 
 void translate(rows& points, const vec3& by);
 

@@ -16,7 +16,9 @@ struct scene {
     model bodies;
     solver_options solver = {};
     collision_options collision = {};
-    int frames = 0;  ///< each one time step
+    int frames = 0;        ///< each one time step
+    rows velocities = {};  ///< at the start; none: at rest
+    vec3 eye{1.2, -2.4, 1.0}, target{0, 0, -0.3};  ///< where pictures are taken from, and of what
     /// Sets the rows of driven vertices to where they are at the end of a frame, from 1 on.
     std::function<void(int frame, rows& positions)> drive = [](int, rows&) {};
 };
@@ -32,5 +34,11 @@ struct scene_maker {
 std::span<const scene_maker> scenes();
 
 scene funnel(int layers, int resolution);
+scene clothes(int resolution);
+scene twist(int resolution);
+scene car_against_post(int resolution);
+scene car_on_ramp(int resolution);
+scene needles(int resolution);
+scene stiff(int resolution);
 
 }  // namespace simulation
