@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "examples/simulation/bodies/selected_inverse.hpp"
+
 namespace simulation {
 namespace {
 
@@ -74,7 +76,7 @@ projective_solver::projective_solver(const model& bodies, const solver_options& 
 
 void projective_solver::assemble() {
     using triplet = Eigen::Triplet<double>;
-    std::vector<triplet> matrix, coupling, forces;
+    std::vector<triplet> matrix, forces;
     const double per_square = 1 / (options_.time_step * options_.time_step);
     for (std::size_t v = 0; v < bodies_.vertices(); ++v)
         if (unknown_[v] >= 0) matrix.emplace_back(unknown_[v], unknown_[v], bodies_.mass[v] * per_square);
@@ -87,61 +89,56 @@ void projective_solver::assemble() {
                 const double force = term.weight * term.gradients[i][c];
                 forces.emplace_back(row, first_row_[t] + Eigen::Index(c), force);
                 for (std::size_t j = 0; j < std::size_t(term.vertices); ++j) {
-                    const vertex_index w = term.vertex[j];
-                    const double entry = force * term.gradients[j][c];
-                    if (unknown_[w] >= 0)
-                        matrix.emplace_back(row, unknown_[w], entry);
-                    else
-                        coupling.emplace_back(row, w, entry);
+                    const Eigen::Index column = unknown_[term.vertex[j]];
+                    if (column >= 0) matrix.emplace_back(row, column, force * term.gradients[j][c]);
                 }
             }
         }
     }
     forces_.resize(unknowns_, projected_);
     forces_.setFromTriplets(forces.begin(), forces.end());
-    to_driven_.resize(unknowns_, Eigen::Index(bodies_.vertices()));
-    to_driven_.setFromTriplets(coupling.begin(), coupling.end());
     sparse a(unknowns_, unknowns_);
     a.setFromTriplets(matrix.begin(), matrix.end());
-    for (const Eigen::Index row : unknown_) per_force_.push_back(row < 0 ? 0 : 1 / a.coeff(row, row));
     factor_.compute(a);
     if (factor_.info() != Eigen::Success)
         throw std::invalid_argument("projective_solver: the system is not positive definite");
+    const Eigen::VectorXd diagonal = diagonal_of_inverse(factor_);
+    for (const Eigen::Index row : unknown_) per_force_.push_back(row < 0 ? 0 : diagonal[row]);
 }
 
-rows projective_solver::projections(const rows& x) const {
+rows projective_solver::wanted_changes(const rows& x) const {
     rows all(projected_, 3);
     for (std::size_t t = 0; t < bodies_.terms.size(); ++t) {
         const elastic_term& term = bodies_.terms[t];
-        const gradient p = projected(term, gradient_of(term, x));
-        for (int c = 0; c < term.columns; ++c) all.row(first_row_[t] + c) = p.col(c).transpose();
+        const gradient g = gradient_of(term, x);
+        const gradient change = projected(term, g) - g;
+        for (int c = 0; c < term.columns; ++c)
+            all.row(first_row_[t] + c) = change.col(c).transpose();
     }
     return all;
 }
 
+/// Each iteration solves for a change of x, not for x: of stiff terms the forces are small
+/// differences, which then are not lost beside the positions themselves.
 rows projective_solver::propose(const rows& x, const rows& v, const rows& driven) const {
     const double h = options_.time_step, kept = std::pow(1 - options_.damping, h);
-    rows next = driven, inertia(unknowns_, 3);
-    for (std::size_t i = 0; i < bodies_.vertices(); ++i) {
-        if (unknown_[i] < 0) continue;
-        const auto at = Eigen::Index(i);
-        next.row(at) = x.row(at) + h * kept * v.row(at) + h * h * options_.gravity.transpose();
-        inertia.row(unknown_[i]) = bodies_.mass[i] / (h * h) * next.row(at);
-    }
-    const rows constant = inertia - to_driven_ * driven;
+    rows inertial = driven;
+    for (std::size_t i = 0; i < bodies_.vertices(); ++i)
+        if (const auto at = Eigen::Index(i); unknown_[i] >= 0)
+            inertial.row(at) =
+                x.row(at) + h * kept * v.row(at) + h * h * options_.gravity.transpose();
+    rows next = inertial;
     const double moved = (next - x).cwiseAbs().maxCoeff();
     for (int k = 0; k < options_.iterations; ++k) {
-        const rows right = constant + forces_ * projections(next);
-        const rows solved = factor_.solve(right);
-        double correction = 0;
-        for (std::size_t i = 0; i < bodies_.vertices(); ++i) {
-            if (unknown_[i] < 0) continue;
-            const auto at = Eigen::Index(i);
-            correction = std::max(
-                correction, (solved.row(unknown_[i]) - next.row(at)).cwiseAbs().maxCoeff());
-            next.row(at) = solved.row(unknown_[i]);
-        }
-        if (correction <= options_.converged * moved) break;
+        rows right = forces_ * wanted_changes(next);
+        for (std::size_t i = 0; i < bodies_.vertices(); ++i)
+            if (const auto at = Eigen::Index(i); unknown_[i] >= 0)
+                right.row(unknown_[i]) +=
+                    bodies_.mass[i] / (h * h) * (inertial.row(at) - next.row(at));
+        const rows change = factor_.solve(right);
+        for (std::size_t i = 0; i < bodies_.vertices(); ++i)
+            if (unknown_[i] >= 0) next.row(Eigen::Index(i)) += change.row(unknown_[i]);
+        if (change.cwiseAbs().maxCoeff() <= options_.converged * moved) break;
     }
     return next;
 }

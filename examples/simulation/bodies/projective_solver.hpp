@@ -44,18 +44,17 @@ class projective_solver : public compliance {
   private:
     using sparse = Eigen::SparseMatrix<double>;
 
-    /// One row for each column of each term: what P(G x) − its differences of vertices − is.
-    rows projections(const rows& x) const;
+    /// One row for each column of each term: P(G x) − G x, how it wants to change.
+    rows wanted_changes(const rows& x) const;
     void assemble();
 
     const model& bodies_;
     solver_options options_;
     std::vector<Eigen::Index> unknown_;  ///< of each vertex, its row in the system, or −1
-    std::vector<double> per_force_;        ///< of each vertex, 1/diagonal; 0 of driven ones
+    std::vector<double> per_force_;        ///< of each vertex, of the matrix's inverse the diagonal; 0 of driven ones
     std::vector<Eigen::Index> first_row_;  ///< of each term, its first row of projections
     Eigen::Index unknowns_ = 0, projected_ = 0;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> forces_;  ///< from projections to unknowns
-    Eigen::SparseMatrix<double, Eigen::RowMajor> to_driven_;  ///< the matrix's columns of driven vertices
+    Eigen::SparseMatrix<double, Eigen::RowMajor> forces_;  ///< Gᵀ times the weights: of changes, on unknowns
     Eigen::SimplicialLDLT<sparse> factor_;
 };
 

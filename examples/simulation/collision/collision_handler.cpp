@@ -101,7 +101,8 @@ ccd::pair_filter collision_handler::filter() const {
 std::vector<contact> collision_handler::near_at_start(const rows& before,
                                                       response_report& report) {
     ccd::step_options options{.threads = options_.threads};
-    options.distances.all = options_.thickness;
+    const double reach = 2 * options_.thickness;  // what comes nearer within the step
+    options.distances.all = reach;
     options.filter = filter();
     std::vector<std::pair<double, contact>> found;
     std::mutex mutex;
@@ -113,7 +114,7 @@ std::vector<contact> collision_handler::near_at_start(const rows& before,
                 const auto vertices = four_vertices(pair);
                 const nearest_points nearest = nearest_of_kind<K>(at(vertices, before));
                 const double distance = nearest.distance();
-                if (distance < options_.thickness && distance > 0)
+                if (distance < reach && distance > 0)
                     near.emplace_back(distance, contact_of(vertices, nearest));
             }
             const std::scoped_lock lock(mutex);
@@ -126,10 +127,11 @@ std::vector<contact> collision_handler::near_at_start(const rows& before,
         return std::pair(f.second.vertex, f.second.weight);
     });
     std::vector<contact> contacts;
-    report.near_at_start = found.size();
     report.least_distance = options_.thickness;
     for (auto& [distance, contact] : found) {
-        contact.least = options_.push * (options_.thickness - distance);
+        const double lacks = options_.thickness - distance;
+        contact.least = lacks > 0 ? options_.push * lacks : lacks;
+        report.near_at_start += lacks > 0 ? 1 : 0;
         if (const auto last = last_forces_.find(contact.vertex); last != last_forces_.end())
             contact.force = last->second;
         report.least_distance = std::min(report.least_distance, distance);
@@ -175,13 +177,6 @@ void collision_handler::add_contacts(const ccd::pair_lists& pairs, const rows& b
     });
 }
 
-void collision_handler::solve(std::vector<contact>& contacts, const compliance& bodies,
-                              const rows& before, rows& after) const {
-    solve_contacts(contacts, bodies, options_.contacts, before, after);
-    finish_contacts(contacts, particles_, options_.finishing_sweeps,
-                    1e-3 * options_.contacts.tolerance, before, after);
-}
-
 void collision_handler::advance_instead(const rows& before, rows& after,
                                         response_report& report) {
     report.converged = false;
@@ -204,7 +199,7 @@ response_report collision_handler::resolve(const rows& before, rows& after,
     {
         const stopwatch watch(report.response_seconds);
         contacts = near_at_start(before, report);
-        solve(contacts, bodies, before, after);
+        solve_contacts(contacts, bodies, options_.contacts, before, after);
     }
     while (true) {
         const ccd::pair_lists pairs = detect(before, after, report);
@@ -217,7 +212,10 @@ response_report collision_handler::resolve(const rows& before, rows& after,
         if (report.iterations <= options_.impulse_rounds) {
             add_contacts(pairs, before, after, contacts);
             after = proposed;
-            solve(contacts, bodies, before, after);
+            solve_contacts(contacts, bodies, options_.contacts, before, after);
+            if (report.iterations > options_.impulse_rounds / 2)
+                finish_contacts(contacts, particles_, options_.finishing_sweeps,
+                                options_.contacts.tolerance, before, after);
         } else {
             ccd::for_each_kind([&]<ccd::kind K>() {
                 for (const auto& pair : pairs.of<K>()) zones.join(vertices_of(pair));

@@ -40,8 +40,8 @@ struct collision_options {
     double thickness = 1e-3;    ///< in metres: nearer than that is pushed apart
     contact_options contacts = {};
     double push = 0.1;          ///< share of what lacks to the thickness that is given back a step
-    int finishing_sweeps = 100;
-    int impulse_rounds = 12;
+    int impulse_rounds = 12;    ///< of them the second half with what particles would do, too
+    int finishing_sweeps = 100; ///< of that
     int rounds = 40;            ///< all together; then the response has not converged
     bool certify = true;        ///< ask `exact` about what is accepted
     int threads = 0;            ///< at most; 0: one per core
@@ -79,8 +79,6 @@ class collision_handler {
     ccd::pair_filter filter() const;
     std::vector<contact> near_at_start(const rows& before, response_report& report);
     ccd::pair_lists detect(const rows& before, const rows& after, response_report& report);
-    void solve(std::vector<contact>& contacts, const compliance& bodies, const rows& before,
-               rows& after) const;
     void add_contacts(const ccd::pair_lists& pairs, const rows& before, const rows& after,
                       std::vector<contact>& contacts) const;
     void advance_instead(const rows& before, rows& after, response_report& report);

@@ -28,11 +28,20 @@ rows forces_on_vertices(const std::vector<contact>& contacts, const by_contact& 
     return f;
 }
 
-/// What a contact's force meets, were it alone.
+/// How far the two features part by a force of 1, were the contact alone: at most, as each
+/// feature's points may go together.
 double compliance_at(const contact& c, const compliance& bodies) {
+    double first = 0, second = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        (c.weight[i] > 0 ? first : second) +=
+            std::abs(c.weight[i]) * std::sqrt(bodies.of(c.vertex[i]));
+    return first * first + second * second;
+}
+/// The same, of particles.
+double particles_at(const contact& c, const compliance& particles) {
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i)
-        sum += c.weight[i] * c.weight[i] * bodies.of(c.vertex[i]);
+        sum += c.weight[i] * c.weight[i] * particles.of(c.vertex[i]);
     return sum;
 }
 
@@ -161,7 +170,7 @@ double finish_contacts(const std::vector<contact>& contacts, const compliance& p
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         violation = 0;
         for (const contact& c : contacts) {
-            const double alone = compliance_at(c, particles);
+            const double alone = particles_at(c, particles);
             double moved = 0;
             for (std::size_t i = 0; i < 4; ++i)
                 moved += c.weight[i] *

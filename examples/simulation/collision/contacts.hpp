@@ -25,7 +25,7 @@ class compliance {
     virtual ~compliance() = default;
     /// Displacements by forces, a row a vertex; 0 for driven vertices. Linear, symmetric.
     virtual rows displacements(const rows& forces) const = 0;
-    /// About the inverse of what a force on one coordinate of v meets; 0 for driven vertices.
+    /// How far v goes by a force of 1 on it alone, along that; 0 for driven vertices.
     virtual double of(std::size_t v) const = 0;
 };
 

@@ -8,7 +8,7 @@
 namespace simulation {
 
 scene stiff(int resolution) {
-    constexpr double soft = 1e4, side = 0.25, thickness = 0x1p-10;
+    constexpr double soft = 1e6, side = 0.25, thickness = 0x1p-10;
     scene s;
     s.frames = 300;
     s.solver.time_step = 0.01;

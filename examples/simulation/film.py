@@ -1,0 +1,122 @@
+"""Pictures of a run of `simulate`, without a display: a contact sheet and a film.
+
+Arguments: the run's folder (frames/*.ply in it), then options as --help says. Leaves sheet.png and
+film.gif in the folder. Triangles are drawn from far to near, one colour a body.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+import numpy
+from PIL import Image, ImageDraw
+
+COLOURS = numpy.array([[86, 130, 196], [214, 128, 66], [105, 164, 103], [186, 92, 110],
+                       [139, 116, 178], [120, 120, 120]], float)
+BACKGROUND = (250, 250, 248)
+
+
+def read_ply(path):
+    """Positions, triangles and edges of a frame as `simulate` writes it: binary, this byte order."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    head = data[:end].decode()
+    count = {name: int(n) for name, n in re.findall(r"element (\w+) (\d+)", head)}
+    points = numpy.frombuffer(data, float, 3 * count["vertex"], end).reshape(-1, 3)
+    at = end + points.nbytes
+    face = numpy.dtype([("n", "u1"), ("v", "=u4", 3)])
+    faces = numpy.frombuffer(data, face, count.get("face", 0), at)["v"]
+    edges = numpy.frombuffer(data, "=u4", 2 * count.get("edge", 0), at + face.itemsize * len(faces))
+    return points, faces, edges.reshape(-1, 2)
+
+
+def bodies_of(faces, vertices):
+    """Of each vertex, the number of its connected part."""
+    part = numpy.arange(vertices)
+    while True:
+        least = part[faces].min(axis=1)
+        new = part.copy()
+        for corner in range(3):
+            numpy.minimum.at(new, faces[:, corner], least)
+        new = new[new]
+        if (new == part).all():
+            return numpy.unique(part, return_inverse=True)[1]
+        part = new
+
+
+class camera:
+    def __init__(self, eye, target, size):
+        forward = target - eye
+        forward /= numpy.linalg.norm(forward)
+        right = numpy.cross(forward, [0, 0, 1])
+        right /= numpy.linalg.norm(right)
+        self.eye, self.axes = eye, numpy.array([right, numpy.cross(right, forward), forward])
+        self.size = size
+
+    def project(self, points):
+        """Pixels and depths."""
+        local = (points - self.eye) @ self.axes.T
+        width, height = self.size
+        scale = 1.4 * height / numpy.maximum(local[:, 2:], 1e-6)
+        pixels = local[:, :2] * scale * [1, -1] + [width / 2, height / 2]
+        return pixels, local[:, 2]
+
+
+def picture(points, faces, edges, body, view):
+    image = Image.new("RGB", view.size, BACKGROUND)
+    draw = ImageDraw.Draw(image)
+    pixels, depth = view.project(points)
+    corners = points[faces]
+    normal = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = numpy.linalg.norm(normal, axis=1)
+    light = numpy.abs(normal @ (view.axes.T @ [0.3, 0.5, -0.8])) / numpy.where(length > 0, length, 1)
+    shade = COLOURS[body[faces[:, 0]] % len(COLOURS)] * (0.35 + 0.65 * light[:, None])
+    shapes = [(depth[f].mean(), f, tuple(c)) for f, c in zip(faces, shade.astype(int))]
+    shapes += [(depth[e].mean(), e, (60, 60, 60)) for e in edges]
+    for _, shape, colour in sorted(shapes, key=lambda s: -s[0]):
+        if (depth[shape] <= 0).any():
+            continue
+        outline = [tuple(p) for p in pixels[shape]]
+        draw.line(outline, colour, 2) if len(shape) == 2 else draw.polygon(outline, colour)
+    return image
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description="A contact sheet and a film of a run.")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--eye", type=float, nargs=3, help="else as run.txt says")
+    parser.add_argument("--target", type=float, nargs=3, help="else as run.txt says")
+    parser.add_argument("--size", type=int, nargs=2, default=(480, 400), metavar=("W", "H"))
+    parser.add_argument("--pictures", type=int, default=60, help="of the film")
+    return parser.parse_args()
+
+
+def main():
+    given = arguments()
+    frames = sorted((given.folder / "frames").glob("*.ply"))
+    if not frames:
+        sys.exit(f"film: found no frames in {given.folder}, expected frames/*.ply")
+    text = (given.folder / "run.txt").read_text()
+    told = {name: [float(x) for x in values.split()]
+            for name, values in re.findall(r"^(eye|target) (.*)$", text, re.MULTILINE)}
+    view = camera(numpy.array(given.eye or told["eye"]), numpy.array(given.target or told["target"]),
+                  tuple(given.size))
+    chosen = sorted({round(i) for i in numpy.linspace(0, len(frames) - 1, given.pictures)})
+    body, film = None, []
+    for i in chosen:
+        points, faces, edges = read_ply(frames[i])
+        if body is None:
+            body = bodies_of(faces, len(points))
+        film.append(picture(points, faces, edges, body, view))
+    film[0].save(given.folder / "film.gif", save_all=True, append_images=film[1:], duration=60, loop=0)
+    few = [film[round(i)] for i in numpy.linspace(0, len(film) - 1, min(8, len(film)))]
+    width, height = view.size
+    sheet = Image.new("RGB", (4 * width, -(-len(few) // 4) * height), BACKGROUND)
+    for i, image in enumerate(few):
+        sheet.paste(image, (i % 4 * width, i // 4 * height))
+    sheet.save(given.folder / "sheet.png")
+    print(f"pictures: {given.folder / 'sheet.png'}, {given.folder / 'film.gif'}")
+
+
+if __name__ == "__main__":
+    main()
