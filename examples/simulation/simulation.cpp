@@ -37,6 +37,11 @@ simulation_run::simulation_run(scene made, std::uint64_t seed)
                                     " pairs in contact at its start, expected none");
 }
 
+void simulation_run::restore(run_state state) {
+    state_ = std::move(state);
+    collisions_.restore(state_.forces);
+}
+
 frame_record simulation_run::next_frame() {
     using clock = std::chrono::steady_clock;
     frame_record record;
@@ -50,6 +55,7 @@ frame_record simulation_run::next_frame() {
     record.response = collisions_.resolve(state_.positions, next, solver_);
     state_.velocities = (next - state_.positions) / solver_.options().time_step;
     state_.positions = next;
+    state_.forces = collisions_.last_forces();
     state_.frame = record.frame;
 
     const model& bodies = scene_.bodies;

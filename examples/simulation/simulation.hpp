@@ -14,6 +14,7 @@ namespace simulation {
 struct run_state {
     int frame = 0;
     rows positions, velocities;
+    forces_of_pairs forces;
 };
 
 /// What one frame took and found.
@@ -35,7 +36,7 @@ class simulation_run {
     const scene& of() const { return scene_; }
     const run_state& state() const { return state_; }
     /// Goes on from there: the same scene's state.
-    void restore(run_state state) { state_ = std::move(state); }
+    void restore(run_state state);
 
   private:
     scene scene_;

@@ -130,12 +130,12 @@ rows projective_solver::propose(const rows& x, const rows& v, const rows& driven
     rows next = inertial;
     const double moved = (next - x).cwiseAbs().maxCoeff();
     for (int k = 0; k < options_.iterations; ++k) {
-        rows right = forces_ * wanted_changes(next);
+        Eigen::MatrixX3d right = forces_ * wanted_changes(next);
         for (std::size_t i = 0; i < bodies_.vertices(); ++i)
             if (const auto at = Eigen::Index(i); unknown_[i] >= 0)
                 right.row(unknown_[i]) +=
                     bodies_.mass[i] / (h * h) * (inertial.row(at) - next.row(at));
-        const rows change = factor_.solve(right);
+        const Eigen::MatrixX3d change = factor_.solve(right);
         for (std::size_t i = 0; i < bodies_.vertices(); ++i)
             if (unknown_[i] >= 0) next.row(Eigen::Index(i)) += change.row(unknown_[i]);
         if (change.cwiseAbs().maxCoeff() <= options_.converged * moved) break;
@@ -144,10 +144,10 @@ rows projective_solver::propose(const rows& x, const rows& v, const rows& driven
 }
 
 rows projective_solver::displacements(const rows& forces) const {
-    rows right(unknowns_, 3);
+    Eigen::MatrixX3d right(unknowns_, 3);
     for (std::size_t v = 0; v < unknown_.size(); ++v)
         if (unknown_[v] >= 0) right.row(unknown_[v]) = forces.row(Eigen::Index(v));
-    const rows solved = factor_.solve(right);
+    const Eigen::MatrixX3d solved = factor_.solve(right);
     rows all = rows::Zero(forces.rows(), 3);
     for (std::size_t v = 0; v < unknown_.size(); ++v)
         if (unknown_[v] >= 0) all.row(Eigen::Index(v)) = solved.row(unknown_[v]);

@@ -194,12 +194,14 @@ response_report collision_handler::resolve(const rows& before, rows& after,
                                            const compliance& bodies) {
     response_report report;
     const rows proposed = after;
+    const double tolerance = options_.tolerance * options_.thickness;
     impact_zones zones(masses_.size());
     std::vector<contact> contacts;
     {
         const stopwatch watch(report.response_seconds);
         contacts = near_at_start(before, report);
-        solve_contacts(contacts, bodies, options_.contacts, before, after);
+        solve_contacts(contacts, bodies, {options_.friction, tolerance, options_.iterations},
+                       before, after);
     }
     while (true) {
         const ccd::pair_lists pairs = detect(before, after, report);
@@ -212,10 +214,11 @@ response_report collision_handler::resolve(const rows& before, rows& after,
         if (report.iterations <= options_.impulse_rounds) {
             add_contacts(pairs, before, after, contacts);
             after = proposed;
-            solve_contacts(contacts, bodies, options_.contacts, before, after);
+            solve_contacts(contacts, bodies,
+                           {options_.friction, tolerance, options_.iterations / 3}, before, after);
             if (report.iterations > options_.impulse_rounds / 2)
                 finish_contacts(contacts, particles_, options_.finishing_sweeps,
-                                options_.contacts.tolerance, before, after);
+                                tolerance, before, after);
         } else {
             ccd::for_each_kind([&]<ccd::kind K>() {
                 for (const auto& pair : pairs.of<K>()) zones.join(vertices_of(pair));

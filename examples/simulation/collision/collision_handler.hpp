@@ -28,6 +28,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "examples/simulation/bodies/positions.hpp"
@@ -38,10 +39,12 @@ namespace simulation {
 struct collision_options {
     ccd::method method = ccd::method::exact;
     double thickness = 1e-3;    ///< in metres: nearer than that is pushed apart
-    contact_options contacts = {};
+    double friction = 0.3;      ///< Coulomb's coefficient
     double push = 0.1;          ///< share of what lacks to the thickness that is given back a step
     int impulse_rounds = 12;    ///< of them the second half with what particles would do, too
     int finishing_sweeps = 100; ///< of that
+    double tolerance = 0.05;    ///< of contacts, in thicknesses
+    int iterations = 60;        ///< of contact forces in the first round, a third in others
     int rounds = 40;            ///< all together; then the response has not converged
     bool certify = true;        ///< ask `exact` about what is accepted
     int threads = 0;            ///< at most; 0: one per core
@@ -62,6 +65,9 @@ struct response_report {
     double detection_seconds = 0, response_seconds = 0, certification_seconds = 0;
 };
 
+/// Of a pair, by its vertices.
+using forces_of_pairs = std::map<std::array<vertex_index, 4>, vec3>;
+
 class collision_handler {
   public:
     /// Of a mesh whose vertices have these masses (0: driven, and not moved by any response) and
@@ -75,6 +81,11 @@ class collision_handler {
     /// without contact.
     response_report resolve(const rows& before, rows& after, const compliance& bodies);
 
+    /// What the last step's contacts took, from which the next one's are looked for: with
+    /// positions and velocities all that a run goes on from.
+    const forces_of_pairs& last_forces() const { return last_forces_; }
+    void restore(forces_of_pairs forces) { last_forces_ = std::move(forces); }
+
   private:
     ccd::pair_filter filter() const;
     std::vector<contact> near_at_start(const rows& before, response_report& report);
@@ -87,7 +98,7 @@ class collision_handler {
     particle_compliance particles_;
     std::vector<double> masses_;
     std::vector<std::uint8_t> pinned_;
-    std::map<std::array<vertex_index, 4>, vec3> last_forces_;  ///< of a pair, in the last step
+    forces_of_pairs last_forces_;
     std::vector<int> bodies_;
     collision_options options_;
 };

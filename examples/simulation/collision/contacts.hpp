@@ -41,9 +41,9 @@ class particle_compliance : public compliance {
 };
 
 struct contact_options {
-    double friction = 0.3;     ///< Coulomb's coefficient
-    double tolerance = 2e-5;   ///< of an inequality, in metres
-    int iterations = 60;       ///< at most
+    double friction;   ///< Coulomb's coefficient
+    double tolerance;  ///< of an inequality, in metres
+    int iterations;    ///< at most
 };
 
 /// Moves `after` by contact forces, as the bodies yield to them: of all displacements with which

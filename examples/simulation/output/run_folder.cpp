@@ -1,6 +1,7 @@
 #include "examples/simulation/output/run_folder.hpp"
 
 #include <ccd/io/mesh_file.hpp>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -19,33 +20,53 @@ using errbound::support::file_error;
 using errbound::support::read_whole;
 using errbound::support::write_whole;
 
-constexpr char magic[8] = {'s', 'i', 'm', 's', 't', 'a', 't', '1'};
+constexpr char magic[8] = {'s', 'i', 'm', 's', 't', 'a', 't', '2'};
+
+/// A force as it is stored.
+struct stored_force {
+    std::array<vertex_index, 4> pair;
+    std::array<double, 3> force;
+};
+
+template <class T>
+void append(std::string& text, const T* data, Eigen::Index count) {
+    text.append(reinterpret_cast<const char*>(data), sizeof(T) * static_cast<std::size_t>(count));
+}
 
 std::string bytes_of(const run_state& state) {
-    const std::int64_t numbers[] = {state.frame, state.positions.rows()};
+    const auto vertices = state.positions.rows();
+    const std::int64_t numbers[] = {state.frame, vertices, std::int64_t(state.forces.size())};
     std::string text(magic, sizeof magic);
-    text.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
-    for (const rows* part : {&state.positions, &state.velocities})
-        text.append(reinterpret_cast<const char*>(part->data()),
-                    sizeof(double) * static_cast<std::size_t>(part->size()));
+    append(text, numbers, 3);
+    append(text, state.positions.data(), 3 * vertices);
+    append(text, state.velocities.data(), 3 * vertices);
+    for (const auto& [pair, force] : state.forces) {
+        const stored_force stored{pair, {force.x(), force.y(), force.z()}};
+        append(text, &stored, 1);
+    }
     return text;
 }
 
 run_state state_of(const std::string& text, const std::filesystem::path& path,
                    Eigen::Index vertices) {
-    std::int64_t numbers[2] = {};
+    std::int64_t numbers[3] = {};
     const std::size_t head = sizeof magic + sizeof numbers;
-    const std::size_t expected = head + 6 * sizeof(double) * std::size_t(vertices);
     if (text.size() >= head) std::memcpy(numbers, text.data() + sizeof magic, sizeof numbers);
+    const std::size_t part = 3 * sizeof(double) * std::size_t(vertices);
+    const std::size_t expected = head + 2 * part + sizeof(stored_force) * std::size_t(numbers[2]);
     if (text.size() != expected || std::memcmp(text.data(), magic, sizeof magic) != 0 ||
         numbers[1] != vertices)
         throw file_error(path.string() + ": found " + std::to_string(text.size()) +
                          " bytes, expected a state of " + std::to_string(vertices) +
                          " vertices, " + std::to_string(expected) + " bytes");
-    run_state state{int(numbers[0]), rows(vertices, 3), rows(vertices, 3)};
-    const std::size_t part = 3 * sizeof(double) * std::size_t(vertices);
+    run_state state{int(numbers[0]), rows(vertices, 3), rows(vertices, 3), {}};
     std::memcpy(state.positions.data(), text.data() + head, part);
     std::memcpy(state.velocities.data(), text.data() + head + part, part);
+    for (std::size_t i = head + 2 * part; i < expected; i += sizeof(stored_force)) {
+        stored_force stored;
+        std::memcpy(&stored, text.data() + i, sizeof stored);
+        state.forces[stored.pair] = vec3(stored.force[0], stored.force[1], stored.force[2]);
+    }
     return state;
 }
 

@@ -1,0 +1,93 @@
+// Nearest points against exact answers about distances.
+#include <ccd/separation.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "examples/simulation/collision/nearest.hpp"
+
+namespace {
+
+using simulation::nearest_points;
+using simulation::vec3;
+using points = std::array<vec3, 4>;
+
+ccd::moving_point<double> at_rest(const vec3& x) {
+    const ccd::point<double> p{x.x(), x.y(), x.z()};
+    return {p, p};
+}
+
+/// Points in general position, and on small grids, where features are parallel or degenerate.
+points random_points(std::mt19937_64& random) {
+    points x;
+    const bool coarse = random() % 2 == 0;
+    for (vec3& p : x)
+        for (double& c : p)
+            c = coarse ? static_cast<double>(random() % 4)
+                       : static_cast<double>(random() % (1U << 20)) * 0x1p-20;
+    return x;
+}
+
+/// `exact` finds the features within a little more than the distance, and not within less.
+template <class Query>
+void expect_distance(const Query& query, const nearest_points& found, const points& x) {
+    vec3 between = vec3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) between += found.weights[i] * x[i];
+    ASSERT_NEAR((between - found.between).norm(), 0, 1e-14);
+    const double d = found.distance();
+    ASSERT_EQ(decide_within(query, {d * (1 + 1e-9) + 1e-12, 0}).outcome, ccd::outcome::collides);
+    if (d > 1e-9) {
+        ASSERT_EQ(decide_within(query, {d * (1 - 1e-9), 0}).outcome, ccd::outcome::separate);
+    }
+}
+
+TEST(Nearest, RandomVertexFace) {
+    std::mt19937_64 random(1);
+    for (int k = 0; k < 3000; ++k) {
+        const points x = random_points(random);
+        const auto found = simulation::nearest_vertex_face(x);
+        EXPECT_NEAR(found.weights[1] + found.weights[2] + found.weights[3], -1, 1e-12);
+        expect_distance(ccd::vertex_face<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]),
+                                                 at_rest(x[3])},
+                        found, x);
+    }
+}
+
+TEST(Nearest, RandomEdges) {
+    std::mt19937_64 random(2);
+    for (int k = 0; k < 3000; ++k) {
+        const points x = random_points(random);
+        const auto found = simulation::nearest_edges(x);
+        EXPECT_NEAR(found.weights[0] + found.weights[1], 1, 1e-12);
+        expect_distance(ccd::edge_edge<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]),
+                                               at_rest(x[3])},
+                        found, x);
+    }
+}
+
+TEST(Nearest, RandomVertexEdge) {
+    std::mt19937_64 random(3);
+    for (int k = 0; k < 3000; ++k) {
+        const points x = random_points(random);
+        expect_distance(ccd::vertex_edge<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2])},
+                        simulation::nearest_vertex_edge(x), x);
+    }
+}
+
+TEST(Approach, StopsBeforeThePairMeets) {
+    // A vertex falls through a face: the normal is the face's, the point where it falls.
+    const points before{vec3(0.2, 0.3, 1), vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0)};
+    points after = before;
+    after[0] = vec3(0.4, 0.3, -1);
+    const auto found = simulation::approach(before, after, simulation::nearest_vertex_face);
+    EXPECT_GT(found.distance(), 0);
+    EXPECT_LE(found.distance(), 0.11);
+    EXPECT_NEAR(found.between.normalized().z(), 1, 1e-12);
+    EXPECT_NEAR(-found.weights[2], 0.3, 0.02);
+    // One that does not move keeps its nearest points.
+    EXPECT_EQ(simulation::approach(before, before, simulation::nearest_vertex_face).weights,
+              simulation::nearest_vertex_face(before).weights);
+}
+
+}  // namespace
