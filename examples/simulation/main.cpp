@@ -105,6 +105,6 @@ int run_command_line(int argc, char** argv) {
 }  // namespace simulation
 
 int main(int argc, char** argv) {
-    return errbound::support::run_program(
-        "simulate", [&] { return simulation::run_command_line(argc, argv); });
+    return errbound::support::run_program("simulate",
+                                          [&] { return simulation::run_command_line(argc, argv); });
 }

@@ -28,8 +28,7 @@ simulation_run::simulation_run(scene made, std::uint64_t seed)
     state_.positions = scene_.bodies.start;
     if (seed != 0) perturb(scene_.bodies, seed, state_.positions);
     state_.velocities = scene_.velocities;
-    if (state_.velocities.rows() == 0)
-        state_.velocities = rows::Zero(state_.positions.rows(), 3);
+    if (state_.velocities.rows() == 0) state_.velocities = rows::Zero(state_.positions.rows(), 3);
     const ccd::mesh start = scene_.bodies.surface(state_.positions);
     ccd::step_options options{.threads = scene_.collision.threads};
     if (const std::size_t found = number_of(ccd::step(start, start, options).pairs); found > 0)

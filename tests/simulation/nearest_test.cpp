@@ -1,11 +1,11 @@
 // Nearest points against exact answers about distances.
-#include <ccd/separation.hpp>
+#include "examples/simulation/collision/nearest.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
+#include <ccd/separation.hpp>
 #include <random>
-
-#include "examples/simulation/collision/nearest.hpp"
 
 namespace {
 
@@ -48,9 +48,9 @@ TEST(Nearest, RandomVertexFace) {
         const points x = random_points(random);
         const auto found = simulation::nearest_vertex_face(x);
         EXPECT_NEAR(found.weights[1] + found.weights[2] + found.weights[3], -1, 1e-12);
-        expect_distance(ccd::vertex_face<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]),
-                                                 at_rest(x[3])},
-                        found, x);
+        expect_distance(
+            ccd::vertex_face<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]), at_rest(x[3])},
+            found, x);
     }
 }
 
@@ -60,9 +60,9 @@ TEST(Nearest, RandomEdges) {
         const points x = random_points(random);
         const auto found = simulation::nearest_edges(x);
         EXPECT_NEAR(found.weights[0] + found.weights[1], 1, 1e-12);
-        expect_distance(ccd::edge_edge<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]),
-                                               at_rest(x[3])},
-                        found, x);
+        expect_distance(
+            ccd::edge_edge<double>{at_rest(x[0]), at_rest(x[1]), at_rest(x[2]), at_rest(x[3])},
+            found, x);
     }
 }
 

@@ -1,10 +1,10 @@
 // Whole runs: every scene at a small size is certified free; rest stays rest; nothing depends on
 // the number of threads.
-#include <ccd/exact.hpp>
-#include <ccd/method.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ccd/exact.hpp>
+#include <ccd/method.hpp>
 #include <random>
 #include <stdexcept>
 #include <utility>

@@ -10,15 +10,17 @@
 namespace simulation {
 namespace {
 
-vec3 row(const rows& x, std::size_t v) { return x.row(static_cast<Eigen::Index>(v)).transpose(); }
+vec3 row(const rows& x, std::size_t v) {
+    return x.row(static_cast<Eigen::Index>(v)).transpose();
+}
 
 /// The term of F = (x1 − x0, ...)·rest⁻¹, whose singular values are stretches.
 template <int Columns>
 elastic_term stretch_term(const std::array<vertex_index, 4>& vertex,
                           const Eigen::Matrix<double, Columns, Columns>& rest, double weight,
                           double low, double high) {
-    elastic_term term{elastic_term::target::singular_values, Columns, Columns + 1, vertex, {},
-                      weight, low, high};
+    elastic_term term{
+        elastic_term::target::singular_values, Columns, Columns + 1, vertex, {}, weight, low, high};
     const Eigen::Matrix<double, Columns, Columns> inverse = rest.inverse();
     for (int c = 0; c < Columns; ++c)
         for (int i = 0; i < Columns; ++i) {
@@ -35,7 +37,9 @@ Eigen::Matrix2d in_plane(const vec3& e1, const vec3& e2) {
     return Eigen::Matrix2d{{e1.dot(x), e2.dot(x)}, {0, e2.dot(y)}};
 }
 
-double cotangent(const vec3& a, const vec3& b) { return a.dot(b) / a.cross(b).norm(); }
+double cotangent(const vec3& a, const vec3& b) {
+    return a.dot(b) / a.cross(b).norm();
+}
 
 /// The boundary of tetrahedra, faces outwards.
 std::vector<ccd::face> boundary(const std::vector<std::array<vertex_index, 4>>& tetrahedra) {
@@ -76,7 +80,8 @@ vertex_index model::add_cloth(const rows& shape, const std::vector<ccd::face>& t
                               const cloth_material& material) {
     const vertex_index first = add_obstacle(shape, triangles);
     for (const ccd::face& f : triangles) {
-        const vec3 e1 = row(shape, f[1]) - row(shape, f[0]), e2 = row(shape, f[2]) - row(shape, f[0]);
+        const vec3 e1 = row(shape, f[1]) - row(shape, f[0]),
+                   e2 = row(shape, f[2]) - row(shape, f[0]);
         const double area = e1.cross(e2).norm() / 2;
         for (const vertex_index v : f) mass[first + v] += material.density * area / 3;
         const std::array<vertex_index, 4> at{first + f[0], first + f[1], first + f[2], 0};
@@ -106,11 +111,13 @@ void model::add_bending(const std::vector<ccd::face>& triangles, vertex_index fi
                                              first + others[1]};
         std::array<vec3, 4> x;
         for (std::size_t i = 0; i < 4; ++i) x[i] = row(start, at[i]);
-        const double c03 = cotangent(x[1] - x[0], x[2] - x[0]), c04 = cotangent(x[1] - x[0], x[3] - x[0]);
-        const double c13 = cotangent(x[0] - x[1], x[2] - x[1]), c14 = cotangent(x[0] - x[1], x[3] - x[1]);
+        const double c03 = cotangent(x[1] - x[0], x[2] - x[0]),
+                     c04 = cotangent(x[1] - x[0], x[3] - x[0]);
+        const double c13 = cotangent(x[0] - x[1], x[2] - x[1]),
+                     c14 = cotangent(x[0] - x[1], x[3] - x[1]);
         const std::array<double, 4> factors{c13 + c14, c03 + c04, -c03 - c13, -c04 - c14};
-        const double area = ((x[1] - x[0]).cross(x[2] - x[0]).norm() +
-                             (x[1] - x[0]).cross(x[3] - x[0]).norm()) / 2;
+        const double area =
+            ((x[1] - x[0]).cross(x[2] - x[0]).norm() + (x[1] - x[0]).cross(x[3] - x[0]).norm()) / 2;
         elastic_term term{elastic_term::target::length, 1, 4, at, {}, 3 * stiffness / area, 0, 0};
         vec3 rest = vec3::Zero();
         for (std::size_t i = 0; i < 4; ++i) {
@@ -150,15 +157,26 @@ vertex_index model::add_rod(const rows& points, const rod_material& material) {
         edges.push_back({first + i, first + i + 1});
         const double length = (row(points, i + 1) - row(points, i)).norm();
         for (const vertex_index v : {i, i + 1}) mass[first + v] += material.density * length / 2;
-        terms.push_back({elastic_term::target::length, 1, 2, {first + i, first + i + 1},
-                         {{{-1}, {1}}}, material.stretching / length, length, length});
+        terms.push_back({elastic_term::target::length,
+                         1,
+                         2,
+                         {first + i, first + i + 1},
+                         {{{-1}, {1}}},
+                         material.stretching / length,
+                         length,
+                         length});
         if (i == 0) continue;
         // The second difference, whose length is the curvature times the squared length.
         const double curvature =
             (row(points, i + 1) - 2 * row(points, i) + row(points, i - 1)).norm();
-        terms.push_back({elastic_term::target::length, 1, 3,
-                         {first + i - 1, first + i, first + i + 1}, {{{1}, {-2}, {1}}},
-                         material.bending / (length * length * length), curvature, curvature});
+        terms.push_back({elastic_term::target::length,
+                         1,
+                         3,
+                         {first + i - 1, first + i, first + i + 1},
+                         {{{1}, {-2}, {1}}},
+                         material.bending / (length * length * length),
+                         curvature,
+                         curvature});
     }
     return first;
 }

@@ -39,8 +39,8 @@ struct cloth_material {
 
 /// Of a solid.
 struct solid_material {
-    double density = 1000;     ///< kg/m³
-    double stiffness = 1e5;    ///< N/m²; co-rotated
+    double density = 1000;   ///< kg/m³
+    double stiffness = 1e5;  ///< N/m²; co-rotated
 };
 
 /// Of a rod: a chain of edges.

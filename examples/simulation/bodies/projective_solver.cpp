@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "examples/simulation/bodies/selected_inverse.hpp"
 
@@ -38,7 +39,8 @@ gradient clamped_solid(const gradient& f, double low, double high) {
 /// Of two columns, by the eigenvectors of FᵀF, a rotation by an angle.
 gradient clamped_sheet(const gradient& f, double low, double high) {
     const double a = f.col(0).squaredNorm(), b = f.col(0).dot(f.col(1)), c = f.col(1).squaredNorm();
-    const double angle = std::atan2(2 * b, a - c) / 2, cosine = std::cos(angle), sine = std::sin(angle);
+    const double angle = std::atan2(2 * b, a - c) / 2, cosine = std::cos(angle),
+                 sine = std::sin(angle);
     vec3 first = cosine * f.col(0) + sine * f.col(1), second = cosine * f.col(1) - sine * f.col(0);
     const auto clamp = [&](vec3& stretched) {
         const double s = stretched.norm();
@@ -79,7 +81,8 @@ void projective_solver::assemble() {
     std::vector<triplet> matrix, forces;
     const double per_square = 1 / (options_.time_step * options_.time_step);
     for (std::size_t v = 0; v < bodies_.vertices(); ++v)
-        if (unknown_[v] >= 0) matrix.emplace_back(unknown_[v], unknown_[v], bodies_.mass[v] * per_square);
+        if (unknown_[v] >= 0)
+            matrix.emplace_back(unknown_[v], unknown_[v], bodies_.mass[v] * per_square);
     for (std::size_t t = 0; t < bodies_.terms.size(); ++t) {
         const elastic_term& term = bodies_.terms[t];
         for (std::size_t i = 0; i < std::size_t(term.vertices); ++i) {
@@ -118,27 +121,40 @@ rows projective_solver::wanted_changes(const rows& x) const {
     return all;
 }
 
-/// Each iteration solves for a change of x, not for x: of stiff terms the forces are small
-/// differences, which then are not lost beside the positions themselves.
-rows projective_solver::propose(const rows& x, const rows& v, const rows& driven) const {
+rows projective_solver::inertial(const rows& x, const rows& v, const rows& driven) const {
     const double h = options_.time_step, kept = std::pow(1 - options_.damping, h);
-    rows inertial = driven;
+    rows there = driven;
     for (std::size_t i = 0; i < bodies_.vertices(); ++i)
         if (const auto at = Eigen::Index(i); unknown_[i] >= 0)
-            inertial.row(at) =
-                x.row(at) + h * kept * v.row(at) + h * h * options_.gravity.transpose();
-    rows next = inertial;
+            there.row(at) = x.row(at) + h * kept * v.row(at) + h * h * options_.gravity.transpose();
+    return there;
+}
+
+/// Solves for a change of x, not for x: of stiff terms the forces are small differences, which then
+/// are not lost beside the positions themselves.
+rows projective_solver::relaxed(const rows& x, const rows&) const {
+    const double per_square = 1 / (options_.time_step * options_.time_step);
+    Eigen::MatrixX3d right = forces_ * wanted_changes(x);
+    for (std::size_t i = 0; i < bodies_.vertices(); ++i)
+        if (const auto at = Eigen::Index(i); unknown_[i] >= 0)
+            right.row(unknown_[i]) +=
+                per_square * bodies_.mass[i] * (inertial_.row(at) - x.row(at));
+    const Eigen::MatrixX3d change = factor_.solve(right);
+    rows next = x;
+    for (std::size_t i = 0; i < bodies_.vertices(); ++i)
+        if (unknown_[i] >= 0) next.row(Eigen::Index(i)) += change.row(unknown_[i]);
+    return next;
+}
+
+rows projective_solver::propose(const rows& x, const rows& v, const rows& driven) {
+    inertial_ = inertial(x, v, driven);
+    rows next = inertial_;
     const double moved = (next - x).cwiseAbs().maxCoeff();
     for (int k = 0; k < options_.iterations; ++k) {
-        Eigen::MatrixX3d right = forces_ * wanted_changes(next);
-        for (std::size_t i = 0; i < bodies_.vertices(); ++i)
-            if (const auto at = Eigen::Index(i); unknown_[i] >= 0)
-                right.row(unknown_[i]) +=
-                    bodies_.mass[i] / (h * h) * (inertial.row(at) - next.row(at));
-        const Eigen::MatrixX3d change = factor_.solve(right);
-        for (std::size_t i = 0; i < bodies_.vertices(); ++i)
-            if (unknown_[i] >= 0) next.row(Eigen::Index(i)) += change.row(unknown_[i]);
-        if (change.cwiseAbs().maxCoeff() <= options_.converged * moved) break;
+        rows better = relaxed(next, next);
+        const double changed = (better - next).cwiseAbs().maxCoeff();
+        next = std::move(better);
+        if (changed <= options_.converged * moved) break;
     }
     return next;
 }

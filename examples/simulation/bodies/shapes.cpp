@@ -41,12 +41,13 @@ surface_shape square(int cells, double side, double height) {
 
 surface_shape sphere(int refinements, double radius, const vec3& centre) {
     const double g = std::numbers::phi;
-    std::vector<vec3> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                             {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    std::vector<ccd::face> faces{
-        {0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-        {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-        {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    std::vector<vec3> points{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                             {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                             {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    std::vector<ccd::face> faces{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                 {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                 {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                 {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
     for (int k = 0; k < refinements; ++k) {
         std::map<ccd::edge, vertex_index> middles;
         const auto middle = [&](vertex_index a, vertex_index b) {
@@ -64,18 +65,20 @@ surface_shape sphere(int refinements, double radius, const vec3& centre) {
     }
     surface_shape shape{rows(Eigen::Index(points.size()), 3), faces};
     for (std::size_t v = 0; v < points.size(); ++v)
-        shape.points.row(Eigen::Index(v)) =
-            (centre + radius * points[v].normalized()).transpose();
+        shape.points.row(Eigen::Index(v)) = (centre + radius * points[v].normalized()).transpose();
     return shape;
 }
 
 surface_shape revolved(const std::vector<std::array<double, 2>>& profile, int segments) {
     const int rings = int(profile.size()) - 1;
-    return grid(segments, rings, [&](double u, double v) {
-        const auto& [radius, z] = profile[std::size_t(std::lround(v * rings))];
-        const double angle = 2 * std::numbers::pi * u;
-        return vec3(radius * std::cos(angle), radius * std::sin(angle), z);
-    }, true);
+    return grid(
+        segments, rings,
+        [&](double u, double v) {
+            const auto& [radius, z] = profile[std::size_t(std::lround(v * rings))];
+            const double angle = 2 * std::numbers::pi * u;
+            return vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+        },
+        true);
 }
 
 surface_shape capsule(int refinements, double radius, const vec3& from, const vec3& to) {
@@ -162,6 +165,8 @@ rows line(int edges, const vec3& from, const vec3& to) {
     return points;
 }
 
-void translate(rows& points, const vec3& by) { points.rowwise() += by.transpose(); }
+void translate(rows& points, const vec3& by) {
+    points.rowwise() += by.transpose();
+}
 
 }  // namespace simulation

@@ -27,7 +27,9 @@ class stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-ccd::vertex_rows way(const rows& before, const rows& after) { return {before, after}; }
+ccd::vertex_rows way(const rows& before, const rows& after) {
+    return {before, after};
+}
 
 /// A pair's four vertices; where it has fewer, the first again, which then has no weight there.
 template <class Pair>
@@ -70,8 +72,8 @@ std::size_t uncertain_among(const ccd::pair_lists& pairs, ccd::method method,
     std::size_t count = 0;
     const auto look = [&](const auto& list) {
         for (const auto& pair : list)
-            count += ccd::decide(method, query_of(positions, pair)).outcome ==
-                     ccd::outcome::uncertain;
+            count +=
+                ccd::decide(method, query_of(positions, pair)).outcome == ccd::outcome::uncertain;
     };
     look(pairs.vertex_face);
     look(pairs.edge_edge);
@@ -98,8 +100,7 @@ ccd::pair_filter collision_handler::filter() const {
     return filter;
 }
 
-std::vector<contact> collision_handler::near_at_start(const rows& before,
-                                                      response_report& report) {
+std::vector<contact> collision_handler::near_at_start(const rows& before, response_report& report) {
     ccd::step_options options{.threads = options_.threads};
     const double reach = 2 * options_.thickness;  // what comes nearer within the step
     options.distances.all = reach;
@@ -123,9 +124,8 @@ std::vector<contact> collision_handler::near_at_start(const rows& before,
     });
     steps_.for_each_candidate(way(before, before), visitor, options);
     // Blocks come in any order; a face and a pair of edges may have the same vertices.
-    std::ranges::sort(found, {}, [](const auto& f) {
-        return std::pair(f.second.vertex, f.second.weight);
-    });
+    std::ranges::sort(found, {},
+                      [](const auto& f) { return std::pair(f.second.vertex, f.second.weight); });
     std::vector<contact> contacts;
     report.least_distance = options_.thickness;
     for (auto& [distance, contact] : found) {
@@ -177,8 +177,7 @@ void collision_handler::add_contacts(const ccd::pair_lists& pairs, const rows& b
     });
 }
 
-void collision_handler::advance_instead(const rows& before, rows& after,
-                                        response_report& report) {
+void collision_handler::advance_instead(const rows& before, rows& after, response_report& report) {
     report.converged = false;
     const ccd::advance_options options{
         .groups = bodies_, .threads = options_.threads, .filter = filter()};
@@ -190,18 +189,41 @@ void collision_handler::advance_instead(const rows& before, rows& after,
     }
 }
 
+void collision_handler::push_apart(std::vector<contact>& contacts, const compliance& bodies,
+                                   const rows& before, const rows& proposed, rows& after,
+                                   int round) const {
+    const contact_options options{
+        .friction = options_.friction,
+        .tolerance = options_.tolerance * options_.thickness,
+        .iterations = options_.iterations,
+        .relaxations = round == 0 ? options_.relaxations : options_.relaxations / 3};
+    after = solve_contacts(contacts, bodies, options, before, proposed);
+    if (round > options_.impulse_rounds / 2)
+        finish_contacts(contacts, particles_, options_.finishing_sweeps, options.tolerance, before,
+                        after);
+}
+
+/// Pairs that collide on the way, by `exact`; of its own answers it is not asked again.
+std::optional<std::size_t> collision_handler::passed_through(const rows& before, const rows& after,
+                                                             response_report& report) {
+    if (!options_.certify) return {};
+    if (options_.method == ccd::method::exact && report.converged) return 0;
+    const stopwatch watch(report.certification_seconds);
+    ccd::step_options exact{.threads = options_.threads};
+    exact.filter = filter();
+    return number_of(steps_.run(way(before, after), exact).pairs);
+}
+
 response_report collision_handler::resolve(const rows& before, rows& after,
                                            const compliance& bodies) {
     response_report report;
     const rows proposed = after;
-    const double tolerance = options_.tolerance * options_.thickness;
     impact_zones zones(masses_.size());
     std::vector<contact> contacts;
     {
         const stopwatch watch(report.response_seconds);
         contacts = near_at_start(before, report);
-        solve_contacts(contacts, bodies, {options_.friction, tolerance, options_.iterations},
-                       before, after);
+        push_apart(contacts, bodies, before, proposed, after, 0);
     }
     while (true) {
         const ccd::pair_lists pairs = detect(before, after, report);
@@ -213,12 +235,7 @@ response_report collision_handler::resolve(const rows& before, rows& after,
         }
         if (report.iterations <= options_.impulse_rounds) {
             add_contacts(pairs, before, after, contacts);
-            after = proposed;
-            solve_contacts(contacts, bodies,
-                           {options_.friction, tolerance, options_.iterations / 3}, before, after);
-            if (report.iterations > options_.impulse_rounds / 2)
-                finish_contacts(contacts, particles_, options_.finishing_sweeps,
-                                tolerance, before, after);
+            push_apart(contacts, bodies, before, proposed, after, report.iterations);
         } else {
             ccd::for_each_kind([&]<ccd::kind K>() {
                 for (const auto& pair : pairs.of<K>()) zones.join(vertices_of(pair));
@@ -230,15 +247,7 @@ response_report collision_handler::resolve(const rows& before, rows& after,
     last_forces_.clear();
     for (const contact& c : contacts)
         if (!c.force.isZero(0)) last_forces_[c.vertex] = c.force;
-    if (!options_.certify) return report;
-    if (options_.method == ccd::method::exact) {
-        report.passed_through = 0;  // that is what it just said
-        if (report.converged) return report;
-    }
-    const stopwatch watch(report.certification_seconds);
-    ccd::step_options exact{.threads = options_.threads};
-    exact.filter = filter();
-    report.passed_through = number_of(steps_.run(way(before, after), exact).pairs);
+    report.passed_through = passed_through(before, after, report);
     return report;
 }
 

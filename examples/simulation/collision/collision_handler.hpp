@@ -38,29 +38,30 @@ namespace simulation {
 
 struct collision_options {
     ccd::method method = ccd::method::exact;
-    double thickness = 1e-3;    ///< in metres: nearer than that is pushed apart
-    double friction = 0.3;      ///< Coulomb's coefficient
-    double push = 0.1;          ///< share of what lacks to the thickness that is given back a step
-    int impulse_rounds = 12;    ///< of them the second half with what particles would do, too
-    int finishing_sweeps = 100; ///< of that
-    double tolerance = 0.05;    ///< of contacts, in thicknesses
-    int iterations = 60;        ///< of contact forces in the first round, a third in others
-    int rounds = 40;            ///< all together; then the response has not converged
-    bool certify = true;        ///< ask `exact` about what is accepted
-    int threads = 0;            ///< at most; 0: one per core
+    double thickness = 1e-3;     ///< in metres: nearer than that is pushed apart
+    double friction = 0.3;       ///< Coulomb's coefficient
+    double push = 0.1;           ///< share of what lacks to the thickness that is given back a step
+    int impulse_rounds = 12;     ///< of them the second half with what particles would do, too
+    int finishing_sweeps = 100;  ///< of that
+    double tolerance = 0.01;     ///< of contacts, in thicknesses
+    int iterations = 8;          ///< of contact forces, after each relaxation of the bodies
+    int relaxations = 9;         ///< in the first round, a third of it in others
+    int rounds = 40;             ///< all together; then the response has not converged
+    bool certify = true;         ///< ask `exact` about what is accepted
+    int threads = 0;             ///< at most; 0: one per core
 };
 
 struct response_report {
-    int iterations = 0;             ///< looks at the step by the method
-    std::size_t near_at_start = 0;  ///< pairs nearer than the thickness
-    double least_distance = 0;      ///< of these, in metres; meaningless if there are none
-    std::size_t contacts = 0;       ///< pairs reported at the first look
-    std::size_t reported = 0;       ///< pairs reported at all looks
-    std::size_t uncertain = 0;      ///< those of them that the method cannot decide
+    int iterations = 0;                     ///< looks at the step by the method
+    std::size_t near_at_start = 0;          ///< pairs nearer than the thickness
+    double least_distance = 0;              ///< of these, in metres; meaningless if there are none
+    std::size_t contacts = 0;               ///< pairs reported at the first look
+    std::size_t reported = 0;               ///< pairs reported at all looks
+    std::size_t uncertain = 0;              ///< those of them that the method cannot decide
     std::optional<std::size_t> candidates;  ///< of all looks, where the method counts them
-    std::size_t zones = 0;          ///< rigid zones at the last look
-    bool converged = true;          ///< the method reports nothing any more
-    double fraction = 1;            ///< of the way, where it has not converged
+    std::size_t zones = 0;                  ///< rigid zones at the last look
+    bool converged = true;                  ///< the method reports nothing any more
+    double fraction = 1;                    ///< of the way, where it has not converged
     std::optional<std::size_t> passed_through;  ///< pairs that collide on the way, by `exact`
     double detection_seconds = 0, response_seconds = 0, certification_seconds = 0;
 };
@@ -74,8 +75,8 @@ class collision_handler {
     /// bodies (each advances by a fraction of its own, if need be). Throws what ccd::mesh_steps
     /// throws.
     collision_handler(const std::vector<ccd::face>& faces, const std::vector<ccd::edge>& edges,
-                      const std::vector<double>& masses, std::vector<int> bodies,
-                      double time_step, const collision_options& options);
+                      const std::vector<double>& masses, std::vector<int> bodies, double time_step,
+                      const collision_options& options);
 
     /// Moves `after`, rows of driven vertices only where it has not converged. `before` must be
     /// without contact.
@@ -92,6 +93,10 @@ class collision_handler {
     ccd::pair_lists detect(const rows& before, const rows& after, response_report& report);
     void add_contacts(const ccd::pair_lists& pairs, const rows& before, const rows& after,
                       std::vector<contact>& contacts) const;
+    void push_apart(std::vector<contact>& contacts, const compliance& bodies, const rows& before,
+                    const rows& proposed, rows& after, int round) const;
+    std::optional<std::size_t> passed_through(const rows& before, const rows& after,
+                                              response_report& report);
     void advance_instead(const rows& before, rows& after, response_report& report);
 
     ccd::mesh_steps steps_;

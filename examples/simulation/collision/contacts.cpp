@@ -88,7 +88,7 @@ class projected_gradients {
         moved_ = apply(forces_);
     }
 
-    double run() {
+    void run() {
         by_contact y = forces_, y_moved = moved_;
         double theta = 1, step = 1;
         double violation = violation_of(contacts_, forces_, moved_ + missing_);
@@ -104,15 +104,14 @@ class projected_gradients {
             moved_ = next_moved;
             violation = violation_of(contacts_, forces_, moved_ + missing_);
         }
-        return violation;
     }
 
     const by_contact& forces() const { return forces_; }
 
   private:
     by_contact apply(const by_contact& forces) {
-        return differences(contacts_, bodies_.displacements(
-                                          forces_on_vertices(contacts_, forces, vertices_)));
+        return differences(contacts_,
+                           bodies_.displacements(forces_on_vertices(contacts_, forces, vertices_)));
     }
 
     /// A step down from y, as long as the quadratic allows; `step` is kept for the next.
@@ -153,19 +152,27 @@ rows particle_compliance::displacements(const rows& forces) const {
     return u;
 }
 
-double solve_contacts(std::vector<contact>& contacts, const compliance& bodies,
-                      const contact_options& options, const rows& before, rows& after) {
-    if (contacts.empty()) return 0;
-    projected_gradients gradients(contacts, bodies, options, before, after);
-    const double violation = gradients.run();
-    for (std::size_t c = 0; c < contacts.size(); ++c)
-        contacts[c].force = gradients.forces().row(Eigen::Index(c)).transpose();
-    after += bodies.displacements(forces_on_vertices(contacts, gradients.forces(), after.rows()));
-    return violation;
+rows solve_contacts(std::vector<contact>& contacts, const compliance& bodies,
+                    const contact_options& options, const rows& before, const rows& proposed) {
+    rows after = proposed;
+    if (contacts.empty()) return after;
+    for (int k = 0; k <= options.relaxations; ++k) {
+        const rows free = k == 0 ? proposed : bodies.relaxed(after, proposed);
+        projected_gradients gradients(contacts, bodies, options, before, free);
+        gradients.run();
+        for (std::size_t c = 0; c < contacts.size(); ++c)
+            contacts[c].force = gradients.forces().row(Eigen::Index(c)).transpose();
+        const rows next = free + bodies.displacements(forces_on_vertices(
+                                     contacts, gradients.forces(), proposed.rows()));
+        const double changed = (next - after).cwiseAbs().maxCoeff();
+        after = next;
+        if (k > 0 && changed <= options.tolerance) break;
+    }
+    return after;
 }
 
-double finish_contacts(const std::vector<contact>& contacts, const compliance& particles, int sweeps,
-                       double tolerance, const rows& before, rows& after) {
+double finish_contacts(const std::vector<contact>& contacts, const compliance& particles,
+                       int sweeps, double tolerance, const rows& before, rows& after) {
     double violation = 0;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         violation = 0;
@@ -173,8 +180,9 @@ double finish_contacts(const std::vector<contact>& contacts, const compliance& p
             const double alone = particles_at(c, particles);
             double moved = 0;
             for (std::size_t i = 0; i < 4; ++i)
-                moved += c.weight[i] *
-                         c.normal.dot((after.row(c.vertex[i]) - before.row(c.vertex[i])).transpose());
+                moved +=
+                    c.weight[i] *
+                    c.normal.dot((after.row(c.vertex[i]) - before.row(c.vertex[i])).transpose());
             const double missing = c.least - moved;
             if (!(alone > 0) || missing <= 0) continue;
             violation = std::max(violation, missing);

@@ -66,8 +66,9 @@ nearest_points nearest_edges(const std::array<vec3, 4>& x) {
         add(place_on(x[2], x[0], x[1]), 0);
         add(place_on(x[3], x[0], x[1]), 1);
     }
-    return *std::min_element(found.begin(), found.begin() + std::ptrdiff_t(count),
-                             [](const auto& p, const auto& q) { return p.distance() < q.distance(); });
+    return *std::min_element(
+        found.begin(), found.begin() + std::ptrdiff_t(count),
+        [](const auto& p, const auto& q) { return p.distance() < q.distance(); });
 }
 
 }  // namespace simulation

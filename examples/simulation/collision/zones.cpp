@@ -66,20 +66,20 @@ std::vector<std::vector<vertex_index>> impact_zones::zones() {
     return found;
 }
 
-std::size_t impact_zones::count() const { return impact_zones(*this).zones().size(); }
+std::size_t impact_zones::count() const {
+    return impact_zones(*this).zones().size();
+}
 
-void impact_zones::move(const std::vector<double>& masses, const rows& before,
-                        rows& after) {
+void impact_zones::move(const std::vector<double>& masses, const rows& before, rows& after) {
     for (const auto& zone : zones()) {
         std::vector<vertex_index> driven;
         for (const vertex_index v : zone)
             if (masses[v] == 0) driven.push_back(v);
         const rigid_motion motion =
-            driven.empty()
-                ? nearest_motion(
-                      zone, [&](vertex_index v) { return masses[v]; }, before, after)
-                : nearest_motion(
-                      driven, [](vertex_index) { return 1.0; }, before, after);
+            driven.empty() ? nearest_motion(
+                                 zone, [&](vertex_index v) { return masses[v]; }, before, after)
+                           : nearest_motion(
+                                 driven, [](vertex_index) { return 1.0; }, before, after);
         for (const vertex_index v : zone)
             if (masses[v] > 0)
                 after.row(v) =

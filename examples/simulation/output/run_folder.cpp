@@ -1,7 +1,7 @@
 #include "examples/simulation/output/run_folder.hpp"
 
-#include <ccd/io/mesh_file.hpp>
 #include <array>
+#include <ccd/io/mesh_file.hpp>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -57,8 +57,8 @@ run_state state_of(const std::string& text, const std::filesystem::path& path,
     if (text.size() != expected || std::memcmp(text.data(), magic, sizeof magic) != 0 ||
         numbers[1] != vertices)
         throw file_error(path.string() + ": found " + std::to_string(text.size()) +
-                         " bytes, expected a state of " + std::to_string(vertices) +
-                         " vertices, " + std::to_string(expected) + " bytes");
+                         " bytes, expected a state of " + std::to_string(vertices) + " vertices, " +
+                         std::to_string(expected) + " bytes");
     run_state state{int(numbers[0]), rows(vertices, 3), rows(vertices, 3), {}};
     std::memcpy(state.positions.data(), text.data() + head, part);
     std::memcpy(state.velocities.data(), text.data() + head + part, part);
@@ -89,14 +89,25 @@ std::string csv_row(const frame_record& r) {
     const auto optional = [](const std::optional<std::size_t>& n) {
         return n ? std::to_string(*n) : std::string();
     };
-    const std::string cells[] = {
-        std::to_string(r.frame), text_of(r.solver_seconds), text_of(c.detection_seconds),
-        text_of(c.response_seconds), text_of(c.certification_seconds), optional(c.candidates),
-        std::to_string(c.contacts), std::to_string(c.reported), std::to_string(c.uncertain),
-        std::to_string(c.iterations), std::to_string(c.zones), c.converged ? "1" : "0",
-        text_of(c.fraction), optional(c.passed_through), std::to_string(c.near_at_start),
-        c.near_at_start > 0 ? text_of(c.least_distance) : std::string(),
-        text_of(r.kinetic_energy), text_of(r.elastic_energy), text_of(r.potential_energy)};
+    const std::string cells[] = {std::to_string(r.frame),
+                                 text_of(r.solver_seconds),
+                                 text_of(c.detection_seconds),
+                                 text_of(c.response_seconds),
+                                 text_of(c.certification_seconds),
+                                 optional(c.candidates),
+                                 std::to_string(c.contacts),
+                                 std::to_string(c.reported),
+                                 std::to_string(c.uncertain),
+                                 std::to_string(c.iterations),
+                                 std::to_string(c.zones),
+                                 c.converged ? "1" : "0",
+                                 text_of(c.fraction),
+                                 optional(c.passed_through),
+                                 std::to_string(c.near_at_start),
+                                 c.near_at_start > 0 ? text_of(c.least_distance) : std::string(),
+                                 text_of(r.kinetic_energy),
+                                 text_of(r.elastic_energy),
+                                 text_of(r.potential_energy)};
     std::string row;
     for (const std::string& cell : cells) row += (row.empty() ? "" : ",") + cell;
     return row + '\n';
@@ -107,11 +118,13 @@ run_folder::run_folder(std::filesystem::path folder, const std::string& descript
     std::error_code failed;
     std::filesystem::create_directories(folder_ / "frames", failed);
     if (failed)
-        throw file_error(folder_.string() + ": " + failed.message() + ", expected a folder that can be written");
+        throw file_error(folder_.string() + ": " + failed.message() +
+                         ", expected a folder that can be written");
     const std::filesystem::path about = folder_ / "run.txt";
     if (!is_new_) {
         if (const std::string found = read_whole(about); found != description)
-            throw file_error(about.string() + ": found '" + found + "', expected the run to go on with, '" + description + "'");
+            throw file_error(about.string() + ": found '" + found +
+                             "', expected the run to go on with, '" + description + "'");
         return;
     }
     write_whole(about, description);

@@ -31,9 +31,8 @@ scene car(int resolution) {
     s.target = {0, 0, 0.4};
     const solid_shape body = car_body(resolution);
     s.bodies.add_solid(body.points, body.tetrahedra, {.density = 300, .stiffness = 2e6});
-    const surface_shape floor = grid(20, 8, [](double u, double v) {
-        return vec3(-12 + 20 * u, -4 + 8 * v, 0);
-    });
+    const surface_shape floor =
+        grid(20, 8, [](double u, double v) { return vec3(-12 + 20 * u, -4 + 8 * v, 0); });
     s.bodies.add_obstacle(floor.points, floor.faces);
     return s;
 }

@@ -14,7 +14,9 @@ namespace {
 constexpr double waist = 0.16, hem = 0.36, length = 0.75;
 
 /// A leg's angle to the vertical at a time, in radians.
-double swing(double time, double side) { return side * 0.45 * std::sin(2 * std::numbers::pi * time); }
+double swing(double time, double side) {
+    return side * 0.45 * std::sin(2 * std::numbers::pi * time);
+}
 
 /// About z, slowly at first.
 Eigen::AngleAxisd turn(double time) {
@@ -31,10 +33,13 @@ scene clothes(int resolution) {
     s.eye = {1.6, -1.9, 0.5};
     s.target = {0, 0, -0.35};
     const int rings = std::max(8, resolution * 2 / 5);
-    const surface_shape skirt = grid(resolution, rings, [](double u, double v) {
-        const double angle = 2 * std::numbers::pi * u, radius = std::lerp(waist, hem, v);
-        return vec3(radius * std::cos(angle), radius * std::sin(angle), -length * v);
-    }, true);
+    const surface_shape skirt = grid(
+        resolution, rings,
+        [](double u, double v) {
+            const double angle = 2 * std::numbers::pi * u, radius = std::lerp(waist, hem, v);
+            return vec3(radius * std::cos(angle), radius * std::sin(angle), -length * v);
+        },
+        true);
     const vertex_index cloth = s.bodies.add_cloth(skirt.points, skirt.faces, {});
     for (int i = 0; i < resolution; ++i) s.bodies.pin(cloth + vertex_index(i));
 

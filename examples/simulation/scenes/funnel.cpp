@@ -39,7 +39,8 @@ scene funnel(int layers, int resolution) {
         surface_shape sheet = square(resolution, side, 0.03 + 0.02 * layer);
         s.bodies.add_cloth(sheet.points, sheet.faces, {});
     }
-    const surface_shape cone = revolved(profile(std::max(8, resolution / 3)), std::max(24, resolution));
+    const surface_shape cone =
+        revolved(profile(std::max(8, resolution / 3)), std::max(24, resolution));
     s.bodies.add_obstacle(cone.points, cone.faces);
     const double high = 0.03 + 0.02 * layers + ball + 0.05;
     const surface_shape pusher = sphere(resolution < 60 ? 2 : 3, ball, {0, 0, high});

@@ -33,13 +33,15 @@ scene needles(int resolution) {
         const double angle = 2 * std::numbers::pi * i / 9, radius = 0.04 + 0.02 * i;
         const vec3 tip(radius * std::cos(angle), radius * std::sin(angle), 0.01 + 0.002 * i);
         const surface_shape needle =
-            spike(3, 2.5e-4, tip + vec3(0.05 * std::cos(3 * angle), 0.05 * std::sin(3 * angle), 0.5), tip);
+            spike(3, 2.5e-4,
+                  tip + vec3(0.05 * std::cos(3 * angle), 0.05 * std::sin(3 * angle), 0.5), tip);
         s.bodies.add_obstacle(needle.points, needle.faces);
         all.conservativeResize(all.rows() + needle.points.rows(), 3);
         all.bottomRows(needle.points.rows()) = needle.points;
     }
     s.drive = [=](int frame, rows& positions) {
-        const double down = std::min(1.0, frame / 250.0), aside = std::clamp((frame - 250) / 250.0, 0.0, 1.0);
+        const double down = std::min(1.0, frame / 250.0),
+                     aside = std::clamp((frame - 250) / 250.0, 0.0, 1.0);
         const vec3 by(0.15 * aside, 0, -0.12 * down);
         positions.middleRows(first, all.rows()) = all.rowwise() + by.transpose();
     };

@@ -16,8 +16,8 @@ struct scene {
     model bodies;
     solver_options solver = {};
     collision_options collision = {};
-    int frames = 0;        ///< each one time step
-    rows velocities = {};  ///< at the start; none: at rest
+    int frames = 0;                                ///< each one time step
+    rows velocities = {};                          ///< at the start; none: at rest
     vec3 eye{1.2, -2.4, 1.0}, target{0, 0, -0.3};  ///< where pictures are taken from, and of what
     /// Sets the rows of driven vertices to where they are at the end of a frame, from 1 on.
     std::function<void(int frame, rows& positions)> drive = [](int, rows&) {};

@@ -22,8 +22,8 @@ scene stiff(int resolution) {
         for (int level = 0; level < 4; ++level) {
             z += thickness;
             const vec3 from(0.5 * stack, 0, z);
-            const solid_shape cube = block({resolution, resolution, resolution}, from,
-                                           from + vec3(side, side, side));
+            const solid_shape cube =
+                block({resolution, resolution, resolution}, from, from + vec3(side, side, side));
             const bool hard = (level + stack) % 2 == 0;
             s.bodies.add_solid(cube.points, cube.tetrahedra,
                                {.density = 100, .stiffness = hard ? 1e8 * soft : soft});

@@ -18,9 +18,8 @@ scene twist(int resolution) {
     s.eye = {0.4, -2.0, 0.6};
     s.target = {0, 0, 0};
     const int across = std::max(4, resolution / 2);
-    const surface_shape sheet = grid(across, resolution, [](double u, double v) {
-        return vec3(v - 0.5, (u - 0.5) / 2, 0);
-    });
+    const surface_shape sheet = grid(
+        across, resolution, [](double u, double v) { return vec3(v - 0.5, (u - 0.5) / 2, 0); });
     const vertex_index first = s.bodies.add_cloth(sheet.points, sheet.faces, {});
     const int width = across + 1;
     const vertex_index last = first + vertex_index(resolution * width);
