@@ -10,11 +10,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/program.hpp"
 #include "errbound/support/progress_line.hpp"
+#include "examples/simulation/output/paraview.hpp"
 #include "examples/simulation/output/run_folder.hpp"
 #include "examples/simulation/output/summary.hpp"
 #include "examples/simulation/scenes/scene.hpp"
@@ -28,7 +30,7 @@ volatile std::sig_atomic_t interrupted = 0;
 struct arguments {
     std::string scene, method = "exact", out;
     std::optional<int> frames, resolution;
-    bool full = false;
+    bool full = false, proposals = false, vtp = false;
     int threads = 0;
     std::uint64_t seed = 0;
 };
@@ -48,26 +50,35 @@ scene made(const arguments& given, const scene_maker& maker) {
 }
 
 /// What must be the same for a run to be gone on with: not how many frames or threads.
-std::string description(const arguments& given, const scene_maker& maker) {
+std::string description(const arguments& given, const scene_maker& maker, const scene& made) {
     const int resolution = given.resolution.value_or(given.full ? maker.full : maker.small);
-    return maker.name + " --resolution " + std::to_string(resolution) + " --method " +
-           given.method + " --seed " + std::to_string(given.seed) + "\n";
+    std::ostringstream text;
+    text << maker.name << " --resolution " << resolution << " --method " << given.method
+         << " --seed " << given.seed << "\neye " << made.eye.transpose() << "\ntarget "
+         << made.target.transpose() << "\n";
+    return text.str();
 }
 
 int simulate(const arguments& given) {
     const scene_maker& maker = maker_of(given.scene);
     simulation_run run(made(given, maker), given.seed);
     run_folder folder(given.out.empty() ? "out/simulation/" + maker.name : given.out,
-                      description(given, maker));
+                      description(given, maker, run.of()));
     folder.restore(run);
     folder.store_start(run);
     std::signal(SIGINT, [](int) { interrupted = 1; });
     errbound::support::progress_line progress;
     while (run.state().frame < run.of().frames && interrupted == 0) {
         progress.show(std::size_t(run.state().frame), std::size_t(run.of().frames), maker.name);
-        folder.store(run, run.next_frame());
+        const rows before = run.state().positions;
+        const frame_record record = run.next_frame();
+        if (given.vtp)
+            write_vtp(folder.path(), run.of(), record.frame - 1, before, run.proposed());
+        if (given.proposals) folder.store_proposal(run);
+        folder.store(run, record);
     }
     progress.clear();
+    if (given.vtp) write_series(folder.path(), run.of());
     std::fputs(summary_of(folder.path() / "frames.csv").c_str(), stdout);
     std::printf("frames and table: %s\n", folder.path().c_str());
     if (run.state().frame < run.of().frames)
@@ -90,6 +101,10 @@ int run_command_line(int argc, char** argv) {
     app.add_option("--resolution", given.resolution, "of the scene")->check(CLI::Range(4, 2000));
     app.add_flag("--full", given.full, "the scene at its full size");
     app.add_option("--out", given.out, "folder, else out/simulation/SCENE");
+    app.add_flag("--proposals", given.proposals,
+                 "stores what the solver proposed, too: the steps that were looked at first");
+    app.add_flag("--vtp", given.vtp,
+                 "writes a series for ParaView, too: frames, and what the proposed steps would meet");
     app.add_option("--threads", given.threads, "at most; 0: one per core")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--seed", given.seed, "moves the start by up to 1e-5 m at random; 0: not");

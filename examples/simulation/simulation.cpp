@@ -49,6 +49,7 @@ frame_record simulation_run::next_frame() {
     rows driven = state_.positions;
     scene_.drive(record.frame, driven);
     rows next = solver_.propose(state_.positions, state_.velocities, driven);
+    proposed_ = next;
     record.solver_seconds = std::chrono::duration<double>(clock::now() - begin).count();
 
     record.response = collisions_.resolve(state_.positions, next, solver_);

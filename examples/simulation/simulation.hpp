@@ -35,6 +35,8 @@ class simulation_run {
 
     const scene& of() const { return scene_; }
     const run_state& state() const { return state_; }
+    /// Where the solver would have gone in the last frame.
+    const rows& proposed() const { return proposed_; }
     /// Goes on from there: the same scene's state.
     void restore(run_state state);
 
@@ -43,6 +45,7 @@ class simulation_run {
     projective_solver solver_;
     collision_handler collisions_;
     run_state state_;
+    rows proposed_;
 };
 
 }  // namespace simulation

@@ -85,6 +85,26 @@ class Simulate(unittest.TestCase):
             self.assertIn(told, ran.stderr)
             self.assertFalse(self.out.exists())
 
+    def test_writes_proposals_and_a_series(self):
+        ran = simulate("funnel1", "--resolution", 8, "--frames", 12, "--out", self.out, "--proposals",
+                       "--vtp")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertEqual(len(list((self.out / "proposals").iterdir())), 12)
+        series = (self.out / "paraview/series.pvd").read_text()
+        self.assertEqual(re.findall(r'file="(\d+)\.vtp"', series), [f"{i:05}" for i in range(12)])
+
+    def test_tables_of_methods(self):
+        build = pathlib.Path(PROGRAM).parents[2]
+        if not (build / "ccd").exists():
+            self.skipTest("the program ccd is not built")
+        ran = subprocess.run(
+            [sys.executable, ROOT / "examples/simulation/figures.py", build, "--scenes", "funnel1",
+             "--streams", "funnel1", "--methods", "tight,exact", "--seeds", "1", "--resolution", "8",
+             "--frames", "12", "--steps", "2", "--out", self.out], capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("| funnel1, 8 to 12 | exact | 1.00 |", ran.stdout)
+        self.assertEqual((self.out / "report.md").read_text() + "\n", ran.stdout)
+
     def test_pictures(self):
         try:
             from PIL import Image

@@ -131,15 +131,20 @@ run_folder::run_folder(std::filesystem::path folder, const std::string& descript
     write_whole(folder_ / "frames.csv", csv_heading());
 }
 
-void run_folder::write_frame(const simulation_run& run) const {
+void run_folder::write_frame(const char* in, const simulation_run& run,
+                             const rows& positions) const {
     char name[16];
     std::snprintf(name, sizeof name, "%05d.ply", run.state().frame);
-    write_whole(folder_ / "frames" / name,
-                ccd::io::ply_of(run.of().bodies.surface(run.state().positions)));
+    write_whole(folder_ / in / name, ccd::io::ply_of(run.of().bodies.surface(positions)));
+}
+
+void run_folder::store_proposal(const simulation_run& run) const {
+    std::filesystem::create_directories(folder_ / "proposals");
+    write_frame("proposals", run, run.proposed());
 }
 
 void run_folder::store_start(const simulation_run& run) {
-    if (is_new_) write_frame(run);
+    if (is_new_) write_frame("frames", run, run.state().positions);
 }
 
 void run_folder::restore(simulation_run& run) const {
@@ -156,7 +161,7 @@ void run_folder::restore(simulation_run& run) const {
 }
 
 void run_folder::store(const simulation_run& run, const frame_record& record) {
-    write_frame(run);
+    write_frame("frames", run, run.state().positions);
     const std::filesystem::path table = folder_ / "frames.csv";
     std::ofstream out(table, std::ios::app);
     out << csv_row(record) << std::flush;

@@ -23,13 +23,15 @@ class run_folder {
     void restore(simulation_run& run) const;
     /// Stores the frame that the run is at.
     void store(const simulation_run& run, const frame_record& record);
+    /// Stores what the solver proposed for that frame: proposals/NNNNN.ply.
+    void store_proposal(const simulation_run& run) const;
     /// Stores the start.
     void store_start(const simulation_run& run);
 
     const std::filesystem::path& path() const { return folder_; }
 
   private:
-    void write_frame(const simulation_run& run) const;
+    void write_frame(const char* in, const simulation_run& run, const rows& positions) const;
 
     std::filesystem::path folder_;
     bool is_new_;
