@@ -72,8 +72,7 @@ int simulate(const arguments& given) {
         progress.show(std::size_t(run.state().frame), std::size_t(run.of().frames), maker.name);
         const rows before = run.state().positions;
         const frame_record record = run.next_frame();
-        if (given.vtp)
-            write_vtp(folder.path(), run.of(), record.frame - 1, before, run.proposed());
+        if (given.vtp) write_vtp(folder.path(), run.of(), record.frame - 1, before, run.proposed());
         if (given.proposals) folder.store_proposal(run);
         folder.store(run, record);
     }
@@ -103,8 +102,9 @@ int run_command_line(int argc, char** argv) {
     app.add_option("--out", given.out, "folder, else out/simulation/SCENE");
     app.add_flag("--proposals", given.proposals,
                  "stores what the solver proposed, too: the steps that were looked at first");
-    app.add_flag("--vtp", given.vtp,
-                 "writes a series for ParaView, too: frames, and what the proposed steps would meet");
+    app.add_flag(
+        "--vtp", given.vtp,
+        "writes a series for ParaView, too: frames, and what the proposed steps would meet");
     app.add_option("--threads", given.threads, "at most; 0: one per core")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--seed", given.seed, "moves the start by up to 1e-5 m at random; 0: not");

