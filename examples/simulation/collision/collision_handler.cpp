@@ -198,7 +198,7 @@ void collision_handler::push_apart(std::vector<contact>& contacts, const complia
         .iterations = options_.iterations,
         .relaxations = round == 0 ? options_.relaxations : options_.relaxations / 3};
     after = solve_contacts(contacts, bodies, options, before, proposed);
-    if (round > options_.impulse_rounds / 2)
+    if (round > options_.impulse_rounds - options_.finishing_rounds)
         finish_contacts(contacts, particles_, options_.finishing_sweeps, options.tolerance, before,
                         after);
 }

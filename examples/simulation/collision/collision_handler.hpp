@@ -38,10 +38,11 @@ namespace simulation {
 
 struct collision_options {
     ccd::method method = ccd::method::exact;
-    double thickness = 1e-3;     ///< in metres: nearer than that is pushed apart
-    double friction = 0.3;       ///< Coulomb's coefficient
-    double push = 0.1;           ///< share of what lacks to the thickness that is given back a step
-    int impulse_rounds = 12;     ///< of them the second half with what particles would do, too
+    double thickness = 1e-3;  ///< in metres: nearer than that is pushed apart
+    double friction = 0.3;    ///< Coulomb's coefficient
+    double push = 0.1;        ///< share of what lacks to the thickness that is given back a step
+    int impulse_rounds = 12;
+    int finishing_rounds = 10;   ///< the last of these, with what particles would do, too
     int finishing_sweeps = 100;  ///< of that
     double tolerance = 0.01;     ///< of contacts, in thicknesses
     int iterations = 8;          ///< of contact forces, after each relaxation of the bodies

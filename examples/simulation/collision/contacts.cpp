@@ -23,8 +23,9 @@ rows forces_on_vertices(const std::vector<contact>& contacts, const by_contact& 
                         Eigen::Index vertices) {
     rows f = rows::Zero(vertices, 3);
     for (std::size_t c = 0; c < contacts.size(); ++c)
-        for (std::size_t i = 0; i < 4; ++i)
-            f.row(contacts[c].vertex[i]) += contacts[c].weight[i] * forces.row(Eigen::Index(c));
+        if (!forces.row(Eigen::Index(c)).isZero(0))  // most push nothing
+            for (std::size_t i = 0; i < 4; ++i)
+                f.row(contacts[c].vertex[i]) += contacts[c].weight[i] * forces.row(Eigen::Index(c));
     return f;
 }
 
@@ -49,10 +50,14 @@ double particles_at(const contact& c, const compliance& particles) {
 void make_admissible(const std::vector<contact>& contacts, double friction, by_contact& forces) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         const vec3 n = contacts[c].normal, f = forces.row(Eigen::Index(c)).transpose();
-        const double along = std::max(0.0, n.dot(f));
-        vec3 across = f - n.dot(f) * n;
+        const double along = n.dot(f);
+        if (!(along > 0)) {
+            forces.row(Eigen::Index(c)).setZero();
+            continue;
+        }
+        vec3 across = f - along * n;
         const double most = friction * along, size = across.norm();
-        if (size > most) across *= size > 0 ? most / size : 0;
+        if (size > most) across *= most / size;
         forces.row(Eigen::Index(c)) = (along * n + across).transpose();
     }
 }
@@ -66,6 +71,25 @@ double violation_of(const std::vector<contact>& contacts, const by_contact& forc
         most = std::max(most, forces.row(Eigen::Index(c)).isZero(0) ? -gap : std::abs(gap));
     }
     return most;
+}
+
+double missing(const contact& c, const rows& before, const rows& after) {
+    double moved = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        moved += c.weight[i] *
+                 c.normal.dot((after.row(c.vertex[i]) - before.row(c.vertex[i])).transpose());
+    return c.least - moved;
+}
+
+/// Contacts that push, or whose inequalities do not hold in one of two positions.
+std::vector<std::size_t> that_matter(const std::vector<contact>& contacts, const rows& before,
+                                     const rows& free, const rows& after) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+        if (!contacts[c].force.isZero(0) || missing(contacts[c], before, free) > 0 ||
+            missing(contacts[c], before, after) > 0)
+            chosen.push_back(c);
+    return chosen;
 }
 
 /// The iteration of solve_contacts.
@@ -158,12 +182,15 @@ rows solve_contacts(std::vector<contact>& contacts, const compliance& bodies,
     if (contacts.empty()) return after;
     for (int k = 0; k <= options.relaxations; ++k) {
         const rows free = k == 0 ? proposed : bodies.relaxed(after, proposed);
-        projected_gradients gradients(contacts, bodies, options, before, free);
+        const std::vector<std::size_t> chosen = that_matter(contacts, before, free, after);
+        std::vector<contact> active;
+        for (const std::size_t c : chosen) active.push_back(contacts[c]);
+        projected_gradients gradients(active, bodies, options, before, free);
         gradients.run();
-        for (std::size_t c = 0; c < contacts.size(); ++c)
-            contacts[c].force = gradients.forces().row(Eigen::Index(c)).transpose();
-        const rows next = free + bodies.displacements(forces_on_vertices(
-                                     contacts, gradients.forces(), proposed.rows()));
+        for (std::size_t a = 0; a < active.size(); ++a)
+            contacts[chosen[a]].force = gradients.forces().row(Eigen::Index(a)).transpose();
+        const rows next = free + bodies.displacements(forces_on_vertices(active, gradients.forces(),
+                                                                         proposed.rows()));
         const double changed = (next - after).cwiseAbs().maxCoeff();
         after = next;
         if (k > 0 && changed <= options.tolerance) break;
@@ -178,17 +205,12 @@ double finish_contacts(const std::vector<contact>& contacts, const compliance& p
         violation = 0;
         for (const contact& c : contacts) {
             const double alone = particles_at(c, particles);
-            double moved = 0;
+            const double lacks = missing(c, before, after);
+            if (!(alone > 0) || lacks <= 0) continue;
+            violation = std::max(violation, lacks);
             for (std::size_t i = 0; i < 4; ++i)
-                moved +=
-                    c.weight[i] *
-                    c.normal.dot((after.row(c.vertex[i]) - before.row(c.vertex[i])).transpose());
-            const double missing = c.least - moved;
-            if (!(alone > 0) || missing <= 0) continue;
-            violation = std::max(violation, missing);
-            for (std::size_t i = 0; i < 4; ++i)
-                after.row(c.vertex[i]) += missing / alone * c.weight[i] *
-                                          particles.of(c.vertex[i]) * c.normal.transpose();
+                after.row(c.vertex[i]) +=
+                    lacks / alone * c.weight[i] * particles.of(c.vertex[i]) * c.normal.transpose();
         }
         if (violation <= tolerance) break;
     }
