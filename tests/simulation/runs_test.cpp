@@ -6,6 +6,7 @@
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -116,6 +117,43 @@ TEST(Runs, AMethodThatLosesACollisionIsTold) {
         EXPECT_EQ(report.passed_through, lost ? 1U : 0U);
         EXPECT_EQ(there == after, lost);
     }
+}
+
+/// The steps that the solver proposed, from each accepted frame, of a run that folds a sheet.
+TEST(Runs, ProposedStepsAreDataForRepeatedSteps) {
+    simulation::scene scene = simulation::twist(16);
+    scene.collision.thickness = 1e-4;
+    simulation::simulation_run run(std::move(scene), 1);
+    const simulation::model& bodies = run.of().bodies;
+    ccd::mesh_steps repeated(bodies.faces, bodies.edges, bodies.vertices());
+    std::size_t found = 0;
+    for (int frame = 0; frame < 120; ++frame) {
+        const rows before = run.state().positions;
+        run.next_frame();
+        const ccd::vertex_rows way(before, run.proposed());
+        ccd::step_options options;
+        options.times = true;
+        const auto again = repeated.run(way, options);
+        const auto fresh = ccd::step(bodies.faces, bodies.edges, way, options);
+        ASSERT_EQ(again.pairs.vertex_face, fresh.pairs.vertex_face);
+        ASSERT_EQ(again.pairs.edge_edge, fresh.pairs.edge_edge);
+        ASSERT_EQ(again.first_contact, fresh.first_contact);
+        ASSERT_EQ(number_of(again.touching_at_start), 0U);
+        found += number_of(again.pairs);
+        // As far as is free, and not much less far than the first contact.
+        const auto advanced = ccd::advance(repeated, way);
+        const auto contact = again.first_contact;
+        EXPECT_GE(advanced.fraction, number_of(again.pairs) == 0 ? 1 : 0.99 * contact.low);
+        EXPECT_EQ(
+            number_of(repeated
+                          .run({std::span<const ccd::point<double>>(
+                                    reinterpret_cast<const ccd::point<double>*>(before.data()),
+                                    bodies.vertices()),
+                                advanced.positions})
+                          .pairs),
+            0U);
+    }
+    EXPECT_GT(found, 0U);
 }
 
 TEST(Runs, RefuseASceneThatStartsInContact) {
