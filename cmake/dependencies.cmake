@@ -8,6 +8,7 @@ mark_as_advanced(ERRBOUND_GMP_INCLUDE ERRBOUND_GMP_LIBRARY ERRBOUND_MPFR_INCLUDE
 
 if(ERRBOUND_BUILD_CCD)
   find_package(Boost 1.74 REQUIRED)
+  find_package(Threads REQUIRED)  # which the target of a static oneTBB names
   find_package(TBB REQUIRED)
   find_package(xsimd REQUIRED)
   if(ERRBOUND_BUILD_PROGRAM)

@@ -24,8 +24,8 @@ from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstT
 
 __all__ = ["AdvanceResult", "Decisions", "Features", "FirstContacts", "FirstTimes", "Method",
            "NormalSource", "Outcome", "Pairs", "Stage", "StepResult", "Steps", "advance",
-           "candidates", "decide", "first_contact", "first_time", "methods", "step",
-           "touches_at_start"]
+           "candidates", "decide", "first_contact", "first_time", "instruction_sets", "methods",
+           "step", "touches_at_start"]
 
 POINTS = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
@@ -87,6 +87,11 @@ class _Questions:
 def methods() -> list[Method]:
     """All methods, with what each promises."""
     return [Method(*row) for row in _native.methods()]
+
+
+def instruction_sets() -> list[str]:
+    """What batches and steps have kernels for and this machine runs, the fastest last: that one is used."""
+    return list(_native.instruction_sets())
 
 
 def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,

@@ -201,6 +201,13 @@ nb::list methods() {
     return all;
 }
 
+nb::list instruction_sets() {
+    nb::list names;
+    for (const ccd::instruction_set set : ccd::instruction_sets())
+        names.append(std::string(ccd::name(set)));
+    return names;
+}
+
 }  // namespace
 
 void bind_queries(nb::module_& m) {
@@ -218,6 +225,7 @@ void bind_queries(nb::module_& m) {
              nb::arg("thickness").none(), nb::arg("threads"))
         .def("first_contacts", first_contacts, nb::arg("t_max"), nb::arg("threads"));
     m.def("methods", methods);
+    m.def("instruction_sets", instruction_sets);
 }
 
 }  // namespace errbound::python

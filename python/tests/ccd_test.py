@@ -1,5 +1,8 @@
 """Decisions, times and contacts of queries against what is known, each other, and other ways of asking."""
+import platform
+import re
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,6 +66,17 @@ def test_contact_by_hand():
     assert len(ccd.first_contact(FALLING, "vertex_face", t_max=0.25)) == 0
     within = ccd.first_time(FALLING, "vertex_face", distance=0.5)
     assert within.low.tolist() == within.high.tolist() == [0.25]
+
+
+def test_instruction_sets():
+    """A compiler that does not tell what the processor has would leave the slowest kernels alone."""
+    about = Path("/proc/cpuinfo")
+    if platform.machine() != "x86_64" or not about.exists():
+        pytest.skip("not Linux on x86-64")
+    flags = set(re.search(r"^flags\s*: (.*)", about.read_text(), re.MULTILINE)[1].split())
+    needed = {"avx2": {"avx2", "fma"},
+              "avx512": {"avx512f", "avx512dq", "avx512vl", "avx512bw", "avx512cd"}}
+    assert ccd.instruction_sets() == ["baseline", *(s for s, of in needed.items() if of <= flags)]
 
 
 def test_methods():
