@@ -49,6 +49,7 @@ make_source_archive() {
         logged source-archive cpack --config CPackSourceConfig.cmake -B "$release_work/cpack-source")
     mv "$release_work/cpack-source/errbound-$version.tar.xz" out/release
     tar -xf "out/release/errbound-$version.tar.xz" -C "$release_work"
+    diff -r "$export_of_head" "$unpacked" || fail 'release: the source archive is not what git has'
     (cd "$unpacked" && logged configure-all cmake --preset release -DERRBOUND_BUILD_TESTS=OFF \
         -DERRBOUND_WITH_CUDA=OFF -DCMAKE_INSTALL_PREFIX=/usr)
     logged build-all cmake --build "$unpacked/build"
