@@ -33,7 +33,8 @@ export_head() {
     [[ -z $changed ]] || fail "release is made of a commit, and files differ from it:"$'\n'"$changed"
     rm -rf -- out/release "$release_work"
     mkdir -p out/release "$release_work"/{logs,envs} "$export_of_head"
-    git archive HEAD | tar -xf - -C "$export_of_head"
+    git -c tar.umask=0022 archive HEAD | tar -xf - -C "$export_of_head"
+    released=$(commit)
     SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
     export SOURCE_DATE_EPOCH
 }
@@ -102,9 +103,14 @@ try_in_clean_root() {
 
 # What packaging/wheel.cmake names.
 prepare_wheel_tools() {
-    local boost
+    local boost zig compiler
     mkdir -p "$wheel_tools/libraries"
-    ln -s "$("$tools_python" -c 'import ziglang; print(ziglang.__path__[0])')/zig" "$wheel_tools/zig"
+    zig=$("$tools_python" -c 'import ziglang; print(ziglang.__path__[0])')/zig
+    for compiler in cc c++; do # files, as ccache wants them
+        printf '#!/bin/sh\nexec %q %s -target x86_64-linux-gnu.2.17 "$@"\n' "$zig" "$compiler" \
+            >"$wheel_tools/$compiler"
+        chmod +x "$wheel_tools/$compiler"
+    done
     (cd "$wheel_tools" && ar x "$(g++ -print-libgcc-file-name)" cpuinfo.o)
     boost=$(dpkg-query -W -f '${Depends}' libboost-dev)
     dpkg -L "${boost%% *}" libxsimd-dev nlohmann-json3-dev | grep -E '/(include|cmake)/' |
@@ -157,12 +163,13 @@ make_sdist() {
 
 # make_wheel VERSION PYTHON
 make_wheel() {
-    local env=$release_work/envs/build-$1 source=$release_work/wheel-$1 raw=$release_work/raw-$1
+    local env=$release_work/envs/build-$1 source=$release_work/wheel raw=$release_work/raw-$1
+    rm -rf -- "$source" # one folder for all, for ccache's sake
     mkdir -p "$source"
     tar -xf "$sdist" --strip-components=1 -C "$source"
     gather_licences >"$source/LICENSE.libraries"
     logged "venv-build-$1" "$2" -m venv "$env"
-    CMAKE_ARGS="-DCMAKE_TOOLCHAIN_FILE=$export_of_head/packaging/wheel.cmake" \
+    CCACHE_COMPILERTYPE=clang CMAKE_ARGS="-DCMAKE_TOOLCHAIN_FILE=$export_of_head/packaging/wheel.cmake" \
         logged "wheel-$1" "$env/bin/python" -m pip wheel -v --no-deps -w "$raw" "$source"
     # Fails where a symbol is of a later C library, or a library is needed that is not everywhere.
     PATH=$release_work/envs/tools/bin:$PATH logged "auditwheel-$1" "$tools_python" -m auditwheel repair \
@@ -210,7 +217,7 @@ make_wheels() {
 }
 
 release() {
-    local unpacked sdist tools_python=$release_work/envs/tools/bin/python
+    local released unpacked sdist tools_python=$release_work/envs/tools/bin/python
     need "${build_packages[@]}" "${python_packages[@]}" libeigen3-dev dpkg-dev lintian debootstrap git file
     export_head
     new_environment "$release_work/envs/tools" "$python" "${pypi_tools[@]}"
@@ -227,6 +234,6 @@ release() {
     printf '\n'
     cat out/release/SHA256SUMS
     ((${#skipped[@]} == 0)) || printf 'skipped: %s\n' "${skipped[@]}"
-    printf 'release %s of %s in %d s: out/release\n' "$(project_version)" "$(commit)" "$SECONDS"
+    printf 'release %s of %s in %d s: out/release\n' "$(project_version)" "$released" "$SECONDS"
     rm -rf -- "$release_work"
 }

@@ -1,12 +1,10 @@
 # Toolchain of the wheels that run on any x86-64 Linux of the last ten years (manylinux2014): zig's clang and
-# libc++, with the symbols of glibc 2.17. ERRBOUND_WHEEL_TOOLS is the folder that release.sh prepares:
-# zig, cpuinfo.o and, in libraries/, oneTBB as a static library and the headers of Boost, xsimd and
-# nlohmann-json alone (beside the system's own, its C library's headers would be found too).
+# libc++, with the symbols of glibc 2.17. ERRBOUND_WHEEL_TOOLS is the folder that release.sh prepares: cc and
+# c++, which call zig, cpuinfo.o and, in libraries/, oneTBB as a static library and the headers of Boost,
+# xsimd and nlohmann-json alone (beside the system's own, its C library's headers would be found too).
 set(tools $ENV{ERRBOUND_WHEEL_TOOLS})
-set(CMAKE_C_COMPILER ${tools}/zig cc -target x86_64-linux-gnu.2.17)
-set(CMAKE_CXX_COMPILER ${tools}/zig c++ -target x86_64-linux-gnu.2.17)
-set(CMAKE_C_COMPILER_LAUNCHER "")  # ccache takes the first word for the compiler
-set(CMAKE_CXX_COMPILER_LAUNCHER "")
+set(CMAKE_C_COMPILER ${tools}/cc)
+set(CMAKE_CXX_COMPILER ${tools}/c++)
 set(CMAKE_LIBRARY_ARCHITECTURE x86_64-linux-gnu)
 set(CMAKE_PREFIX_PATH ${tools}/libraries/usr)
 

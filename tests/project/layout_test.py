@@ -242,8 +242,13 @@ def check_internals_unnamed(root, sources, found):
 def check_version(root, found):
     of_cmake = re.search(r"project\(errbound VERSION (\S+)", (root / "CMakeLists.txt").read_text())[1]
     of_citation = re.search(r"^version: (\S+)", (root / "CITATION.cff").read_text(), re.MULTILINE)[1]
-    found.wrong("versions that differ from CMakeLists.txt's",
-                [] if of_citation == of_cmake else [f"CITATION.cff: {of_citation}, not {of_cmake}"])
+    differ = [] if of_citation == of_cmake else [f"CITATION.cff: {of_citation}, not {of_cmake}"]
+    for page in [root / "README.md", *sorted((root / "docs").glob("*.md"))]:
+        for said in re.findall(r"errbound[-_ ](\d+(?:\.\d+)+)", page.read_text()):
+            if (of_cmake + ".").startswith(said + "."):
+                continue
+            differ.append(f"{page.relative_to(root)}: {said}, not {of_cmake}")
+    found.wrong("versions that differ from CMakeLists.txt's", differ)
 
 
 def main():
