@@ -91,7 +91,10 @@ try_in_clean_root() {
     cp out/release/*.deb "$clean/packages"
     tar -cf - -C "$export_of_head" tests/install tests/ccd/adapters examples/scenes |
         tar -xf - -C "$clean/source"
-    in_clean_root() { logged "$1" chroot "$clean" env DEBIAN_FRONTEND=noninteractive "${@:2}"; }
+    in_clean_root() {
+        logged "$1" chroot "$clean" env -i HOME=/root DEBIAN_FRONTEND=noninteractive \
+            PATH=/usr/sbin:/usr/bin:/sbin:/bin ${http_proxy:+"http_proxy=$http_proxy"} "${@:2}"
+    }
     in_clean_root root-programs apt-get -y --no-install-recommends install \
         "/packages/$(cd "$clean/packages" && ls errbound_*)"
     in_clean_root root-step ccd step /usr/share/errbound/scenes/cloth-over-ball/frame{0,1}.ply
