@@ -42,8 +42,11 @@ def answer_numbers():
     print("roots", [tuple(map(str, found.interval(i, 1e-30))) for i in range(len(found))])
     for rule in "tight", "safe", "sharp", "interval", "residual":
         x = tracked.array(points[0, :, 0], rule=rule)
-        y = (x * (1 - x) - 0.1 * x) / (x * x + 3)
+        y = x * (1 - x) - 0.1 * x
         told(f"tracked by {rule}", y.value, y.error, y.sign)
+        if rule != "safe":  # which has no division
+            z = y / (x * x + 3)
+            told(f"tracked quotients by {rule}", z.value, z.error, z.sign)
 
 
 def main():
