@@ -6,7 +6,7 @@ set(tools $ENV{ERRBOUND_WHEEL_TOOLS})
 set(CMAKE_C_COMPILER ${tools}/cc)
 set(CMAKE_CXX_COMPILER ${tools}/c++)
 set(CMAKE_LIBRARY_ARCHITECTURE x86_64-linux-gnu)
-set(CMAKE_PREFIX_PATH ${tools}/libraries/usr)
+list(APPEND CMAKE_PREFIX_PATH ${tools}/libraries/usr)  # beside what scikit-build-core sets
 
 # Boost 1.74 wants std::unary_function, nanobind 3.1 stderr without its header. Warnings are heeded
 # where the project is built with its own compilers.
