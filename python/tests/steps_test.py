@@ -110,8 +110,9 @@ def test_one_call_at_a_time():
 
 
 INTERRUPTED = """
-import numpy as np, sys
+import numpy as np, signal, sys
 from errbound import ccd, predicates
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
 n = 3000000
 x = np.zeros(({points}, 3))
 print("ready", flush=True)
@@ -135,7 +136,10 @@ def test_ctrl_c(points, call):
     time.sleep(0.7)
     sent = time.monotonic()
     running.send_signal(signal.SIGINT)
-    out, _ = running.communicate(timeout=60)
+    try:
+        out, _ = running.communicate(timeout=60)
+    finally:
+        running.kill()
     assert out == "interrupted\n" and time.monotonic() - sent < 5
 
 
