@@ -27,7 +27,7 @@ std::string refusal_of(const ccd::mesh& before, const ccd::mesh& after,
 }
 
 TEST(StepRefuses, FramesThatDoNotBelongTogether) {
-    const two_frames frames = random_soup(1, 10, 5);
+    const auto frames = random_soup(1, 10, 5);
     const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.faces.pop_back();
@@ -53,7 +53,7 @@ TEST(StepRefuses, FramesThatDoNotBelongTogether) {
 }
 
 TEST(StepRefuses, CoordinatesThatAreNotFinite) {
-    const two_frames frames = random_soup(1, 10, 5);
+    const auto frames = random_soup(1, 10, 5);
     const ccd::mesh &before = frames.first, &after = frames.second;
     ccd::mesh other = after;
     other.vertices[3].y = -std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ TEST(StepRefuses, CoordinatesThatAreNotFinite) {
 }
 
 TEST(StepRefuses, IndicesOutOfRange) {
-    two_frames frames = random_soup(1, 10, 5);
+    auto frames = random_soup(1, 10, 5);
     ccd::mesh &before = frames.first, &after = frames.second;
     before.faces[2][1] = after.faces[2][1] = 10;
     EXPECT_EQ(refusal_of(before, after), "ccd::mesh_steps: face 2 names vertex 10 of 10");
@@ -76,7 +76,7 @@ TEST(StepRefuses, IndicesOutOfRange) {
 }
 
 TEST(StepRefuses, OptionsThatAreNone) {
-    const two_frames frames = random_soup(1, 10, 5);
+    const auto frames = random_soup(1, 10, 5);
     const ccd::mesh &before = frames.first, &after = frames.second;
     EXPECT_EQ(refusal_of(before, after, {.method = ccd::method(77)}),
               "ccd::step: found method 77, expected one of ccd::methods()");
