@@ -1,0 +1,87 @@
+"""Steps by ipc-toolkit's own functions, by these over our broad phase, and by ours: sizes and times.
+
+usage: ipctk_peer.py SCENE...   (folders with two frames of a mesh, in them or in their folder frames)
+
+All threads; the least time of three; what takes longer than a minute is ended. The last column of each: pairs in contact
+on the way to before + step * (after - before), by exact; but for those that touch at the start.
+"""
+import multiprocessing
+import pathlib
+import queue
+import sys
+import time
+
+import ipctk
+import numpy as np
+
+from errbound import ccd, io
+from errbound import ipctk as exact
+
+REPEATS, LIMIT = 3, 60  # seconds of one
+
+
+def ways(mesh, before, after):
+    """By name: what answers with a step size."""
+    return {
+        "ipctk": lambda: ipctk.compute_collision_free_stepsize(mesh, before, after),
+        "ipctk, our broad phase": lambda: ipctk.compute_collision_free_stepsize(
+            mesh, before, after, 0, exact.BroadPhase()),
+        "errbound.ipctk": lambda: exact.compute_collision_free_stepsize(mesh, before, after),
+    }
+
+
+def answer(results, name, before, after, faces):
+    ipctk.set_logger_level(ipctk.LoggerLevel.error)  # it warns of each pair that is near
+    mesh = ipctk.CollisionMesh(np.asfortranarray(before), ipctk.edges(faces), faces)
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        step = ways(mesh, before, after)[name]()
+        results.put((step, time.perf_counter() - start))
+
+
+def timed(*asked):
+    """Step size and seconds, or nothing if it takes too long."""
+    results = multiprocessing.Queue()
+    process = multiprocessing.Process(target=answer, args=(results, *asked))
+    process.start()
+    try:
+        found = [results.get(timeout=LIMIT) for _ in range(REPEATS)]
+    except queue.Empty:
+        return None
+    finally:
+        process.kill()
+        process.join()
+    return found[0][0], min(seconds for _, seconds in found)
+
+
+def row(scene):
+    frames = sorted(scene.glob("*.ply")) or sorted((scene / "frames").glob("*.ply"))
+    if len(frames) != 2:
+        sys.exit(f"{scene}: found {len(frames)} frames, expected two")
+    first, second = (io.read_mesh(path) for path in frames)
+    before, after, faces = first.vertices, second.vertices, first.faces.astype(np.int32)
+    cells = [scene.name]
+    for name in ways(None, None, None):
+        found = timed(name, before, after, faces)
+        if found is None:
+            cells += ["-", f"over {LIMIT}", "-"]
+            continue
+        step, seconds = found
+        way = ccd.step(before, before + step * (after - before), faces, initial_contact=True)
+        cells += [f"{step:.6g}", f"{seconds:.2f}", str(len(way.pairs) - len(way.touching_at_start))]
+    return cells
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    print(f"ipctk {ipctk.__version__}")
+    heading = ["scene"] + [f"{name}{what}" for name in ways(None, None, None)
+                           for what in (": step", ", s", ", pairs")]
+    print("| " + " | ".join(heading) + " |\n|" + "---|" * len(heading))
+    for scene in sys.argv[1:]:
+        print("| " + " | ".join(row(pathlib.Path(scene).resolve())) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
