@@ -36,10 +36,6 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-bool is_control(char c) {
-    return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
-}
-
 class obj_parser {
   public:
     obj_parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}

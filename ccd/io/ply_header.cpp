@@ -64,6 +64,9 @@ class header_parser {
             const std::string_view keyword = take_word(line);
             if (keyword == "end_header") break;
             if (keyword == "comment" || keyword == "obj_info") continue;
+            // Some readers would end a line there, or a word.
+            if (std::ranges::any_of(whole, is_control))
+                fail("found a control character in " + excerpt(whole) + ", expected none");
             if (keyword == "format") {
                 if (has_format) fail("found a second format line, expected one");
                 read_format(line, whole);

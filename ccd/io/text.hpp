@@ -15,6 +15,11 @@ std::string excerpt(std::string_view found);
 /// with `name` in its message, where the mark is that of UTF-16 or UTF-32.
 std::string_view without_byte_order_mark(std::string_view text, const std::string& name);
 
+/// Whether it is a control character, and no tab.
+constexpr bool is_control(char c) {
+    return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
+}
+
 /// `text` without blanks (space, tab) at either end.
 std::string_view trimmed(std::string_view text);
 

@@ -160,6 +160,16 @@ std::string ascii_ply(const std::string& vertices, const std::string& faces,
            "\nproperty list uchar int vertex_indices\nend_header\n" + body;
 }
 
+// A carriage return within a line whose end is a line feed: to others a blank, or an end of the
+// line.
+TEST(Ply, RefusesControlCharactersInTheHeader) {
+    for (const char* name : {"fa\rce", "fa\vce", "fa\x7f"})
+        EXPECT_EQ(
+            ply_error(std::string("ply\nformat ascii 1.0\nelement ") + name + " 0\nend_header\n")
+                .substr(0, 37),
+            "m.ply:3: found a control character in");
+}
+
 TEST(Ply, BadInput) {
     const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
     EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "3 0 1 2\n")), "no error");
