@@ -6,9 +6,9 @@ std::span<const scene_maker> scenes() {
     static const std::vector<scene_maker> all{
         {"funnel1", "a sheet of cloth pressed through a funnel", 30, 110,
          [](int resolution) { return funnel(1, resolution); }},
-        {"funnel2", "two sheets of cloth pressed through a funnel", 30, 110,
+        {"funnel2", "two sheets of cloth pressed through a funnel", 24, 110,
          [](int resolution) { return funnel(2, resolution); }},
-        {"funnel3", "three sheets of cloth pressed through a funnel", 30, 110,
+        {"funnel3", "three sheets of cloth pressed through a funnel", 20, 110,
          [](int resolution) { return funnel(3, resolution); }},
         {"clothes", "a skirt on a body that walks and turns", 60, 240, clothes},
         {"twist", "a sheet whose ends are turned until it knots", 40, 140, twist},
