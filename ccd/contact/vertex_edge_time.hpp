@@ -116,8 +116,8 @@ constexpr found_time first_vertex_edge_contact(
     };
     if (sign_inside(b) == sign_type::positive) return at_end();
 
-    const common_roots<2 * Words> roots(f);
-    using kind = typename common_roots<2 * Words>::kind_type;
+    const common_roots roots(f);
+    using kind = typename decltype(roots)::kind_type;
     found_time inside;
     switch (roots.kind) {
         case kind::none:

@@ -1,21 +1,21 @@
-// An integer of fixed width that stands for a real number near it.
+// An integer that stands for a real number near it.
 #pragma once
 
 #include <algorithm>
-#include <errbound/integers/fixed_integer.hpp>
+#include <errbound/sign.hpp>
 
 namespace ccd::detail {
 
 /// The real number that it stands for is less than 2^error_bits away from `value`, or equal to it
 /// if error_bits is below exact/2. Bounds are kept to powers of two, and rounded up: some ten
-/// operations cost as many bits, which is little where errors are far below the values. Widths are
-/// those of errbound::integers::fixed_integer, and so is the caller's duty to bound the values.
-template <int Words>
+/// operations cost as many bits, which is little where errors are far below the values. Integer is
+/// a fixed_integer or long_integer (errbound/integers), whose widths and caller's duties hold here.
+template <class Integer>
 struct bounded_integer {
     /// So low that a few operations leave it below exact/2.
     static constexpr int exact = -(1 << 20);
 
-    errbound::integers::fixed_integer<Words> value;
+    Integer value;
     int error_bits = exact;
 
     /// Proof: proofs/BoundedInteger.v, bounded_sum_known, bounded_difference_known.
@@ -38,12 +38,13 @@ struct bounded_integer {
 /// With sizes |a| <= 2^m, |b| <= 2^n and errors below 2^d, 2^e the product is known up to
 /// 2^(m + e) + 2^(n + d) + 2^(d + e).
 /// Proof: proofs/BoundedInteger.v, bounded_product_known.
-template <int A, int B>
-constexpr bounded_integer<A + B> operator*(const bounded_integer<A>& a,
-                                           const bounded_integer<B>& b) {
-    return {a.value * b.value,
-            2 + std::max({a.value.bit_length() + b.error_bits, b.value.bit_length() + a.error_bits,
-                          a.error_bits + b.error_bits})};
+template <class A, class B>
+constexpr auto operator*(const bounded_integer<A>& a, const bounded_integer<B>& b) {
+    using product = decltype(a.value * b.value);
+    return bounded_integer<product>{
+        a.value * b.value,
+        2 + std::max({a.value.bit_length() + b.error_bits, b.value.bit_length() + a.error_bits,
+                      a.error_bits + b.error_bits})};
 }
 
 }  // namespace ccd::detail

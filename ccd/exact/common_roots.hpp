@@ -1,4 +1,5 @@
-// The common roots of three quadratics inside (0, 1), exactly, in integers of fixed width.
+// The common roots of three quadratics inside (0, 1), exactly, in integers of fixed width or as
+// long as it takes.
 //
 // No search is needed: two quadratics that are not proportional have at most one root in common,
 // and it is rational. There (s², st, t²) is orthogonal to both coefficient vectors, hence parallel
@@ -23,14 +24,17 @@ template <int Words>
 using quadratic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 2>;
 
 /// f at the point whose (s², st, t²) is m.
-template <int A, int B>
-constexpr errbound::integers::fixed_integer<A + B> value_at_squares(const quadratic_form<A>& f,
-                                                                    const quadratic_form<B>& m) {
+template <class A, class B>
+constexpr auto value_at_squares(const errbound::bernstein<A, 2>& f,
+                                const errbound::bernstein<B, 2>& m) {
     return f[0] * m[0] + f[1] * m[1] + f[2] * m[2];
 }
 
-template <int Words>
+template <class Integer>
 struct common_roots {
+    using quadratic_type = errbound::bernstein<Integer, 2>;
+    using squares_type = errbound::bernstein<decltype(Integer() * Integer()), 2>;
+
     enum class kind_type {
         none,
         one,           ///< where (s², st, t²) is parallel to `squares`, all of which are positive
@@ -38,14 +42,14 @@ struct common_roots {
         everywhere     ///< all three are identically zero
     };
     kind_type kind = kind_type::none;
-    quadratic_form<2 * Words> squares{};
-    const quadratic_form<Words>* quadratic = nullptr;
+    squares_type squares{};
+    const quadratic_type* quadratic = nullptr;
 
     /// Keeps a pointer into f. Cost: comparisons, and if no f has one sign, some ten products.
-    explicit constexpr common_roots(const std::array<quadratic_form<Words>, 3>& f) {
+    explicit constexpr common_roots(const std::array<errbound::bernstein<Integer, 2>, 3>& f) {
         using errbound::sign_of;
         using errbound::sign_type;
-        std::array<const quadratic_form<Words>*, 3> moving{};  // those not identically zero
+        std::array<const quadratic_type*, 3> moving{};  // those not identically zero
         std::size_t count = 0;
         for (const auto& form : f) {
             const auto hull = sign_inside(form);
@@ -60,9 +64,9 @@ struct common_roots {
         const auto& first = *moving[0];
         for (std::size_t i = 1; i < count; ++i) {
             const auto& other = *moving[i];
-            const quadratic_form<2 * Words> m{{first[1] * other[2] - first[2] * other[1],
-                                               first[2] * other[0] - first[0] * other[2],
-                                               first[0] * other[1] - first[1] * other[0]}};
+            const squares_type m{{first[1] * other[2] - first[2] * other[1],
+                                  first[2] * other[0] - first[0] * other[2],
+                                  first[0] * other[1] - first[1] * other[0]}};
             const auto sign = sign_throughout(m);
             if (sign == sign_type::zero) continue;  // proportional
             if (!certain(sign)) return;

@@ -22,9 +22,8 @@ template <int Words>
 using cubic_form = errbound::bernstein<errbound::integers::fixed_integer<Words>, 3>;
 
 /// 3x, which must fit.
-template <int Words>
-constexpr errbound::integers::fixed_integer<Words> thrice(
-    const errbound::integers::fixed_integer<Words>& x) {
+template <class Integer>
+constexpr Integer thrice(const Integer& x) {
     return (x << 1) + x;
 }
 
@@ -36,8 +35,8 @@ struct inner_sign_changes {
     errbound::sign_type first = errbound::sign_type::zero;  ///< just inside t = 0
 
     constexpr inner_sign_changes() = default;
-    template <int Words>
-    explicit constexpr inner_sign_changes(const cubic_form<Words>& y) {
+    template <class Integer>
+    explicit constexpr inner_sign_changes(const errbound::bernstein<Integer, 3>& y) {
         auto last = errbound::sign_type::zero;
         for (const auto& h : y.h) {
             const auto sign = sign_of(h);
@@ -58,22 +57,21 @@ struct inner_sign_changes {
 /// Proof of what follows: proofs/CubicRoots.v, any_change, one_real_root, double_root_place,
 /// triple_root_place.
 /// In 2·Words words, if |h_i| <= 18D³ <= 2^(64·Words − 4.8): at most 648D⁶.
-template <int Words>
-constexpr errbound::bernstein<errbound::integers::fixed_integer<2 * Words>, 2> hessian(
-    const cubic_form<Words>& y) {
-    return {{y[1] * y[1] - thrice(y[0] * y[2]), y[1] * y[2] - thrice(thrice(y[0] * y[3])),
-             y[2] * y[2] - thrice(y[1] * y[3])}};
+template <class Integer>
+constexpr auto hessian(const errbound::bernstein<Integer, 3>& y) {
+    return errbound::bernstein<decltype(y[0] * y[0]), 2>{{y[1] * y[1] - thrice(y[0] * y[2]),
+                                                          y[1] * y[2] - thrice(thrice(y[0] * y[3])),
+                                                          y[2] * y[2] - thrice(y[1] * y[3])}};
 }
 
 /// All numbers, in floating point, times one power of two.
-template <int Words, std::size_t N>
-constexpr std::array<double, N> approximated(
-    const std::array<errbound::integers::fixed_integer<Words>, N>& x) {
+template <class Integer, std::size_t N>
+constexpr std::array<double, N> approximated(const std::array<Integer, N>& x) {
     int bits = 0;
     for (const auto& number : x) bits = std::max(bits, number.bit_length());
     std::array<double, N> r;
     for (std::size_t i = 0; i < N; ++i)
-        r[i] = static_cast<double>(x[i].template from_bit<1>(std::max(0, bits - 63)).low_word());
+        r[i] = static_cast<double>(x[i].word_from_bit(std::max(0, bits - 63)));
     return r;
 }
 

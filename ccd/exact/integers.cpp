@@ -1,24 +1,52 @@
-// Decisions in integers of fixed width: see ccd/exact/integers.hpp for what they promise.
+// Decisions in integers without allocation: see ccd/exact/integers.hpp for what they promise.
 #include "ccd/exact/integers.hpp"
 
 #include "ccd/exact/axis_units.hpp"
+#include "ccd/exact/close_contact.hpp"
 #include "ccd/exact/features.hpp"
 #include "ccd/exact/integer_decision.hpp"
 
 namespace ccd::detail {
 namespace {
 
+using errbound::integers::fixed_integer;
+
+/// Decides what decide_in_words leaves uncertain, which has no vertex/edge contact.
+template <int Words, template <class, int> class Forms>
+outcome decide_close(const Forms<fixed_integer<Words>, 1>& f) {
+    using contact = close_contact<Forms>;
+    using number = errbound::integers::long_integer<contact::coordinate_words>;
+    const auto lengthened = [](const auto& v) {
+        const auto component = [](const auto& x) {
+            return errbound::bernstein<number, 1>{{x[0], x[1]}};
+        };
+        return vector_form<number, 1>{component(v.x), component(v.y), component(v.z)};
+    };
+    return contact({lengthened(f.b), lengthened(f.c), lengthened(f.p)}).decide();
+}
+
+/// In integers of Words words.
+template <int Words, class Query>
+outcome decide_to_the_end(const Query& query, const integer_units& units) {
+    const outcome found = decide_in_words<Words>(query, units);
+    if constexpr (requires { forms_of(query); })
+        if (found == outcome::uncertain)
+            return decide_close<Words>(forms_of(units.converted<Words>(query)));
+    return found;
+}
+
 template <template <class> class Query>
 verdict decide_any(const Query<double>& query) {
     const integer_units units(query);
     if (!units.finite()) return {outcome::uncertain, cause::range};
-    if (units.bits() > extent_limit(2)) {
+    if (units.bits() > extent_limit(4)) {
         // What comparing coordinates tells, at whatever scale.
         if (separated_by_coordinates(query)) return {outcome::separate, cause::none};
         return {outcome::uncertain, cause::range};
     }
-    const outcome found = units.bits() <= extent_limit(1) ? decide_in_words<1>(query, units)
-                                                          : decide_in_words<2>(query, units);
+    const outcome found = units.bits() <= extent_limit(1)   ? decide_to_the_end<1>(query, units)
+                          : units.bits() <= extent_limit(2) ? decide_to_the_end<2>(query, units)
+                                                            : decide_to_the_end<4>(query, units);
     return {found, found == outcome::uncertain ? cause::inside : cause::none};
 }
 

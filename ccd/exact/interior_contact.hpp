@@ -20,7 +20,7 @@
 //  * Where N = 0 at a root, every G_i vanishes and no bracket tells; N's components then have a
 //    common root there, which ccd/exact/common_roots.hpp finds.
 // What stays uncertain: G_i too tiny for the last bracket, and pairs of roots too close to part
-// with a G_i that changes its sign near them.
+// with a G_i that changes its sign near them. ccd/exact/close_contact.hpp goes on there.
 #pragma once
 
 #include <algorithm>
@@ -195,8 +195,8 @@ class interior_contact {
         const auto end = number<T>::shifted(1, bracket.bits);
         const auto &low = bracket.low, &high = bracket.high;
         const std::array<quadratic_form<2 * Words>, 3> n{forms_.n.x, forms_.n.y, forms_.n.z};
-        const common_roots<2 * Words> roots(n);
-        using kind = typename common_roots<2 * Words>::kind_type;
+        const common_roots roots(n);
+        using kind = typename decltype(roots)::kind_type;
         if (roots.kind == kind::one) {
             const auto& s = roots.squares[0];  // s² and st, that is s and t
             const auto& t = roots.squares[1];
@@ -215,7 +215,7 @@ class interior_contact {
     /// Proof: proofs/InteriorContact.v, throughout_right.
     template <int T>
     constexpr outcome throughout(const number<T>& low, int bits, int width_bits) const {
-        using known = bounded_integer<T>;
+        using known = bounded_integer<number<T>>;
         const auto s = number<T>::shifted(1, bits) - low;
         const auto component = [&](const linear_form<Words>& x, const axis_extent& axis) {
             const int cut = std::max(0, bits + axis.bits - (64 * T - 4));

@@ -93,8 +93,8 @@ constexpr bool vertex_touches_edge(
 
     // Other contacts are inside the step, where b must not be positive throughout.
     if (sign_inside(b) == sign_type::positive) return false;
-    const common_roots<2 * Words> roots(f);
-    using kind = typename common_roots<2 * Words>::kind_type;
+    const common_roots roots(f);
+    using kind = typename decltype(roots)::kind_type;
     switch (roots.kind) {
         case kind::none:
             return false;

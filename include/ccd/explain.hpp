@@ -35,7 +35,7 @@ inline constexpr std::array<stage_info, stage_count> exact_stages{{
      "double, the same bounds, up to 12 halvings"},
     {stage::integers, "integers",
      "which signs have the G_i at the roots of Y, and does a vertex touch an edge?",
-     "integers of fixed width, one unit an axis"},
+     "integers of bounded width, one unit an axis"},
     {stage::unbounded, "unbounded", "the same, with roots isolated by Descartes' rule of signs",
      "integers of unbounded width"},
 }};

@@ -224,6 +224,8 @@ class fixed_integer {
         }
         return r;
     }
+    /// The same modulo 2^64.
+    constexpr std::int64_t word_from_bit(int shift) const { return from_bit<1>(shift).low_word(); }
     /// The number modulo 2^64.
     constexpr std::int64_t low_word() const { return static_cast<std::int64_t>(words_[0]); }
 

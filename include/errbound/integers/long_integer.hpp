@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <errbound/integers/fixed_integer.hpp>
 #include <errbound/sign.hpp>
@@ -101,6 +102,8 @@ class long_integer {
     using word = words::word;
 
   public:
+    /// Zero.
+    constexpr long_integer() : long_integer(0) {}
     constexpr long_integer(std::int64_t value) : size_(1) { at(0) = static_cast<word>(value); }
     /// ±magnitude·2^shift.
     /// Proof: proofs/WordBits.v, long_shifted_exact.
@@ -117,12 +120,21 @@ class long_integer {
         trim();
     }
     constexpr long_integer(const long_integer& x) : size_(x.size()) { copy(x); }
+    template <int Other>
+    requires(Other <= Words) constexpr long_integer(const fixed_integer<Other>& x) : size_(Other) {
+        copy(x);
+        trim();
+    }
     /// One of another capacity, which it fits.
     template <int Other>
     constexpr long_integer(const long_integer<Other>& x) : size_(x.size()) {
         copy(x);
     }
-    long_integer& operator=(const long_integer&) = delete;
+    constexpr long_integer& operator=(const long_integer& x) {
+        size_ = x.size();
+        copy(x);
+        return *this;
+    }
 
     constexpr int size() const { return size_; }
     constexpr word operator[](int i) const { return words_[static_cast<std::size_t>(i)]; }
@@ -142,12 +154,41 @@ class long_integer {
     static constexpr long_integer product(const long_integer<A>& a, const long_integer<B>& b) {
         return {a, b};
     }
+    friend constexpr long_integer operator+(const long_integer& a, const long_integer& b) {
+        return sum(a, b);
+    }
     friend constexpr long_integer operator-(const long_integer& a, const long_integer& b) {
         return difference(a, b);
+    }
+    constexpr long_integer operator-() const { return difference(long_integer(), *this); }
+    /// x·2^bits, for bits >= 0.
+    friend constexpr long_integer operator<<(const long_integer& x, int bits) {
+        return product(x, long_integer<Words>(1, bits, false));
+    }
+    friend constexpr bool operator==(const long_integer& a, const long_integer& b) {
+        if (a.size() != b.size()) return false;
+        for (int i = 0; i < a.size(); ++i)
+            if (a[i] != b[i]) return false;
+        return true;
     }
     friend constexpr sign_type sign_of(const long_integer& x) {
         if (x.negative()) return sign_type::negative;
         return x.size_ == 1 && x[0] == 0 ? sign_type::zero : sign_type::positive;
+    }
+
+    /// The least n with −2^n <= x < 2^n.
+    constexpr int bit_length() const {
+        const word invert = words::sign_word((*this)[size_ - 1]);
+        // Trimmed, so the last word says nothing at most if the one before it says all.
+        const int last = size_ > 1 && (*this)[size_ - 1] == invert ? size_ - 2 : size_ - 1;
+        return 64 * last + static_cast<int>(std::bit_width((*this)[last] ^ invert));
+    }
+    /// ⌊x/2^shift⌋ modulo 2^64, for shift >= 0.
+    constexpr std::int64_t word_from_bit(int shift) const {
+        const int whole = shift / 64, bits = shift % 64;
+        // Two shifts: one by 64, where bits = 0, is undefined.
+        return static_cast<std::int64_t>(or_sign(whole) >> bits | or_sign(whole + 1)
+                                                                      << 1 << (63 - bits));
     }
 
   private:
@@ -181,8 +222,8 @@ class long_integer {
         trim();
     }
 
-    template <int Other>
-    constexpr void copy(const long_integer<Other>& x) {
+    template <class Other>
+    constexpr void copy(const Other& x) {
         for (int i = 0; i < size_; ++i) at(i) = x[i];
     }
     constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
@@ -198,5 +239,17 @@ class long_integer {
     int size_;
     std::array<word, Words> words_;  ///< beyond the size never read
 };
+
+/// The exact product.
+template <int A, int B>
+constexpr long_integer<A + B> operator*(const long_integer<A>& a, const long_integer<B>& b) {
+    return long_integer<A + B>::product(a, b);
+}
+
+/// x·2^e for e >= 0, as for other exact numbers.
+template <int Words>
+constexpr long_integer<Words> scale(const long_integer<Words>& x, int e) {
+    return x << e;
+}
 
 }  // namespace errbound::integers

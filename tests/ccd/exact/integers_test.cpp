@@ -28,7 +28,7 @@ TEST(BoundedInteger, ErrorsStayWithinTheirBounds) {
     for (int k = 0; k < 20000; ++k) {
         // The real number that each stands for, and the number itself.
         std::array<std::int64_t, 4> real;
-        std::array<ccd::detail::bounded_integer<1>, 4> x;
+        std::array<ccd::detail::bounded_integer<fixed_integer<1>>, 4> x;
         for (std::size_t i = 0; i < 4; ++i) {
             const int size = static_cast<int>(random() % 28),
                       error = static_cast<int>(random() % 12);
@@ -41,7 +41,7 @@ TEST(BoundedInteger, ErrorsStayWithinTheirBounds) {
         const auto found = x[0] * x[1] - x[2] * x[3];
         const std::int64_t right = real[0] * real[1] - real[2] * real[3];
         const auto error = (found.value - fixed_integer<2>(right)).low_word();
-        if (found.error_bits < ccd::detail::bounded_integer<2>::exact / 2) {
+        if (found.error_bits < ccd::detail::bounded_integer<fixed_integer<2>>::exact / 2) {
             EXPECT_EQ(error, 0);
         } else {
             EXPECT_LT(std::abs(error), 1LL << found.error_bits);
@@ -51,16 +51,16 @@ TEST(BoundedInteger, ErrorsStayWithinTheirBounds) {
             EXPECT_EQ(sign, sign_of(fixed_integer<1>(right)));
         }
     }
-    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<1>{0, -7}), sign_type::uncertain);
-    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<1>{0}), sign_type::zero);
-    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<1>{-8, 3}), sign_type::uncertain);
-    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<1>{-9, 3}), sign_type::negative);
+    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<fixed_integer<1>>{0, -7}), sign_type::uncertain);
+    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<fixed_integer<1>>{0}), sign_type::zero);
+    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<fixed_integer<1>>{-8, 3}), sign_type::uncertain);
+    EXPECT_EQ(sign_of(ccd::detail::bounded_integer<fixed_integer<1>>{-9, 3}), sign_type::negative);
 }
 
 TEST(CommonRoots, OfProductsOfLinearForms) {
     std::mt19937_64 random(2);
     using linear = ccd::detail::linear_form<1>;
-    using kind = ccd::detail::common_roots<2>::kind_type;
+    using kind = ccd::detail::common_roots<fixed_integer<2>>::kind_type;
     const auto any_linear = [&] {
         return linear{{between(random, -50, 50), between(random, -50, 50)}};
     };
@@ -69,7 +69,7 @@ TEST(CommonRoots, OfProductsOfLinearForms) {
         const linear vanishing{{-t, s}};  // at (s, t)
         std::array<ccd::detail::quadratic_form<2>, 3> f{
             {vanishing * any_linear(), vanishing * any_linear(), vanishing * any_linear()}};
-        const ccd::detail::common_roots<2> roots(f);
+        const ccd::detail::common_roots<fixed_integer<2>> roots(f);
         ASSERT_NE(roots.kind, kind::none);
         if (roots.kind == kind::one) {
             EXPECT_EQ(roots.squares[0] * fixed_integer<1>(t),
@@ -79,11 +79,11 @@ TEST(CommonRoots, OfProductsOfLinearForms) {
         }
         const fixed_integer<2> nothing(0);
         f[2] = f[0] + f[0], f[1] = {{nothing, nothing, nothing}};
-        EXPECT_EQ(ccd::detail::common_roots<2>(f).kind,
+        EXPECT_EQ(ccd::detail::common_roots<fixed_integer<2>>(f).kind,
                   sign_inside(f[0]) == sign_type::zero ? kind::everywhere : kind::of_quadratic);
         f[0][1] = f[0][1] + fixed_integer<2>(1);  // no longer zero at (s, t), where f[2] is
         f[1] = linear{{-t, s}} * linear{{1, 1}};
-        EXPECT_EQ(ccd::detail::common_roots<2>(f).kind, kind::none);
+        EXPECT_EQ(ccd::detail::common_roots<fixed_integer<2>>(f).kind, kind::none);
     }
 }
 

@@ -196,6 +196,21 @@ TEST(LongIntegers, AgreeWithGmp) {
         ASSERT_EQ(big(more), (x * y + x) * y);
         ASSERT_EQ(big(result::difference(more, ab)), (x * y + x) * y - x * y);
         ASSERT_EQ(sign_of(ab), sign_of(integer(x * y)));
+        ASSERT_EQ(big(a * b), x * y);
+        ASSERT_EQ(a == b, x == y);
+        if (a.size() < 20) {
+            ASSERT_EQ(big(-a), -x);
+        }
+        const int shift = static_cast<int>(random() % 1000);
+        ASSERT_EQ(big(result(ab) << shift), x * y << shift);
+        const int length = ab.bit_length();
+        ASSERT_LT(x * y, integer(1) << length);
+        ASSERT_GE(x * y, -(integer(1) << length));
+        ASSERT_TRUE(length == 0 || x * y >= integer(1) << (length - 1) ||
+                    x * y < -(integer(1) << (length - 1)));
+        const int from = length > 63 ? length - 63 : 0;
+        // Boost's shift of a negative number rounds down, too.
+        ASSERT_EQ(integer(ab.word_from_bit(from)), x * y >> from);
     }
 }
 

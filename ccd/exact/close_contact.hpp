@@ -1,0 +1,289 @@
+// Contact inside a face or inside both edges where brackets of fixed width cannot tell: roots of Y
+// that lie too close together, or a G_i too small at one of them. In integers as long as it takes.
+//
+// Asked, as ccd/exact/interior_contact.hpp is and for the reasons it gives, of queries without
+// vertex/edge contact. Y is known on a part of [0, 1] by its exact coefficients there. Floating
+// point estimates from them where in the part its root is, or the extremum between its two roots,
+// and Y's exact coefficients on a narrow part around that place prove it: some 40 bits are won at
+// once, 20 around two roots. Where two or three roots are near an end of the part, exponents of the
+// coefficients show it; where nothing does, the part is halved. Two roots part so after a few steps
+// however close they are. G_i are bounded on the part each time that its place has half
+// as many bits again, until they tell.
+//
+// What stays uncertain: what needs more than `max_bits` bits of a place.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <ccd/methods/forms.hpp>
+#include <ccd/verdict.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/bernstein.hpp>
+#include <errbound/integers/long_integer.hpp>
+#include <limits>
+#include <optional>
+
+#include "ccd/exact/bounded_integer.hpp"
+#include "ccd/exact/common_roots.hpp"
+#include "ccd/exact/cubic_roots.hpp"
+
+namespace ccd::detail {
+
+/// The extremum of a cubic inside (0, 1), about, and about how far on either side its two roots
+/// are; coefficients are scaled. Nothing if its slopes at the ends do not show an extremum.
+struct root_pair {
+    double middle, radius;
+};
+inline std::optional<root_pair> estimated_pair(const std::array<double, 4>& h) {
+    // The derivative d0·s² + d1·st + d2·t², whose root t/s comes from the larger of two terms.
+    const double d0 = h[1] - 3 * h[0], d1 = 2 * (h[2] - h[1]), d2 = 3 * h[3] - h[2];
+    if (!(d0 * d2 < 0)) return {};
+    const double q = -(d1 + std::copysign(std::sqrt(d1 * d1 - 4 * d0 * d2), d1)) / 2;
+    const double x = q / d2 > 0 ? q / d2 : d0 / q;
+    const double t = x / (1 + x), s = 1 - t;
+    const double value = ((h[0] * s + h[1] * t) * s + h[2] * t * t) * s + h[3] * t * t * t;
+    // Near the extremum the cubic is value + bend·(place − t)²; at the ends it nearly is.
+    const double bend =
+        std::max(std::fabs(h[0] - value) / (t * t), std::fabs(h[3] - value) / (s * s));
+    double largest = 0;
+    for (const double c : h) largest = std::max(largest, std::fabs(c));
+    return root_pair{t, std::sqrt((std::fabs(value) + 0x1p-48 * largest) / bend)};
+}
+
+/// No root t/s of a cubic with sign changes is at or above 2^(this): the bound of Kioustelidis
+/// (1986), which errbound/roots/root_isolation.hpp derives.
+template <class Integer>
+int root_exponent(const errbound::bernstein<Integer, 3>& y) {
+    using errbound::sign_type;
+    int n = 3;
+    while (sign_of(y[n]) == sign_type::zero) --n;
+    int exponent = std::numeric_limits<int>::min();
+    for (int i = 0; i < n; ++i) {
+        if (sign_of(y[i]) != -sign_of(y[n])) continue;
+        // |y_i/y_n| <= 2^quotient
+        const int quotient = y[i].bit_length() - (y[n].bit_length() - 1);
+        const int root = quotient > 0 ? (quotient + n - i - 1) / (n - i) : -(-quotient / (n - i));
+        exponent = std::max(exponent, root + 1);
+    }
+    return exponent;
+}
+
+/// The decision for one query. Forms: vertex_face_forms or edge_edge_forms over integers of at most
+/// `coordinate_words` words, in which differences stay below 2^(64·coordinate_words − 3).
+template <template <class, int> class Forms>
+class close_contact {
+    template <int W>
+    using number = errbound::integers::long_integer<W>;
+    using sign_type = errbound::sign_type;
+
+  public:
+    static constexpr int coordinate_words = 4;
+
+    explicit close_contact(
+        const Forms<errbound::integers::long_integer<coordinate_words>, 1>& forms)
+        : forms_(forms), y_(forms.y()) {
+        const auto h = hessian(y_);
+        const auto discriminant = sign_of(((h[0] * h[2]) << 2) - h[1] * h[1]);
+        distinct_ = discriminant != sign_type::zero;
+        three_real_roots_ = discriminant == sign_type::positive;
+    }
+
+    /// Whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
+    outcome decide() const {
+        std::array<std::optional<part>, 3> waiting;  // the earliest last
+        std::size_t count = 0;
+        auto found = outcome::separate;
+        const auto wait = [&](const part& next) {
+            if (any_root(next.roots)) waiting[count++] = next;
+        };
+        part whole;
+        for (int i = 0; i <= 3; ++i) whole.y[i] = y_[i];
+        whole.roots = inner_sign_changes(y_);
+        wait(whole);
+        while (count > 0) {
+            part last = *waiting[--count];
+            if (last.bits() >= last.ask_from) {
+                const auto known = throughout(last);
+                if (known == outcome::collides) return outcome::collides;
+                if (known == outcome::separate || normal_vanishes(last)) continue;
+                last.ask_from = last.bits() + last.bits() / 2;
+            }
+            if (!last.can_be_narrowed()) {
+                found = outcome::uncertain;
+                continue;
+            }
+            if (const auto narrow = narrowed(last)) {
+                wait(*narrow);
+                continue;
+            }
+            if (last.y[0] + last.y[1] + last.y[2] + last.y[3] == 0 && contact_in_middle(last))
+                return outcome::collides;
+            wait(last.sub_part(1, 1, 0));
+            wait(last.sub_part(1, 0, 0));
+        }
+        return found;
+    }
+
+  private:
+    static constexpr int place_words = 24, max_bits = 64 * place_words - 2;
+    static constexpr int y_words = 3 * (coordinate_words + place_words) + 4;
+    /// Of the place of a root, and of that of an extremum, that doubles may know.
+    static constexpr int root_bits = 40, pair_bits = 22;
+    /// Narrowed at once by no more than this, which an std::int64_t holds.
+    static constexpr int most_at_once = 60;
+    /// So that narrowing once fits.
+    static constexpr int most_y_bits = 64 * y_words - 3 * (most_at_once + 1);
+    /// G_i are not asked before: interior_contact did.
+    static constexpr int first_asked_bits = 40;
+
+    using place_number = number<place_words>;
+    using cubic = errbound::bernstein<number<y_words>, 3>;
+
+    /// From low/2^unit_bits, 2^width_bits units wide; y: Y's coefficients there, times a power of
+    /// two.
+    struct part {
+        cubic y;
+        inner_sign_changes roots;
+        place_number low;
+        int unit_bits = 0, width_bits = 0;
+        int ask_from = first_asked_bits;
+
+        int bits() const { return unit_bits - width_bits; }
+        bool can_be_narrowed() const {
+            // Products of place and coordinates, Y's coefficients and their sums.
+            return unit_bits + most_at_once <= max_bits &&
+                   std::all_of(y.h.begin(), y.h.end(),
+                               [](const auto& h) { return h.bit_length() <= most_y_bits; });
+        }
+
+        /// That between a/2^n and (a + 2^w)/2^n of this one's width.
+        part sub_part(int n, std::int64_t a, int w) const {
+            using small = number<1>;
+            const std::int64_t whole = std::int64_t(1) << n, b = a + (std::int64_t(1) << w);
+            const errbound::bernstein<small, 1> s{{small(whole - a), small(whole - b)}},
+                t{{small(a), small(b)}};
+            errbound::bernstein<errbound::bernstein<number<y_words>, 0>, 3> coefficients;
+            for (int i = 0; i <= 3; ++i) coefficients[i][0] = y[i];
+            const auto there = value_at(coefficients, s, t);
+            part r;
+            for (int i = 0; i <= 3; ++i) r.y[i] = there[i];
+            r.roots = inner_sign_changes(r.y);
+            r.low = (low << (n - width_bits)) + place_number(a);
+            r.unit_bits = unit_bits + n - width_bits;
+            r.width_bits = w;
+            r.ask_from = ask_from;
+            return r;
+        }
+        /// Of two units around a place in it, about 2^-n of its width.
+        part around(double place, int n) const {
+            const std::int64_t whole = std::int64_t(1) << n;
+            const auto middle = static_cast<std::int64_t>(std::ldexp(place, n) + 0.5);
+            return sub_part(n, std::clamp<std::int64_t>(middle - 1, 0, whole - 2), 1);
+        }
+    };
+
+    /// As interior_contact's.
+    bool any_root(const inner_sign_changes& roots) const {
+        return roots.opposite || (three_real_roots_ && roots.count > 0);
+    }
+    /// Whether one root is there that is not multiple, and no other (but for a double one).
+    bool is_single(const inner_sign_changes& roots) const {
+        return roots.opposite && (roots.count == 1 || !three_real_roots_);
+    }
+
+    /// A part that has the same roots (but for a double one), if estimates show one.
+    std::optional<part> narrowed(const part& whole) const {
+        const auto h = approximated(whole.y.h);
+        if (is_single(whole.roots)) {
+            const double place = estimated_root(h);
+            for (const int n : {root_bits + 1, root_bits / 2, root_bits / 4}) {
+                const part narrow = whole.around(place, n);
+                if (narrow.roots.opposite) return narrow;
+            }
+            return {};
+        }
+        const auto has_all = [&](const part& narrow) {
+            return narrow.roots.count == whole.roots.count;
+        };
+        if (const int n = std::min(-root_exponent(whole.y), most_at_once); n > 1) {
+            const part narrow = whole.sub_part(n, 0, 0);
+            if (has_all(narrow)) return narrow;
+        }
+        if (const int n = std::min(-root_exponent(reversed(whole.y)), most_at_once); n > 1) {
+            const part narrow = whole.sub_part(n, (std::int64_t(1) << n) - 1, 0);
+            if (has_all(narrow)) return narrow;
+        }
+        if (whole.roots.count == 2) {
+            const auto pair = estimated_pair(h);
+            if (!pair || !(pair->radius < 0x1p-5)) return {};
+            const int n = std::min(-std::ilogb(pair->radius) - 3, pair_bits);
+            const part narrow = whole.around(pair->middle, n);
+            if (has_all(narrow)) return narrow;
+        }
+        return {};
+    }
+
+    template <class Known>
+    static outcome common_sign(const Known& forms) {
+        auto found = outcome::collides;
+        for (const auto& g : forms.inside()) {
+            const auto sign = sign_of(g[0]);
+            if (sign == sign_type::negative) return outcome::separate;
+            if (sign != sign_type::positive) found = outcome::uncertain;
+        }
+        return found;
+    }
+    /// What the signs of all G_i are from low/2^bits to less than (low + 2^width_bits)/2^bits, or
+    /// at low/2^bits if there is no width: `collides` if all are positive, `separate` if one is
+    /// negative, else `uncertain`.
+    outcome inside_from(const place_number& low, int bits, std::optional<int> width_bits) const {
+        using known = bounded_integer<number<coordinate_words + place_words>>;
+        const auto s = place_number(1, bits, false) - low;
+        const auto at_low = [&](const vector_form<number<coordinate_words>, 1>& v) {
+            const auto component = [&](const auto& x) {
+                known r{value_at(x, s, low)};
+                const auto slope = x[1] - x[0];
+                if (width_bits && !(slope == 0)) r.error_bits = slope.bit_length() + *width_bits;
+                return errbound::bernstein<known, 0>{{r}};
+            };
+            return vector_form<known, 0>{component(v.x), component(v.y), component(v.z)};
+        };
+        return common_sign(Forms<known, 0>(at_low(forms_.b), at_low(forms_.c), at_low(forms_.p)));
+    }
+    outcome throughout(const part& p) const {
+        return inside_from(p.low, p.unit_bits, p.width_bits);
+    }
+    bool contact_in_middle(const part& p) const {
+        const place_number middle = (p.low << 1) + place_number(1, p.width_bits, false);
+        return inside_from(middle, p.unit_bits + 1, {}) == outcome::collides;
+    }
+
+    /// Whether N = 0 at the part's only root, which is no contact then.
+    bool normal_vanishes(const part& p) const {
+        if (!is_single(p.roots) || !(distinct_ || p.roots.count == 1)) return false;
+        const auto end = place_number(1, p.unit_bits, false);
+        const auto &low = p.low, high = low + place_number(1, p.width_bits, false);
+        const std::array n{forms_.n.x, forms_.n.y, forms_.n.z};
+        const common_roots roots(n);
+        using kind = typename decltype(roots)::kind_type;
+        if (roots.kind == kind::one) {
+            const auto& s = roots.squares[0];  // s² and st, that is s and t
+            const auto& t = roots.squares[1];
+            return sign_of(t * (end - low) - s * low) == sign_type::positive &&
+                   sign_of(s * high - t * (end - high)) == sign_type::positive;
+        }
+        if (roots.kind != kind::of_quadratic) return false;
+        const auto& f = *roots.quadratic;
+        return sign_of(value_at(f, end - low, low)) * sign_of(value_at(f, end - high, high)) ==
+               sign_type::negative;
+    }
+
+    const Forms<number<coordinate_words>, 1> forms_;
+    const errbound::bernstein<number<3 * coordinate_words>, 3> y_;
+    bool distinct_;          ///< Y has no multiple root
+    bool three_real_roots_;  ///< Y may have a pair of roots between equal signs
+};
+
+}  // namespace ccd::detail
