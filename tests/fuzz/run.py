@@ -48,7 +48,7 @@ def run(build, name, minutes):
     saved = [SAVED / name] if (SAVED / name).is_dir() else []
     with open(folder / "log", "w+") as log:
         status = subprocess.run(
-            [build / "fuzz" / name, f"-max_total_time={round(60 * minutes)}", "-timeout=20",
+            [build / "fuzz" / name, f"-max_total_time={round(60 * minutes)}", "-timeout=60",
              "-rss_limit_mb=3000", "-print_final_stats=1", f"-artifact_prefix={folder}/", corpus, *saved],
             stdout=log, stderr=subprocess.STDOUT).returncode
         log.seek(0)

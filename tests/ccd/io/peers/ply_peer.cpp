@@ -308,6 +308,19 @@ constexpr std::array differences{
                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                "end_header\n0 0 0\v\n1 0 0\n0 1 0\n3 0 1 2\n"},
+    difference{refused, "names may have control characters in them",
+               [](std::string_view text) {
+                   return any_header_line(text, [](const words& line) {
+                       return !line.empty() && line[0] != "comment" && line[0] != "obj_info" &&
+                              std::ranges::any_of(line, [](const std::string& word) {
+                                  return std::ranges::any_of(word, io::is_control);
+                              });
+                   });
+               },
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "element ed\x05 0\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
     difference{read, "the format must be told in the second line",
                [](std::string_view text) {
                    const outline o(text);
