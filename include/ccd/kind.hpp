@@ -99,7 +99,7 @@ struct kind_traits<kind::vertex_vertex> {
 template <kind K>
 using pair_of_kind = typename kind_traits<K>::pair;
 
-/// Something for each kind: an Of<K> by the kind's name, or of<K>().
+/// Something for each kind: an `Of<K>` by the kind's name, or `of<K>()`.
 template <template <kind> class Of>
 struct by_kind {
     Of<kind::vertex_face> vertex_face{};
@@ -121,7 +121,7 @@ struct by_kind {
     friend bool operator==(const by_kind&, const by_kind&) = default;
 };
 
-/// Calls visit.operator()<K>() for every kind.
+/// Calls `visit.operator()<K>()` for every kind.
 template <class Visit>
 constexpr void for_each_kind(Visit&& visit) {
     visit.template operator()<kind::vertex_face>();
@@ -171,7 +171,7 @@ using pair_of_query = typename kind_traits<kind_of<Query>>::pair;
 template <class Pair, class T = double>
 using query_of_pair = typename kind_traits<kind_of<Pair>>::template query<T>;
 
-/// Calls visit.operator()<K>() with the kind as a constant, and returns what that returns.
+/// Calls `visit.operator()<K>()` with the kind as a constant, and returns what that returns.
 template <class Visit>
 constexpr decltype(auto) visit_kind(kind k, Visit&& visit) {
     switch (k) {

@@ -6,6 +6,7 @@ from conftest import ROOT
 
 
 @pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("docs/python.md", "vertex 2"),
+                                           ("docs/in-ten-minutes.md", "free for 0.250"),
                                            ("docs/from-ipc-toolkit.md", "theirs 0.0")])
 def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
     if page == "docs/from-ipc-toolkit.md":
