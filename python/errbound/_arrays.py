@@ -1,6 +1,8 @@
 """Arguments as the extension wants them: contiguous, of the right type, or an error that says what is wrong."""
 from __future__ import annotations
 
+import math
+import numbers
 from typing import Any
 
 import numpy as np
@@ -10,9 +12,19 @@ Doubles = NDArray[np.float64]
 Indices = NDArray[np.uint32]
 
 
+def as_array(name: str, values: ArrayLike) -> NDArray[Any]:
+    """As NumPy takes it, unless that would drop a mask."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError(f"{name}: found a masked array, expected one without a mask")
+    try:
+        return np.asarray(values)
+    except ValueError as error:  # of rows of different lengths
+        raise ValueError(f"{name}: {error}") from None
+
+
 def doubles(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Doubles:
     """A C-contiguous float64 array of that shape (None: any length); the argument itself if it is one."""
-    array = np.asarray(values)
+    array = as_array(name, values)
     if array.dtype.kind not in "fiu" or array.dtype.itemsize > 8:
         raise TypeError(f"{name}: found {array.dtype}, expected float64, float32 or whole numbers")
     if array.size == 0 and array.ndim == 1 and len(shape) > 1:
@@ -42,7 +54,7 @@ def indices(name: str, values: ArrayLike, columns: int) -> Indices:
 
     Negative int32 become large ones, which the library refuses.
     """
-    array = np.asarray(values)
+    array = as_array(name, values)
     if array.size == 0:
         return np.empty((0, columns), np.uint32)
     if array.dtype.kind not in "iu":
@@ -79,11 +91,28 @@ def frames(before: ArrayLike, after: ArrayLike, columns: int = 3) -> tuple[Doubl
     return at_start, at_end
 
 
+def option(name: str, value: Any, kind: type) -> Any:
+    """An option of that type: bool, int (not negative), float or str; NumPy's scalars are such, too."""
+    fits: Any = {bool: (bool, np.bool_), int: numbers.Integral, float: numbers.Real, str: str}[kind]
+    if not isinstance(value, fits) or (kind is not bool and isinstance(value, bool)):
+        expected = {bool: "True or False", int: "a whole number", float: "a number", str: "a name"}[kind]
+        raise TypeError(f"{name}: found {value!r}, expected {expected}")
+    if kind is int and not 0 <= value < 2**31:
+        raise ValueError(f"{name}: found {value}, expected 0 to {2**31 - 1}")
+    try:
+        converted = kind(value)
+    except OverflowError:  # of a whole number or fraction
+        converted = math.inf
+    if converted != value and value == value:
+        raise ValueError(f"{name}: found {value!r}, expected a number that a double equals")
+    return converted
+
+
 def of_vertices(name: str, values: ArrayLike | None, dtype: Any, vertices: int) -> Any:
     """One number a vertex, or None."""
     if values is None:
         return None
-    array = np.asarray(values)
+    array = as_array(name, values)
     check_shape(name, array, (vertices,))
     if dtype is np.int32 and array.dtype.kind not in "iu":
         raise TypeError(f"{name}: found {array.dtype}, expected whole numbers")

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arrays import (Doubles, Indices, check_finite, check_range, check_shape, doubles, frames,
-                      indices, of_vertices)
+from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, check_shape, doubles, frames,
+                      indices, of_vertices, option)
 from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Method,
                        NormalSource, Outcome, Pairs, Stage, StepResult, stages)
 
@@ -105,6 +105,8 @@ def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
 
     Raises IndexError for indices out of range, ValueError for coordinates that are not finite.
     """
+    threads, distance = option("threads", threads, int), option("distance", distance, float)
+    method, stages = option("method", method, str), option("stages", stages, bool)
     asked = _Questions(queries, kind, positions)
     near = asked.thickness(thickness)
     if method != "exact":
@@ -125,6 +127,7 @@ def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
 def touches_at_start(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
                      threads: int = 0) -> Decisions:
     """Which queries touch already at t = 0. Raises as decide."""
+    threads = option("threads", threads, int)
     asked = _Questions(queries, kind, positions)
     outcome, _ = asked.call(lambda q: q.decide(threads, False, True))
     asked.require_certain(outcome)
@@ -135,6 +138,8 @@ def first_time(queries: ArrayLike, kind: str, *, positions: Positions | None = N
                t_max: float = 1, distance: float = 0, thickness: ArrayLike | None = None,
                threads: int = 0) -> FirstTimes:
     """Of the queries that touch, or come within a distance, in [0, t_max]: when first. Raises as decide."""
+    threads, distance = option("threads", threads, int), option("distance", distance, float)
+    t_max = option("t_max", t_max, float)
     asked = _Questions(queries, kind, positions)
     near = asked.thickness(thickness)
     found = asked.call(lambda q: q.first_times(t_max, distance, near, threads))
@@ -148,6 +153,7 @@ def first_contact(queries: ArrayLike, kind: str, *, positions: Positions | None 
 
     Cost: decide, and about a microsecond a contact. Raises as decide.
     """
+    threads, t_max = option("threads", threads, int), option("t_max", t_max, float)
     asked = _Questions(queries, kind, positions)
     found = asked.call(lambda q: q.first_contacts(t_max, threads))
     _require_certain_times(asked, found)
@@ -163,18 +169,29 @@ def _require_certain_times(asked: _Questions, found: dict[str, Any]) -> None:
 _stages = stages
 
 
-def _question(vertices: int, thickness: ArrayLike | None = None, groups: ArrayLike | None = None,
-              pinned: ArrayLike | None = None, islands: ArrayLike | None = None,
-              **options: Any) -> Any:
+_OF_SEARCH = {"threads": int, "distance": float, "thickness": np.float64, "groups": np.int32,
+              "between_groups": bool, "pinned": np.uint8, "can_collide": Callable}
+_OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
+           "t_max": float, "stages": bool, "count_candidates": bool}
+_OF_ADVANCE = {**_OF_SEARCH, "islands": np.int32}
+
+
+def _question(vertices: int, known: dict[str, Any], options: dict[str, Any]) -> Any:
+    """The options, each of the type that is known of it; NumPy's types are of one number a vertex."""
     asked = _native.StepQuestion()
-    asked.thickness = of_vertices("thickness", thickness, np.float64, vertices)
-    asked.groups = of_vertices("groups", groups, np.int32, vertices)
-    asked.islands = of_vertices("islands", islands, np.int32, vertices)
-    asked.pinned = of_vertices("pinned", None if pinned is None else np.asarray(pinned) != 0,
-                               np.uint8, vertices)
     for name, value in options.items():
-        if not hasattr(asked, name):
-            raise TypeError(f"found option {name!r}, expected one of those of Steps.run")
+        if name not in known:
+            raise TypeError(f"found option {name!r}, expected one of {', '.join(sorted(known))}")
+        kind = known[name]
+        if kind is Callable:
+            if value is not None and not callable(value):
+                raise TypeError(f"{name}: found {value!r}, expected a function of two vertices")
+        elif not issubclass(kind, np.generic):
+            value = option(name, value, kind)
+        else:
+            if name == "pinned" and value is not None:
+                value = as_array(name, value) != 0
+            value = of_vertices(name, value, kind, vertices)
         setattr(asked, name, value)
     return asked
 
@@ -204,6 +221,9 @@ class Steps:
         made._steps = _native.Steps.in_plane(of_edges, vertices)
         return made
 
+    def __repr__(self) -> str:
+        return f"<ccd.Steps of {self.vertices} vertices{', in the plane' if self._columns == 2 else ''}>"
+
     def _frames(self, before: ArrayLike, after: ArrayLike) -> tuple[Doubles, Doubles]:
         found = frames(before, after, self._columns)
         check_shape("before", found[0], (self.vertices, self._columns))
@@ -222,7 +242,7 @@ class Steps:
         Raises ValueError that names frame, vertex and axis of a coordinate that is not finite.
         """
         at_start, at_end = self._frames(before, after)
-        found = self._steps.run(at_start, at_end, _question(self.vertices, **options))
+        found = self._steps.run(at_start, at_end, _question(self.vertices, _OF_RUN, options))
         for name in "pairs", "touching_at_start":
             found[name] = Pairs(**found[name])
         found["stages"] = _stages(found["stages"])
@@ -232,7 +252,8 @@ class Steps:
         """All pairs whose swept boxes touch, for a narrow phase of one's own; options of the filter, threads
         and distances as run's."""
         at_start, at_end = self._frames(before, after)
-        return Pairs(**self._steps.candidates(at_start, at_end, _question(self.vertices, **options)))
+        asked = _question(self.vertices, _OF_SEARCH, options)
+        return Pairs(**self._steps.candidates(at_start, at_end, asked))
 
     def advance(self, before: ArrayLike, after: ArrayLike, **options: Any) -> AdvanceResult:
         """The longest step found to be free from before towards after, with positions rounded already.
@@ -241,7 +262,7 @@ class Steps:
         of one island go by one fraction, and so do islands that meet; by default all are one.
         """
         at_start, at_end = self._frames(before, after)
-        found = self._steps.advance(at_start, at_end, _question(self.vertices, **options))
+        found = self._steps.advance(at_start, at_end, _question(self.vertices, _OF_ADVANCE, options))
         for name in "touching_at_start", "near_at_start":
             found[name] = Pairs(**found[name])
         return AdvanceResult(**found)

@@ -21,6 +21,13 @@ from .ccd import POINTS
 FileError = _native.FileError
 
 
+def _name(path: str | os.PathLike[str]) -> str:
+    name = os.fsdecode(path)
+    if "\0" in name or any("\ud800" <= c <= "\udfff" for c in name):
+        raise FileError(f"{path!r}: found a null character or one that is not of UTF-8, expected none")
+    return name
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """One frame: vertices (n, 3) float64; faces (m, 3) and edges beside the faces' (k, 2), uint32."""
@@ -39,7 +46,7 @@ class Queries:
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """A PLY (ascii or binary) or OBJ file of triangles, edges and points."""
-    return Mesh(*_native.read_mesh(os.fspath(path)))
+    return Mesh(*_native.read_mesh(_name(path)))
 
 
 def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
@@ -50,7 +57,7 @@ def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLi
     of_faces, of_edges = indices("faces", faces, 3), indices("edges", edges, 2)
     check_range("faces", of_faces, len(points))
     check_range("edges", of_edges, len(points))
-    _native.write_mesh(os.fspath(path), points, of_faces, of_edges)
+    _native.write_mesh(_name(path), points, of_faces, of_edges)
 
 
 def read_queries(path: str | os.PathLike[str], kind: str | None = None, *,
@@ -64,7 +71,7 @@ def read_queries(path: str | os.PathLike[str], kind: str | None = None, *,
     short = None if kind is None else {"vertex_face": "vf", "edge_edge": "ee"}.get(kind)
     if kind is not None and short is None:
         raise ValueError(f"kind: found {kind!r}, expected 'vertex_face' or 'edge_edge'")
-    name, rows, truth = _native.read_queries(os.fspath(path), short, round)
+    name, rows, truth = _native.read_queries(_name(path), short, round)
     queries = rows.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3)
     return Queries(queries, name, None if truth is None else truth.view(np.bool_))
 
@@ -81,11 +88,14 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
     for i, query in enumerate(array.tolist()):
         end = "" if known is None else f",{int(known[i])}"
         lines += [",".join(map(float.hex, row)) + end + "\n" for row in query]
-    _native.write_text(os.fspath(path), "".join(lines))
+    _native.write_text(_name(path), "".join(lines))
 
 
 def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices, Indices]:
     """Both frames' positions, and their faces and edges."""
+    for name, mesh in ("before", before), ("after", after):
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"{name}: found {type(mesh).__name__}, expected an io.Mesh")
     at_start, at_end = frames(before.vertices, after.vertices)
     check_finite("before", at_start)
     check_finite("after", at_end)
@@ -99,6 +109,8 @@ def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices,
 
 def _checked_result(result: StepResult, vertices: int) -> tuple[dict[str, Indices], dict[str, Doubles]]:
     """Pairs by kind; times, rows of low and high, where there are any."""
+    if not isinstance(result, StepResult):
+        raise TypeError(f"result: found {type(result).__name__}, expected what ccd.step returns")
     pairs, times = {}, {}
     for kind, points in POINTS.items():
         pairs[kind] = indices(f"result.pairs.{kind}", getattr(result.pairs, kind), points)
@@ -118,7 +130,7 @@ def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: 
     """
     at_start, at_end, faces, edges = _checked_mesh(before, after)
     pairs, times = _checked_result(result, len(at_start))
-    _native.write_view(os.fspath(path), at_start, at_end, faces, edges, pairs, times)
+    _native.write_view(_name(path), at_start, at_end, faces, edges, pairs, times)
 
 
 def write_pvd(path: str | os.PathLike[str], times: ArrayLike, files: Sequence[str | os.PathLike[str]]) -> None:
@@ -131,4 +143,4 @@ def write_pvd(path: str | os.PathLike[str], times: ArrayLike, files: Sequence[st
         raise ValueError(f"files: found {len(files)}, expected {len(moments)}, one a time")
     check_finite("times", moments)
     folder = os.path.dirname(os.path.abspath(path))
-    _native.write_pvd(os.fspath(path), moments.tolist(), [os.path.relpath(file, folder) for file in files])
+    _native.write_pvd(_name(path), moments.tolist(), [os.path.relpath(file, folder) for file in files])

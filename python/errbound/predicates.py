@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import check_finite, doubles
+from ._arrays import as_array, check_finite, doubles
 
 Signs = NDArray[np.int8] | int
 
@@ -23,7 +23,7 @@ Signs = NDArray[np.int8] | int
 def _signs(predicate: str, dimension: int, **points: ArrayLike) -> Signs:
     arrays = {}
     for name, values in points.items():
-        array = np.asarray(values)
+        array = as_array(name, values)
         shape = (dimension,) if array.ndim == 1 else (None, dimension)
         arrays[name] = doubles(name, array, shape)
     lengths = {len(a) for a in arrays.values() if a.ndim == 2}

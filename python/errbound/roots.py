@@ -7,6 +7,7 @@ ends are floats, infinite ones included.
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Sequence
 from fractions import Fraction
 from numbers import Rational
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, check_finite, doubles
+from ._arrays import Doubles, check_finite, doubles, option
 
 INFINITELY_MANY = -1
 """The number of roots of the polynomial that is zero."""
@@ -26,12 +27,18 @@ Coefficients = Sequence[Any] | NDArray[Any]
 
 def _coefficients(name: str, p: Coefficients) -> Doubles | list[str]:
     """Doubles, or a positive multiple in whole numbers, in hexadecimal digits."""
+    if not isinstance(p, (Sequence, np.ndarray)) or isinstance(p, (str, bytes)):
+        raise TypeError(f"{name}: found {p!r}, expected a sequence of coefficients")
+    if len(p) == 0:
+        raise ValueError(f"{name}: found no coefficients, expected at least one")
     if isinstance(p, np.ndarray) or all(isinstance(c, (float, np.floating)) for c in p):
         array = doubles(name, p, (None,))
         check_finite(name, array)
         return array
     if not all(isinstance(c, (Rational, float, np.integer)) for c in p):
         raise TypeError(f"{name}: found {p!r}, expected floats, whole numbers or fractions")
+    if not all(math.isfinite(c) for c in p if isinstance(c, (float, np.floating))):
+        raise ValueError(f"{name}: found {p!r}, expected finite numbers")
     exact = [Fraction(int(c) if isinstance(c, np.integer) else c) for c in p]
     unit = math.lcm(*(c.denominator for c in exact))
     return [_text(int(c * unit)) for c in exact]
@@ -41,9 +48,11 @@ def _text(x: int) -> str:
     return f"{'-' if x < 0 else ''}0x{abs(x):x}"
 
 
-def _check_interval(a: float, b: float) -> None:
+def _interval(a: float, b: float) -> tuple[float, float]:
+    a, b = option("a", a, float), option("b", b, float)
     if not (a <= b and a < math.inf and b > -math.inf):
         raise ValueError(f"a, b: found [{a}, {b}], expected a <= b, with numbers between")
+    return a, b
 
 
 class Roots:
@@ -55,9 +64,8 @@ class Roots:
     """
 
     def __init__(self, p: Coefficients, a: float = -math.inf, b: float = math.inf) -> None:
-        _check_interval(a, b)
+        self._interval = a, b = _interval(a, b)
         self._roots = _native.Roots(_coefficients("p", p), a, b)
-        self._interval = a, b
         found = [self._roots.neighbouring_doubles(k) for k in range(len(self._roots))]
         ends = np.array(found, np.float64).reshape(-1, 2)
         self.low, self.high = ends[:, 0], ends[:, 1]
@@ -68,7 +76,11 @@ class Roots:
     def __len__(self) -> int:
         return len(self._roots)
 
+    def __repr__(self) -> str:
+        return f"<roots.Roots: {len(self)} in [{self._interval[0]}, {self._interval[1]}], low={self.low!r}>"
+
     def _check(self, k: int) -> int:
+        k = operator.index(k)
         if not 0 <= k < len(self):
             raise IndexError(f"k: found {k}, expected 0 to {len(self) - 1}")
         return k
@@ -76,7 +88,7 @@ class Roots:
     def interval(self, k: int, width: float | None = None) -> tuple[Fraction, Fraction]:
         """An interval of at most that width, if given: root k is strictly inside, or is both ends."""
         if width is not None:
-            self._roots.refine(self._check(k), width)
+            self._roots.refine(self._check(k), option("width", width, float))
         low, high = (Fraction(int(n, 16)) * Fraction(2)**e
                      for n, e in self._roots.interval(self._check(k)))
         return low, high
@@ -101,7 +113,7 @@ def count(p: ArrayLike, a: float = -math.inf, b: float = math.inf) -> int | NDAr
 
     Of a float array (n, degree + 1), of each row: int64 (n,), without the interpreter's lock.
     """
-    _check_interval(a, b)
+    a, b = _interval(a, b)
     if isinstance(p, np.ndarray) and p.ndim == 2:
         rows = doubles("p", p, (None, None))
         check_finite("p", rows)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._arrays import as_array, option
 
 UNCERTAIN = 2
 """What sign says where the bound does not exclude zero, nor the value is known to be zero."""
@@ -105,6 +106,14 @@ class Array:
     def __pos__(self) -> Array:
         return self
 
+    def __bool__(self) -> bool:
+        raise TypeError("tracked: found an array as a condition, expected the sign of one")
+
+    def __eq__(self, other: object) -> Any:
+        raise TypeError("tracked: found ==, which may be uncertain, expected (x - y).sign == 0")
+
+    __hash__ = None  # type: ignore[assignment]
+
 
 def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype: Any = None) -> Array:
     """Numbers known to lie within error of value (0: exactly), which is of any shape.
@@ -112,12 +121,12 @@ def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype:
     dtype: float64 or float32, that of value by default. A value that it does not hold is rounded, as
     NumPy does, and counts as the exact number then.
     """
-    values = np.asarray(value)
+    values, rule = as_array("value", value), option("rule", rule, str)
     number = np.dtype(dtype or (np.float32 if values.dtype == np.float32 else np.float64))
     if number not in (np.float32, np.float64):
         raise TypeError(f"dtype: found {number}, expected float64 or float32")
     if values.dtype.kind not in "fiu":
         raise TypeError(f"value: found {values.dtype}, expected numbers")
-    errors = np.broadcast_to(np.asarray(error), values.shape)
+    errors = np.broadcast_to(as_array("error", error), values.shape)
     flat = [np.ascontiguousarray(x, number).reshape(-1) for x in (values, errors)]
     return Array(_native.tracked_row(flat[0], flat[1], rule), values.shape, rule, number)

@@ -23,6 +23,16 @@ using numbers = input<double, -1>;
 using group_numbers = input<std::int32_t, -1>;
 using flags = input<std::uint8_t, -1>;
 
+/// Of a callback's result: bool or NumPy's. A function that returns nothing is a mistake.
+bool truth_of(const nb::object& result) {
+    if (result.is_none())
+        throw nb::type_error(
+            "can_collide: found a function that returns None, expected True or False");
+    const int truth = PyObject_IsTrue(result.ptr());
+    if (truth < 0) throw nb::python_error();
+    return truth > 0;
+}
+
 /// What Python sets by name; arrays are kept for as long as spans of them are used.
 struct step_question {
     std::string method = "exact";
@@ -49,7 +59,7 @@ struct step_question {
         if (!can_collide.is_none())
             of_pairs.can_collide = [this](ccd::vertex_index v, ccd::vertex_index w) {
                 nb::gil_scoped_acquire held;
-                return nb::cast<bool>(can_collide(v, w));
+                return truth_of(can_collide(v, w));
             };
         return of_pairs;
     }

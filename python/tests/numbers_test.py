@@ -90,7 +90,7 @@ def test_roots_of_products():
 
 
 def test_roots_say_what_is_wrong():
-    with pytest.raises(ValueError, match=r"a, b: found \[2, 1\]"):
+    with pytest.raises(ValueError, match=r"a, b: found \[2.0, 1.0\]"):
         roots.count([1.0, 1.0], 2, 1)
     with pytest.raises(ValueError, match="p: row 1: found nan"):
         roots.isolate([1.0, math.nan])

@@ -1,0 +1,126 @@
+"""What is wrong is said, by name: reports of arguments that were once taken in silence or blamed on no one."""
+import pickle
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import errbound
+from errbound import ccd, io, predicates, roots, tracked
+
+BEFORE = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 1.0]])
+AFTER = BEFORE - [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 2]]
+FACES = [[0, 1, 2]]
+QUERY = np.concatenate([BEFORE[[3, 0, 1, 2]], AFTER[[3, 0, 1, 2]]])[None]
+FRAMES = io.Mesh(BEFORE, np.array(FACES)), io.Mesh(AFTER, np.array(FACES))
+
+
+@pytest.mark.parametrize("options, error, said", [
+    ({"threads": -1}, ValueError, "threads: found -1, expected 0 to"),
+    ({"threads": 2**40}, ValueError, "threads: found 1099511627776, expected 0 to"),
+    ({"threads": 1.5}, TypeError, "threads: found 1.5, expected a whole number"),
+    ({"threads": True}, TypeError, "threads: found True, expected a whole number"),
+    ({"method": 3}, TypeError, "method: found 3, expected a name"),
+    ({"times": 1}, TypeError, "times: found 1, expected True or False"),
+    ({"distance": "a"}, TypeError, "distance: found 'a', expected a number"),
+    ({"distance": Fraction(1, 3)}, ValueError, "expected a number that a double equals"),
+    ({"islands": [0] * 4}, TypeError, "found option 'islands', expected one of"),
+    ({"can_collide": 3}, TypeError, "can_collide: found 3, expected a function of two vertices"),
+    ({"can_collide": lambda v, w: None}, TypeError, "can_collide: found a function that returns None"),
+    ({"can_collide": lambda v, w: 1 // 0}, ZeroDivisionError, "by zero"),
+])
+def test_options_of_steps(options, error, said):
+    with pytest.raises(error, match=said):
+        ccd.step(BEFORE, AFTER, FACES, **options)
+
+
+def test_options_of_another_call_are_no_options():
+    with pytest.raises(TypeError, match="found option 'times', expected one of"):
+        ccd.advance(BEFORE, AFTER, FACES, times=True)
+    with pytest.raises(TypeError, match="found option 'method', expected one of"):
+        ccd.candidates(BEFORE, AFTER, FACES, method="exact")
+
+
+def test_numpys_scalars_are_options_and_answers():
+    assert len(ccd.step(BEFORE, AFTER, FACES, threads=np.int32(1), times=np.bool_(True),
+                        distance=np.float32(0.5), can_collide=lambda v, w: np.bool_(True)).pairs) == 1
+    assert len(ccd.step(BEFORE, AFTER, FACES, can_collide=lambda v, w: np.bool_(False)).pairs) == 0
+
+
+@pytest.mark.parametrize("options", [{"threads": "1"}, {"t_max": "1"}, {"t_max": None}])
+def test_options_of_queries(options):
+    with pytest.raises(TypeError, match=f"{next(iter(options))}: found"):
+        ccd.first_time(QUERY, "vertex_face", **options)
+
+
+@pytest.mark.parametrize("call", [
+    lambda x: ccd.decide(x, "vertex_face"), lambda x: ccd.step(x[0], x[0], FACES),
+    lambda x: predicates.orient3d(*x[0, :4]), lambda x: tracked.array(x),
+    lambda x: ccd.step(BEFORE, AFTER, FACES, thickness=x[0, :4, 0]),
+    lambda x: ccd.Steps(np.ma.masked_equal(FACES, 1), vertices=4),
+])
+def test_masks_are_not_dropped(call):
+    with pytest.raises(TypeError, match="found a masked array, expected one without a mask"):
+        call(np.ma.masked_greater(QUERY, 2))
+
+
+def test_rows_of_different_lengths_name_the_argument():
+    with pytest.raises(ValueError, match="queries: "):
+        ccd.decide([[1, 2], [3]], "vertex_face")
+
+
+@pytest.mark.parametrize("p, error, said", [
+    ([], ValueError, "p: found no coefficients"), ([np.nan, 1], ValueError, "expected finite numbers"),
+    (None, TypeError, "p: found None"), ("abc", TypeError, "p: found 'abc'"),
+    (iter([1, 2]), TypeError, "expected a sequence of coefficients"),
+])
+def test_coefficients(p, error, said):
+    for call in roots.isolate, roots.count:
+        with pytest.raises(error, match=said):
+            call(p)
+
+
+@pytest.mark.parametrize("a, b, error", [("a", 1, TypeError), (None, 1, TypeError), (0, 10**400, ValueError),
+                                         (Fraction(1, 3), 1, ValueError)])
+def test_ends_of_intervals_are_doubles(a, b, error):
+    with pytest.raises(error, match="found"):
+        roots.isolate([-1, 0, 4], a, b)
+
+
+def test_a_tracked_array_is_no_condition():
+    x = tracked.array([0.1, 0.2])
+    for ask in lambda: x == x, lambda: x != 0.1, lambda: bool(x):
+        with pytest.raises(TypeError, match="tracked: found"):
+            ask()
+    with pytest.raises(TypeError, match="rule: found 3, expected a name"):
+        tracked.array([1], rule=3)
+
+
+@pytest.mark.parametrize("path", ["a\0b.ply", "\udc80.ply"])
+def test_names_that_no_file_has(path):
+    with pytest.raises(errbound.FileError, match="found a null character or one that is not of UTF-8"):
+        io.read_mesh(path)
+
+
+def test_names_as_bytes(tmp_path):
+    name = bytes(tmp_path / "é.ply")
+    io.write_mesh(name, BEFORE, FACES)
+    assert (io.read_mesh(name).vertices == BEFORE).all()
+
+
+def test_what_is_shown_are_meshes_and_a_result(tmp_path):
+    result = ccd.step(BEFORE, AFTER, FACES)
+    with pytest.raises(TypeError, match="before: found ndarray, expected an io.Mesh"):
+        errbound.show(BEFORE, AFTER, result, tmp_path / "page.html")
+    with pytest.raises(TypeError, match="result: found NoneType, expected what ccd.step returns"):
+        io.write_view(tmp_path / "step.vtp", *FRAMES, None)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_results_are_copied_and_pickled():
+    result = ccd.step(BEFORE, AFTER, FACES, times=True)
+    again = pickle.loads(pickle.dumps(result))
+    assert again.first_contact == result.first_contact
+    assert (again.pairs.vertex_face == result.pairs.vertex_face).all()
+    for kept in ccd.Steps(FACES, vertices=4), roots.isolate([-2, 0, 1]):
+        assert "object at" not in repr(kept)
