@@ -23,6 +23,7 @@ if(ERRBOUND_SANITIZE)
     add_compile_options(-fno-sanitize=returns-nonnull-attribute)
   endif()
   set(ERRBOUND_WITH_CUDA OFF)  # of which sanitizers see nothing
+  set(ERRBOUND_WITH_MPI OFF)   # whose own leaks they would report
 endif()
 
 # Warnings are for the project's own targets; users get none of them.

@@ -52,7 +52,7 @@ make_source_archive() {
     tar -xf "out/release/errbound-$version.tar.xz" -C "$release_work"
     diff -r "$export_of_head" "$unpacked" || fail 'release: the source archive is not what git has'
     (cd "$unpacked" && logged configure-all cmake --preset release -DERRBOUND_BUILD_TESTS=OFF \
-        -DERRBOUND_WITH_CUDA=OFF -DCMAKE_INSTALL_PREFIX=/usr)
+        -DERRBOUND_WITH_CUDA=OFF -DERRBOUND_WITH_MPI=OFF -DCMAKE_INSTALL_PREFIX=/usr)
     logged build-all cmake --build "$unpacked/build"
     "$unpacked/tests/install/check.sh" "$unpacked" "$unpacked/build" g++ Ninja
 }

@@ -12,10 +12,12 @@
 #include <numeric>
 #include <span>
 
+#include "ccd/step/swept_boxes.hpp"
+
 namespace ccd::detail {
 
 inline bool lets_all_through(const pair_filter& filter) {
-    return !filter.can_collide && filter.groups.empty() && filter.pinned.empty();
+    return !filter.can_collide && filter.groups.empty() && filter.pinned.empty() && !filter.part;
 }
 
 inline bool may_collide(const pair_filter& filter, vertex_index v, vertex_index w) {
@@ -36,6 +38,37 @@ bool may_collide(const pair_filter& filter, const Pair& pair) {
     return false;
 }
 
+/// A filter of pairs whose elements sweep such boxes.
+class pair_test {
+  public:
+    /// Both must outlive it.
+    pair_test(const pair_filter& filter, const swept_boxes& boxes)
+        : filter_(filter), boxes_(boxes) {}
+
+    template <class Pair>
+    bool operator()(const Pair& pair) const {
+        return may_collide(filter_, pair) &&
+               (!filter_.part || filter_.part->has(lower_corner(pair)));
+    }
+
+  private:
+    template <class Pair>
+    std::array<double, 3> lower_corner(const Pair& pair) const {
+        using traits = kind_traits<kind_of<Pair>>;
+        const auto vertices = vertices_of(pair);
+        std::array<vertex_index, traits::first_vertices> first;
+        std::array<vertex_index, traits::second_vertices> second;
+        std::copy_n(vertices.begin(), first.size(), first.begin());
+        std::copy_n(vertices.begin() + first.size(), second.size(), second.begin());
+        const auto a = boxes_.swept_box<double>(first).low,
+                   b = boxes_.swept_box<double>(second).low;
+        return {std::max(a[0], b[0]), std::max(a[1], b[1]), std::max(a[2], b[2])};
+    }
+
+    const pair_filter& filter_;
+    const swept_boxes& boxes_;
+};
+
 /// One block of candidates for each thread.
 template <class Pair>
 class candidate_blocks {
@@ -45,7 +78,7 @@ class candidate_blocks {
 
     class block {
       public:
-        block(const visitor& visit, const pair_filter* filter, const stop_query& stop)
+        block(const visitor& visit, const pair_test* filter, const stop_query& stop)
             : visit_(&visit), filter_(filter), stop_(&stop) {}
 
         /// Adds the candidate if `is_one`.
@@ -58,9 +91,8 @@ class candidate_blocks {
             stop_if_asked(*stop_);
             std::span<const Pair> found(candidates_.data(), size_);
             if (filter_ != nullptr) {
-                const auto end =
-                    std::remove_if(candidates_.begin(), candidates_.begin() + size_,
-                                   [&](const Pair& c) { return !may_collide(*filter_, c); });
+                const auto end = std::remove_if(candidates_.begin(), candidates_.begin() + size_,
+                                                [&](const Pair& c) { return !(*filter_)(c); });
                 found = {candidates_.begin(), end};
             }
             if (!found.empty()) (*visit_)(found);
@@ -71,14 +103,14 @@ class candidate_blocks {
 
       private:
         const visitor* visit_;
-        const pair_filter* filter_;
+        const pair_test* filter_;
         const stop_query* stop_;
         std::size_t size_ = 0, count_ = 0;
         std::array<Pair, block_size> candidates_;
     };
 
     /// `filter` may be null: all pass.
-    candidate_blocks(const visitor& visit, const pair_filter* filter, const stop_query& stop)
+    candidate_blocks(const visitor& visit, const pair_test* filter, const stop_query& stop)
         : stop_(stop), blocks_([&visit, filter, &stop] { return block(visit, filter, stop); }) {}
 
     /// Throws ccd::stopped if the caller asked for it, as flush() does.

@@ -164,8 +164,9 @@ std::size_t candidate_search::find_kind(const question& asked, First& first, Sec
 pair_counts candidate_search::find(const batch_positions& positions, const step_options& options,
                                    const candidate_visitor& visitor, wanted pairs) {
     const swept_boxes boxes(positions, options.distances);
+    const pair_test test(options.filter, boxes);
     const question asked{boxes,
-                         lets_all_through(options.filter) ? nullptr : &options.filter,
+                         lets_all_through(options.filter) ? nullptr : &test,
                          visitor,
                          options.stop,
                          positions.rounded,

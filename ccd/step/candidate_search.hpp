@@ -16,6 +16,8 @@
 
 namespace ccd::detail {
 
+class pair_test;
+
 /// Elements of N vertices in an order that gathers neighbours, which stays from step to step as
 /// long as it does.
 template <std::size_t N>
@@ -74,7 +76,7 @@ class candidate_search {
     };
     struct question {
         const swept_boxes& boxes;
-        const pair_filter* filter;  // null: all pass
+        const pair_test* filter;  // null: all pass
         const candidate_visitor& visitor;
         const stop_query& stop;
         const float* rounded;

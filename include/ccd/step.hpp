@@ -21,6 +21,7 @@
 //   vertex/vertex  every two points
 #pragma once
 
+#include <array>
 #include <ccd/batch.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/first_times.hpp>
@@ -30,12 +31,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace ccd {
+
+/// An axis-aligned part of space, closed below and open above; by default all of it.
+struct space_part {
+    static constexpr double everywhere = std::numeric_limits<double>::infinity();
+    std::array<double, 3> low{-everywhere, -everywhere, -everywhere};
+    std::array<double, 3> high{everywhere, everywhere, everywhere};
+
+    bool has(const std::array<double, 3>& x) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!(low[k] <= x[k] && x[k] < high[k])) return false;
+        return true;
+    }
+};
 
 /// Which pairs a step looks at, vertex by vertex: a pair if some vertex of one element may
 /// collide with some vertex of the other. Two vertices may unless one of these says no; an empty
@@ -54,6 +69,11 @@ struct pair_filter {
     /// Not 0: the vertex does not move, or moves as prescribed. Two such may not collide, so pairs
     /// of which all vertices are pinned are left out.
     std::span<const std::uint8_t> pinned = {};
+    /// Of what the others let through, only pairs that begin there: at the lower corner of what the
+    /// boxes that their elements sweep (wider where pairs have a distance) have in common. So parts
+    /// that tile space share all pairs of a step, each of one part; a part needs the elements alone
+    /// whose boxes meet it.
+    std::optional<space_part> part = {};
 };
 
 struct step_options {

@@ -1,0 +1,97 @@
+// Samples, their expected work, and cuts.
+#include "ccd/mpi/decomposition.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ccd::mpi::detail {
+namespace {
+
+/// Of all ranks together.
+constexpr std::size_t samples_wanted = 4096;
+/// A candidate's share of the work that an element makes by being there.
+constexpr double work_of_candidate = 0.1;
+
+bool touch(const swept_box& a, const swept_box& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return false;
+    return true;
+}
+
+double size(const swept_box& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += b.high[k] - b.low[k];
+    return sum;
+}
+
+}  // namespace
+
+decomposition::decomposition(exchanger& ranks, std::span<const swept_box> boxes)
+    : parts_(ranks.size()) {
+    std::vector<sample> samples = weighted_samples(ranks, boxes);
+    cut(0, ranks.size(), samples, {});
+}
+
+/// A pair begins near the smaller of its boxes: its work is that one's.
+std::vector<decomposition::sample> decomposition::weighted_samples(
+    exchanger& ranks, std::span<const swept_box> boxes) {
+    std::vector<sample> own(std::min(boxes.size(), samples_wanted / ranks.size() + 1));
+    for (std::size_t i = 0; i < own.size(); ++i)
+        own[i] = {boxes[i * boxes.size() / own.size()],
+                  static_cast<double>(boxes.size()) / static_cast<double>(own.size())};
+    const received<sample> all = ranks.gather(own);
+    for (sample& s : own) {
+        double candidates = 0;
+        for (const sample& other : all.items)
+            if (size(s.box) <= size(other.box) && touch(s.box, other.box))
+                candidates += other.elements;
+        // Itself was among them.
+        s.work = s.elements * (1 + work_of_candidate * (candidates - s.elements));
+    }
+    return ranks.gather(own).items;
+}
+
+/// Returns the node's place.
+std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<sample> samples,
+                               const space_part& part) {
+    const std::size_t i = nodes_.size();
+    nodes_.push_back({first, count});
+    if (count == 1) {
+        parts_[first] = part;
+        return i;
+    }
+    const auto spread = [&](std::size_t k) {
+        if (samples.empty()) return 0.0;
+        const auto [least, most] =
+            std::ranges::minmax(samples, {}, [k](const sample& s) { return s.box.low[k]; });
+        return most.box.low[k] - least.box.low[k];
+    };
+    const std::array spreads{spread(0), spread(1), spread(2)};
+    const auto axis = static_cast<std::size_t>(std::ranges::max_element(spreads) - spreads.begin());
+    const auto place = [axis](const sample& s) { return s.box.low[axis]; };
+    std::ranges::stable_sort(samples, {}, place);
+
+    const std::size_t below = count / 2;
+    const double all = std::transform_reduce(samples.begin(), samples.end(), 0.0, std::plus<>(),
+                                             [](const sample& s) { return s.work; });
+    double sum = 0;
+    std::size_t of_below = 0;
+    while (of_below < samples.size() &&
+           sum * static_cast<double>(count) < all * static_cast<double>(below))
+        sum += samples[of_below++].work;
+    const double at = of_below < samples.size() ? place(samples[of_below])
+                      : samples.empty()         ? 0
+                                                : place(samples.back());
+    // Samples at the cut are above it.
+    of_below = static_cast<std::size_t>(std::ranges::lower_bound(samples, at, {}, place) -
+                                        samples.begin());
+
+    space_part low = part, high = part;
+    low.high[axis] = high.low[axis] = at;
+    const std::size_t a = cut(first, below, samples.first(of_below), low);
+    const std::size_t b = cut(first + below, count - below, samples.subspan(of_below), high);
+    nodes_[i] = {first, count, axis, at, a, b};
+    return i;
+}
+
+}  // namespace ccd::mpi::detail

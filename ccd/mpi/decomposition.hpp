@@ -1,0 +1,65 @@
+// Space cut into a box for each rank, by recursive coordinate bisection of weighted samples.
+#pragma once
+
+#include <array>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ccd/mpi/exchange.hpp"
+#include "ccd/step/box_tree.hpp"
+
+namespace ccd::mpi::detail {
+
+using swept_box = ccd::detail::box<double>;
+
+/// Boxes that tile space, one a rank; the same on all ranks. Some may be empty.
+class decomposition {
+  public:
+    /// By some of each rank's boxes, which elements sweep. Collective. Time: that of 4096² tests of
+    /// boxes over the number of ranks.
+    decomposition(exchanger& ranks, std::span<const swept_box> boxes);
+
+    const space_part& part(std::size_t rank) const { return parts_[rank]; }
+
+    /// Calls visit(rank) for each rank whose part a closed box meets.
+    template <class Visit>
+    void for_each_met(const swept_box& box, const Visit& visit) const {
+        for_each_met(0, box, visit);
+    }
+
+  private:
+    struct sample {
+        swept_box box;
+        double elements;  ///< that it stands for
+        double work = 0;
+    };
+    /// A cut of ranks [first, first + count): below `at` on the axis are the first half.
+    struct node {
+        std::size_t first, count;
+        std::size_t axis = 0;
+        double at = 0;
+        std::size_t below = 0, above = 0;  ///< nodes, where count > 1
+    };
+
+    static std::vector<sample> weighted_samples(exchanger& ranks, std::span<const swept_box> boxes);
+    std::size_t cut(std::size_t first, std::size_t count, std::span<sample> samples,
+                    const space_part& part);
+
+    template <class Visit>
+    void for_each_met(std::size_t i, const swept_box& box, const Visit& visit) const {
+        const node& n = nodes_[i];
+        if (n.count == 1) {
+            visit(n.first);
+            return;
+        }
+        if (box.low[n.axis] < n.at) for_each_met(n.below, box, visit);
+        if (box.high[n.axis] >= n.at) for_each_met(n.above, box, visit);
+    }
+
+    std::vector<node> nodes_;
+    std::vector<space_part> parts_;
+};
+
+}  // namespace ccd::mpi::detail

@@ -1,0 +1,82 @@
+// What a rank is given of a mesh, and what it holds of all that meets its part of space.
+#pragma once
+
+#include <array>
+#include <ccd/mpi.hpp>
+#include <ccd/step.hpp>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ccd/mpi/decomposition.hpp"
+#include "ccd/mpi/exchange.hpp"
+
+namespace ccd::mpi::detail {
+
+/// The faces and edges of a part of a mesh, its vertices without one, and the boxes that they
+/// sweep.
+class given_elements {
+  public:
+    given_elements(const mesh_part& mesh, const pair_distances& distances);
+
+    /// Of faces, then edges, then single vertices.
+    std::span<const swept_box> boxes() const { return boxes_; }
+    std::span<const vertex_index> single_vertices() const { return single_vertices_; }
+
+  private:
+    std::vector<vertex_index> single_vertices_;
+    std::vector<swept_box> boxes_;
+};
+
+class held_mesh {
+  public:
+    /// Collective. Of `options` the lists of one entry a vertex are sent along. Throws
+    /// std::invalid_argument on all ranks where copies of a vertex differ.
+    held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
+              const decomposition& parts, const step_options& options);
+
+    /// Faces and edges that were sent here, each copy counted, and vertices without one.
+    std::size_t elements() const { return elements_; }
+    vertex_number number(vertex_index v) const { return numbers_[v]; }
+
+    /// Of the pairs that begin in that part of space.
+    ccd::step_result step(const space_part& part, const step_options& options) const;
+
+    /// Of each pair the lowest rank that has the first element.
+    template <class Pair>
+    std::vector<std::size_t> owners(const std::vector<Pair>& pairs) const;
+
+  private:
+    struct sent_vertex {
+        vertex_number number;
+        std::array<double, 3> before, after;
+    };
+    using sent_face = std::array<vertex_number, 3>;
+    using sent_edge = std::array<vertex_number, 2>;
+    /// What is sent to each rank: places in the lists given.
+    struct routes {
+        std::vector<std::vector<vertex_index>> vertices, faces, edges;
+    };
+
+    static routes routes_of(std::size_t ranks, const mesh_part& mesh, const given_elements& given,
+                            const decomposition& parts);
+    void keep_vertices(const received<sent_vertex>& sent, const received<int>& groups,
+                       const received<std::uint8_t>& pinned, const received<double>& thickness);
+    vertex_index index(vertex_number number) const;
+    template <std::size_t N>
+    std::vector<std::array<vertex_index, N>> by_index(
+        const received<std::array<vertex_number, N>>& sent) const;
+
+    std::vector<vertex_number> numbers_;  ///< ascending
+    std::vector<std::size_t> owner_of_vertex_;
+    std::vector<point<double>> before_, after_;
+    std::vector<int> groups_;
+    std::vector<std::uint8_t> pinned_;
+    std::vector<double> thickness_;
+    std::vector<face> faces_;
+    std::vector<edge> edges_;
+    std::vector<std::size_t> owner_of_face_, owner_of_edge_;
+    std::size_t elements_ = 0;
+};
+
+}  // namespace ccd::mpi::detail
