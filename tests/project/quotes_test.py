@@ -21,7 +21,7 @@ PROGRAMS = {
     "docs/from-ipc-toolkit.md": ["examples/from_ipc_toolkit.cpp"],
     "docs/from-tight-inclusion.md": ["examples/from_tight_inclusion.cpp"],
     "docs/simulation.md": ["examples/simulation/own_solver.cpp"],
-    "docs/many-machines.md": ["examples/distributed_step.cpp"],
+    "docs/many-machines.md": ["examples/mpi/distributed_step.cpp"],
     "docs/in-ten-minutes.md": ["examples/in_ten_minutes.cpp"],
 }
 # Pages that quote measured figures.
