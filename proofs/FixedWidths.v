@@ -1,8 +1,8 @@
 (** Widths of the exact decisions in integers of fixed width (ccd/exact/integer_decision.hpp, vertex_edge_contact.hpp,
     common_roots.hpp, interior_contact.hpp, cubic_roots.hpp).
 
-    Where differences of coordinates are below D = 2^(64W - 3), W = 1 or 2, every number that these compute
-    fits the words that its type has. Numbers are kept as expressions: how they were computed, the most that
+    Where differences of coordinates are below D = 2^(64W - 3), W = 1, 2 or 4, every number that these
+    compute fits the words that its type has. Numbers are kept as expressions: how they were computed, the most that
     they can be, and their words. Results:
         expression_exact       if no subexpression exceeds its width, the words computed (Words.v) are those
                                of the exact number
@@ -403,31 +403,31 @@ Definition linear (W : nat) (x0 x1 : list Z) : polynomial := [Given W 1 (D_bits 
 Definition moving (W : nat) (x : list (list Z)) : vector := @VectorForm expressions
   (linear W (nth 0 x []) (nth 1 x [])) (linear W (nth 2 x []) (nth 3 x [])) (linear W (nth 4 x []) (nth 5 x [])).
 
-Theorem vertex_edge_widths W w e x : W = 1%nat \/ W = 2%nat ->
+Theorem vertex_edge_widths W w e x : In W [1; 2; 4]%nat ->
   forallb fine (vertex_edge_numbers (moving W w) (moving W e) (moving W x)) = true.
-Proof. intros [-> | ->]; widths. Qed.
-Theorem vertex_vertex_widths W w : W = 1%nat \/ W = 2%nat ->
+Proof. intros [<- | [<- | [<- | []]]]; widths. Qed.
+Theorem vertex_vertex_widths W w : In W [1; 2; 4]%nat ->
   forallb fine (vertex_vertex_numbers (coefficient (moving W w) 0) (coefficient (moving W w) 1)) = true.
-Proof. intros [-> | ->]; widths. Qed.
-Theorem interior_widths W b c p : W = 1%nat \/ W = 2%nat ->
+Proof. intros [<- | [<- | [<- | []]]]; widths. Qed.
+Theorem interior_widths W b c p : In W [1; 2; 4]%nat ->
   forallb fine (interior_numbers (moving W b) (moving W c) (moving W p)) = true.
-Proof. intros [-> | ->]; widths. Qed.
+Proof. intros [<- | [<- | [<- | []]]]; widths. Qed.
 
 Definition levels : list Z := map Z.of_nat (seq 0 40).
 Lemma levels_all level : 0 <= level < 40 -> In level levels.
 Proof. intros H. apply in_map_iff. exists (Z.to_nat level). split; [lia | apply in_seq; lia]. Qed.
 (** The whole is within the bounds of the first level's parts, halves within those of the next level's. *)
-Theorem halving_widths W level b c p x y : W = 1%nat \/ W = 2%nat -> 0 <= level < 40 ->
+Theorem halving_widths W level b c p x y : In W [1; 2; 4]%nat -> 0 <= level < 40 ->
   map bound (map (fun h => Longer h 2) (y_form (moving W b) (moving W c) (moving W p))) = map bound (part W 0 y) /\
   forallb fine (halving_numbers (part W level x)) = true /\
   map bound (@left_half expressions (part W level x)) = map bound (part W (level + 1) y) /\
   map bound (rev (@left_half expressions (rev (part W level x)))) = map bound (part W (level + 1) y).
 Proof.
-  intros HW L. split; [destruct HW as [-> | ->]; vm_compute; reflexivity |].
+  intros HW L. split; [destruct HW as [<- | [<- | [<- | []]]]; vm_compute; reflexivity |].
   assert (F : forallb (fun l => forallb is_measured (halving_numbers (part W l x))) levels = true)
-    by (destruct HW as [-> | ->]; vm_compute; reflexivity).
+    by (destruct HW as [<- | [<- | [<- | []]]]; vm_compute; reflexivity).
   rewrite forallb_forall in F. specialize (F level (levels_all level L)).
-  split; [now apply all_measured |]. clear F.
+  split; [now apply all_measured |]. clear F. cbn [In] in HW.
   assert (E : forall m, m * 2 ^ (3 * (64 * Z.of_nat W - 3) + 3 * (level + 1)) =
     m * 8 * 2 ^ (3 * (64 * Z.of_nat W - 3) + 3 * level)).
   { intros m. replace (3 * (64 * Z.of_nat W - 3) + 3 * (level + 1)) with (3 + (3 * (64 * Z.of_nat W - 3) + 3 * level)) by ring.
@@ -436,10 +436,10 @@ Proof.
   set (u := 2 ^ (3 * (64 * Z.of_nat W - 3) + 3 * level)). change (2 ^ 1) with 2. split; repeat (apply (f_equal2 cons); [ring |]); reflexivity.
 Qed.
 Theorem bracket_widths W T b c p place reach s t width estimate :
-  W = 1%nat \/ W = 2%nat -> In T [1; 2; 3; 4]%nat ->
+  In W [1; 2; 4]%nat -> In T [1; 2; 3; 4]%nat ->
   forallb fine (bracket_numbers T (moving W b) (moving W c) (moving W p) place reach s t width estimate) = true.
 Proof.
-  intros [-> | ->] H; repeat (destruct H as [<- | H]; [widths |]); contradiction.
+  intros [<- | [<- | [<- | []]]] H; repeat (destruct H as [<- | H]; [widths |]); contradiction.
 Qed.
 Theorem cut_widths T b c p : In T [1; 2; 3; 4]%nat ->
   forallb fine (inside_numbers (cut_vector T b) (cut_vector T c) (cut_vector T p)) = true.

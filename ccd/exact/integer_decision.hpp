@@ -16,7 +16,7 @@ namespace ccd::detail {
 
 /// The most bits that coordinates may differ by (integer_units::bits) for Words words to carry
 /// through all forms: ccd/exact/vertex_edge_contact.hpp and ccd/exact/interior_contact.hpp say how.
-/// Proof, for one and two words: proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths,
+/// Proof, for 1, 2 and 4 words: proofs/FixedWidths.v, vertex_edge_widths, vertex_vertex_widths,
 /// interior_widths, halving_widths, bracket_widths, cut_widths.
 constexpr int extent_limit(int words) {
     return 64 * words - 3;
