@@ -1,8 +1,15 @@
-(** Where brackets of fixed width cannot tell (ccd/exact/close_contact.hpp, ccd/exact/integers.cpp): certain
-    answers are right. Estimates of places are arbitrary functions: nothing depends on them.
-    Results:
-        as_many_changes, opposite_inside   what parts of a part have all its roots
-        sub_part_right      its coefficients are those of Y on that part, times a positive number *)
+(** Roots that nearly coincide (ccd/exact/close_contact.hpp), and the two stages in integers together
+    (ccd/exact/integers.cpp): their certain answers are right. Estimates of places are arbitrary functions:
+    nothing depends on them. Results:
+        as_many_changes, opposite_inside   which parts of a part have all its roots
+        sub_part_right          coefficients are those of Y on that part, times a positive number
+        inside_from_right       signs of G_i that are known all over a part are right
+        by_narrowing_right      what the loop's answers mean
+        close_contact_right     collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: at none in (0, 1)
+                                but multiple roots of Y
+        decided_inside          where interior_contact is undecided, separate means nowhere in [0, 1]
+        face_to_the_end_right, edges_to_the_end_right
+                                certain answers of decide_to_the_end are right *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
 From Flocq Require Import Core.
@@ -356,3 +363,727 @@ Proof.
   fold (part_of (part_of y (close_start q) (close_end q)) (over a n) (over (a + 2 ^ w) n)).
   rewrite part_of_part, map_map by easy. rewrite Es, Ee. apply map_ext. intros x. ring.
 Qed.
+
+(** ** G_i over a part *)
+
+(** inside_from, of differences as they are: where there is no width, at low/2^bits. *)
+Definition close_component (low bits : Z) (width : option Z) (l : list Z) : known :=
+  let slope := (nth 1 l 0 - nth 0 l 0)%Z in
+  BoundedInteger.Bounded (nth 0 l 0 * (2 ^ bits - low) + nth 1 l 0 * low)%Z
+    (match width with
+     | Some width_bits => if slope =? 0 then BoundedInteger.exact else BoundedInteger.bit_length slope + width_bits
+     | None => BoundedInteger.exact
+     end)%Z.
+Lemma close_component_stands low bits width_bits l t : length l = 2%nat -> (0 <= bits)%Z -> (0 <= width_bits)%Z ->
+  over low bits <= t < over (low + 2 ^ width_bits) bits ->
+  stands (close_component low bits (Some width_bits) l) (IZR (2 ^ bits) * form (map IZR l) (1 - t) t).
+Proof.
+  intros L Hb Hw Ht. destruct l as [| x0 [| x1 [|]]]; try discriminate. clear L.
+  pose proof (power_positive _ Hb) as P. set (w := IZR (2 ^ bits)) in *. set (u := t * w - IZR low).
+  assert (U : 0 <= u < IZR (2 ^ width_bits)).
+  { unfold over in Ht. fold w in Ht. rewrite plus_IZR in Ht. unfold u.
+    assert (IZR low / w * w = IZR low) by (field; lra).
+    assert ((IZR low + IZR (2 ^ width_bits)) / w * w = IZR low + IZR (2 ^ width_bits)) by (field; lra).
+    destruct Ht as (Ht & Ht'). apply (Rmult_le_compat_r w) in Ht; [| lra]. apply (Rmult_lt_compat_r w) in Ht'; lra. }
+  unfold close_component. cbn [nth]. cbv zeta. set (v := (x0 * (2 ^ bits - low) + x1 * low)%Z). set (slope := (x1 - x0)%Z).
+  assert (E : w * form (map IZR [x0; x1]) (1 - t) t - IZR v = IZR slope * u).
+  { unfold v, slope, u, w. rewrite plus_IZR, !mult_IZR, !minus_IZR. simpl. ring. }
+  destruct (BoundedInteger.bit_length_bounds slope) as (Bl & Bs & _). set (n := BoundedInteger.bit_length slope) in *.
+  unfold stands, BoundedInteger.is_exact. cbn [BoundedInteger.error_bits BoundedInteger.value].
+  destruct (Z.eqb_spec slope 0) as [Z0 | NZ].
+  - change (BoundedInteger.exact <? BoundedInteger.exact / 2)%Z with true. cbv iota. rewrite Z0 in E. lra.
+  - destruct (Z.ltb_spec (n + width_bits) (BoundedInteger.exact / 2)) as [X | _].
+    { exfalso. change (BoundedInteger.exact / 2)%Z with (-524288)%Z in X. lia. }
+    rewrite E, Rabs_mult, (Rabs_pos_eq u), <- abs_IZR, bpow_plus, <- !(IZR_Zpower radix2) by (lra || lia).
+    change (Zpower radix2) with (Z.pow 2). pose proof (power_positive n Bl).
+    apply Rle_lt_trans with (IZR (2 ^ n) * u).
+    + apply Rmult_le_compat_r; [lra | now apply IZR_le].
+    + apply Rmult_lt_compat_l; lra.
+Qed.
+
+(** At one place, numbers are what they stand for, if they are of less than 2000 bits. *)
+Definition near_exact (m e : Z) (x : known) : Prop :=
+  (Z.abs (BoundedInteger.value x) <= 2 ^ m /\ 0 <= m /\ BoundedInteger.error_bits x <= BoundedInteger.exact + e)%Z.
+Lemma near_sum m e m' e' x y : near_exact m e x -> near_exact m' e' y ->
+  near_exact (Z.max m m' + 1) (Z.max e e' + 1) (BoundedInteger.add x y) /\
+  near_exact (Z.max m m' + 1) (Z.max e e' + 1) (BoundedInteger.sub x y).
+Proof.
+  intros (A & M & E) (A' & M' & E').
+  assert (P : (2 ^ (Z.max m m' + 1) = 2 * 2 ^ Z.max m m')%Z) by (rewrite Z.pow_add_r by lia; ring).
+  pose proof (Z.pow_le_mono_r 2 m (Z.max m m') ltac:(lia) ltac:(lia)).
+  pose proof (Z.pow_le_mono_r 2 m' (Z.max m m') ltac:(lia) ltac:(lia)).
+  unfold near_exact. cbn [BoundedInteger.add BoundedInteger.sub BoundedInteger.value BoundedInteger.error_bits]. lia.
+Qed.
+Lemma near_product m e m' e' x y : (0 <= e)%Z -> (0 <= e')%Z -> near_exact m e x -> near_exact m' e' y ->
+  near_exact (m + m') (m + m' + e + e' + 3) (BoundedInteger.mul x y).
+Proof.
+  intros N N' (A & M & E) (A' & M' & E').
+  assert (Bits : forall a k, (0 <= k)%Z -> (Z.abs a <= 2 ^ k)%Z -> (BoundedInteger.bit_length a <= k + 1)%Z).
+  { intros a k K H. destruct (BoundedInteger.bit_length_bounds a) as (B0 & _ & B1).
+    destruct (Z.eq_dec (BoundedInteger.bit_length a) 0) as [| Z0]; [lia |]. specialize (B1 ltac:(lia)).
+    apply Z.nlt_ge. intros L. assert (2 ^ k < 2 ^ (BoundedInteger.bit_length a - 1))%Z by (apply Z.pow_lt_mono_r; lia). lia. }
+  pose proof (Bits _ _ M A) as Ba. pose proof (Bits _ _ M' A') as Bb. clear Bits.
+  unfold near_exact. cbn [BoundedInteger.mul BoundedInteger.value BoundedInteger.error_bits].
+  assert (BoundedInteger.exact < 0)%Z by reflexivity.
+  split; [| lia]. rewrite Z.abs_mul, Z.pow_add_r by lia. apply Z.mul_le_mono_nonneg; lia.
+Qed.
+Definition near_vector (m e : Z) (v : known_vector) : Prop :=
+  near_exact m e (kx v) /\ near_exact m e (ky v) /\ near_exact m e (kz v).
+Lemma near_weaker m e m' e' x : (m <= m')%Z -> (e <= e')%Z -> near_exact m e x -> near_exact m' e' x.
+Proof.
+  intros M E (A & N & H). pose proof (Z.pow_le_mono_r 2 m m' ltac:(lia) M). unfold near_exact. lia.
+Qed.
+Lemma near_cross m e p q : (0 <= e)%Z -> near_vector m e p -> near_vector m e q ->
+  near_vector (2 * m + 1) (2 * m + 2 * e + 4) (cross_known p q).
+Proof.
+  intros N (P0 & P1 & P2) (Q0 & Q1 & Q2).
+  assert (S : forall x y z w, near_exact m e x -> near_exact m e y -> near_exact m e z -> near_exact m e w ->
+    near_exact (2 * m + 1) (2 * m + 2 * e + 4) (BoundedInteger.sub (BoundedInteger.mul x y) (BoundedInteger.mul z w))).
+  { intros x y z w X Y Z W. pose proof (near_product _ _ _ _ _ _ N N X Y) as A. pose proof (near_product _ _ _ _ _ _ N N Z W) as B.
+    eapply near_weaker; [| | exact (proj2 (near_sum _ _ _ _ _ _ A B))]; lia. }
+  unfold near_vector, cross_known. cbn [kx ky kz]. auto 8.
+Qed.
+Lemma near_dot m e p q : (0 <= e)%Z -> near_vector m e p -> near_vector m e q ->
+  near_exact (2 * m + 2) (2 * m + 2 * e + 5) (dot_known p q).
+Proof.
+  intros N (P0 & P1 & P2) (Q0 & Q1 & Q2). unfold dot_known.
+  pose proof (near_product _ _ _ _ _ _ N N P0 Q0) as A0. pose proof (near_product _ _ _ _ _ _ N N P1 Q1) as A1.
+  pose proof (near_product _ _ _ _ _ _ N N P2 Q2) as A2. pose proof (proj1 (near_sum _ _ _ _ _ _ A0 A1)) as B.
+  eapply near_weaker; [| | exact (proj1 (near_sum _ _ _ _ _ _ B A2))]; lia.
+Qed.
+Lemma near_weights edges m b c p : near_vector m 0 b -> near_vector m 0 c -> near_vector m 0 p ->
+  Forall (near_exact (4 * m + 6) (8 * m + 19)) (known_weights edges b c p).
+Proof.
+  intros Hb Hc Hp.
+  assert (D : forall x y z w, near_vector m 0 x -> near_vector m 0 y -> near_vector m 0 z -> near_vector m 0 w ->
+    near_exact (4 * m + 4) (8 * m + 17) (dot_known (cross_known x y) (cross_known z w))).
+  { intros x y z w X Y Z W. pose proof (near_cross m 0 _ _ ltac:(lia) X Y) as A. pose proof (near_cross m 0 _ _ ltac:(lia) Z W) as B.
+    destruct Hb as ((_ & M & _) & _). 
+    eapply near_weaker; [| | exact (near_dot (2 * m + 1) (2 * m + 2 * 0 + 4) _ _ ltac:(lia) A B)]; lia. }
+  assert (S : forall k l x y, near_exact (4 * m + k) (8 * m + l) x -> near_exact (4 * m + k) (8 * m + l) y ->
+    near_exact (4 * m + (k + 1)) (8 * m + (l + 1)) (BoundedInteger.sub x y)).
+  { intros k l x y A B. eapply near_weaker; [| | exact (proj2 (near_sum _ _ _ _ _ _ A B))]; lia. }
+  assert (W : forall k l x, (k <= 6)%Z -> (l <= 19)%Z -> near_exact (4 * m + k) (8 * m + l) x -> near_exact (4 * m + 6) (8 * m + 19) x)
+    by (intros k l x K L; apply near_weaker; lia).
+  unfold known_weights. cbv zeta.
+  destruct edges; repeat apply Forall_cons; try apply Forall_nil.
+  1, 3, 5, 6: apply (W 4 17)%Z; try lia; now apply D.
+  1, 2: apply (W 5 18)%Z; try lia; apply (S 4 17)%Z; now apply D.
+  apply (W 6 19)%Z; try lia. apply (S 5 18)%Z; [apply (S 4 17)%Z; now apply D |].
+  apply near_weaker with (4 * m + 4)%Z (8 * m + 17)%Z; try lia. now apply D.
+Qed.
+(** Then none is uncertain. *)
+Lemma conclusion_exact gs ws found m e : (e <= 500000)%Z -> Forall2 stands gs ws -> Forall (near_exact m e) gs ->
+  Forall (Rlt 0) ws -> conclusion found gs = found.
+Proof.
+  intros L F. induction F as [| g w gs ws S F IH]; intros N W; [easy |]. inversion_clear N as [| ? ? Ng N'].
+  inversion_clear W as [| ? ? Wg W']. cbn [conclusion].
+  assert (X : BoundedInteger.is_exact g = true).
+  { unfold BoundedInteger.is_exact. apply Z.ltb_lt. destruct Ng as (_ & _ & Ng).
+    change BoundedInteger.exact with (-1048576)%Z in *. change (-1048576 / 2)%Z with (-524288)%Z. lia. }
+  assert (P : BoundedInteger.sign_of g = positive).
+  { unfold BoundedInteger.sign_of. rewrite X. cbn [negb andb]. unfold stands in S. rewrite X in S. subst w.
+    apply lt_IZR in Wg. unfold BoundedInteger.sign_of_integer. apply Z.compare_gt_iff in Wg. now rewrite Wg. }
+  rewrite P. now apply IH.
+Qed.
+
+(** ** close_contact *)
+
+Definition below (k : Z) (v : @vector_form integers) : Prop :=
+  Forall (fun x => (Z.abs x <= 2 ^ k)%Z) (vx v ++ vy v ++ vz v).
+Definition is_single (three : bool) (changes : sign_changes) : bool :=
+  opposite changes && (Nat.eqb (count changes) 1 || negb three).
+Definition max_bits : Z := 1534.
+Definition most_y_bits : Z := 64 * 88 - 183.
+Definition can_be_narrowed (q : close_part) : bool :=
+  (unit_bits q + 60 <=? max_bits)%Z &&
+  forallb (fun h => BoundedInteger.bit_length h <=? most_y_bits)%Z (close_y q).
+
+Section Query.
+
+Variable edges : bool.
+Variables b c p : @vector_form integers.
+Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
+(** What extent_limit says of four words. *)
+Hypotheses (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p).
+Let y : list R := map IZR (y_form b c p).
+Let Inside (t : R) : Prop := inside edges (vector_at b t) (vector_at c t) (vector_at p t).
+Let y_length : length y = 4%nat := InteriorContact.y_length b c p degree_b degree_c degree_p.
+
+Definition close_known (low bits : Z) (width : option Z) (v : @vector_form integers) : known_vector :=
+  KnownVector (close_component low bits width (vx v)) (close_component low bits width (vy v))
+    (close_component low bits width (vz v)).
+Definition inside_from (low bits : Z) (width : option Z) : outcome :=
+  conclusion collides (known_weights edges (close_known low bits width b) (close_known low bits width c)
+    (close_known low bits width p)).
+
+Lemma homogeneous_inside k t : 0 < k -> Forall (Rlt 0) (weights edges (stretched (Point k k k) (vector_at b t))
+  (stretched (Point k k k) (vector_at c t)) (stretched (Point k k k) (vector_at p t))) <-> Inside t.
+Proof. intros K. rewrite (weights_homogeneous edges b c p), inside_scaled by now apply pow_lt. easy. Qed.
+
+(** Inside a part signs that are known are right. *)
+Theorem inside_from_right q t : is_close_part y q -> close_start q < t < close_end q ->
+  let known := inside_from (low q) (unit_bits q) (Some (width_bits q)) in
+  (known = collides -> Inside t) /\ (known = separate -> ~ Inside t).
+Proof.
+  intros (_ & _ & (W & U & _) & _) T. assert (Hu : (0 <= unit_bits q)%Z) by lia. set (k := IZR (2 ^ unit_bits q)).
+  assert (V : forall v, degree v 1 -> vector_stands (close_known (low q) (unit_bits q) (Some (width_bits q)) v)
+    (stretched (Point k k k) (vector_at v t))).
+  { intros v (L0 & L1 & L2). unfold close_start, close_end in T.
+    repeat split; cbn [close_known kx ky kz]; apply close_component_stands; auto; lra || lia. }
+  pose proof (weights_stand edges _ _ _ _ _ _ (V b degree_b) (V c degree_c) (V p degree_p)) as F.
+  pose proof (homogeneous_inside k t (power_positive _ Hu)) as H.
+  destruct (conclusion_right _ _ collides F) as (Yes & No). cbv zeta. unfold inside_from. split; intros O.
+  - now apply H, Yes.
+  - intros I. destruct (No O) as [| N]; [discriminate |]. now apply N, H.
+Qed.
+(** And at one place they tell. *)
+Lemma inside_from_place n bits : (0 <= n <= 2 ^ bits)%Z -> (0 <= bits <= 1535)%Z ->
+  inside_from n bits None = collides <-> Inside (over n bits).
+Proof.
+  intros N Hb. assert (H0 : (0 <= bits)%Z) by lia. set (k := IZR (2 ^ bits)). set (t := over n bits).
+  pose proof (power_positive _ H0) as P.
+  assert (V : forall v, degree v 1 -> vector_stands (close_known n bits None v) (stretched (Point k k k) (vector_at v t))).
+  { intros v (L0 & L1 & L2).
+    assert (E : forall l : list Z, length l = 2%nat ->
+      stands (close_component n bits None l) (k * form (map IZR l) (1 - t) t)).
+    { intros l L. destruct l as [| x0 [| x1 [|]]]; try discriminate. unfold stands, close_component, BoundedInteger.is_exact.
+      cbn [BoundedInteger.error_bits BoundedInteger.value nth].
+      change (BoundedInteger.exact <? BoundedInteger.exact / 2)%Z with true. cbv iota.
+      rewrite plus_IZR, !mult_IZR, minus_IZR. unfold t, over. fold k. simpl. field. unfold k. lra. }
+    repeat split; cbn [close_known kx ky kz]; now apply E. }
+  assert (M : forall v, degree v 1 -> below 253 v -> near_vector (253 + 1535) 0 (close_known n bits None v)).
+  { intros v (L0 & L1 & L2) S. unfold below in S. apply Forall_app in S. destruct S as (S0 & S). apply Forall_app in S.
+    destruct S as (S1 & S2).
+    assert (E : forall l : list Z, length l = 2%nat -> Forall (fun x => (Z.abs x <= 2 ^ 253)%Z) l ->
+      near_exact (253 + 1535) 0 (close_component n bits None l)).
+    { intros l L F. destruct l as [| x0 [| x1 [|]]]; try discriminate.
+      inversion_clear F as [| ? ? F0 F']. inversion_clear F' as [| ? ? F1 _].
+      unfold near_exact, close_component. cbn [BoundedInteger.error_bits BoundedInteger.value nth]. split; [| lia].
+      rewrite Z.pow_add_r by lia. pose proof (Z.pow_le_mono_r 2 bits 1535 ltac:(lia) ltac:(lia)) as Mono.
+      apply Z.le_trans with (2 ^ 253 * 2 ^ bits)%Z; [| apply Z.mul_le_mono_nonneg_l; [lia | easy]].
+      set (B := (2 ^ 253)%Z) in *. set (C := (2 ^ bits)%Z) in *. clearbody B C. nia. }
+    split; [| split]; cbn [close_known kx ky kz]; now apply E. }
+  pose proof (weights_stand edges _ _ _ _ _ _ (V b degree_b) (V c degree_c) (V p degree_p)) as F.
+  pose proof (near_weights edges _ _ _ _ (M b degree_b below_b) (M c degree_c below_c) (M p degree_p below_p)) as Near.
+  pose proof (homogeneous_inside k t P) as H. unfold inside_from. split; intros O.
+  - now apply H, (conclusion_right _ _ collides F).
+  - apply conclusion_exact with (2 := F) (3 := Near); [easy | now apply H].
+Qed.
+
+(** A part's only root, which is no contact. *)
+Definition normal_vanishes_at_root (distinct three : bool) (q : close_part) : bool :=
+  is_single three (close_roots q) && (distinct || Nat.eqb (count (close_roots q)) 1) &&
+  normal_vanishes b c (low q) (low q + 2 ^ width_bits q) (unit_bits q).
+Definition contact_in_middle (q : close_part) : bool :=
+  match inside_from (low q * 2 + 2 ^ width_bits q) (unit_bits q + 1) None with collides => true | _ => false end.
+
+(** Estimates, any: of a root's place times 2^n, rounded; of the least n such that roots t/s are below 2^n;
+    of an extremum's place, likewise, and of its roots' distance from it, the exponent. *)
+Variable estimated_root : list Z -> Z -> Z.
+Variable root_exponent : list Z -> Z.
+Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+
+Definition narrowed (three : bool) (q : close_part) : option close_part :=
+  let h := close_y q in
+  if is_single three (close_roots q) then
+    find (fun narrow => opposite (close_roots narrow)) (map (fun n => around q (estimated_root h n) n) [41; 20; 10]%Z)
+  else
+    let has_all narrow := Nat.eqb (count (close_roots narrow)) (count (close_roots q)) in
+    let n := Z.min (- root_exponent h) 60 in
+    let m := Z.min (- root_exponent (rev h)) 60 in
+    if (1 <? n)%Z && has_all (sub_part q n 0 0) then Some (sub_part q n 0 0)
+    else if (1 <? m)%Z && has_all (sub_part q m (2 ^ m - 1) 0) then Some (sub_part q m (2 ^ m - 1) 0)
+    else if Nat.eqb (count (close_roots q)) 2 then
+      match estimated_pair h with
+      | Some (middle, exponent) =>
+          let n := Z.min (- exponent - 3) 22 in
+          if (exponent <? -5)%Z && has_all (around q (middle n) n) then Some (around q (middle n) n) else None
+      | None => None
+      end
+    else None.
+
+(** What is done with a part that waits: an answer on it, or the parts that are to wait for it. *)
+Definition next_of (distinct three : bool) (q : close_part) : outcome + list close_part :=
+  let ask := (ask_from q <=? bits q)%Z in
+  let known := if ask then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided in
+  let asked := ClosePart (close_y q) (close_roots q) (low q) (unit_bits q) (width_bits q)
+    (if ask then bits q + bits q / 2 else ask_from q) in
+  match known with
+  | collides => inl collides
+  | separate => inl separate
+  | undecided =>
+      if ask && normal_vanishes_at_root distinct three q then inl separate
+      else if negb (can_be_narrowed asked) then inl undecided
+      else
+        match narrowed three asked with
+        | Some narrow => inr [narrow]
+        | None =>
+            let h := close_y q in
+            if (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0 =? 0)%Z && contact_in_middle asked then inl collides
+            else inr [sub_part asked 1 0 0; sub_part asked 1 1 0]
+        end
+  end.
+
+(** decide, with that many steps; the part that is asked next comes first. *)
+Definition that_wait (three : bool) (parts : list close_part) : list close_part :=
+  filter (fun q => any_root three (close_roots q)) parts.
+Fixpoint by_narrowing (distinct three : bool) (steps : nat) (waiting : list close_part) (found : outcome) : outcome :=
+  match steps, waiting with
+  | O, _ => undecided
+  | _, [] => found
+  | Datatypes.S steps, q :: rest =>
+      match next_of distinct three q with
+      | inl collides => collides
+      | inl undecided => by_narrowing distinct three steps rest undecided
+      | inl separate => by_narrowing distinct three steps rest found
+      | inr parts => by_narrowing distinct three steps (that_wait three parts ++ rest) found
+      end
+  end.
+Definition whole_part : close_part := ClosePart (y_form b c p) (inner_sign_changes y) 0 0 0 40.
+Definition close_contact (steps : nat) : outcome :=
+  let discriminant := sign_of_real (discriminant y) in
+  let distinct := negb (same_sign discriminant zero) in
+  let three := same_sign discriminant positive in
+  by_narrowing distinct three steps (that_wait three [whole_part]) separate.
+
+(** ** Its answers *)
+
+(** Times that need not be asked: those of multiple roots, or where it is known that not all G_i > 0. *)
+Variable told : R -> Prop.
+Definition close_answers (a b : R) (o : outcome) : Prop :=
+  match o with
+  | collides => exists t, 0 <= t <= 1 /\ at_ y t = 0 /\ Inside t
+  | separate => forall t, a < t < b -> at_ y t = 0 -> told t \/ ~ Inside t
+  | undecided => True
+  end.
+Definition close_known_roots (distinct three : bool) : Prop :=
+  ~ Forall (eq 0) y /\ (three = true -> 0 < discriminant y) /\
+  (three = false -> crosses_once 0 1 (at_ y) (fun t => told t /\ distinct = false)).
+Definition close_good (q : close_part) : Prop := is_close_part y q /\ (unit_bits q <= max_bits)%Z.
+
+Section Known.
+
+Variables distinct three : bool.
+Hypothesis known_y : close_known_roots distinct three.
+
+Lemma single_once q : close_good q -> is_single three (close_roots q) = true ->
+  crosses_once (close_start q) (close_end q) (at_ y) (fun t => told t /\ distinct = false).
+Proof.
+  intros (H & _) S. pose proof (close_inside y q H) as In. apply andb_prop in S. destruct S as (_ & S).
+  destruct three eqn:T.
+  - rewrite orb_false_r in S. apply Nat.eqb_eq in S. rewrite (close_changes y q H) in S. apply one_in; auto. lra.
+  - apply (restricted 0 1); [now apply known_y | lra | lra].
+Qed.
+Lemma rootless_part q : close_good q -> any_root three (close_roots q) = false ->
+  forall t, close_start q < t < close_end q -> at_ y t = 0 -> told t.
+Proof.
+  intros (H & _) A t T Z. pose proof (close_inside y q H) as In. rewrite (close_changes y q H) in A.
+  unfold any_root in A. apply orb_false_iff in A. destruct A as (O & A). destruct known_y as (N & D & One).
+  destruct (signs_in y (close_start q) (close_end q) y_length ltac:(lra) N) as (S0 & S1 & _). rewrite O in S1.
+  destruct three.
+  - simpl in A. apply Nat.ltb_ge in A. exfalso.
+    apply (none_in y (close_start q) (close_end q) t y_length ltac:(lra) N ltac:(lia) T Z).
+  - destruct (uncrossed (close_start q) (close_end q) (at_ y) (fun t => told t /\ distinct = false) _ t
+      ltac:(apply (restricted 0 1); [now apply One | lra | lra]) S0 S1 T Z). easy.
+Qed.
+Lemma rooted_part q : close_good q -> any_root three (close_roots q) = true ->
+  exists t, close_start q < t < close_end q /\ at_ y t = 0.
+Proof.
+  intros (H & _) A. pose proof (close_inside y q H) as In. rewrite (close_changes y q H) in A.
+  destruct known_y as (_ & D & _). apply (root_in three); auto. lra.
+Qed.
+
+Lemma vanishes_right q : close_good q -> normal_vanishes_at_root distinct three q = true ->
+  forall t, close_start q < t < close_end q -> at_ y t = 0 -> ~ Inside t.
+Proof.
+  intros G V t T Z. unfold normal_vanishes_at_root in V. apply andb_prop in V. destruct V as (V & Nv).
+  apply andb_prop in V. destruct V as (S & V). pose proof G as (H & _). pose proof (close_inside y q H) as In.
+  pose proof H as (_ & _ & (W & U & L & B) & _).
+  pose proof (Z.pow_pos_nonneg 2 (width_bits q) ltac:(lia) ltac:(lia)).
+  destruct (normal_vanishes_right edges b c p degree_b degree_c degree_p (low q) (low q + 2 ^ width_bits q) (unit_bits q))
+    as (s & Hs & Zs & Ns); auto; try lia.
+  fold (close_start q) (close_end q) in Hs. destruct known_y as (N & _).
+  destruct (signs_in y (close_start q) (close_end q) y_length ltac:(lra) N) as (S0 & _).
+  assert (Once : crosses_once (close_start q) (close_end q) (at_ y) (fun _ => False)).
+  { apply orb_prop in V. destruct V as [V | V].
+    - destruct (single_once q G S) as (l0 & l1 & f & E). exists l0, l1, f. intros u Hu. destruct (E u Hu) as (A & B' & C).
+      split; auto. split; auto. intros Zf. destruct (C Zf). congruence.
+    - apply Nat.eqb_eq in V. rewrite (close_changes y q H) in V. apply one_in; auto. lra. }
+  destruct (only_crossing _ _ _ _ _ t s Once S0 T Hs Z Zs) as [-> | [[] | []]]. exact Ns.
+Qed.
+
+(** A narrowed part has all roots that are to be asked. *)
+Definition narrower (q r : close_part) : Prop :=
+  close_good r /\ close_start q <= close_start r /\ close_end r <= close_end q /\ (bits q < bits r)%Z /\
+  (count (close_roots r) <= count (close_roots q))%nat.
+Lemma sub_part_narrower q n a w : close_good q -> can_be_narrowed q = true ->
+  (1 <= n <= 60 /\ 0 <= w <= 1 /\ w < n /\ 0 <= a /\ a + 2 ^ w <= 2 ^ n)%Z -> narrower q (sub_part q n a w).
+Proof.
+  intros (H & _) C N. apply andb_prop in C. destruct C as (C & _). apply Z.leb_le in C.
+  pose proof H as (_ & _ & (W & U & _) & _).
+  destruct (sub_part_is_part y q n a w y_length H ltac:(lia)) as (R & S & E & _).
+  split; [split; [exact R |] |].
+  - unfold sub_part. cbn [unit_bits]. unfold max_bits in *. lia.
+  - split; auto. split; auto. split; [unfold bits, sub_part; cbn [unit_bits width_bits]; lia |].
+    rewrite (close_changes y q H), (close_changes y _ R). pose proof (close_inside y _ R).
+    apply fewer_changes; auto. lra.
+Qed.
+Lemma around_narrower q middle n : close_good q -> can_be_narrowed q = true -> (2 <= n <= 60)%Z ->
+  narrower q (around q middle n).
+Proof.
+  intros G C N. apply sub_part_narrower; auto.
+  assert (2 ^ 2 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 2)%Z with 4%Z in *. change (2 ^ 1)%Z with 2%Z. lia.
+Qed.
+
+Lemma single_narrowed q r : close_good q -> is_single three (close_roots q) = true -> narrower q r ->
+  opposite (close_roots r) = true -> forall t, close_start q < t < close_end q -> at_ y t = 0 ->
+  close_start r < t < close_end r \/ told t.
+Proof.
+  intros G S ((R & _) & A & B & _) O t T Z. rewrite (close_changes y r R) in O. pose proof (close_inside y r R).
+  destruct known_y as (N & _).
+  destruct (opposite_inside y (close_start q) (close_start r) (close_end r) (close_end q) _ y_length N A ltac:(lra) B O (single_once q G S)) as (s & Hs & _ & Only).
+  destruct (Only t T Z) as [-> | (K & _)]; auto.
+Qed.
+Lemma counted_narrowed q r : close_good q -> any_root three (close_roots q) = true ->
+  is_single three (close_roots q) = false -> narrower q r ->
+  Nat.eqb (count (close_roots r)) (count (close_roots q)) = true ->
+  forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t.
+Proof.
+  intros (H & _) A S ((R & _) & B & C & _) E t T Z. left. apply Nat.eqb_eq in E. pose proof (close_inside y r R).
+  rewrite (close_changes y q H), (close_changes y r R) in E. destruct known_y as (N & D & _).
+  assert (three = true) as T3.
+  { unfold any_root, is_single in *. destruct three; auto. destruct (opposite (close_roots q)); [| discriminate].
+    rewrite orb_true_r in S. discriminate. }
+  apply (as_many_changes y (close_start q) (close_start r) (close_end r) (close_end q)); auto. lra.
+Qed.
+Lemma narrowed_right q r : close_good q -> can_be_narrowed q = true -> any_root three (close_roots q) = true ->
+  narrowed three q = Some r -> narrower q r /\
+  forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t.
+Proof.
+  intros G C A. unfold narrowed. cbv zeta. destruct (is_single three (close_roots q)) eqn:S.
+  { intros F. apply find_some in F. destruct F as (I & O).
+    assert (Nr : narrower q r)
+      by (destruct I as [<- | [<- | [<- | []]]]; apply around_narrower; auto; lia).
+    split; auto. now apply single_narrowed. }
+  assert (Tell : forall s, narrower q s -> Nat.eqb (count (close_roots s)) (count (close_roots q)) = true ->
+    Some s = Some r -> narrower q r /\
+    forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t).
+  { intros s Ns E I. injection I as <-. split; auto. now apply counted_narrowed. }
+  set (n := Z.min (- root_exponent (close_y q)) 60). set (m := Z.min (- root_exponent (rev (close_y q))) 60).
+  destruct ((1 <? n)%Z && _) eqn:E0.
+  { apply andb_prop in E0. destruct E0 as (L & E0). apply Z.ltb_lt in L. apply Tell; auto.
+    assert (2 ^ 1 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
+    apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
+  destruct ((1 <? m)%Z && _) eqn:E1.
+  { apply andb_prop in E1. destruct E1 as (L & E1). apply Z.ltb_lt in L. apply Tell; auto.
+    assert (2 ^ 1 <= 2 ^ m)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
+    apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
+  destruct (Nat.eqb (count (close_roots q)) 2); [| discriminate].
+  destruct (estimated_pair (close_y q)) as [[middle exponent] |]; [| discriminate].
+  destruct ((exponent <? -5)%Z && _) eqn:E2; [| discriminate].
+  apply andb_prop in E2. destruct E2 as (L & E2). apply Z.ltb_lt in L. apply Tell; auto.
+  apply around_narrower; auto. lia.
+Qed.
+
+(** Where the halves meet. *)
+Lemma middle_of q : is_close_part y q -> let h := close_y q in
+  let m := close_start q + / 2 * (close_end q - close_start q) in
+  over (low q * 2 + 2 ^ width_bits q) (unit_bits q + 1) = m /\
+  ((nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0 =? 0)%Z = true <-> at_ y m = 0).
+Proof.
+  intros H h m. pose proof (close_inside y q H) as In. destruct H as (L & _ & (W & U & _) & k & K & E). split.
+  - unfold m, close_start, close_end, over. rewrite Z.pow_add_r, !plus_IZR, !mult_IZR by lia. change (2 ^ 1)%Z with 2%Z.
+    pose proof (power_positive (unit_bits q) ltac:(lia)). field. lra.
+  - assert (A : k * at_ y m = / 8 * IZR (nth 0 h 0 + nth 1 h 0 + nth 2 h 0 + nth 3 h 0)%Z).
+    { unfold m. rewrite <- (part_of_at y _ _ _ y_length).
+      assert (F : at_ (map IZR h) (/ 2) = k * at_ (part_of y (close_start q) (close_end q)) (/ 2))
+        by (unfold h; rewrite E; unfold at_; apply form_scaled).
+      rewrite <- F. unfold h. clear - L. destruct (close_y q) as [| h0 [| h1 [| h2 [| h3 [|]]]]]; try discriminate.
+      cbn [nth]. rewrite !plus_IZR. unfold at_. simpl. field. }
+    rewrite Z.eqb_eq. split; intros Z0.
+    + rewrite Z0, Rmult_0_r in A. apply Rmult_integral in A. destruct A; [lra | easy].
+    + rewrite Z0, Rmult_0_r in A. apply eq_IZR. lra.
+Qed.
+
+Lemma next_of_right q : close_good q -> any_root three (close_roots q) = true ->
+  match next_of distinct three q with
+  | inl o => close_answers (close_start q) (close_end q) o
+  | inr parts => Forall (narrower q) parts /\
+      forall t, close_start q < t < close_end q -> at_ y t = 0 ->
+        (exists r, In r parts /\ close_start r < t < close_end r) \/ told t \/ ~ Inside t
+  end.
+Proof.
+  intros G A. pose proof G as (H & Max). pose proof (close_inside y q H) as In01. unfold next_of. cbv zeta.
+  set (ask := (ask_from q <=? bits q)%Z). clearbody ask.
+  set (asked := ClosePart _ _ _ _ _ _).
+  assert (Ga : close_good asked) by exact G. assert (Na : forall r, narrower asked r -> narrower q r) by (intros r n; exact n).
+  assert (Known : forall o, (if ask then inside_from (low q) (unit_bits q) (Some (width_bits q)) else undecided) = o ->
+    close_answers (close_start q) (close_end q) o).
+  { intros o E. destruct ask; [| now subst].
+    pose proof (fun t T => inside_from_right q t H T) as R. cbv zeta in R. rewrite E in R. destruct o; simpl; auto.
+    - intros t T _. right. now apply (R t T).
+    - destruct (rooted_part q G A) as (t & T & Z). exists t. split; [lra |]. split; auto. now apply (R t T). }
+  destruct (if ask then _ else undecided); try (now apply Known). clear Known.
+  destruct (ask && normal_vanishes_at_root distinct three q) eqn:V.
+  { apply andb_prop in V. destruct V as (_ & V). intros t T Z. right. now apply (vanishes_right q). }
+  clear V. destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| easy].
+  destruct (narrowed three asked) as [r |] eqn:E.
+  { destruct (narrowed_right asked r Ga C A E) as (Nr & All). split; [constructor; [now apply Na | constructor] |].
+    intros t T Z. destruct (All t T Z); auto. left. exists r. split; [now left | easy]. }
+  destruct (middle_of q H) as (Em & Zm). set (m := close_start q + / 2 * (close_end q - close_start q)) in *.
+  pose proof H as (_ & _ & (W & U & Lo & Hi) & _).
+  assert (Cu : (unit_bits q + 60 <= max_bits)%Z) by (apply andb_prop in C; destruct C as (C & _); now apply Z.leb_le in C).
+  assert (Inm : contact_in_middle asked = true <-> Inside m).
+  { unfold contact_in_middle, asked. cbn [low unit_bits width_bits]. rewrite <- Em, <- inside_from_place.
+    - destruct (inside_from _ _ _); split; intros X; try discriminate X; easy.
+    - rewrite Z.pow_add_r by lia. pose proof (Z.pow_pos_nonneg 2 (width_bits q)). lia.
+    - unfold max_bits in *. lia. }
+  assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
+  destruct (sub_part_is_part y asked 1 0 0 y_length H) as (_ & _ & _ & S0 & E0); [cbn [asked width_bits]; lia |].
+  destruct (sub_part_is_part y asked 1 1 0 y_length H) as (_ & _ & _ & S1 & E1); [cbn [asked width_bits]; lia |].
+  change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
+  rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
+  change (close_start asked) with (close_start q) in *. change (close_end asked) with (close_end q) in *. fold m in E0, S1.
+  destruct ((_ =? 0)%Z && contact_in_middle asked) eqn:M.
+  - apply andb_prop in M. destruct M as (M0 & M1). exists m. split; [unfold m; lra |]. split; [now apply Zm | now apply Inm].
+  - split.
+    + constructor; [| constructor; [| constructor]]; apply Na, sub_part_narrower; auto; cbn; lia.
+    + intros t T Z. destruct (Rtotal_order t m) as [L | [-> | L]].
+      * left. exists (sub_part asked 1 0 0). split; [now left | lra].
+      * right. right. intros I. apply Zm in Z. apply Inm in I. rewrite Z, I in M. discriminate.
+      * left. exists (sub_part asked 1 1 0). split; [right; now left | lra].
+Qed.
+
+Theorem by_narrowing_right steps waiting found :
+  Forall (fun q => close_good q /\ any_root three (close_roots q) = true) waiting ->
+  (by_narrowing distinct three steps waiting found = collides ->
+     found = collides \/ exists t, 0 <= t <= 1 /\ at_ y t = 0 /\ Inside t) /\
+  (by_narrowing distinct three steps waiting found = separate ->
+     found = separate /\ forall q, In q waiting -> close_answers (close_start q) (close_end q) separate).
+Proof.
+  revert waiting found. induction steps as [| steps IH]; intros waiting found G; [easy |].
+  destruct waiting as [| q rest]; cbn [by_narrowing]; [split; intros E; [now left | split; [easy | intros q []]] |].
+  inversion_clear G as [| ? ? (Gq & Aq) Gr]. pose proof (next_of_right q Gq Aq) as W.
+  destruct (next_of distinct three q) as [[ | | ] | parts].
+  - destruct (IH rest found Gr) as (Yes & No). split; auto. intros E. destruct (No E) as (F & A). split; auto.
+    intros q' [<- | I]; auto.
+  - split; [auto | discriminate].
+  - destruct (IH rest undecided Gr) as (Yes & No). split; intros E.
+    + destruct (Yes E); auto. discriminate.
+    + destruct (No E). discriminate.
+  - destruct W as (N & All). assert (Gn : Forall (fun q => close_good q /\ any_root three (close_roots q) = true)
+      (that_wait three parts ++ rest)).
+    { apply Forall_app. split; auto. apply Forall_forall. intros r I. apply filter_In in I. destruct I as (I & Ar).
+      rewrite Forall_forall in N. split; auto. now destruct (N r I). }
+    destruct (IH _ found Gn) as (Yes & No). split; auto. intros E. destruct (No E) as (F & A). split; auto.
+    intros q' [<- | I]; [| apply A, in_or_app; now right]. intros t T Z.
+    destruct (All t T Z) as [(r & I & Tr) | K]; auto. destruct (any_root three (close_roots r)) eqn:Ar.
+    + apply (A r); auto. apply in_or_app. left. now apply filter_In.
+    + left. apply (rootless_part r); auto. rewrite Forall_forall in N. now destruct (N r I).
+Qed.
+
+End Known.
+
+Lemma whole_is_close_part : is_close_part y whole_part /\ close_start whole_part = 0 /\ close_end whole_part = 1.
+Proof.
+  assert (S : close_start whole_part = 0) by (unfold close_start, over; cbn; lra).
+  assert (E : close_end whole_part = 1) by (unfold close_end, over; cbn; lra).
+  split; [| easy]. split; [unfold whole_part; cbn; now rewrite <- y_length; unfold y; rewrite map_length |].
+  split; [reflexivity |]. split; [cbn; lia |]. exists 1. split; [lra |]. rewrite S, E, part_of_all by easy.
+  cbn [whole_part close_y]. fold y. rewrite <- (map_id y) at 1. apply map_ext. intros x. ring.
+Qed.
+Definition distinct_flag : bool := negb (same_sign (sign_of_real (discriminant y)) zero).
+Definition three_flag : bool := same_sign (sign_of_real (discriminant y)) positive.
+Lemma flags_right : (distinct_flag = true -> discriminant y <> 0) /\ (three_flag = true -> 0 < discriminant y) /\
+  (three_flag = false -> discriminant y <= 0).
+Proof.
+  unfold distinct_flag, three_flag. cases_of_sign (discriminant y); simpl; repeat split; intros; try discriminate; lra.
+Qed.
+
+Lemma close_contact_answers steps : close_known_roots distinct_flag three_flag -> close_answers 0 1 (close_contact steps).
+Proof.
+  intros K. destruct whole_is_close_part as (W & S & E). assert (G : close_good whole_part) by (split; [exact W | easy]).
+  unfold close_contact. fold distinct_flag three_flag. cbv zeta.
+  destruct (by_narrowing_right distinct_flag three_flag K steps (that_wait three_flag [whole_part]) separate) as (Yes & No).
+  { apply Forall_forall. intros q I. apply filter_In in I. destruct I as ([<- | []] & A). auto. }
+  destruct (by_narrowing _ _ _ _ _).
+  - destruct (No eq_refl) as (_ & A). destruct (any_root three_flag (close_roots whole_part)) eqn:R.
+    + specialize (A whole_part ltac:(apply filter_In; split; [now left | easy])). now rewrite S, E in A.
+    + intros t T Z. left. apply (rootless_part _ _ K whole_part G R); auto. lra.
+  - now destruct (Yes eq_refl).
+  - exact I.
+Qed.
+
+End Query.
+
+Section Answers.
+
+Variable edges : bool.
+Variables b c p : @vector_form integers.
+Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 1).
+Hypotheses (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p).
+Variable estimated_root : list Z -> Z -> Z.
+Variable root_exponent : list Z -> Z.
+Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+Let y : list R := map IZR (y_form b c p).
+Let contact := close_contact edges b c p estimated_root root_exponent estimated_pair.
+Let y_length : length y = 4%nat := InteriorContact.y_length b c p degree_b degree_c degree_p.
+Let y_at t : at_ y t = det (vector_at b t) (vector_at c t) (vector_at p t) :=
+  InteriorContact.y_at b c p degree_b degree_c degree_p t.
+
+(** The stage by itself. *)
+Theorem close_contact_right steps :
+  (contact steps = collides -> contact_inside edges b c p) /\
+  (contact steps = separate -> forall t, 0 < t < 1 -> at_ y t = 0 -> ~ multiple_root y t ->
+    ~ inside edges (vector_at b t) (vector_at c t) (vector_at p t)).
+Proof.
+  destruct (classic (Forall (eq 0) y)) as [F | N].
+  { assert (M : forall t, multiple_root y t).
+    { intros t. exists 0, 0. revert F. generalize y y_length. intros w L. four w L. intros F.
+      repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end. subst.
+      unfold double_times, linear_times. apply same_four; ring. }
+    split; [| intros _ t _ _ K; now destruct (K (M t))]. intros E. exfalso.
+    assert (C : inner_sign_changes y = SignChanges 0 false zero).
+    { revert F. generalize y y_length. intros w L. four w L. intros F.
+      repeat match goal with H : Forall _ (_ :: _) |- _ => inversion_clear H end. subst.
+      unfold inner_sign_changes. cbn [map]. now rewrite (sign_zero 0 eq_refl). }
+    unfold contact, close_contact, that_wait, whole_part in E. fold y in E. cbn [filter close_roots] in E. rewrite C in E.
+    unfold any_root in E. cbn [opposite count Nat.ltb Nat.leb orb] in E. rewrite andb_false_r in E.
+    destruct steps; discriminate E. }
+  destruct (flags_right b c p) as (Di & Tr & Le).
+  assert (K : close_known_roots b c p (multiple_root y) (distinct_flag b c p) (three_flag b c p)).
+  { split; [exact N |]. split; [exact Tr |]. intros E. destruct (one_real_root y y_length (Le E)) as (l0 & l1 & q & H).
+    exists l0, l1, q. intros t T. destruct (H t T) as (A & B & Z). split; auto. split; auto. intros Zq. destruct (Z Zq) as (M & D).
+    split; auto. destruct (distinct_flag b c p); auto. now apply Di in D. }
+  pose proof (close_contact_answers edges b c p degree_b degree_c degree_p below_b below_c below_p
+    estimated_root root_exponent estimated_pair _ steps K) as A. fold contact in A.
+  destruct (contact steps); (split; [intros E; try discriminate E | intros E; try discriminate E]).
+  - intros t T Z M I. destruct (A t T Z); auto.
+  - destruct A as (t & T & Z & I). exists t. split; [easy |]. split; [now rewrite <- y_at | exact I].
+Qed.
+
+(** What interior_contact knows where it is uncertain. *)
+Lemma uncertain_interior extent_x extent_y extent_z estimate refine steps :
+  interior_contact edges b c p extent_x extent_y extent_z estimate refine steps = undecided ->
+  (forall t, t = 0 \/ t = 1 -> at_ y t = 0 -> ~ inside edges (vector_at b t) (vector_at c t) (vector_at p t)) /\
+  known_roots edges b c p (distinct_flag b c p) (three_flag b c p).
+Proof.
+  unfold interior_contact. fold y.
+  assert (Ends : at_ y 0 = nth 0 y 0 /\ at_ y 1 = nth 3 y 0).
+  { generalize y y_length. intros w L. four w L. unfold at_. simpl. split; ring. }
+  destruct Ends as (E0 & E1).
+  pose proof (positive_at_right edges b c p degree_b degree_c degree_p 1 0 ltac:(lra)) as I0. replace (0 / (1 + 0)) with 0 in I0 by field.
+  pose proof (positive_at_right edges b c p degree_b degree_c degree_p 0 1 ltac:(lra)) as I1. replace (1 / (0 + 1)) with 1 in I1 by field.
+  destruct (is_0 (nth 0 y 0) && _) eqn:S0; [discriminate |]. destruct (is_0 (nth 3 y 0) && _) eqn:S1; [discriminate |].
+  cbv zeta. destruct (Nat.eqb_spec (count (inner_sign_changes y)) 0) as [| N]; [discriminate |]. intros U. split.
+  { intros t [-> | ->] Z I.
+    - rewrite E0 in Z. apply is_0_true in Z. apply I0 in I. rewrite Z, I in S0. discriminate.
+    - rewrite E1 in Z. apply is_0_true in Z. apply I1 in I. rewrite Z, I in S1. discriminate. }
+  destruct (flags_right b c p) as (Di & Tr & Le).
+  destruct (Nat.ltb_spec 1 (count (inner_sign_changes y))) as [Many | One].
+  - pose proof (at_multiple_root_right edges b c p degree_b degree_c degree_p Many) as M.
+    assert (F : at_multiple_root edges b c p =
+      (fst (fst (at_multiple_root edges b c p)), distinct_flag b c p, three_flag b c p)).
+    { unfold at_multiple_root, linear_of_multiple, distinct_flag, three_flag. fold y. fold (discriminant y).
+      cbv zeta. destruct (negb (same_sign (sign_of_real (discriminant y)) zero)); [reflexivity |].
+      destruct (is_0 (c2 (hessian y))); [reflexivity |]. destruct (below_0 (c1 (hessian y))); reflexivity. }
+    rewrite F in M, U. destruct M as (A & K). apply K. destruct (fst (fst _)); try discriminate; auto.
+  - split; [apply changes_moving; [exact y_length | fold y; lia] |]. split; [exact Tr |]. intros _.
+    destruct (one_change_crosses y y_length ltac:(lia)) as (l0 & l1 & q & H). exists l0, l1, q. intros t T.
+    destruct (H t T) as (A & B' & F). split; auto. split; auto. intros Z. destruct (F Z).
+Qed.
+Theorem decided_inside extent_x extent_y extent_z estimate refine steps more :
+  interior_contact edges b c p extent_x extent_y extent_z estimate refine steps = undecided ->
+  (contact more = collides -> contact_inside edges b c p) /\
+  (contact more = separate -> ~ contact_inside edges b c p).
+Proof.
+  intros U. apply uncertain_interior in U. destruct U as (Ends & K).
+  split; [apply close_contact_right |]. intros E.
+  pose proof (close_contact_answers edges b c p degree_b degree_c degree_p below_b below_c below_p
+    estimated_root root_exponent estimated_pair
+    (fun t => ~ inside edges (vector_at b t) (vector_at c t) (vector_at p t)) more K) as A.
+  fold contact in A. rewrite E in A. intros (t & T & Z & I). rewrite <- y_at in Z.
+  destruct (Req_dec t 0) as [-> |]; [now apply (Ends 0 (or_introl eq_refl)) |].
+  destruct (Req_dec t 1) as [-> |]; [now apply (Ends 1 (or_intror eq_refl)) |].
+  destruct (A t ltac:(lra) Z) as [N | N]; now apply N.
+Qed.
+
+End Answers.
+
+(** ** Queries *)
+
+(** decide_to_the_end of ccd/exact/integers.cpp. *)
+Definition decide_to_the_end (edges : bool) (extent_x extent_y extent_z : Z)
+    (estimate : part -> Z) (refine : Z -> part -> Z -> Z -> Z -> Z) (steps : nat)
+    (estimated_root : list Z -> Z -> Z) (root_exponent : list Z -> Z)
+    (estimated_pair : list Z -> option ((Z -> Z) * Z)) (more : nat)
+    (m0 m1 m2 m3 : moving) (q0 q1 q2 q3 : integer_motion) : outcome :=
+  let b := if edges then difference q1 q0 else difference q2 q1 in
+  let c := if edges then difference q3 q2 else difference q3 q1 in
+  let p := if edges then difference q2 q0 else difference q0 q1 in
+  match contact_of edges extent_x extent_y extent_z estimate refine steps m0 m1 m2 m3 q0 q1 q2 q3 with
+  | undecided => close_contact edges b c p estimated_root root_exponent estimated_pair more
+  | found => found
+  end.
+
+Section Decisions.
+
+Variable unit : point.
+Hypothesis U : units unit.
+Variables extent_x extent_y extent_z : Z.
+Variable estimate : part -> Z.
+Variable refine : Z -> part -> Z -> Z -> Z -> Z.
+Variables steps more : nat.
+Variable estimated_root : list Z -> Z -> Z.
+Variable root_exponent : list Z -> Z.
+Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
+Let decide edges := decide_to_the_end edges extent_x extent_y extent_z estimate refine steps
+  estimated_root root_exponent estimated_pair more.
+
+Theorem face_to_the_end_right m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
+  in_integers unit m2 f1 -> in_integers unit m3 f2 ->
+  below 253 (difference f1 f0) -> below 253 (difference f2 f0) -> below 253 (difference v f0) ->
+  let found := decide false m0 m1 m2 m3 v f0 f1 f2 in
+  (found = collides -> vertex_face_collides m0 m1 m2 m3) /\ (found = separate -> ~ vertex_face_collides m0 m1 m2 m3).
+Proof.
+  intros I0 I1 I2 I3 Bb Bc Bp. cbv zeta. unfold decide, decide_to_the_end. cbv iota zeta.
+  pose proof (face_decision_right unit U extent_x extent_y extent_z estimate refine steps m0 m1 m2 m3 v f0 f1 f2 I0 I1 I2 I3) as R.
+  cbv beta zeta in R. destruct (contact_of _ _ _ _ _ _ _ _ _ _ _ _ _ _ _) eqn:E; [exact R | exact R |]. clear R.
+  unfold contact_of in E. cbv iota zeta in E. destruct (certainly_rootless _); [discriminate |].
+  pose proof (face_edges unit U m0 m1 m2 m3 v f0 f1 f2 I0 I1 I2 I3) as Border.
+  destruct (existsb _ _); [discriminate |]. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp).
+  destruct (decided_inside false _ _ _ Db Dc Dp Bb Bc Bp estimated_root root_exponent estimated_pair
+    extent_x extent_y extent_z estimate refine steps more E) as (Yes & No).
+  assert (Given : vertex_face_collides m0 m1 m2 m3 <->
+    vertex_face_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
+  { unfold in_integers in *. rewrite I0, I1, I2, I3. symmetry. now apply face_units. }
+  assert (N : ~ face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
+  { intros H. enough (false = true) by discriminate. apply Border. revert H. unfold in_integers, face_border_collides in *.
+    now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
+  rewrite Given, <- (face_contact_inside v f0 f1 f2 N). auto.
+Qed.
+Theorem edges_to_the_end_right m0 m1 m2 m3 a0 a1 b0 b1 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
+  in_integers unit m2 b0 -> in_integers unit m3 b1 ->
+  below 253 (difference a1 a0) -> below 253 (difference b1 b0) -> below 253 (difference b0 a0) ->
+  let found := decide true m0 m1 m2 m3 a0 a1 b0 b1 in
+  (found = collides -> edge_edge_collides m0 m1 m2 m3) /\ (found = separate -> ~ edge_edge_collides m0 m1 m2 m3).
+Proof.
+  intros I0 I1 I2 I3 Bb Bc Bp. cbv zeta. unfold decide, decide_to_the_end. cbv iota zeta.
+  pose proof (edges_decision_right unit U extent_x extent_y extent_z estimate refine steps m0 m1 m2 m3 a0 a1 b0 b1 I0 I1 I2 I3) as R.
+  cbv beta zeta in R. destruct (contact_of _ _ _ _ _ _ _ _ _ _ _ _ _ _ _) eqn:E; [exact R | exact R |]. clear R.
+  unfold contact_of in E. cbv iota zeta in E. destruct (certainly_rootless _); [discriminate |].
+  pose proof (edges_edges unit U m0 m1 m2 m3 a0 a1 b0 b1 I0 I1 I2 I3) as Border.
+  destruct (existsb _ _); [discriminate |]. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp).
+  destruct (decided_inside true _ _ _ Db Dc Dp Bb Bc Bp estimated_root root_exponent estimated_pair
+    extent_x extent_y extent_z estimate refine steps more E) as (Yes & No).
+  assert (Given : edge_edge_collides m0 m1 m2 m3 <->
+    edge_edge_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
+  { unfold in_integers in *. rewrite I0, I1, I2, I3. symmetry. now apply edges_units. }
+  assert (N : ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
+  { intros H. enough (false = true) by discriminate. apply Border. revert H. unfold in_integers, edges_border_collides in *.
+    now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
+  rewrite Given, <- (edges_contact_inside a0 a1 b0 b1 N). auto.
+Qed.
+
+End Decisions.

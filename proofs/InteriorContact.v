@@ -1100,6 +1100,32 @@ Proof.
     intuition auto.
 Qed.
 
+(** Without contact at a border. *)
+Lemma face_contact_inside (v f0 f1 f2 : integer_motion) :
+  ~ face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2) ->
+  contact_inside false (difference f1 f0) (difference f2 f0) (difference v f0) <->
+  vertex_face_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2).
+Proof.
+  intros N. rewrite face_inside by easy. unfold contact_inside, sometime.
+  split; intros (t & T & Z & I); exists t; (split; [easy |]); split.
+  - now rewrite !(@difference_at integers) in Z.
+  - now apply face_inside_same.
+  - now rewrite !(@difference_at integers).
+  - now apply face_inside_same.
+Qed.
+Lemma edges_contact_inside (a0 a1 b0 b1 : integer_motion) :
+  ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1) ->
+  contact_inside true (difference a1 a0) (difference b1 b0) (difference b0 a0) <->
+  edge_edge_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1).
+Proof.
+  intros N. rewrite edges_inside by easy. unfold contact_inside, sometime.
+  split; intros (t & T & Z & I); exists t; (split; [easy |]); split.
+  - now rewrite !(@difference_at integers) in Z.
+  - now apply edges_inside_same.
+  - now rewrite !(@difference_at integers).
+  - now apply edges_inside_same.
+Qed.
+
 Theorem face_decision_right m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
   in_integers unit m2 f1 -> in_integers unit m3 f2 -> let found := decide false m0 m1 m2 m3 v f0 f1 f2 in
   (found = collides -> vertex_face_collides m0 m1 m2 m3) /\ (found = separate -> ~ vertex_face_collides m0 m1 m2 m3).
@@ -1119,14 +1145,7 @@ Proof.
   { intros H. now apply Border in H. }
   destruct (interior_contact_right false _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
     (Yes & No).
-  assert (E : contact_inside false (difference f1 f0) (difference f2 f0) (difference v f0) <->
-    vertex_face_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
-  { rewrite face_inside by easy. unfold contact_inside, sometime.
-    split; intros (t & T & Z & I); exists t; (split; [easy |]); split.
-    - now rewrite !(@difference_at integers) in Z.
-    - now apply face_inside_same.
-    - now rewrite !(@difference_at integers).
-    - now apply face_inside_same. }
+  pose proof (face_contact_inside v f0 f1 f2 N) as E.
   split; intros O; [now apply E, Yes |]. destruct (No O) as [(I & Z) | I]; [| now rewrite <- E].
   intros H. apply face_coplanar in H.
   - destruct H as [H | H]; [| easy]. now apply I, face_inside_same.
@@ -1151,14 +1170,7 @@ Proof.
   { intros H. now apply Border in H. }
   destruct (interior_contact_right true _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
     (Yes & No).
-  assert (E : contact_inside true (difference a1 a0) (difference b1 b0) (difference b0 a0) <->
-    edge_edge_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
-  { rewrite edges_inside by easy. unfold contact_inside, sometime.
-    split; intros (t & T & Z & I); exists t; (split; [easy |]); split.
-    - now rewrite !(@difference_at integers) in Z.
-    - now apply edges_inside_same.
-    - now rewrite !(@difference_at integers).
-    - now apply edges_inside_same. }
+  pose proof (edges_contact_inside a0 a1 b0 b1 N) as E.
   split; intros O; [now apply E, Yes |]. destruct (No O) as [(I & Z) | I]; [| now rewrite <- E].
   intros H. apply edges_coplanar in H.
   - destruct H as [H | H]; [| easy]. now apply I, edges_inside_same.

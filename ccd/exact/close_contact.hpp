@@ -91,6 +91,7 @@ class close_contact {
     }
 
     /// Whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
+    /// Proof: proofs/CloseContact.v, by_narrowing_right, close_contact_right.
     outcome decide() const {
         std::array<std::optional<part>, 3> waiting;  // the earliest last
         std::size_t count = 0;
@@ -159,6 +160,7 @@ class close_contact {
         }
 
         /// That between a/2^n and (a + 2^w)/2^n of this one's width.
+        /// Proof: proofs/CloseContact.v, sub_part_right.
         part sub_part(int n, std::int64_t a, int w) const {
             using small = number<1>;
             const std::int64_t whole = std::int64_t(1) << n, b = a + (std::int64_t(1) << w);
@@ -194,6 +196,7 @@ class close_contact {
     }
 
     /// A part that has the same roots (but for a double one), if estimates show one.
+    /// Proof, whatever they are: proofs/CloseContact.v, opposite_inside, as_many_changes.
     std::optional<part> narrowed(const part& whole) const {
         const auto h = approximated(whole.y.h);
         if (is_single(whole.roots)) {
@@ -238,6 +241,7 @@ class close_contact {
     /// What the signs of all G_i are from low/2^bits to less than (low + 2^width_bits)/2^bits, or
     /// at low/2^bits if there is no width: `collides` if all are positive, `separate` if one is
     /// negative, else `uncertain`.
+    /// Proof: proofs/CloseContact.v, inside_from_right.
     outcome inside_from(const place_number& low, int bits, std::optional<int> width_bits) const {
         using known = bounded_integer<number<coordinate_words + place_words>>;
         const auto s = place_number(1, bits, false) - low;
@@ -261,6 +265,7 @@ class close_contact {
     }
 
     /// Whether N = 0 at the part's only root, which is no contact then.
+    /// Proof: proofs/InteriorContact.v, normal_vanishes_right.
     bool normal_vanishes(const part& p) const {
         if (!is_single(p.roots) || !(distinct_ || p.roots.count == 1)) return false;
         const auto end = place_number(1, p.unit_bits, false);

@@ -12,6 +12,7 @@ namespace {
 using errbound::integers::fixed_integer;
 
 /// Decides what decide_in_words leaves uncertain, which has no vertex/edge contact.
+/// Proof: proofs/CloseContact.v, decided_inside.
 template <int Words, template <class, int> class Forms>
 outcome decide_close(const Forms<fixed_integer<Words>, 1>& f) {
     using contact = close_contact<Forms>;
@@ -26,6 +27,7 @@ outcome decide_close(const Forms<fixed_integer<Words>, 1>& f) {
 }
 
 /// In integers of Words words.
+/// Proof: proofs/CloseContact.v, face_to_the_end_right, edges_to_the_end_right.
 template <int Words, class Query>
 outcome decide_to_the_end(const Query& query, const integer_units& units) {
     const outcome found = decide_in_words<Words>(query, units);
