@@ -5,16 +5,18 @@
         sub_part_right          coefficients are those of Y on that part, times a positive number
         inside_from_right       signs of G_i that are known all over a part are right
         by_narrowing_right      what the loop's answers mean
+        three_close_parts_wait, close_contact_ends   at most three parts wait, and the loop ends
         close_contact_right     collides: Y = 0 and all G_i > 0 at some t in [0, 1]; separate: at none in (0, 1)
                                 but multiple roots of Y
         decided_inside          where interior_contact is undecided, separate means nowhere in [0, 1]
         face_to_the_end_right, edges_to_the_end_right
-                                certain answers of decide_to_the_end are right *)
+                                certain answers of decide_to_the_end are right
+        close_widths, narrowed_fits   all numbers fit their types *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz List Bool Classical.
 From Flocq Require Import Core.
 From Errbound Require Import Sign Bernstein Subdivision Contact VertexEdge Decisions AxisUnits CubicRoots InteriorContact.
-From Errbound Require BoundedInteger.
+From Errbound Require BoundedInteger FixedWidths.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -915,6 +917,143 @@ Proof.
   - exact I.
 Qed.
 
+(** ** The parts that wait *)
+
+Lemma narrowed_narrower three q r : close_good q -> can_be_narrowed q = true -> narrowed three q = Some r -> narrower q r.
+Proof.
+  intros G C. unfold narrowed. cbv zeta. destruct (is_single three (close_roots q)).
+  { intros F. apply find_some in F. destruct F as ([<- | [<- | [<- | []]]] & _); apply around_narrower; auto; lia. }
+  set (n := Z.min (- root_exponent (close_y q)) 60). set (m := Z.min (- root_exponent (rev (close_y q))) 60).
+  destruct ((1 <? n)%Z && _) eqn:E0.
+  { apply andb_prop in E0. destruct E0 as (L & _). apply Z.ltb_lt in L. intros I. injection I as <-.
+    assert (2 ^ 1 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
+    apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
+  destruct ((1 <? m)%Z && _) eqn:E1.
+  { apply andb_prop in E1. destruct E1 as (L & _). apply Z.ltb_lt in L. intros I. injection I as <-.
+    assert (2 ^ 1 <= 2 ^ m)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
+    apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
+  destruct (Nat.eqb (count (close_roots q)) 2); [| discriminate].
+  destruct (estimated_pair (close_y q)) as [[middle exponent] |]; [| discriminate].
+  destruct ((exponent <? -5)%Z && _) eqn:E2; [| discriminate].
+  apply andb_prop in E2. destruct E2 as (L & _). apply Z.ltb_lt in L. intros I. injection I as <-.
+  apply around_narrower; auto. lia.
+Qed.
+Definition all_changes (parts : list close_part) : nat := list_sum (map (fun q => count (close_roots q)) parts).
+Lemma all_changes_cons q l : all_changes (q :: l) = (count (close_roots q) + all_changes l)%nat.
+Proof. reflexivity. Qed.
+Lemma next_narrower distinct three q parts : close_good q -> next_of distinct three q = inr parts ->
+  Forall (narrower q) parts /\ (length parts <= 2)%nat /\ (all_changes parts <= count (close_roots q))%nat.
+Proof.
+  intros G. pose proof G as (H & _). pose proof (close_inside y q H) as In01. unfold next_of. cbv zeta.
+  set (ask := (ask_from q <=? bits q)%Z). clearbody ask. set (asked := ClosePart _ _ _ _ _ _).
+  assert (Ga : close_good asked) by exact G. assert (Na : forall r, narrower asked r -> narrower q r) by (intros r n; exact n).
+  destruct (if ask then _ else undecided); try discriminate. destruct (ask && _); [discriminate |].
+  destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| discriminate].
+  destruct (narrowed three asked) as [r |] eqn:E.
+  { apply narrowed_narrower, Na in E; auto. intros I. injection I as <-. split; [constructor; auto |].
+    split; [simpl; lia |]. rewrite all_changes_cons. destruct E as (_ & _ & _ & _ & E). cbn. lia. }
+  destruct ((_ =? 0)%Z && _); [discriminate |]. intros I. injection I as <-.
+  pose proof H as (_ & _ & (W & U & _) & _).
+  assert (Half : over 1 1 = / 2 /\ over 0 1 = 0 /\ over 2 1 = 1) by (unfold over; change (2 ^ 1)%Z with 2%Z; lra).
+  destruct (sub_part_is_part y asked 1 0 0 y_length H) as (P0 & _ & _ & S0 & E0); [cbn [asked width_bits]; lia |].
+  destruct (sub_part_is_part y asked 1 1 0 y_length H) as (P1 & _ & _ & S1 & E1); [cbn [asked width_bits]; lia |].
+  change (0 + 2 ^ 0)%Z with 1%Z in E0. change (1 + 2 ^ 0)%Z with 2%Z in E1. destruct Half as (H1 & H0 & H2).
+  rewrite H0 in S0. rewrite H1 in E0, S1. rewrite H2 in E1.
+  change (close_start asked) with (close_start q) in *. change (close_end asked) with (close_end q) in *.
+  split; [| split; [simpl; lia |]].
+  - constructor; [| constructor; [| constructor]]; apply Na, sub_part_narrower; auto; cbn; lia.
+  - rewrite !all_changes_cons, Nat.add_0_r, (close_changes y _ P0), (close_changes y _ P1), (close_changes y q H).
+    rewrite S0, E0, S1, E1.
+    replace (close_start q + 0 * (close_end q - close_start q)) with (close_start q) by ring.
+    replace (close_start q + 1 * (close_end q - close_start q)) with (close_end q) by ring.
+    destruct (parts_changes y (close_start q) (close_start q + / 2 * (close_end q - close_start q)) (close_end q) y_length
+      ltac:(lra)) as (Le & _). lia.
+Qed.
+
+(** At most three: the code's array. *)
+Definition close_waiting_fits (waiting : list close_part) : Prop :=
+  Forall (fun q => close_good q /\ (0 < count (close_roots q))%nat) waiting /\ (all_changes waiting <= 3)%nat.
+Theorem three_close_parts_wait distinct three q rest parts : close_waiting_fits (q :: rest) ->
+  next_of distinct three q = inr parts ->
+  close_waiting_fits (that_wait three parts ++ rest) /\ (length (that_wait three parts ++ rest) <= 3)%nat.
+Proof.
+  intros (F & S) E. inversion_clear F as [| ? ? (G & _) Fr]. destruct (next_narrower _ _ _ _ G E) as (N & _ & C).
+  rewrite all_changes_cons in S.
+  assert (Sum : forall a b, all_changes (a ++ b) = (all_changes a + all_changes b)%nat).
+  { intros a1 b1. unfold all_changes. now rewrite map_app, list_sum_app. }
+  assert (Fewer : (all_changes (that_wait three parts) <= all_changes parts)%nat).
+  { unfold that_wait. clear. induction parts as [| r parts IH]; [easy |]. cbn [filter].
+    destruct (any_root three (close_roots r)); rewrite !all_changes_cons; lia. }
+  assert (W : close_waiting_fits (that_wait three parts ++ rest)).
+  { split; [| rewrite Sum; lia]. apply Forall_app. split; auto. apply Forall_forall. intros r I. apply filter_In in I.
+    destruct I as (I & A). rewrite Forall_forall in N. destruct (N r I) as (Gr & _). split; auto.
+    pose proof Gr as ((L & Er & _) & _). rewrite Er in *. apply (any_root_count three); auto. now rewrite map_length. }
+  split; [exact W |]. destruct W as (Fw & Sw). clear - Fw Sw. revert Sw.
+  enough (length (that_wait three parts ++ rest) <= all_changes (that_wait three parts ++ rest))%nat by lia.
+  induction Fw as [| r l (_ & P) Fw IH]; [easy |]. rewrite all_changes_cons. cbn [length]. lia.
+Qed.
+
+(** ** The loop ends *)
+
+Definition close_work (waiting : list close_part) : Z :=
+  fold_right (fun q sum => 3 ^ (max_bits + 1 - bits q) + sum)%Z 0%Z waiting.
+Lemma close_work_positive waiting : (0 <= close_work waiting)%Z.
+Proof.
+  induction waiting as [| q rest IH]; [easy |]. cbn [close_work fold_right] in *.
+  pose proof (Z.pow_nonneg 3 (max_bits + 1 - bits q)). unfold close_work in IH. lia.
+Qed.
+Lemma close_next_work distinct three q rest parts : close_good q -> Forall close_good rest ->
+  next_of distinct three q = inr parts ->
+  Forall close_good (that_wait three parts ++ rest) /\
+  (close_work (that_wait three parts ++ rest) < close_work (q :: rest))%Z.
+Proof.
+  intros G Gr E. destruct (next_narrower _ _ _ _ G E) as (N & L & _). split.
+  - apply Forall_app. split; auto. apply Forall_forall. intros r I. apply filter_In in I. destruct I as (I & _).
+    rewrite Forall_forall in N. now destruct (N r I).
+  - assert (Sum : forall a1 b1, close_work (a1 ++ b1) = (close_work a1 + close_work b1)%Z).
+    { intros a1 b1. unfold close_work. induction a1 as [| r a1 IH]; [easy |]. cbn [app fold_right]. rewrite IH. ring. }
+    change (close_work (q :: rest)) with (3 ^ (max_bits + 1 - bits q) + close_work rest)%Z. rewrite Sum.
+    enough (close_work (that_wait three parts) < 3 ^ (max_bits + 1 - bits q))%Z by lia.
+    destruct G as ((_ & _ & (W & U & _) & _) & M).
+    set (k := (max_bits - bits q)%Z). assert (K : (0 <= k)%Z) by (unfold k, bits; lia).
+    replace (max_bits + 1 - bits q)%Z with (k + 1)%Z by (unfold k; ring).
+    assert (P : (0 < 3 ^ k)%Z) by (apply Z.pow_pos_nonneg; lia). rewrite Z.pow_add_r by lia. change (3 ^ 1)%Z with 3%Z.
+    enough (close_work (that_wait three parts) <= Z.of_nat (length parts) * 3 ^ k)%Z by nia.
+    clear E L. induction N as [| r parts Nr N IH]; [easy |]. cbn [that_wait filter length]. rewrite Nat2Z.inj_succ.
+    destruct Nr as (_ & _ & _ & B & _).
+    assert (Le : (3 ^ (max_bits + 1 - bits r) <= 3 ^ k)%Z) by (apply Z.pow_le_mono_r; unfold k; lia).
+    unfold that_wait in IH. destruct (any_root three (close_roots r)); [| lia].
+    cbn [close_work fold_right]. unfold close_work in IH. lia.
+Qed.
+Lemma enough_close_steps distinct three steps : forall waiting found more, Forall close_good waiting ->
+  (close_work waiting < Z.of_nat steps)%Z -> (steps <= more)%nat ->
+  by_narrowing distinct three more waiting found = by_narrowing distinct three steps waiting found.
+Proof.
+  induction steps as [| steps IH]; intros waiting found more F W M.
+  { pose proof (close_work_positive waiting). lia. }
+  destruct more as [| more]; [lia |]. destruct waiting as [| q rest]; [easy |]. cbn [by_narrowing].
+  inversion_clear F as [| ? ? Fq Fr].
+  change (close_work (q :: rest)) with (3 ^ (max_bits + 1 - bits q) + close_work rest)%Z in W.
+  assert (P : (0 < 3 ^ (max_bits + 1 - bits q))%Z).
+  { destruct Fq as ((_ & _ & (Wq & Uq & _) & _) & Mq). apply Z.pow_pos_nonneg; unfold bits; lia. }
+  destruct (next_of distinct three q) as [[ | | ] | parts] eqn:E; try (apply IH; auto; lia); [easy |].
+  destruct (close_next_work _ _ _ rest _ Fq Fr E) as (Fn & Wn).
+  change (close_work (q :: rest)) with (3 ^ (max_bits + 1 - bits q) + close_work rest)%Z in Wn.
+  apply IH; auto; lia.
+Qed.
+Theorem close_contact_ends : exists enough, forall steps, (enough <= steps)%nat ->
+  close_contact steps = close_contact enough.
+Proof.
+  exists (Datatypes.S (Z.to_nat (close_work [whole_part]))). intros steps M. unfold close_contact. cbv zeta.
+  destruct whole_is_close_part as (W & _). assert (G : close_good whole_part) by (split; [exact W | easy]).
+  pose proof (close_work_positive [whole_part]). set (work := close_work [whole_part]) in *.
+  assert (Le : forall three, (close_work (that_wait three [whole_part]) <= work)%Z).
+  { intros three. unfold that_wait. cbn [filter]. destruct (any_root three (close_roots whole_part)); [unfold work; lia | easy]. }
+  apply enough_close_steps; [| | exact M].
+  - apply Forall_forall. intros q I. apply filter_In in I. now destruct I as ([<- | []] & _).
+  - clearbody work. rewrite Nat2Z.inj_succ, Z2Nat.id by easy. specialize (Le (same_sign (sign_of_real (discriminant y)) positive)). lia.
+Qed.
+
 End Query.
 
 Section Answers.
@@ -1087,3 +1226,84 @@ Proof.
 Qed.
 
 End Decisions.
+
+(** ** Widths *)
+
+(** Expressions of proofs/FixedWidths.v, where differences are below 2^253: s and t of 24 words, at most 2^max_bits;
+    what inside_from and normal_vanishes compute with them. *)
+Section Widths.
+Import FixedWidths.
+Definition place_number (x : list Z) : expression := Given 24 1 max_bits x.
+Definition place_numbers (b c p : vector) (s t s' t' : list Z) : list expression :=
+  let s := place_number s in
+  let t := place_number t in
+  let s' := place_number s' in
+  let t' := place_number t' in
+  let n := components (cross_form b c) in
+  inside_at b c p s t ++
+  flat_map (fun pq : polynomial * polynomial =>
+    let m := map Opposite (FixedWidths.cross_product (fst pq) (snd pq)) in
+    [nth 1 m (Whole 0) ⊗ s ⊖ nth 0 m (Whole 0) ⊗ t; nth 0 m (Whole 0) ⊗ t' ⊖ nth 1 m (Whole 0) ⊗ s']) (pairs n) ++
+  common_roots_numbers n ++ map (fun f => value_at f s t) n ++ map (fun f => value_at f s' t') n.
+(** Y's coefficients on a part, and what sub_part and contact_in_middle compute of them. *)
+Definition y_words : nat := 88.
+Definition narrowing_numbers (y : list (list Z)) (n a w : Z) (end_ : Z -> list Z) : list expression :=
+  let y := map (Given y_words 1 most_y_bits) y in
+  @sub_form expressions (fun z => Given 1 1 60 (end_ z)) y n a w ++
+  [nth 0 y (Whole 0) ⊕ nth 1 y (Whole 0) ⊕ nth 2 y (Whole 0) ⊕ nth 3 y (Whole 0)].
+Theorem close_widths b c p s t s' t' y0 y1 y2 y3 n a w end_ :
+  forallb fine (interior_numbers (moving 4 b) (moving 4 c) (moving 4 p)) = true /\
+  forallb fine (place_numbers (moving 4 b) (moving 4 c) (moving 4 p) s t s' t') = true /\
+  forallb fine (narrowing_numbers [y0; y1; y2; y3] n a w end_) = true.
+Proof. split; [apply interior_widths; simpl; auto | split]; apply all_measured; vm_cast_no_check (eq_refl true). Qed.
+End Widths.
+
+Ltac nonnegative := repeat first [apply Z.add_nonneg_nonneg | apply Z.mul_nonneg_nonneg]; try assumption; lia.
+(** And sub_part's coefficients fit the words of the part's. *)
+Theorem narrowed_fits y n a w : length y = 4%nat -> (0 <= n <= 60)%Z -> (0 <= a)%Z -> (a + 2 ^ w <= 2 ^ n)%Z ->
+  Forall (fun h => BoundedInteger.bit_length h <= most_y_bits)%Z y ->
+  Forall (fun h => Z.abs h < 2 ^ (64 * Z.of_nat y_words - 1))%Z (sub_y y n a w).
+Proof.
+  intros L N A B F.
+  assert (S : Forall (fun h => Z.abs h <= 2 ^ most_y_bits)%Z y).
+  { eapply Forall_impl; [| exact F]. intros h H. cbv beta in H. destruct (BoundedInteger.bit_length_bounds h) as (H0 & H1 & _).
+    apply Z.le_trans with (1 := H1). now apply Z.pow_le_mono_r. }
+  clear F. pose proof (Z.pow_nonneg 2 w ltac:(lia)) as W. set (b := (a + 2 ^ w)%Z) in *.
+  assert (P : (0 < 2 ^ n)%Z) by (apply Z.pow_pos_nonneg; lia). set (v := (2 ^ n)%Z) in *.
+  assert (V : (v * v * v <= 2 ^ 180)%Z).
+  { assert (v <= 2 ^ 60)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 180)%Z with (2 ^ 60 * 2 ^ 60 * 2 ^ 60)%Z.
+    repeat apply Z.mul_le_mono_nonneg; lia. }
+  set (M := (2 ^ most_y_bits)%Z) in *. assert (PM : (0 <= M)%Z) by (apply Z.pow_nonneg; lia).
+  assert (Lim : (3 * (v * v * v) * M < 2 ^ (64 * Z.of_nat y_words - 1))%Z).
+  { apply Z.le_lt_trans with (3 * 2 ^ 180 * M)%Z; [apply Z.mul_le_mono_nonneg_r; lia | reflexivity]. }
+  destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; try discriminate.
+  inversion_clear S as [| ? ? S0 S']. inversion_clear S' as [| ? ? S1 S]. inversion_clear S as [| ? ? S2 S'].
+  inversion_clear S' as [| ? ? S3 _].
+  set (s0 := (v - a)%Z). set (s1 := (v - b)%Z).
+  assert (Bound : forall k0 k1 k2 k3, (0 <= k0)%Z -> (0 <= k1)%Z -> (0 <= k2)%Z -> (0 <= k3)%Z ->
+    (k0 + k1 + k2 + k3 <= 3 * (v * v * v))%Z ->
+    (Z.abs (y0 * k0 + y1 * k1 + y2 * k2 + y3 * k3) <= 3 * (v * v * v) * M)%Z).
+  { intros k0 k1 k2 k3 K0 K1 K2 K3 K.
+    assert (T : forall h k, (0 <= k)%Z -> (Z.abs h <= M)%Z -> (Z.abs (h * k) <= k * M)%Z).
+    { intros h k Hk Hh. rewrite Z.abs_mul, (Z.abs_eq k), Z.mul_comm by easy. now apply Z.mul_le_mono_nonneg_l. }
+    pose proof (T _ _ K0 S0). pose proof (T _ _ K1 S1). pose proof (T _ _ K2 S2). pose proof (T _ _ K3 S3).
+    apply Z.mul_le_mono_nonneg_r with (p := M) in K; [| exact PM]. rewrite !Z.mul_add_distr_r in K. revert K. clear Lim.
+    generalize dependent (y0 * k0)%Z. generalize dependent (y1 * k1)%Z. generalize dependent (y2 * k2)%Z.
+    generalize dependent (y3 * k3)%Z. generalize (k0 * M)%Z (k1 * M)%Z (k2 * M)%Z (k3 * M)%Z (3 * (v * v * v) * M)%Z.
+    clear. lia. }
+  assert (E : sub_y [y0; y1; y2; y3] n a w =
+    [y0 * (s0 * s0 * s0) + y1 * (s0 * s0 * a) + y2 * (s0 * a * a) + y3 * (a * a * a);
+     y0 * (3 * s0 * s0 * s1) + y1 * (2 * s0 * s1 * a + s0 * s0 * b) + y2 * (s1 * a * a + 2 * s0 * a * b) + y3 * (3 * a * a * b);
+     y0 * (3 * s0 * s1 * s1) + y1 * (s1 * s1 * a + 2 * s0 * s1 * b) + y2 * (2 * s1 * a * b + s0 * b * b) + y3 * (3 * a * b * b);
+     y0 * (s1 * s1 * s1) + y1 * (s1 * s1 * b) + y2 * (s1 * b * b) + y3 * (b * b * b)]%Z).
+  { unfold sub_y, sub_form. cbv zeta. fold v b s0 s1. generalize s0 s1 a b. intros. cbn -[Z.mul Z.add].
+    repeat (apply (f_equal2 (@cons Z)); [ring |]). reflexivity. }
+  rewrite E. assert (Hs0 : (0 <= s0 /\ s0 + a = v)%Z) by (unfold s0; lia). assert (Hs1 : (0 <= s1 /\ s1 + b = v)%Z) by (unfold s1; lia).
+  assert (Hb : (0 <= b)%Z) by lia. destruct Hs0 as (Hs0 & E0), Hs1 as (Hs1 & E1). clearbody s0 s1 b v M. clear E W V.
+  assert (V0 : (v * v * v = (s0 + a) * (s0 + a) * (s0 + a))%Z) by now rewrite E0.
+  assert (V1 : (v * v * v = (s0 + a) * (s0 + a) * (s1 + b))%Z) by now rewrite E0, E1.
+  assert (V2 : (v * v * v = (s0 + a) * (s1 + b) * (s1 + b))%Z) by now rewrite E0, E1.
+  assert (V3 : (v * v * v = (s1 + b) * (s1 + b) * (s1 + b))%Z) by now rewrite E1.
+  clear E0 E1 S0 S1 S2 S3 L N B.
+  repeat apply Forall_cons; try apply Forall_nil; (eapply Z.le_lt_trans; [apply Bound | exact Lim]); nonnegative.
+Qed.

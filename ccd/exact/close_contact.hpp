@@ -91,7 +91,8 @@ class close_contact {
     }
 
     /// Whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
-    /// Proof: proofs/CloseContact.v, by_narrowing_right, close_contact_right.
+    /// Proof: proofs/CloseContact.v, by_narrowing_right, close_contact_right,
+    /// close_contact_ends, three_close_parts_wait.
     outcome decide() const {
         std::array<std::optional<part>, 3> waiting;  // the earliest last
         std::size_t count = 0;
@@ -134,7 +135,7 @@ class close_contact {
     static constexpr int root_bits = 40, pair_bits = 22;
     /// Narrowed at once by no more than this, which an std::int64_t holds.
     static constexpr int most_at_once = 60;
-    /// So that narrowing once fits.
+    /// So that narrowing once fits. Proof: proofs/CloseContact.v, close_widths, narrowed_fits.
     static constexpr int most_y_bits = 64 * y_words - 3 * (most_at_once + 1);
     /// G_i are not asked before: interior_contact did.
     static constexpr int first_asked_bits = 40;
