@@ -93,15 +93,6 @@ Fixpoint given (e : expression) : Prop :=
   | Shifted x _ | Opposite x | Magnitude x | Longer x _ => given x
   end.
 
-Lemma product_words a b : b <> [] -> words a -> words b ->
-  words (product a b) /\ length (product a b) = (length a + length b)%nat.
-Proof.
-  intros N A D. unfold product.
-  destruct (unsigned_product_exact (zeros (length b)) a b (length_zeros _) N (words_zeros _) A D) as (L1 & W1 & _).
-  destruct (subtract_from_exact (length a) _ b (negative a) W1 D) as (L2 & W2 & _); [lia |].
-  destruct (subtract_from_exact (length b) _ a (negative b) W2 A) as (L3 & W3 & _); [lia |].
-  split; [exact W3 | lia].
-Qed.
 Lemma sum_words a b : length a = length b -> words a -> words b -> words (sum a b) /\ length (sum a b) = length a.
 Proof.
   intros L A D. unfold sum. generalize (stepped_sum a b 0 L A D ltac:(lia)) (stepped_length add_with_carry a b 0 L).

@@ -2,7 +2,8 @@
 
     Results:
         sparse_product_exact   multiply_sparse: the product of m and n words, in m + n words
-        any_product_exact      multiply_any, whichever way it goes *)
+        any_product_exact      multiply_any, whichever way it goes
+        long_product_exact     long_integer's product, where it fits *)
 
 From Coq Require Import ZArith List Lia Bool.
 From Errbound Require Import Words.
@@ -295,4 +296,33 @@ Proof.
   destruct (is_sparse b && not_zero a) eqn:C2.
   { apply andb_prop in C2. rewrite Z.mul_comm. apply sparse_product_exact; auto. now apply not_zero_exact. }
   now apply product_exact.
+Qed.
+
+(** long_integer's product, of at most n words; words that say nothing go then (trim_exact). *)
+Definition long_product (n : nat) (a b : list Z) : list Z := firstn n (any_product a b).
+Lemma any_product_words a b : a <> [] -> b <> [] -> words a -> words b -> trimmed a -> trimmed b ->
+  words (any_product a b) /\ length (any_product a b) = (length a + length b)%nat.
+Proof.
+  intros Na Nb Wa Wb Ta Tb. unfold any_product.
+  destruct (is_sparse a && not_zero b) eqn:C1.
+  { apply andb_prop in C1. destruct (sparse_product_exact a b) as (L & W & _); auto. now apply not_zero_exact. }
+  destruct (is_sparse b && not_zero a) eqn:C2.
+  { apply andb_prop in C2. destruct (sparse_product_exact b a) as (L & W & _); auto; [now apply not_zero_exact |].
+    split; auto. lia. }
+  now apply product_words.
+Qed.
+Theorem long_product_exact n a b : n <> 0%nat -> a <> [] -> b <> [] -> words a -> words b -> trimmed a -> trimmed b ->
+  fits n (signed a * signed b) -> signed (long_product n a b) = signed a * signed b.
+Proof.
+  intros N Na Nb Wa Wb Ta Tb F. destruct (any_product_words a b) as [W L]; auto.
+  pose proof (any_product_exact a b Na Nb Wa Wb Ta Tb) as E. unfold long_product. set (r := any_product a b) in *.
+  destruct (Nat.le_gt_cases (length r) n) as [C | C]; [now rewrite firstn_all2 |].
+  assert (Wr : words (firstn n r) /\ words (skipn n r)) by (apply Forall_app; now rewrite firstn_skipn).
+  assert (Lf : length (firstn n r) = n) by (rewrite firstn_length; lia).
+  destruct (signed_modulo r) as [k K]. rewrite <- (firstn_skipn n r), value_app, Lf in K.
+  apply signed_is with (k := - (value (skipn n r) + k * B ^ Z.of_nat (length r - n))); try tauto.
+  - intros Z0. rewrite Z0 in Lf. simpl in Lf. lia.
+  - now rewrite Lf.
+  - rewrite Lf, <- E, (firstn_skipn n r) in *. rewrite K.
+    replace (size r) with (Z.of_nat n + Z.of_nat (length r - n)) by lia. rewrite Z.pow_add_r by lia. ring.
 Qed.

@@ -4,11 +4,13 @@
     Results:
         bit_length_exact   bit_length() <= n exactly if -2^n <= x < 2^n
         from_bit_exact     from_bit: floor(x/2^shift), where it fits; else modulo the result's width
+        long_bit_length_exact   the same of long_integer
         shifted_exact      shifted: magnitude 2^shift, likewise
         long_shifted_exact the long integer of a magnitude, a shift and a sign *)
 
 From Coq Require Import ZArith List Lia Bool.
 From Errbound Require Import Words.
+From Errbound Require SparseProduct.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -248,6 +250,37 @@ Proof.
   destruct (negative x).
   - destruct (Key (-1 - (value x - B ^ size x)) ltac:(lia)) as [K1 K2]. split; auto. rewrite K2. lia.
   - rewrite Z.sub_0_r in *. destruct (Key (value x) ltac:(lia)) as [K1 K2]. split; auto. rewrite K2. lia.
+Qed.
+
+(** long_integer::bit_length: of a number without words that say nothing, one of the last two words tells. *)
+Definition long_bit_length (x : list Z) : Z :=
+  let invert := sign_word x in
+  let at_last := (length x - (if (1 <? size x)%Z && (last x 0 =? invert)%Z then 2 else 1))%nat in
+  64 * Z.of_nat at_last + bit_width (Z.lxor (nth at_last x 0) invert).
+Theorem long_bit_length_exact x n : words x -> x <> [] -> SparseProduct.trimmed x -> 0 <= n ->
+  0 <= long_bit_length x /\ (long_bit_length x <= n <-> - 2 ^ n <= signed x < 2 ^ n).
+Proof.
+  intros W N T P. enough (E : long_bit_length x = bit_length x) by (rewrite E; now apply bit_length_exact).
+  unfold long_bit_length, bit_length. cbv zeta. set (invert := sign_word x).
+  assert (I : invert = if negative x then B - 1 else 0) by reflexivity. clearbody invert.
+  destruct (exists_last N) as (y & w & ->). rewrite last_last, rev_app_distr, app_length.
+  cbn [rev app length_from_last length]. rewrite rev_length.
+  unfold SparseProduct.trimmed in T. rewrite last_last, removelast_last, app_length in T. cbn [length] in T.
+  assert (X : Z.lxor w invert = 0 <-> w = invert).
+  { split; [apply Z.lxor_eq | intros ->; apply Z.lxor_nilpotent]. }
+  destruct (Z.eqb_spec w invert) as [E | E].
+  2: { rewrite andb_false_r. destruct (Z.eqb_spec (Z.lxor w invert) 0) as [Z0 |]; [now apply X in Z0 |].
+       rewrite app_nth2 by lia. replace (length y + 1 - 1 - length y)%nat with 0%nat by lia. cbn [nth].
+       now replace (length y + 1 - 1)%nat with (length y) by lia. }
+  apply X in E. rewrite E, Z.eqb_refl, andb_true_r. apply X in E. clear X.
+  destruct y as [| u z _] using rev_ind.
+  { cbn [app nth length Nat.add Nat.sub]. now rewrite E, Z.lxor_nilpotent. }
+  rewrite app_length in *. cbn [length] in *. replace (1 <? Z.of_nat (length z + 1 + 1)) with true by (symmetry; apply Z.ltb_lt; lia).
+  replace (length z + 1 + 1 - 2)%nat with (length z) by lia. rewrite <- app_assoc, app_nth2, Nat.sub_diag by lia.
+  rewrite rev_app_distr. cbn [rev app nth length_from_last]. rewrite rev_length.
+  destruct (Z.eqb_spec (Z.lxor u invert) 0) as [Z0 |]; [| reflexivity]. exfalso. apply Z.lxor_eq in Z0. subst u.
+  destruct T as [T | T]; [lia |]. apply T. rewrite E. unfold sign_word, negative. rewrite last_last.
+  rewrite I. destruct (negative ((z ++ [invert]) ++ [w])); reflexivity.
 Qed.
 
 (** long_integer(magnitude, shift, negative), before words that say nothing go; whole < n. *)

@@ -317,6 +317,15 @@ Proof.
   - rewrite E3, E2, E1. rewrite L2, L1, Nat2Z.inj_add, Z.pow_add_r by lia. rewrite P. unfold signed.
     destruct (negative a), (negative b); ring.
 Qed.
+Lemma product_words a b : b <> [] -> words a -> words b ->
+  words (product a b) /\ length (product a b) = (length a + length b)%nat.
+Proof.
+  intros N A D. unfold product.
+  destruct (unsigned_product_exact (zeros (length b)) a b (length_zeros _) N (words_zeros _) A D) as (L1 & W1 & _).
+  destruct (subtract_from_exact (length a) _ b (negative a) W1 D) as (L2 & W2 & _); [lia |].
+  destruct (subtract_from_exact (length b) _ a (negative b) W2 A) as (L3 & W3 & _); [lia |].
+  split; [exact W3 | lia].
+Qed.
 
 (** Sign and order. *)
 Definition sign_of (x : list Z) : comparison :=

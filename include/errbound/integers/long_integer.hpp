@@ -120,6 +120,7 @@ class long_integer {
         trim();
     }
     constexpr long_integer(const long_integer& x) : size_(x.size()) { copy(x); }
+    /// Proof: proofs/Words.v, trim_exact.
     template <int Other>
     requires(Other <= Words) constexpr long_integer(const fixed_integer<Other>& x) : size_(Other) {
         copy(x);
@@ -150,6 +151,7 @@ class long_integer {
     static constexpr long_integer difference(const long_integer<A>& a, const long_integer<B>& b) {
         return {a, b, words::subtract_with_borrow};
     }
+    /// Proof: proofs/SparseProduct.v, long_product_exact.
     template <int A, int B>
     static constexpr long_integer product(const long_integer<A>& a, const long_integer<B>& b) {
         return {a, b};
@@ -161,7 +163,7 @@ class long_integer {
         return difference(a, b);
     }
     constexpr long_integer operator-() const { return difference(long_integer(), *this); }
-    /// x·2^bits, for bits >= 0.
+    /// x·2^bits, for bits >= 0. Proof: that of product, and proofs/WordBits.v, long_shifted_exact.
     friend constexpr long_integer operator<<(const long_integer& x, int bits) {
         return product(x, long_integer<Words>(1, bits, false));
     }
@@ -177,6 +179,7 @@ class long_integer {
     }
 
     /// The least n with −2^n <= x < 2^n.
+    /// Proof: proofs/WordBits.v, long_bit_length_exact.
     constexpr int bit_length() const {
         const word invert = words::sign_word((*this)[size_ - 1]);
         // Trimmed, so the last word says nothing at most if the one before it says all.
@@ -184,6 +187,7 @@ class long_integer {
         return 64 * last + static_cast<int>(std::bit_width((*this)[last] ^ invert));
     }
     /// ⌊x/2^shift⌋ modulo 2^64, for shift >= 0.
+    /// Proof, of one word: proofs/WordBits.v, from_bit_exact.
     constexpr std::int64_t word_from_bit(int shift) const {
         const int whole = shift / 64, bits = shift % 64;
         // Two shifts: one by 64, where bits = 0, is undefined.
