@@ -354,14 +354,16 @@ Proof.
   assert (0 <= (1 - over (a + 2 ^ w) n) * (close_end q - close_start q)) by (apply Rmult_le_pos; lra).
   split; [| repeat split; lra].
   split; [now apply sub_y_length |]. split; [reflexivity |]. split.
-  { unfold r, sub_part. cbn [low unit_bits width_bits]. assert (Q : (2 ^ (unit_bits q + n - width_bits q) = 2 ^ unit_bits q * 2 ^ (n - width_bits q))%Z)
+  { unfold r, sub_part. cbn [low unit_bits width_bits].
+    assert (Q : (2 ^ (unit_bits q + n - width_bits q) = 2 ^ unit_bits q * 2 ^ (n - width_bits q))%Z)
       by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
     assert (N2 : (2 ^ n = 2 ^ width_bits q * 2 ^ (n - width_bits q))%Z)
       by (rewrite <- Z.pow_add_r by lia; f_equal; lia).
     assert (Pn : (0 < 2 ^ (n - width_bits q))%Z) by (apply Z.pow_pos_nonneg; lia).
     repeat split; try lia; nia. }
   exists (IZR (2 ^ n) ^ 3 * k). split; [apply Rmult_lt_0_compat; auto; apply pow_lt; now apply power_positive |].
-  change (close_y r) with (sub_y (close_y q) n a w). rewrite sub_part_right, E by easy. unfold part_of at 1. rewrite substituted_scaled by now apply part_of_length.
+  change (close_y r) with (sub_y (close_y q) n a w). rewrite sub_part_right, E by easy. unfold part_of at 1.
+  rewrite substituted_scaled by now apply part_of_length.
   fold (part_of (part_of y (close_start q) (close_end q)) (over a n) (over (a + 2 ^ w) n)).
   rewrite part_of_part, map_map by easy. rewrite Es, Ee. apply map_ext. intros x. ring.
 Qed.
@@ -744,7 +746,8 @@ Lemma single_narrowed q r : close_good q -> is_single three (close_roots q) = tr
 Proof.
   intros G S ((R & _) & A & B & _) O t T Z. rewrite (close_changes y r R) in O. pose proof (close_inside y r R).
   destruct known_y as (N & _).
-  destruct (opposite_inside y (close_start q) (close_start r) (close_end r) (close_end q) _ y_length N A ltac:(lra) B O (single_once q G S)) as (s & Hs & _ & Only).
+  destruct (opposite_inside y (close_start q) (close_start r) (close_end r) (close_end q) _ y_length N A
+    ltac:(lra) B O (single_once q G S)) as (s & Hs & _ & Only).
   destruct (Only t T Z) as [-> | (K & _)]; auto.
 Qed.
 Lemma counted_narrowed q r : close_good q -> any_root three (close_roots q) = true ->
