@@ -13,7 +13,7 @@ ROOT_CMAKE_LINES = 80
 README_LINES = 160
 FUNCTION_LINES = 50
 
-FOLDERS = ["ccd", "errbound", "include", "packaging", "python", "examples", "tests"]
+FOLDERS = ["ccd", "docs", "errbound", "include", "packaging", "python", "examples", "tests"]
 CPP = {".hpp", ".cpp", ".cu", ".cuh"}
 SOURCES = CPP | {".py"}
 

@@ -3,7 +3,7 @@
 usage: quotes_test.py SOURCE_FOLDER
 
 C++ blocks of a page stand in one of its programs (indentation and empty lines do not matter). Rows of measured tables, and figures with a unit, that pages state stand in docs/measured.md.
-Relative links lead to files.
+Relative links lead to files and folders, and to headings that are there.
 """
 import re
 import sys
@@ -82,15 +82,28 @@ def missing_figures(page, measured):
     print(f"{page}: {len(rows)} rows, {len(figures)} figures")
 
 
+def headings(page):
+    """The places of a page, as GitHub names them."""
+    found = {}
+    for heading in re.findall(r"^#+ +(.*?) *$", without_code(page.read_text()), re.MULTILINE):
+        text = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading)
+        name = re.sub(r"[^\w\- ]", "", text.lower()).replace(" ", "-")
+        found[name] = found.get(name, -1) + 1
+    return {f"{name}-{i}" if i else name for name, last in found.items() for i in range(last + 1)}
+
+
 def dead_links():
-    pages = [root / "README.md", root / "CONTRIBUTING.md", root / "proofs/README.md",
+    pages = [root / "README.md", root / "CONTRIBUTING.md", root / "proofs/README.md", root / "packaging/README.md",
              *sorted((root / "docs").glob("*.md"))]
     found = 0
     for page in pages:
-        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", without_code(page.read_text())):
+        for target, heading in re.findall(r"\]\(([^)#:]*)(?:#([^)]*))?\)", without_code(page.read_text())):
             found += 1
-            if not (page.parent / target).exists():
+            file = page.parent / target if target else page
+            if not file.exists():
                 yield f"{page.relative_to(root)}: '{target}' is not there"
+            elif heading and heading not in headings(file):
+                yield f"{page.relative_to(root)}: '{target}' has no heading '{heading}'"
     print(f"{len(pages)} pages: {found} links")
 
 
