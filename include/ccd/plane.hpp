@@ -14,6 +14,7 @@
 #include <ccd/separation.hpp>
 #include <ccd/verdict.hpp>
 
+/// Queries of two dimensions: the same calls as in space, in namespace ccd.
 namespace ccd::plane {
 
 /// A position.

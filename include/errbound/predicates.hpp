@@ -177,24 +177,28 @@ constexpr sign_type segment_triangle(const auto& p, const auto& q, const auto& a
 
 }  // namespace forms
 
+/// Positive if a, b, c turn left, zero if they are on one line.
 /// Proof of its static filter: proofs/Predicates.v, orient2d_sign_certain.
 inline constexpr auto orient2d = predicate<points<2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c) { return forms::area(a, b, c); });
 
+/// Positive if a, b, c turn right seen from d, zero if all are in one plane.
 /// Proof of its static filter: proofs/Predicates.v, orient3d_sign_certain.
 inline constexpr auto orient3d =
     predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::volume(a, b, c, d);
     });
 
+/// Positive if d is inside the circle through a, b, c, which turn left; zero on it.
 /// Proof of its static filter: proofs/Predicates.v, incircle_sign_certain.
 inline constexpr auto incircle =
     predicate<points<2, 2, 2, 2>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, forms::unweighted);
     });
 
-/// Proof of its static filter: proofs/Predicates.v, insphere_sign_certain.
-/// Proof of its semi-static filter: proofs/Predicates.v, insphere_semi_static_certain.
+/// Positive if e is inside the sphere through a, b, c, d, of which orient3d is positive; zero on
+/// it. Proof of its static filter: proofs/Predicates.v, insphere_sign_certain. Proof of its
+/// semi-static filter: proofs/Predicates.v, insphere_semi_static_certain.
 inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);

@@ -1,12 +1,12 @@
 """Exact continuous collision detection, predicates, roots, and numbers that know their rounding error.
 
-ccd         which features of moving meshes touch, when first, where; steps, and steps that are free
-predicates  signs of geometric expressions, right on every finite input
-roots       real roots of polynomials, counted and isolated exactly
-tracked     arrays of numbers that carry a certified bound on their rounding error
-ipctk       for ipc-toolkit's package: imported by its name alone, since that must be there
-io          files of meshes, of queries, and of steps to look at
-show        looks at a step: in polyscope, or on a page for a browser
+* ccd: which features of moving meshes touch, when first, where; steps, and steps that are free
+* predicates: signs of geometric expressions, right on every finite input
+* roots: real roots of polynomials, counted and isolated exactly
+* tracked: arrays of numbers that carry a certified bound on their rounding error
+* ipctk: for ipc-toolkit's package; imported by its name alone, since that must be there
+* io: files of meshes, of queries, and of steps to look at
+* show: looks at a step, in polyscope or on a page for a browser
 
 Arrays may be in any memory order and of float64, float32 (each float32 is a double, so nothing is
 lost) or whole numbers that doubles hold; they are copied only where they are not C-contiguous

@@ -62,6 +62,7 @@ class Array:
         return self._taken(np.asarray(self._places()[key]))
 
     def reshape(self, *shape: int) -> Array:
+        """A copy of that shape, as NumPy's reshape has it."""
         return self._taken(self._places().reshape(*shape))
 
     def scale(self, exponent: int) -> Array:

@@ -7,7 +7,8 @@
 NB_MODULE(_native, m) {
     namespace nb = nanobind;
     m.doc() = "What errbound's modules call: arguments are as errbound._arrays makes them.";
-    nb::exception<errbound::support::file_error>(m, "FileError", PyExc_ValueError);
+    nb::exception<errbound::support::file_error>(m, "FileError", PyExc_ValueError).attr("__doc__") =
+        "What is wrong with a file: its name, the line or element, found, expected.";
     errbound::python::bind_queries(m);
     errbound::python::bind_steps(m);
     errbound::python::bind_files(m);

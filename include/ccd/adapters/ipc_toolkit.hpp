@@ -62,6 +62,7 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 
 }  // namespace detail
 
+/// Answers what the toolkit asks by `exact`: docs/from-ipc-toolkit.md says what an answer means.
 class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     using position =
         decltype(detail::first_parameter(&ipc::NarrowPhaseCCD::point_point_ccd));  // 2D or 3D
