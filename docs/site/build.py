@@ -1,10 +1,14 @@
-"""Builds the site of documents into out/docs and checks its links: what `./run docs` runs.
+"""Builds the site of documents into out/docs and checks it: what `./run docs` runs.
 
 Pages by MkDocs, the C++ reference from the headers' comments by Doxygen, the Python reference from the
-package's docstrings by pdoc. Run it by a Python that has MkDocs Material, pdoc and the package errbound;
-Doxygen has to be on PATH. Any warning of these, and any dead link, is an error.
+package's docstrings by pdoc. These three, because each takes what is written here as it is: pages as they
+are read in the repository, `///` comments, docstrings in Markdown. (Sphinx wants docstrings in a markup of
+its own, and Breathe for Doxygen's names, of which it does not parse all templates.)
+
+Run it by a Python that has MkDocs Material, pdoc and the package errbound; Doxygen has to be on PATH. Errors
+are: any warning of these, a dead link, a page that a browser would have to fetch a part of, a list that is
+none, and a name that pages use and the reference does not have or says nothing of.
 """
-import html.parser
 import importlib.util
 import os
 import pathlib
@@ -12,100 +16,127 @@ import re
 import shutil
 import subprocess
 import sys
-import urllib.parse
+from xml.etree import ElementTree
+
+import links
+import pdoc.doc
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "docs/site"
 OUT = ROOT / "out/docs"
 SITE = OUT / "site"
+PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "proofs/README.md", "packaging/README.md"]
+
+# Namespaces that programs do not name (docs/architecture.md), and libraries' that a header adds to.
+INTERNAL = ["detail", "errbound::filters", "errbound::integers", "errbound::roots", "Eigen", "ipc", "std"]
+# What CMake calls targets, in the form of names.
+TARGETS = {"errbound::errbound", "errbound::ccd", "errbound::ccd_io", "errbound::ccd_cuda", "errbound::validation"}
 
 
 def run(what, command, **options):
-    """Its output, which holds no warning, or an end."""
+    """Ends where there is a warning."""
     done = subprocess.run(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
     warnings = [line for line in done.stdout.splitlines() if re.search(r"\bwarning\b", line, re.IGNORECASE)]
     if done.returncode or warnings:
         sys.exit(f"run: {what}: " + ("\n".join(warnings) or done.stdout))
-    return done.stdout
 
 
 def stage(folder):
-    """The pages and what they link to, where they lie in the repository."""
-    tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
-    files = [name for name in tracked.stdout.split("\0") if name]
-    pages = [name for name in files
-             if re.fullmatch(r"(README|CONTRIBUTING|CHANGELOG|docs/[^/]+|proofs/README|packaging/README)\.md", name)]
-    wanted = {*pages, *(name for name in files if re.fullmatch(r"docs/[^/]+\.png", name))}
+    """The pages and what they link to, where they lie in the repository. Returns the pages."""
+    pages = sorted(page for pattern in PAGES for page in ROOT.glob(pattern))
+    wanted = {*pages, *ROOT.glob("docs/*.png")}
     for page in pages:
-        text = (ROOT / page).read_text()
-        for target in re.findall(r"\]\(([^)#:]+)", text):
-            linked = (ROOT / page).parent.joinpath(target).resolve()
-            name = str(linked.relative_to(ROOT))
-            inside = [f for f in files if f.startswith(name + "/")]
-            wanted |= {f for f in files if f == name} | set(inside)
-            if inside:
-                listing = "".join(f"* [{f}]({f[len(name) + 1:]})\n" for f in inside)
-                (folder / name).mkdir(parents=True, exist_ok=True)
-                (folder / name / "index.md").write_text(f"# {name}\n\n{listing}")
-    for name in wanted:
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(ROOT / name, folder / name)
+        for target in re.findall(r"\]\(([^)#:]+)", page.read_text()):
+            linked = page.parent.joinpath(target).resolve()
+            if linked.is_dir():
+                inside = sorted(f for f in linked.rglob("*") if f.is_file() and "__pycache__" not in f.parts)
+                wanted |= set(inside)
+                listing = "".join(f"* [{f.relative_to(ROOT)}]({f.relative_to(linked)})\n" for f in inside)
+                index = folder / linked.relative_to(ROOT) / "index.md"
+                index.parent.mkdir(parents=True, exist_ok=True)
+                index.write_text(f"# {linked.relative_to(ROOT)}\n\n{listing}")
+            elif linked.is_file():
+                wanted.add(linked)
+    for file in wanted:
+        staged = folder / file.relative_to(ROOT)
+        staged.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, staged)
     return pages
 
 
-class Links(html.parser.HTMLParser):
-    """A page's targets of links, and its anchors."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.targets, self.anchors = [], set()
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        given = dict(attributes)
-        self.anchors |= {given[key] for key in ("id", "name") if given.get(key)}
-        self.targets += [given[key] for key in ("href", "src") if given.get(key) is not None]
-
-
-def dead_links():
-    """Messages, and how many pages and links there are."""
-    pages = {page: Links(page.read_text()) for page in sorted(SITE.rglob("*.html"))}
-    count, dead = 0, []
-    for page, links in pages.items():
-        for target in links.targets:
-            url = urllib.parse.urlsplit(target)
-            # Doxygen links to lists of nested classes that it leaves out where all are private.
-            if url.scheme or url.netloc or target == "#nested-classes":
+def cpp_reference(folder):
+    """Into folder/cpp. Returns of each name whether the reference says something of it."""
+    hidden = " ".join(f"{name} {name}::* *::{name} *::{name}::*" for name in INTERNAL)
+    run("doxygen", ["doxygen", "-"], input=f"@INCLUDE = {HERE}/Doxyfile\nEXCLUDE_SYMBOLS = {hidden}\n"
+        f"OUTPUT_DIRECTORY = {folder}\nXML_OUTPUT = {OUT}/xml\n")
+    said = {}
+    for file in (OUT / "xml").glob("*.xml"):
+        for entry in ElementTree.parse(file).getroot().iter():
+            if (entry.tag not in ("compounddef", "memberdef") or entry.get("prot") == "private"
+                    or entry.get("kind") in ("file", "dir", "page", "friend")):
                 continue
-            count += 1
-            path = urllib.parse.unquote(url.path)
-            file = page if not path else (SITE / path[1:] if path.startswith("/") else page.parent / path).resolve()
-            if file.is_dir():
-                file = file / "index.html"
-            anchor = urllib.parse.unquote(url.fragment)
-            if not file.exists():
-                dead.append(f"{page.relative_to(SITE)}: {target}: no such page")
-            elif anchor and file in pages and anchor not in pages[file].anchors:
-                dead.append(f"{page.relative_to(SITE)}: {target}: no such place on that page")
-    return dead, len(pages), count
+            name = entry.findtext("compoundname") or entry.findtext("qualifiedname")
+            texts = [part for kind in ("briefdescription", "detaileddescription") for part in entry.findall(kind)]
+            said[name] = said.get(name, False) or any("".join(text.itertext()).strip() for text in texts)
+    return said
+
+
+def unknown_names(pages, said):
+    """Names of C++ that pages use and the reference lacks, or says nothing of."""
+    hidden = re.compile(rf"(\w+::)*({'|'.join(INTERNAL)})(::|$)")
+    for page in pages:
+        if page.name == "CHANGELOG.md":  # has what was, too
+            continue
+        for name in re.findall(r"`((?:ccd|errbound)::\w+(?:::\w+)*)", page.read_text()):
+            if name in TARGETS or hidden.match(name) or said.get(name):
+                continue
+            yield (f"{page.relative_to(ROOT)}: {name}: " +
+                   ("the C++ reference says nothing of it" if name in said else "not in the C++ reference"))
+
+
+def public_members(namespace):
+    """Of a module or class of pdoc's, and of those inside."""
+    inside = [*namespace.own_members, *(namespace.submodules if namespace.kind == "module" else [])]
+    for member in inside:
+        if not member.name.startswith("_"):
+            yield member
+            if member.kind in ("module", "class"):
+                yield from public_members(member)
+
+
+def python_reference(folder):
+    """Into folder/python. Returns of each class and function whether it has a docstring of its own."""
+    modules = ["errbound"]
+    if importlib.util.find_spec("ipctk"):
+        modules.append("errbound.ipctk")
+    else:
+        print("errbound.ipctk is left out: ipctk is not installed (ERRBOUND_VIEWERS=1 ./run python)")
+    run("pdoc", [sys.executable, "-W", "error::UserWarning", "-m", "pdoc", *modules, "-o", folder / "python",
+                 "--docformat", "markdown", "--no-show-source", "-t", HERE / "pdoc"])
+    return {member.fullname: bool(member.obj.__doc__) for name in modules
+            for member in public_members(pdoc.doc.Module.from_name(name)) if member.kind in ("class", "function")}
 
 
 def main():
     shutil.rmtree(OUT, ignore_errors=True)
-    pages = stage(OUT / "pages")
-    run("doxygen", ["doxygen", "-"], input=f"@INCLUDE = {HERE / 'Doxyfile'}\nOUTPUT_DIRECTORY = {OUT / 'pages'}\n")
-    modules = ["errbound", *(["errbound.ipctk"] if importlib.util.find_spec("ipctk") else [])]
-    run("pdoc", [sys.executable, "-W", "error::UserWarning", "-m", "pdoc", *modules, "-o", OUT / "pages/python",
-                 "--docformat", "markdown", "--no-show-source"])
-    configuration = (HERE / "mkdocs.yml").read_text()
-    (OUT / "mkdocs.yml").write_text(f"{configuration}docs_dir: {OUT / 'pages'}\nsite_dir: {SITE}\n")
-    run("mkdocs", [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "-f", OUT / "mkdocs.yml"],
+    staged = OUT / "pages"
+    pages = stage(staged)
+    of_cpp = cpp_reference(staged)
+    of_python = python_reference(staged)
+    (OUT / "mkdocs.yml").write_text(f"{(HERE / 'mkdocs.yml').read_text()}docs_dir: {staged}\nsite_dir: {SITE}\n")
+    run("mkdocs", [sys.executable, "-m", "mkdocs", "build", "--strict", "-f", OUT / "mkdocs.yml"],
         env={**os.environ, "NO_MKDOCS_2_WARNING": "1"})  # of what is to come
-    dead, of_site, links = dead_links()
-    print(f"{SITE.relative_to(ROOT)}/index.html: {len(pages)} pages of text, {of_site} of the site, {links} links, "
-          f"{len(dead)} dead")
-    if dead:
-        sys.exit("\n".join(dead))
+    found = links.check(SITE)
+    (OUT / "external_links.txt").write_text("".join(f"{url}\n" for url in found.external))
+    errors = [*unknown_names(pages, of_cpp), *found.errors]
+    errors += [f"{name}: no docstring" for name, said in of_python.items() if not said]
+    print(f"{SITE.relative_to(ROOT)}/index.html: {len(pages)} pages of text, {found.pages} of the site; {found.links} "
+          f"links, {len(found.external)} others not followed (external_links.txt); something is said of "
+          f"{sum(of_cpp.values())} of {len(of_cpp)} names of C++, {sum(of_python.values())} of {len(of_python)} of "
+          f"Python; {len(errors)} errors")
+    if errors:
+        sys.exit("\n".join(errors))
 
 
-main()
+if __name__ == "__main__":
+    main()
