@@ -29,8 +29,6 @@ PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "proofs/RE
 
 # Namespaces that programs do not name (docs/architecture.md), and libraries' that a header adds to.
 INTERNAL = ["detail", "errbound::filters", "errbound::integers", "errbound::roots", "Eigen", "ipc", "std"]
-# What CMake calls targets, in the form of names.
-TARGETS = {"errbound::errbound", "errbound::ccd", "errbound::ccd_io", "errbound::ccd_cuda", "errbound::validation"}
 
 
 def run(what, command, **options):
@@ -64,6 +62,12 @@ def stage(folder):
     return pages
 
 
+def is_described(entry):
+    """Whether Doxygen's XML has words about a name."""
+    texts = [part for kind in ("briefdescription", "detaileddescription") for part in entry.findall(kind)]
+    return any("".join(text.itertext()).strip() for text in texts)
+
+
 def cpp_reference(folder):
     """Into folder/cpp. Returns of each name whether the reference says something of it."""
     hidden = " ".join(f"{name} {name}::* *::{name} *::{name}::*" for name in INTERNAL)
@@ -76,19 +80,22 @@ def cpp_reference(folder):
                     or entry.get("kind") in ("file", "dir", "page", "friend")):
                 continue
             name = entry.findtext("compoundname") or entry.findtext("qualifiedname")
-            texts = [part for kind in ("briefdescription", "detaileddescription") for part in entry.findall(kind)]
-            said[name] = said.get(name, False) or any("".join(text.itertext()).strip() for text in texts)
+            said[name] = said.get(name, False) or is_described(entry)
+            said |= {f"{name}::{value.findtext('name')}": is_described(value) for value in entry.findall("enumvalue")}
     return said
 
 
 def unknown_names(pages, said):
     """Names of C++ that pages use and the reference lacks, or says nothing of."""
     hidden = re.compile(rf"(\w+::)*({'|'.join(INTERNAL)})(::|$)")
+    # CMake's targets have the form of names.
+    targets = {target for folder in ("errbound", "ccd") for file in (ROOT / folder).rglob("CMakeLists.txt")
+               for target in re.findall(r"add_library\((errbound::\w+) ALIAS", file.read_text())}
     for page in pages:
         if page.name == "CHANGELOG.md":  # has what was, too
             continue
         for name in re.findall(r"`((?:ccd|errbound)::\w+(?:::\w+)*)", page.read_text()):
-            if name in TARGETS or hidden.match(name) or said.get(name):
+            if name in targets or hidden.match(name) or said.get(name):
                 continue
             yield (f"{page.relative_to(ROOT)}: {name}: " +
                    ("the C++ reference says nothing of it" if name in said else "not in the C++ reference"))
