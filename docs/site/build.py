@@ -112,7 +112,8 @@ def public_members(namespace):
 
 
 def python_reference(folder):
-    """Into folder/python. Returns of each class and function whether it has a docstring of its own."""
+    """Into folder/python. Returns of each class and function whether it has a docstring: a class its
+    own, a method that of the class it comes from will do."""
     modules = ["errbound"]
     if importlib.util.find_spec("ipctk"):
         modules.append("errbound.ipctk")
@@ -120,8 +121,9 @@ def python_reference(folder):
         print("errbound.ipctk is left out: ipctk is not installed (ERRBOUND_VIEWERS=1 ./run python)")
     run("pdoc", [sys.executable, "-W", "error::UserWarning", "-m", "pdoc", *modules, "-o", folder / "python",
                  "--docformat", "markdown", "--no-show-source", "-t", HERE / "pdoc"])
-    return {member.fullname: bool(member.obj.__doc__) for name in modules
-            for member in public_members(pdoc.doc.Module.from_name(name)) if member.kind in ("class", "function")}
+    members = [member for name in modules for member in public_members(pdoc.doc.Module.from_name(name))]
+    return {m.fullname: bool(m.obj.__doc__ if m.kind == "class" else m.docstring)
+            for m in members if m.kind in ("class", "function")}
 
 
 def main():
