@@ -133,7 +133,7 @@ def streams(given):
              "|---|---:|" + "---:|" * len(STREAMS)]
     for scene in given.streams.split(","):
         folder = simulated(given, scene, "exact", 0, proposals=True)
-        proposed = sorted((folder / "proposals").iterdir())
+        proposed = sorted((folder / "proposals").glob("*.ply"))
         chosen = [proposed[i * len(proposed) // given.steps] for i in range(min(given.steps, len(proposed)))]
         queries, cells = 0, {method: [0.0, 0, 0] for method in STREAMS}
         for path in chosen:

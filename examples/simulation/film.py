@@ -93,7 +93,7 @@ def arguments():
 
 def main():
     given = arguments()
-    frames = sorted((given.folder / "frames").glob("*.ply"))
+    frames = sorted((given.folder / "frames").glob("*.ply"), key=lambda path: int(path.stem))
     if not frames:
         sys.exit(f"film: found no frames in {given.folder}, expected frames/*.ply")
     text = (given.folder / "run.txt").read_text()

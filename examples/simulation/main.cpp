@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -28,11 +29,11 @@ namespace {
 volatile std::sig_atomic_t interrupted = 0;
 
 struct arguments {
-    std::string scene, method = "exact", out;
+    std::string scene, method = "exact";
+    std::optional<std::string> out;
     std::optional<int> frames, resolution;
     bool full = false, proposals = false, vtp = false;
-    int threads = 0;
-    std::uint64_t seed = 0;
+    int threads = 0, seed = 0;
 };
 
 const scene_maker& maker_of(const std::string& name) {
@@ -61,8 +62,8 @@ std::string description(const arguments& given, const scene_maker& maker, const 
 
 int simulate(const arguments& given) {
     const scene_maker& maker = maker_of(given.scene);
-    simulation_run run(made(given, maker), given.seed);
-    run_folder folder(given.out.empty() ? "out/simulation/" + maker.name : given.out,
+    simulation_run run(made(given, maker), std::uint64_t(given.seed));
+    run_folder folder(given.out.value_or("out/simulation/" + maker.name),
                       description(given, maker, run.of()));
     folder.restore(run);
     folder.store_start(run);
@@ -96,18 +97,22 @@ int run_command_line(int argc, char** argv) {
     app.add_option("SCENE", given.scene, "one of:" + names)->required();
     app.add_option("--method", given.method, "of collision detection; ccd methods lists them")
         ->capture_default_str();
-    app.add_option("--frames", given.frames, "else the scene's own")->check(CLI::NonNegativeNumber);
-    app.add_option("--resolution", given.resolution, "of the scene")->check(CLI::Range(4, 2000));
+    const CLI::Range natural(0, std::numeric_limits<int>::max());
+    app.add_option("--frames", given.frames, "else the scene's own")->check(natural);
+    app.add_option("--resolution", given.resolution, "of the scene")->check(CLI::Range(3, 2000));
     app.add_flag("--full", given.full, "the scene at its full size");
-    app.add_option("--out", given.out, "folder, else out/simulation/SCENE");
+    app.add_option("--out", given.out, "folder, else out/simulation/SCENE")
+        ->check([](const std::string& path) {
+            return path.empty() ? "found '', expected a folder's name" : std::string();
+        });
     app.add_flag("--proposals", given.proposals,
                  "stores what the solver proposed, too: the steps that were looked at first");
     app.add_flag(
         "--vtp", given.vtp,
         "writes a series for ParaView, too: frames, and what the proposed steps would meet");
-    app.add_option("--threads", given.threads, "at most; 0: one per core")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--seed", given.seed, "moves the start by up to 1e-5 m at random; 0: not");
+    app.add_option("--threads", given.threads, "at most; 0: one per core")->check(natural);
+    app.add_option("--seed", given.seed, "moves the start by up to 1e-5 m at random; 0: not")
+        ->check(natural);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -5,12 +5,14 @@ Arguments: the program, the source folder.
 import csv
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+from random import Random
 
 PROGRAM, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
 
@@ -67,23 +69,115 @@ class Simulate(unittest.TestCase):
         self.assertIn("expected the run to go on with", again.stderr)
         self.assertEqual(self.frames(self.out), before)
 
-    def test_refuses_a_state_that_is_cut(self):
-        simulate("funnel1", "--resolution", 8, "--frames", 2, "--out", self.out)
-        state = self.out / "state"
-        state.write_bytes(state.read_bytes()[:-1])
-        again = simulate("funnel1", "--resolution", 8, "--frames", 4, "--out", self.out)
+    def test_refuses_another_run_where_one_was_killed_before_its_first_state(self):
+        simulate("funnel1", "--resolution", 8, "--frames", 0, "--out", self.out)
+        self.assertFalse((self.out / "state").exists())
+        again = simulate("twist", "--resolution", 8, "--frames", 2, "--out", self.out)
         self.assertEqual(again.returncode, 1)
-        self.assertIn("expected a state of", again.stderr)
+        self.assertIn("expected the run to go on with", again.stderr)
+
+    def refused_after(self, name, change, told):
+        """A run of 5 frames, one of whose files is changed, is not gone on with: nothing changes."""
+        shutil.rmtree(self.out, ignore_errors=True)
+        simulate("funnel1", "--resolution", 8, "--frames", 5, "--out", self.out)
+        file = self.out / name
+        file.write_bytes(change(file.read_bytes()))
+        before = {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
+        again = simulate("funnel1", "--resolution", 8, "--frames", 7, "--out", self.out)
+        self.assertEqual(again.returncode, 1, told)
+        self.assertIn(f"simulate: {file}: ", again.stderr)
+        self.assertIn(told, again.stderr)
+        self.assertEqual(before, {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()})
+
+    def test_refuses_a_damaged_state(self):
+        whole, flipped = 'no state or a damaged one', lambda at: lambda data: (
+            data[:at] + bytes([data[at] ^ 1]) + data[at + 1:])
+        for change in (lambda data: data[:-1], lambda data: data + b"x", lambda data: b"",
+                       flipped(8),     # the number of the frame
+                       flipped(40),    # a position
+                       flipped(-9)):   # a force
+            self.refused_after("state", change, whole)
+
+    def test_refuses_a_last_frame_that_is_not_the_states(self):
+        # The next frame would be certified from positions that no stored frame has.
+        self.refused_after("frames/00005.ply", lambda data: data[:-1] + b"\1", "found another frame")
+
+    def test_refuses_a_table_that_lacks_rows(self):
+        # "certified free" is told from the table: it was, of a run whose table had been emptied.
+        lines = lambda data: data.splitlines(keepends=True)
+        self.refused_after("frames.csv", lambda data: b"", "line 1: found '', expected a heading")
+        self.refused_after("frames.csv", lambda data: b"".join(lines(data)[:3]),
+                           "line 4: found '', expected the row of frame 3")
+        self.refused_after("frames.csv", lambda data: b"".join(lines(data)[:2] + lines(data)[3:]),
+                           "line 3: found '3,")
+
+    def test_a_number_that_is_none_or_below_all_normal_ones(self):
+        def run_with_energy(text):
+            shutil.rmtree(self.out, ignore_errors=True)
+            simulate("funnel1", "--resolution", 8, "--frames", 2, "--out", self.out)
+            table = self.out / "frames.csv"
+            table.write_text(re.sub(r"[^,]+\n$", text + "\n", table.read_text()))
+            return simulate("funnel1", "--resolution", 8, "--frames", 2, "--out", self.out)
+        self.assertEqual(run_with_energy("1e-315").returncode, 0)
+        self.assertIn("frames.csv: line 3: found 'none', expected a number", run_with_energy("none").stderr)
+
+    def test_two_runs_do_not_share_a_folder(self):
+        # Each wrote rows into the other's table, and what they mixed was told to be certified free.
+        run = subprocess.Popen([PROGRAM, "funnel2", "--resolution", "16", "--out", str(self.out)],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while not (self.out / "state").exists():
+            time.sleep(0.01)
+        second = simulate("funnel2", "--resolution", 16, "--out", self.out)
+        run.kill()
+        run.communicate()
+        self.assertEqual(second.returncode, 1)
+        self.assertIn("found a run that is going on there", second.stderr)
+        # The lock is not left behind by a process that is killed.
+        self.assertEqual(simulate("funnel2", "--resolution", 16, "--frames", 1, "--out", self.out).returncode, 0)
+
+    def test_killed_at_any_time_it_goes_on_to_the_same_bits(self):
+        whole, random = self.out.with_name("whole"), Random(1)
+        run = lambda out: ["twist", "--resolution", "8", "--frames", "120", "--out", str(out)]
+        simulate(*run(whole))
+        for kill in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
+            running = subprocess.Popen([PROGRAM, *run(self.out)], stdout=subprocess.DEVNULL)
+            time.sleep(random.uniform(0.01, 0.1))
+            running.send_signal(kill)
+            running.wait()
+        self.assertEqual(simulate(*run(self.out)).returncode, 0)
+        frames = lambda out: {path.name: path.read_bytes() for path in (out / "frames").glob("*.ply")}
+        self.assertEqual(frames(whole), frames(self.out))
+        self.assertEqual((whole / "state").read_bytes(), (self.out / "state").read_bytes())
 
     def test_bad_usage(self):
         for arguments, told in ((["funnel9"], "expected one of funnel1"),
                                 (["funnel1", "--method", "best"], "expected one of float"),
                                 (["funnel1", "--resolution", "2"], "--resolution"),
+                                (["funnel1", "--seed", "-1"], "not in range 0 to 2147483647"),
+                                (["funnel1", "--seed", str(2**64)], "not in range 0 to 2147483647"),
+                                (["funnel1", "--threads", "-1"], "not in range 0 to 2147483647"),
+                                (["funnel1", "--out", ""], "expected a folder's name"),
                                 ([], "SCENE")):
-            ran = simulate(*arguments, "--frames", 1, "--out", self.out)
+            out = [] if "--out" in arguments else ["--out", self.out]
+            ran = simulate(*arguments, "--frames", 1, *out)
             self.assertEqual(ran.returncode, 2, arguments)
             self.assertIn(told, ran.stderr)
             self.assertFalse(self.out.exists())
+
+    def test_a_folder_that_cannot_be_is_told_as_one(self):
+        name = self.out / ("a" * 300)
+        ran = simulate("funnel1", "--resolution", 8, "--frames", 1, "--out", name)
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("File name too long, expected a folder that can be written", ran.stderr)
+
+    def test_every_scenes_own_resolution_can_be_asked_for(self):
+        # That of `stiff`, 3, was out of range.
+        help = simulate("--help").stdout
+        own = re.findall(r"^ +([a-z0-9-]+): .*?\(resolution\s+(\d+)", help, re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(own), 9)
+        for scene, resolution in own:
+            ran = simulate(scene, "--resolution", resolution, "--frames", 0, "--out", self.out / scene)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
 
     def test_writes_proposals_and_a_series(self):
         ran = simulate("funnel1", "--resolution", 8, "--frames", 12, "--out", self.out, "--proposals",
@@ -92,6 +186,18 @@ class Simulate(unittest.TestCase):
         self.assertEqual(len(list((self.out / "proposals").iterdir())), 12)
         series = (self.out / "paraview/series.pvd").read_text()
         self.assertEqual(re.findall(r'file="(\d+)\.vtp"', series), [f"{i:05}" for i in range(12)])
+
+    def test_a_series_of_a_run_that_is_done(self):
+        # It has no proposals any more to show: the series is empty, which was an error.
+        for again in range(2):
+            ran = simulate("funnel1", "--resolution", 8, "--frames", 2, "--out", self.out,
+                           *(["--vtp"] if again else []))
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+        (self.out / "paraview/notes.vtp").touch()  # not the run's
+        self.assertEqual(simulate("funnel1", "--resolution", 8, "--frames", 3, "--vtp", "--out",
+                                  self.out).returncode, 0)
+        series = (self.out / "paraview/series.pvd").read_text()
+        self.assertEqual(re.findall(r'file="(.*?)"', series), ["00002.vtp"])
 
     def test_tables_of_methods(self):
         build = pathlib.Path(PROGRAM).parents[2]

@@ -29,10 +29,14 @@ void write_vtp(const std::filesystem::path& folder, const scene& scene, int fram
 
 void write_series(const std::filesystem::path& folder, const scene& scene) {
     std::vector<ccd::io::series_entry> series;
-    for (const auto& file : std::filesystem::directory_iterator(folder / "paraview"))
-        if (file.path().extension() == ".vtp")
-            series.push_back({std::stoi(file.path().stem().string()) * scene.solver.time_step,
-                              file.path().filename().string()});
+    std::filesystem::create_directories(folder / "paraview");  // of no frames, if none was run
+    for (const auto& file : std::filesystem::directory_iterator(folder / "paraview")) {
+        const std::string name = file.path().filename().string();
+        int frame = 0, length = 0;
+        if (std::sscanf(name.c_str(), "%d.vtp%n", &frame, &length) == 1 &&
+            std::size_t(length) == name.size())
+            series.push_back({frame * scene.solver.time_step, name});
+    }
     std::ranges::sort(series, {}, &ccd::io::series_entry::time);
     errbound::support::write_whole(folder / "paraview" / "series.pvd", ccd::io::pvd_of(series));
 }

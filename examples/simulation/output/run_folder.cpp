@@ -1,13 +1,20 @@
 #include "examples/simulation/output/run_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <array>
 #include <ccd/io/mesh_file.hpp>
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <errbound/support/error.hpp>
 #include <fstream>
+#include <functional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -20,7 +27,12 @@ using errbound::support::file_error;
 using errbound::support::read_whole;
 using errbound::support::write_whole;
 
-constexpr char magic[8] = {'s', 'i', 'm', 's', 't', 'a', 't', '2'};
+constexpr char magic[8] = {'s', 'i', 'm', 's', 't', 'a', 't', '3'};
+
+/// What a state ends with: of all bytes before. Only this standard library's own files are read.
+std::uint64_t checksum_of(std::string_view bytes) {
+    return std::hash<std::string_view>()(bytes);
+}
 
 /// A force as it is stored.
 struct stored_force {
@@ -44,21 +56,36 @@ std::string bytes_of(const run_state& state) {
         const stored_force stored{pair, {force.x(), force.y(), force.z()}};
         append(text, &stored, 1);
     }
+    const std::uint64_t checksum = checksum_of(text);
+    append(text, &checksum, 1);
     return text;
 }
 
-run_state state_of(const std::string& text, const std::filesystem::path& path,
+/// What stands before the checksum. Throws file_error if that is another's.
+std::string_view checked(const std::string& text, const std::filesystem::path& path) {
+    std::uint64_t checksum = 0;
+    const bool whole = text.size() >= sizeof magic + sizeof checksum;
+    const std::string_view bytes(text.data(), whole ? text.size() - sizeof checksum : 0);
+    if (whole) std::memcpy(&checksum, text.data() + bytes.size(), sizeof checksum);
+    if (!whole || std::memcmp(text.data(), magic, sizeof magic) != 0 ||
+        checksum != checksum_of(bytes))
+        throw file_error(path.string() + ": found " + std::to_string(text.size()) +
+                         " bytes that are no state or a damaged one, expected one that this " +
+                         "program wrote");
+    return bytes;
+}
+
+run_state state_of(const std::string& file, const std::filesystem::path& path,
                    Eigen::Index vertices) {
+    const std::string_view text = checked(file, path);
     std::int64_t numbers[3] = {};
     const std::size_t head = sizeof magic + sizeof numbers;
     if (text.size() >= head) std::memcpy(numbers, text.data() + sizeof magic, sizeof numbers);
     const std::size_t part = 3 * sizeof(double) * std::size_t(vertices);
     const std::size_t expected = head + 2 * part + sizeof(stored_force) * std::size_t(numbers[2]);
-    if (text.size() != expected || std::memcmp(text.data(), magic, sizeof magic) != 0 ||
-        numbers[1] != vertices)
-        throw file_error(path.string() + ": found " + std::to_string(text.size()) +
-                         " bytes, expected a state of " + std::to_string(vertices) + " vertices, " +
-                         std::to_string(expected) + " bytes");
+    if (text.size() != expected || numbers[1] != vertices)
+        throw file_error(path.string() + ": found a state of " + std::to_string(numbers[1]) +
+                         " vertices, expected one of " + std::to_string(vertices));
     run_state state{int(numbers[0]), rows(vertices, 3), rows(vertices, 3), {}};
     std::memcpy(state.positions.data(), text.data() + head, part);
     std::memcpy(state.velocities.data(), text.data() + head + part, part);
@@ -68,6 +95,23 @@ run_state state_of(const std::string& text, const std::filesystem::path& path,
         state.forces[stored.pair] = vec3(stored.force[0], stored.force[1], stored.force[2]);
     }
     return state;
+}
+
+/// Rows of frames after the state's are of a run that was stopped between the two.
+std::string rows_until(int last, const std::filesystem::path& path) {
+    std::istringstream table(read_whole(path));
+    std::string kept, line;
+    for (int frame = 0; frame <= last; ++frame) {
+        const std::string begin = std::to_string(frame) + ',';
+        const bool found = bool(std::getline(table, line));
+        if (!found || (frame == 0 ? line + '\n' != csv_heading() : !line.starts_with(begin)))
+            throw file_error(
+                path.string() + ": line " + std::to_string(frame + 1) + ": found '" +
+                (found ? line : "") + "', expected " +
+                (frame == 0 ? "a heading of frames" : "the row of frame " + std::to_string(frame)));
+        kept += line + '\n';
+    }
+    return kept;
 }
 
 std::string text_of(double x) {
@@ -113,29 +157,49 @@ std::string csv_row(const frame_record& r) {
     return row + '\n';
 }
 
+folder_lock::folder_lock(const std::filesystem::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    // Where there are no locks, as on some file systems of other machines, it goes without.
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+        return;
+    ::close(descriptor_);
+    throw file_error(folder.string() +
+                     ": found a run that is going on there, expected a folder of its own");
+}
+
+folder_lock::~folder_lock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 run_folder::run_folder(std::filesystem::path folder, const std::string& description)
-    : folder_(std::move(folder)), is_new_(!std::filesystem::exists(folder_ / "state")) {
+    : folder_(std::move(folder)) {
     std::error_code failed;
     std::filesystem::create_directories(folder_ / "frames", failed);
     if (failed)
         throw file_error(folder_.string() + ": " + failed.message() +
                          ", expected a folder that can be written");
+    lock_.emplace(folder_);
+    is_new_ = !std::filesystem::exists(folder_ / "state");
     const std::filesystem::path about = folder_ / "run.txt";
-    if (!is_new_) {
+    if (!is_new_ || std::filesystem::exists(about))
         if (const std::string found = read_whole(about); found != description)
             throw file_error(about.string() + ": found '" + found +
                              "', expected the run to go on with, '" + description + "'");
-        return;
-    }
+    if (!is_new_) return;
     write_whole(about, description);
     write_whole(folder_ / "frames.csv", csv_heading());
 }
 
+std::filesystem::path run_folder::frame_file(const char* in, int frame) const {
+    char name[16];
+    std::snprintf(name, sizeof name, "%05d.ply", frame);
+    return folder_ / in / name;
+}
+
 void run_folder::write_frame(const char* in, const simulation_run& run,
                              const rows& positions) const {
-    char name[16];
-    std::snprintf(name, sizeof name, "%05d.ply", run.state().frame);
-    write_whole(folder_ / in / name, ccd::io::ply_of(run.of().bodies.surface(positions)));
+    write_whole(frame_file(in, run.state().frame),
+                ccd::io::ply_of(run.of().bodies.surface(positions)));
 }
 
 void run_folder::store_proposal(const simulation_run& run) const {
@@ -151,13 +215,12 @@ void run_folder::restore(simulation_run& run) const {
     if (is_new_) return;
     const std::filesystem::path path = folder_ / "state";
     run.restore(state_of(read_whole(path), path, run.state().positions.rows()));
-    // Rows of frames after the state's are of a run that was stopped between the two.
-    std::istringstream table(read_whole(folder_ / "frames.csv"));
-    std::string kept = csv_heading(), line;
-    std::getline(table, line);
-    for (int frame = 1; frame <= run.state().frame && std::getline(table, line); ++frame)
-        kept += line + '\n';
-    write_whole(folder_ / "frames.csv", kept);
+    const std::filesystem::path last = frame_file("frames", run.state().frame);
+    if (read_whole(last) != ccd::io::ply_of(run.of().bodies.surface(run.state().positions)))
+        throw file_error(last.string() + ": found another frame than that of '" + path.string() +
+                         "', expected the last one of the run");
+    const std::filesystem::path table = folder_ / "frames.csv";
+    write_whole(table, rows_until(run.state().frame, table));
 }
 
 void run_folder::store(const simulation_run& run, const frame_record& record) {

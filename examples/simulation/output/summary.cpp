@@ -1,6 +1,7 @@
 #include "examples/simulation/output/summary.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <errbound/support/error.hpp>
@@ -22,6 +23,17 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
+/// NaN where it is empty.
+double number_of(const std::string& cell, const std::string& place) {
+    if (cell.empty()) return std::nan("");
+    double x = 0;
+    const char* const end = cell.data() + cell.size();
+    const auto read = std::from_chars(cell.data(), end, x);
+    if (read.ec != std::errc() || read.ptr != end)
+        throw errbound::support::file_error(place + "found '" + cell + "', expected a number");
+    return x;
+}
+
 /// Every column by its name; NaN where a cell is empty.
 std::map<std::string, std::vector<double>> columns_of(const std::filesystem::path& path) {
     std::istringstream table(errbound::support::read_whole(path));
@@ -33,13 +45,13 @@ std::map<std::string, std::vector<double>> columns_of(const std::filesystem::pat
     const std::vector<std::string> names = cells_of(line);
     std::map<std::string, std::vector<double>> columns;
     for (int number = 2; std::getline(table, line); ++number) {
-        std::vector<std::string> cells = cells_of(line);
+        const std::vector<std::string> cells = cells_of(line);
+        const std::string place = path.string() + ": line " + std::to_string(number) + ": ";
         if (cells.size() != names.size())
-            throw errbound::support::file_error(path.string() + ": line " + std::to_string(number) +
-                                                ": found " + std::to_string(cells.size()) +
+            throw errbound::support::file_error(place + "found " + std::to_string(cells.size()) +
                                                 " cells, expected " + std::to_string(names.size()));
         for (std::size_t i = 0; i < names.size(); ++i)
-            columns[names[i]].push_back(cells[i].empty() ? std::nan("") : std::stod(cells[i]));
+            columns[names[i]].push_back(number_of(cells[i], place));
     }
     return columns;
 }
