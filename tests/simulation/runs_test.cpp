@@ -2,9 +2,11 @@
 // the number of threads.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
+#include <cmath>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -58,6 +60,50 @@ TEST(Runs, AStackAtRestStaysAtRest) {
     const rows start = scene.bodies.start;
     const rows end = positions_after(std::move(scene), 200);
     EXPECT_LT((end - start).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+/// How far a body slides down a plane in half a second, which has so many cells a side.
+double slid(bool solid, double friction, double steepness, int cells) {
+    simulation::scene scene;
+    scene.solver.damping = 0;
+    scene.collision.friction = friction;
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(std::atan(steepness), simulation::vec3::UnitY()).toRotationMatrix();
+    const auto plane = simulation::square(cells, 8, 0);
+    scene.bodies.add_obstacle(plane.points * turn.transpose(), plane.faces);
+    const double high = scene.collision.thickness;
+    rows start;
+    if (solid) {
+        const auto cube = simulation::block({2, 2, 1}, {-0.1, -0.1, high}, {0.1, 0.1, 0.05});
+        start = cube.points * turn.transpose();
+        scene.bodies.add_solid(start, cube.tetrahedra, {.stiffness = 1e6});
+    } else {
+        const auto sheet = simulation::square(4, 0.3, high);
+        start = sheet.points * turn.transpose();
+        scene.bodies.add_cloth(start, sheet.faces, {});
+    }
+    const rows end = positions_after(std::move(scene), 50).bottomRows(start.rows());
+    return (end - start).colwise().mean().dot(turn.col(0));
+}
+
+// Sheets on a frictionless plane lost up to half of their speed to its inner edges: contacts with
+// the next triangles had normals that leaned.
+TEST(Runs, BodiesSlideOverTheEdgesOfAPlaneAsFrictionLetsThem) {
+    for (const bool solid : {false, true})
+        for (const int cells : {1, 2, 8, 32})
+            for (const auto& [friction, steepness] :
+                 {std::pair(0.0, 0.35), {0.3, 1.0}, {0.2, 0.45}}) {
+                const double down = std::sin(std::atan(steepness)),
+                             held = friction * std::cos(std::atan(steepness));
+                const double expected = 9.81 * (down - held) * 1e-4 * 50 * 51 / 2;
+                EXPECT_NEAR(slid(solid, friction, steepness, cells), expected, 5e-3)
+                    << (solid ? "solid" : "sheet") << ", friction " << friction << ", steepness "
+                    << steepness << ", " << cells << " cells";
+            }
+}
+
+TEST(Runs, FrictionHoldsABodyOnASlopeBelowItsCoefficient) {
+    for (const bool solid : {false, true}) EXPECT_NEAR(slid(solid, 0.5, 0.45, 8), 0, 1e-3);
 }
 
 TEST(Runs, EnergyDoesNotGrowAtRest) {

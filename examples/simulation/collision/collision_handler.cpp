@@ -55,10 +55,38 @@ nearest_points nearest_of_kind(const std::array<vec3, 4>& x) {
     return {{1, -1, 0, 0}, x[0] - x[1]};
 }
 
+/// Whether the nearest points are those of the surfaces, too, or nearer ones lie beside them. Of a
+/// vertex above the inside of a face that is not asked: all such that are near are contacts.
+bool nearest_of_surfaces(const std::array<vertex_index, 4>& vertices, const nearest_points& nearest,
+                         const rows& positions, const neighbours& neighbours) {
+    const auto of_side = [&](double sign) {
+        std::array<vertex_index, 4> feature;
+        std::size_t size = 0;
+        vec3 on = vec3::Zero();
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!(sign * nearest.weights[i] > 0)) continue;
+            feature[size++] = vertices[i];
+            on += sign * nearest.weights[i] * positions.row(vertices[i]).transpose();
+        }
+        return neighbours.nearest_of_surface({feature.data(), size}, on,
+                                             on - sign * nearest.between, positions);
+    };
+    const bool above_face =
+        std::ranges::count_if(nearest.weights, [](double w) { return w < 0; }) == 3;
+    return above_face || (of_side(-1) && of_side(1));
+}
+
 /// Of pairs that do not touch: they have a normal.
 contact contact_of(const std::array<vertex_index, 4>& vertices, const nearest_points& nearest) {
     return {vertices, nearest.weights, nearest.between / nearest.distance(), 0};
 }
+
+/// A pair that is near at the start of a step.
+struct near_pair {
+    double distance;
+    bool of_surfaces;  ///< its nearest points are those of the surfaces, too
+    contact between;
+};
 
 double gap(const contact& c, const rows& positions) {
     vec3 sum = vec3::Zero();
@@ -87,6 +115,7 @@ collision_handler::collision_handler(const std::vector<ccd::face>& faces,
                                      const std::vector<double>& masses, std::vector<int> bodies,
                                      double time_step, const collision_options& options)
     : steps_(faces, edges, masses.size()),
+      neighbours_(faces, edges, masses.size()),
       particles_(masses, time_step),
       masses_(masses),
       bodies_(std::move(bodies)),
@@ -105,18 +134,20 @@ std::vector<contact> collision_handler::near_at_start(const rows& before, respon
     const double reach = 2 * options_.thickness;  // what comes nearer within the step
     options.distances.all = reach;
     options.filter = filter();
-    std::vector<std::pair<double, contact>> found;
+    std::vector<near_pair> found;
     std::mutex mutex;
     ccd::candidate_visitor visitor;
     ccd::for_each_kind([&]<ccd::kind K>() {
         visitor.of<K>() = [&](std::span<const ccd::pair_of_kind<K>> block) {
-            std::vector<std::pair<double, contact>> near;
+            std::vector<near_pair> near;
             for (const auto& pair : block) {
                 const auto vertices = four_vertices(pair);
                 const nearest_points nearest = nearest_of_kind<K>(at(vertices, before));
                 const double distance = nearest.distance();
                 if (distance < reach && distance > 0)
-                    near.emplace_back(distance, contact_of(vertices, nearest));
+                    near.push_back({distance,
+                                    nearest_of_surfaces(vertices, nearest, before, neighbours_),
+                                    contact_of(vertices, nearest)});
             }
             const std::scoped_lock lock(mutex);
             found.insert(found.end(), near.begin(), near.end());
@@ -124,17 +155,19 @@ std::vector<contact> collision_handler::near_at_start(const rows& before, respon
     });
     steps_.for_each_candidate(way(before, before), visitor, options);
     // Blocks come in any order; a face and a pair of edges may have the same vertices.
-    std::ranges::sort(found, {},
-                      [](const auto& f) { return std::pair(f.second.vertex, f.second.weight); });
+    std::ranges::sort(found, {}, [](const near_pair& f) {
+        return std::pair(f.between.vertex, f.between.weight);
+    });
     std::vector<contact> contacts;
     report.least_distance = options_.thickness;
-    for (auto& [distance, contact] : found) {
+    for (auto& [distance, of_surfaces, contact] : found) {
         const double lacks = options_.thickness - distance;
-        contact.least = lacks > 0 ? options_.push * lacks : lacks;
         report.near_at_start += lacks > 0 ? 1 : 0;
+        report.least_distance = std::min(report.least_distance, distance);
+        if (!of_surfaces) continue;
+        contact.least = lacks > 0 ? options_.push * lacks : lacks;
         if (const auto last = last_forces_.find(contact.vertex); last != last_forces_.end())
             contact.force = last->second;
-        report.least_distance = std::min(report.least_distance, distance);
         contacts.push_back(contact);
     }
     return contacts;

@@ -33,6 +33,7 @@
 
 #include "examples/simulation/bodies/positions.hpp"
 #include "examples/simulation/collision/contacts.hpp"
+#include "examples/simulation/collision/neighbours.hpp"
 
 namespace simulation {
 
@@ -101,6 +102,7 @@ class collision_handler {
     void advance_instead(const rows& before, rows& after, response_report& report);
 
     ccd::mesh_steps steps_;
+    neighbours neighbours_;
     particle_compliance particles_;
     std::vector<double> masses_;
     std::vector<std::uint8_t> pinned_;
