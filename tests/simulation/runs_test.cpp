@@ -7,6 +7,7 @@
 #include <ccd/exact.hpp>
 #include <ccd/method.hpp>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -162,6 +163,56 @@ TEST(Runs, AMethodThatLosesACollisionIsTold) {
         const bool lost = method == ccd::method::float_;
         EXPECT_EQ(report.passed_through, lost ? 1U : 0U);
         EXPECT_EQ(there == after, lost);
+    }
+}
+
+/// A triangle above another, of which the lower one is driven.
+struct two_triangles {
+    std::vector<ccd::face> faces{{0, 1, 2}, {3, 4, 5}};
+    std::vector<double> masses{0, 0, 0, 1, 1, 1};
+    std::vector<int> bodies{0, 0, 0, 1, 1, 1};
+    rows before{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.1, .1, 5e-4}, {.5, .2, 5e-4}, {.2, .5, 5e-4}};
+    rows after = before;
+    double time_step = 0.01;
+    simulation::collision_options options;
+
+    void resolve() {
+        simulation::collision_handler handler(faces, {}, masses, bodies, time_step, options);
+        handler.resolve(before, after, simulation::particle_compliance(masses, time_step));
+    }
+};
+
+// Rows that were missing were written behind the end of memory; bodies that were missing were told
+// of only in the first frame without convergence; masses below 0 were driven in one place and not
+// in another.
+TEST(Runs, AHandlerRefusesWhatMakesNoSense) {
+    EXPECT_NO_THROW(two_triangles().resolve());
+    const auto refused = [](const std::function<void(two_triangles&)>& change) {
+        two_triangles changed;
+        change(changed);
+        EXPECT_THROW(changed.resolve(), std::invalid_argument);
+    };
+    const double nan = std::nan("");
+    refused([](auto& t) { t.after = rows(t.after.topRows(4)); });
+    refused([](auto& t) { t.before = rows(t.before.topRows(4)); });
+    refused([](auto& t) { t.bodies.pop_back(); });
+    for (const double mass : {-1.0, nan, HUGE_VAL}) refused([&](auto& t) { t.masses[3] = mass; });
+    for (const double h : {0.0, -1.0, nan}) refused([&](auto& t) { t.time_step = h; });
+    refused([&](auto& t) { t.options.thickness = nan; });
+    refused([](auto& t) { t.options.friction = -1; });
+    for (const double x : {nan, HUGE_VAL}) {
+        refused([&](auto& t) { t.after(3, 2) = x; });
+        refused([&](auto& t) { t.after(0, 1) = x; });
+        refused([&](auto& t) { t.before(4, 0) = x; });
+    }
+}
+
+TEST(Runs, AProposalTooFarForDoublesEnds) {
+    for (const double z : {-1e160, -1e300}) {
+        two_triangles far;
+        far.after.bottomRows(3).col(2).setConstant(z);
+        EXPECT_NO_THROW(far.resolve()) << z;
+        EXPECT_GE(far.after.bottomRows(3).col(2).minCoeff(), 0) << z;
     }
 }
 

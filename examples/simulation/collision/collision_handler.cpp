@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "examples/simulation/collision/nearest.hpp"
@@ -94,6 +97,41 @@ double gap(const contact& c, const rows& positions) {
     return c.normal.dot(sum);
 }
 
+/// What a simulation of one's own may get wrong, told before it is a crash or a response that is
+/// none.
+void require_good(const std::vector<double>& masses, const std::vector<int>& bodies,
+                  double time_step, const collision_options& options) {
+    const auto require = [](bool good, const std::string& what) {
+        if (!good) throw std::invalid_argument("collision_handler: found " + what);
+    };
+    const auto not_negative = [&](const char* name, double x) {
+        require(std::isfinite(x) && x >= 0, std::string(name) + " " + std::to_string(x) +
+                                                ", expected a finite number, not negative");
+    };
+    for (std::size_t v = 0; v < masses.size(); ++v)
+        not_negative(("of vertex " + std::to_string(v) + " the mass").c_str(), masses[v]);
+    require(bodies.size() == masses.size(), "bodies of " + std::to_string(bodies.size()) +
+                                                " vertices, expected of " +
+                                                std::to_string(masses.size()));
+    require(std::isfinite(time_step) && time_step > 0,
+            "the time step " + std::to_string(time_step) + ", expected a positive one");
+    not_negative("the thickness", options.thickness);
+    not_negative("the friction", options.friction);
+    not_negative("the push", options.push);
+    not_negative("the tolerance", options.tolerance);
+}
+
+void require_positions(const std::string& what, const rows& x, std::size_t vertices) {
+    if (std::size_t(x.rows()) != vertices)
+        throw std::invalid_argument("collision_handler: found " + what + " of " +
+                                    std::to_string(x.rows()) + " vertices, expected of " +
+                                    std::to_string(vertices));
+    for (Eigen::Index v = 0; v < x.rows(); ++v)
+        if (!x.row(v).allFinite())
+            throw std::invalid_argument("collision_handler: found " + what + " of vertex " +
+                                        std::to_string(v) + " that are not finite");
+}
+
 /// The method's pairs, and whether it is certain of them.
 std::size_t uncertain_among(const ccd::pair_lists& pairs, ccd::method method,
                             const ccd::vertex_rows& positions) {
@@ -120,6 +158,7 @@ collision_handler::collision_handler(const std::vector<ccd::face>& faces,
       masses_(masses),
       bodies_(std::move(bodies)),
       options_(options) {
+    require_good(masses, bodies_, time_step, options);
     for (const double mass : masses) pinned_.push_back(mass > 0 ? 0 : 1);
 }
 
@@ -249,6 +288,8 @@ std::optional<std::size_t> collision_handler::passed_through(const rows& before,
 
 response_report collision_handler::resolve(const rows& before, rows& after,
                                            const compliance& bodies) {
+    require_positions("positions", before, masses_.size());
+    require_positions("proposed positions", after, masses_.size());
     response_report report;
     const rows proposed = after;
     impact_zones zones(masses_.size());

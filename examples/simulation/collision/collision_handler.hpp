@@ -75,13 +75,17 @@ class collision_handler {
   public:
     /// Of a mesh whose vertices have these masses (0: driven, and not moved by any response) and
     /// bodies (each advances by a fraction of its own, if need be). Throws what ccd::mesh_steps
-    /// throws.
+    /// throws, and std::invalid_argument if there is not a body and a finite mass of each vertex,
+    /// or the time step or an option makes no sense.
     collision_handler(const std::vector<ccd::face>& faces, const std::vector<ccd::edge>& edges,
                       const std::vector<double>& masses, std::vector<int> bodies, double time_step,
                       const collision_options& options);
 
     /// Moves `after`, rows of driven vertices only where it has not converged. `before` must be
-    /// without contact.
+    /// without contact, and surfaces there must not reach through each other: of what is already
+    /// through, no step tells. Pairs of driven vertices alone are left out, and may pass through
+    /// each other. Throws std::invalid_argument if a coordinate is not finite or there are not as
+    /// many rows as vertices.
     response_report resolve(const rows& before, rows& after, const compliance& bodies);
 
     /// What the last step's contacts took, from which the next one's are looked for: with

@@ -150,7 +150,8 @@ class projected_gradients {
             double allowed = 0;
             for (Eigen::Index c = 0; c < d.rows(); ++c)
                 if (scale_[c] > 0) allowed += d.row(c).squaredNorm() / scale_[c];
-            if (step * curvature <= allowed) return {std::move(next), std::move(moved)};
+            // Not `<= allowed`: where numbers overflow, no step is ever short enough.
+            if (!(step * curvature > allowed)) return {std::move(next), std::move(moved)};
             step = std::min(step / 2, 0.9 * allowed / curvature);
         }
     }

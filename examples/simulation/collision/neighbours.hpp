@@ -29,8 +29,8 @@ class neighbours {
   private:
     std::span<const vertex_index> around(std::span<const vertex_index> feature) const;
 
-    std::vector<std::vector<vertex_index>> of_vertex_;          ///< the other ends of its edges
-    std::map<ccd::edge, std::vector<vertex_index>> of_edge_;    ///< its faces' third vertices
+    std::vector<std::vector<vertex_index>> of_vertex_;        ///< the other ends of its edges
+    std::map<ccd::edge, std::vector<vertex_index>> of_edge_;  ///< its faces' third vertices
 };
 
 }  // namespace simulation
