@@ -62,21 +62,28 @@ nearest_points nearest_of_kind(const std::array<vec3, 4>& x) {
 /// vertex above the inside of a face that is not asked: all such that are near are contacts.
 bool nearest_of_surfaces(const std::array<vertex_index, 4>& vertices, const nearest_points& nearest,
                          const rows& positions, const neighbours& neighbours) {
-    const auto of_side = [&](double sign) {
-        std::array<vertex_index, 4> feature;
+    struct side {
+        std::array<vertex_index, 4> vertices{};
         std::size_t size = 0;
         vec3 on = vec3::Zero();
+        std::span<const vertex_index> feature() const { return {vertices.data(), size}; }
+    };
+    const auto of_sign = [&](double sign) {
+        side s;
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(sign * nearest.weights[i] > 0)) continue;
-            feature[size++] = vertices[i];
-            on += sign * nearest.weights[i] * positions.row(vertices[i]).transpose();
+            s.vertices[s.size++] = vertices[i];
+            s.on += sign * nearest.weights[i] * positions.row(vertices[i]).transpose();
         }
-        return neighbours.nearest_of_surface({feature.data(), size}, on,
-                                             on - sign * nearest.between, positions);
+        return s;
     };
-    const bool above_face =
-        std::ranges::count_if(nearest.weights, [](double w) { return w < 0; }) == 3;
-    return above_face || (of_side(-1) && of_side(1));
+    const side first = of_sign(1), second = of_sign(-1);
+    const auto is_nearest = [&](const side& s, const side& other) {
+        return neighbours.nearest_of_surface(s.feature(), s.on, other.on, other.feature(),
+                                             positions);
+    };
+    const bool above_face = second.size == 3;
+    return above_face || (is_nearest(first, second) && is_nearest(second, first));
 }
 
 /// Of pairs that do not touch: they have a normal.

@@ -28,13 +28,20 @@ std::span<const vertex_index> neighbours::around(std::span<const vertex_index> f
     return {};
 }
 
+bool neighbours::next_to(vertex_index v, std::span<const vertex_index> feature) const {
+    return std::ranges::any_of(feature, [&](vertex_index w) {
+        return v == w || std::ranges::count(of_vertex_[w], v) > 0;
+    });
+}
+
 bool neighbours::nearest_of_surface(std::span<const vertex_index> feature, const vec3& on,
-                                    const vec3& from, const rows& positions) const {
+                                    const vec3& from, std::span<const vertex_index> other,
+                                    const rows& positions) const {
     constexpr double rounding = 1e-6;  // of an angle
     const vec3 up = from - on;
     return std::ranges::none_of(around(feature), [&](vertex_index v) {
         const vec3 along = positions.row(v).transpose() - on;
-        return up.dot(along) > rounding * up.norm() * along.norm();
+        return up.dot(along) > rounding * up.norm() * along.norm() && !next_to(v, other);
     });
 }
 

@@ -22,11 +22,14 @@ class neighbours {
                std::size_t vertices);
 
     /// Of the feature with these vertices (1: a vertex, 2: an edge, 3: a face) inside which `on`
-    /// is: whether no direction along the surface from there leads towards `from`.
+    /// is: whether no direction along the surface from there leads towards `from`, a point of
+    /// `other`. In a fold directions lead to where features share vertices and are no pairs: those
+    /// towards vertices next to `other` do not count.
     bool nearest_of_surface(std::span<const vertex_index> feature, const vec3& on, const vec3& from,
-                            const rows& positions) const;
+                            std::span<const vertex_index> other, const rows& positions) const;
 
   private:
+    bool next_to(vertex_index v, std::span<const vertex_index> feature) const;
     std::span<const vertex_index> around(std::span<const vertex_index> feature) const;
 
     std::vector<std::vector<vertex_index>> of_vertex_;        ///< the other ends of its edges
