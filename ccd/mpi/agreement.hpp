@@ -3,35 +3,56 @@
 
 #include <mpi.h>
 
+#include <ccd/stop.hpp>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
 namespace ccd::mpi::detail {
 
-/// Calls check() on every rank. If it throws on some, throws std::invalid_argument on all, with the
-/// message of the first of these ranks.
+/// What ends a call; the lesser goes before where ranks differ.
+enum class failure : int { refused, stopped, out_of_memory, other, none };
+
+inline failure failure_of(const std::exception& error) {
+    if (dynamic_cast<const std::invalid_argument*>(&error)) return failure::refused;
+    if (dynamic_cast<const ccd::stopped*>(&error)) return failure::stopped;
+    if (dynamic_cast<const std::bad_alloc*>(&error)) return failure::out_of_memory;
+    return failure::other;
+}
+
+[[noreturn]] inline void fail(failure why, const std::string& message) {
+    if (why == failure::refused) throw std::invalid_argument(message);
+    if (why == failure::stopped) throw ccd::stopped();
+    if (why == failure::out_of_memory) throw std::bad_alloc();
+    throw std::runtime_error(message);
+}
+
+/// Calls check() on every rank. If it throws on some, throws on all what the first of these ranks
+/// did: std::invalid_argument, ccd::stopped, std::bad_alloc, or else std::runtime_error, with that
+/// rank's message.
 template <class Check>
 void agree(MPI_Comm comm, const Check& check) {
-    int rank = 0, size = 1;
+    int rank = 0;
     MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
     std::string message;
-    int failed = size;
+    struct {
+        int why, rank;
+    } own{static_cast<int>(failure::none), rank}, first{};
     try {
         check();
     } catch (const std::exception& error) {
-        failed = rank;
+        own.why = static_cast<int>(failure_of(error));
         message = "rank " + std::to_string(rank) + ": " + error.what();
     }
-    int first = size;
-    MPI_Allreduce(&failed, &first, 1, MPI_INT, MPI_MIN, comm);
-    if (first == size) return;
+    MPI_Allreduce(&own, &first, 1, MPI_2INT, MPI_MINLOC, comm);
+    const auto why = static_cast<failure>(first.why);
+    if (why == failure::none) return;
     int length = static_cast<int>(message.size());
-    MPI_Bcast(&length, 1, MPI_INT, first, comm);
+    MPI_Bcast(&length, 1, MPI_INT, first.rank, comm);
     message.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(message.data(), length, MPI_CHAR, first, comm);
-    throw std::invalid_argument(message);
+    MPI_Bcast(message.data(), length, MPI_CHAR, first.rank, comm);
+    fail(why, message);
 }
 
 }  // namespace ccd::mpi::detail

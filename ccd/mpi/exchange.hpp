@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <ccd/contact.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ccd/mpi/agreement.hpp"
@@ -62,11 +64,16 @@ class exchanger {
     /// Sent to other ranks so far.
     std::uint64_t bytes() const { return bytes_; }
 
+    template <class Check>
+    void agree(const Check& check) {
+        detail::agree(comm_, check);
+    }
+
     /// lists[r] to rank r.
     template <class T>
     received<T> all_to_all(const std::vector<std::vector<T>>& lists) {
         std::vector<int> to(size()), from(size());
-        agree(comm_, [&] {
+        agree([&] {
             std::size_t all = 0;
             for (std::size_t r = 0; r < size(); ++r) {
                 to[r] = static_cast<int>(lists[r].size());
@@ -76,7 +83,7 @@ class exchanger {
         });
         MPI_Alltoall(to.data(), 1, MPI_INT, from.data(), 1, MPI_INT, comm_);
         received<T> result{{}, starts_of(from)};
-        agree(comm_, [&] {
+        agree([&] {
             require_int(result.starts.back(), "receive");
             result.items.resize(result.starts.back());
         });
@@ -101,13 +108,34 @@ class exchanger {
         const int mine = static_cast<int>(list.size());
         MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
         received<T> result{{}, starts_of(counts)};
-        result.items.resize(result.starts.back());
+        agree([&] {
+            require_int(result.starts.back(), "receive");
+            result.items.resize(result.starts.back());
+        });
         const std::vector<int> offsets(result.starts.begin(), result.starts.end() - 1);
         const item_type<T> type;
         MPI_Allgatherv(list.data(), mine, type, result.items.data(), counts.data(), offsets.data(),
                        type, comm_);
         bytes_ += sizeof(T) * list.size() * (size() - 1);
         return result;
+    }
+
+    /// Of all ranks' times that of the earliest contact; this rank's own if there is none.
+    first_time earliest(const first_time& own) {
+        first_time earliest = own;
+        for (const first_time& time : gather(std::vector{own}).items) {
+            if (time.outcome != outcome::collides) continue;
+            if (earliest.outcome != outcome::collides ||
+                std::pair(time.low, time.high) < std::pair(earliest.low, earliest.high))
+                earliest = time;
+        }
+        return earliest;
+    }
+
+    double least(double own) {
+        double least = own;
+        MPI_Allreduce(&own, &least, 1, MPI_DOUBLE, MPI_MIN, comm_);
+        return least;
     }
 
   private:

@@ -3,7 +3,6 @@
 #include "ccd/mpi/held_mesh.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -96,7 +95,7 @@ held_mesh::routes held_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
 }
 
 held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
-                     const decomposition& parts, const step_options& options) {
+                     const decomposition& parts, const vertex_lists& of_vertices) {
     const routes to = routes_of(ranks.size(), mesh, given, parts);
     std::vector<std::vector<sent_vertex>> vertices(ranks.size());
     std::vector<std::vector<sent_face>> faces(ranks.size());
@@ -114,12 +113,12 @@ held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elemen
             edges[r].push_back({number(mesh.edges[i][0]), number(mesh.edges[i][1])});
     }
     const auto sent_vertices = ranks.all_to_all(vertices);
-    const auto groups = ranks.all_to_all(picked(options.filter.groups, to.vertices));
-    const auto pinned = ranks.all_to_all(picked(options.filter.pinned, to.vertices));
-    const auto thickness = ranks.all_to_all(picked(options.distances.thickness, to.vertices));
+    const auto send = [&](auto list) { return ranks.all_to_all(picked(list, to.vertices)); };
+    const received_lists lists{send(of_vertices.groups), send(of_vertices.pinned),
+                               send(of_vertices.thickness), send(of_vertices.islands)};
     const auto sent_faces = ranks.all_to_all(faces);
     const auto sent_edges = ranks.all_to_all(edges);
-    agree(ranks.comm(), [&] { keep_vertices(sent_vertices, groups, pinned, thickness); });
+    ranks.agree([&] { keep_vertices(sent_vertices, lists); });
     faces_ = by_index<3>(sent_faces);
     edges_ = by_index<2>(sent_edges);
     owner_of_face_ = sources(sent_faces);
@@ -129,29 +128,32 @@ held_mesh::held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elemen
 }
 
 /// One of each, in the order of their numbers.
-void held_mesh::keep_vertices(const received<sent_vertex>& sent, const received<int>& groups,
-                              const received<std::uint8_t>& pinned,
-                              const received<double>& thickness) {
+void held_mesh::keep_vertices(const received<sent_vertex>& sent,
+                              const received_lists& of_vertices) {
+    const auto& [groups, pinned, thickness, islands] = of_vertices;
     if (sent.items.size() > std::numeric_limits<vertex_index>::max())
-        throw std::length_error("ccd::mpi::step: found " + std::to_string(sent.items.size()) +
+        throw std::length_error("ccd::mpi: found " + std::to_string(sent.items.size()) +
                                 " vertices in one part of space, expected fewer than 2^32 - 1");
     std::vector<vertex_index> order(sent.items.size());
     for (vertex_index i = 0; i < order.size(); ++i) order[i] = i;
     // Stable: of copies, that of the lowest rank is first.
     std::ranges::stable_sort(order, {}, [&](vertex_index i) { return sent.items[i].number; });
     const std::vector<std::size_t> ranks = sources(sent);
-    const auto differ = [](const auto& list, vertex_index i, vertex_index j) {
-        return !list.items.empty() && list.items[i] != list.items[j];
+    const auto differ = [](vertex_index i, vertex_index j, const auto&... lists) {
+        return ((!lists.items.empty() && lists.items[i] != lists.items[j]) || ...);
+    };
+    const auto keep = [](auto& kept, const auto& list, vertex_index i) {
+        if (!list.items.empty()) kept.push_back(list.items[i]);
     };
     for (std::size_t k = 0, first = 0; k < order.size(); ++k) {
         const vertex_index i = order[k], kept = order[first];
         const sent_vertex& v = sent.items[i];
         if (k > 0 && v.number == sent.items[kept].number) {
             const sent_vertex& w = sent.items[kept];
-            if (v.before != w.before || v.after != w.after || differ(groups, i, kept) ||
-                differ(pinned, i, kept) || differ(thickness, i, kept))
+            if (v.before != w.before || v.after != w.after ||
+                differ(i, kept, groups, pinned, thickness, islands))
                 throw std::invalid_argument(
-                    "ccd::mpi::step: found vertex " + std::to_string(v.number) +
+                    "ccd::mpi: found vertex " + std::to_string(v.number) +
                     " with other positions, group, flag or thickness on rank " +
                     std::to_string(ranks[i]) + " than on rank " + std::to_string(ranks[kept]));
             continue;
@@ -161,15 +163,16 @@ void held_mesh::keep_vertices(const received<sent_vertex>& sent, const received<
         owner_of_vertex_.push_back(ranks[i]);
         before_.push_back(point_of(v.before));
         after_.push_back(point_of(v.after));
-        if (!groups.items.empty()) groups_.push_back(groups.items[i]);
-        if (!pinned.items.empty()) pinned_.push_back(pinned.items[i]);
-        if (!thickness.items.empty()) thickness_.push_back(thickness.items[i]);
+        keep(groups_, groups, i);
+        keep(pinned_, pinned, i);
+        keep(thickness_, thickness, i);
+        keep(islands_, islands, i);
     }
 }
 
-vertex_index held_mesh::index(vertex_number number) const {
+std::optional<vertex_index> held_mesh::find(vertex_number number) const {
     const auto found = std::ranges::lower_bound(numbers_, number);
-    assert(found != numbers_.end() && *found == number);
+    if (found == numbers_.end() || *found != number) return {};
     return static_cast<vertex_index>(found - numbers_.begin());
 }
 
@@ -179,17 +182,16 @@ std::vector<std::array<vertex_index, N>> held_mesh::by_index(
     std::vector<std::array<vertex_index, N>> elements(sent.items.size());
     for (std::size_t i = 0; i < elements.size(); ++i)
         std::ranges::transform(sent.items[i], elements[i].begin(),
-                               [this](vertex_number n) { return index(n); });
+                               [this](vertex_number n) { return find(n).value(); });
     return elements;
 }
 
-ccd::step_result held_mesh::step(const space_part& part, const step_options& options) const {
-    step_options own = options;
-    own.filter.groups = groups_;
-    own.filter.pinned = pinned_;
-    own.distances.thickness = thickness_;
-    own.filter.part = part;
-    return ccd::step(faces_, edges_, vertex_rows(before_, after_), own);
+pair_filter held_mesh::filter(const space_part& part, const pair_filter& given) const {
+    pair_filter own = given;
+    own.groups = groups_;
+    own.pinned = pinned_;
+    own.part = part;
+    return own;
 }
 
 template <class Pair>

@@ -5,9 +5,12 @@
 #include <ccd/mpi.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
 
@@ -30,17 +33,24 @@ class given_elements {
 
 class held_mesh {
   public:
-    /// Collective. Of `options` the lists of one entry a vertex are sent along. Throws
-    /// std::invalid_argument on all ranks where copies of a vertex differ.
+    /// Collective. What is said of each vertex is sent along. Throws std::invalid_argument on all
+    /// ranks where copies of a vertex differ.
     held_mesh(exchanger& ranks, const mesh_part& mesh, const given_elements& given,
-              const decomposition& parts, const step_options& options);
+              const decomposition& parts, const vertex_lists& of_vertices);
 
     /// Faces and edges that were sent here, each copy counted, and vertices without one.
     std::size_t elements() const { return elements_; }
     vertex_number number(vertex_index v) const { return numbers_[v]; }
+    std::size_t vertices() const { return numbers_.size(); }
+    std::optional<vertex_index> find(vertex_number number) const;
+    vertex_rows way() const { return {before_, after_}; }
+    /// 0 if none were given.
+    int island(vertex_index v) const { return islands_.empty() ? 0 : islands_[v]; }
 
-    /// Of the pairs that begin in that part of space.
-    ccd::step_result step(const space_part& part, const step_options& options) const;
+    mesh_steps steps() const { return {faces_, edges_, numbers_.size()}; }
+    /// The pairs that begin in that part of space, of what options let through.
+    pair_filter filter(const space_part& part, const pair_filter& given) const;
+    pair_distances distances(const pair_distances& given) const { return {given.all, thickness_}; }
 
     /// Of each pair the lowest rank that has the first element.
     template <class Pair>
@@ -60,9 +70,13 @@ class held_mesh {
 
     static routes routes_of(std::size_t ranks, const mesh_part& mesh, const given_elements& given,
                             const decomposition& parts);
-    void keep_vertices(const received<sent_vertex>& sent, const received<int>& groups,
-                       const received<std::uint8_t>& pinned, const received<double>& thickness);
-    vertex_index index(vertex_number number) const;
+    struct received_lists {
+        received<int> groups;
+        received<std::uint8_t> pinned;
+        received<double> thickness;
+        received<int> islands;
+    };
+    void keep_vertices(const received<sent_vertex>& sent, const received_lists& of_vertices);
     template <std::size_t N>
     std::vector<std::array<vertex_index, N>> by_index(
         const received<std::array<vertex_number, N>>& sent) const;
@@ -73,6 +87,7 @@ class held_mesh {
     std::vector<int> groups_;
     std::vector<std::uint8_t> pinned_;
     std::vector<double> thickness_;
+    std::vector<int> islands_;
     std::vector<face> faces_;
     std::vector<edge> edges_;
     std::vector<std::size_t> owner_of_face_, owner_of_edge_;

@@ -3,36 +3,15 @@
 #include <ccd/mpi.hpp>
 #include <chrono>
 #include <numeric>
-#include <stdexcept>
-#include <string>
-#include <tuple>
-#include <unordered_set>
 #include <utility>
 
+#include "ccd/mpi/checks.hpp"
 #include "ccd/mpi/decomposition.hpp"
 #include "ccd/mpi/exchange.hpp"
 #include "ccd/mpi/held_mesh.hpp"
-#include "ccd/step/checks.hpp"
 
 namespace ccd::mpi {
 namespace {
-
-void check(const mesh_part& mesh, const step_options& options) {
-    if (mesh.positions.vertices != mesh.numbers.size())
-        throw std::invalid_argument(
-            "ccd::mpi::step: found " + std::to_string(mesh.positions.vertices) +
-            " positions, expected " + std::to_string(mesh.numbers.size()) + ", one a number");
-    const std::unordered_set<vertex_number> unique(mesh.numbers.begin(), mesh.numbers.end());
-    if (unique.size() != mesh.numbers.size())
-        throw std::invalid_argument("ccd::mpi::step: found a vertex's number given twice");
-    if (options.filter.can_collide || options.filter.part)
-        throw std::invalid_argument(
-            "ccd::mpi::step: found can_collide or a part of space, expected groups and pinned "
-            "flags alone");
-    ccd::detail::check_elements(mesh.faces, mesh.edges, mesh.numbers.size(), "ccd::mpi::step");
-    ccd::detail::check_positions(mesh.positions, mesh.numbers.size());
-    ccd::detail::check_options(options, mesh.numbers.size());
-}
 
 /// A pair on its way to who asked for it.
 template <kind K>
@@ -71,18 +50,6 @@ void return_pairs(detail::exchanger& ranks, const detail::held_mesh& held,
     }
 }
 
-/// The earliest of all ranks' first contacts.
-first_time earliest_of(detail::exchanger& ranks, const first_time& own) {
-    first_time earliest = own;
-    for (const first_time& time : ranks.gather(std::vector<first_time>{own}).items) {
-        if (time.outcome != outcome::collides) continue;
-        if (earliest.outcome != outcome::collides ||
-            std::pair(time.low, time.high) < std::pair(earliest.low, earliest.high))
-            earliest = time;
-    }
-    return earliest;
-}
-
 pair_counts sum_of(detail::exchanger& ranks, const pair_counts& own) {
     pair_counts sum;
     for (const pair_counts& counts : ranks.gather(std::vector<pair_counts>{own}).items)
@@ -96,18 +63,23 @@ step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& optio
                  placement where) {
     using clock = std::chrono::steady_clock;
     const auto start = clock::now();
-    detail::agree(comm, [&] { check(mesh, options); });
     detail::exchanger ranks(comm);
+    const detail::vertex_lists lists(options.filter, options.distances);
+    detail::check_mesh(ranks, mesh, options.filter, lists, "ccd::mpi::step");
+    detail::check_options(ranks, options, where, mesh.numbers.size(), "ccd::mpi::step");
     const detail::given_elements given(mesh, options.distances);
     const detail::decomposition parts(ranks, given.boxes());
-    const detail::held_mesh held(ranks, mesh, given, parts, options);
+    const detail::held_mesh held(ranks, mesh, given, parts, lists);
 
     ccd::step_result found;
-    detail::agree(comm, [&] { found = held.step(parts.part(ranks.rank()), options); });
+    step_options own = options;
+    own.filter = held.filter(parts.part(ranks.rank()), options.filter);
+    own.distances = held.distances(options.distances);
+    ranks.agree([&] { found = held.steps().run(held.way(), own); });
     step_result result;
     for_each_kind([&]<kind K>() { return_pairs<K>(ranks, held, found, where, result); });
     if (options.times || options.first_contact || options.t_max < 1)
-        result.first_contact = earliest_of(ranks, found.first_contact);
+        result.first_contact = ranks.earliest(found.first_contact);
     result.decided = found.candidates;
     if (found.candidates) result.candidates = sum_of(ranks, *found.candidates);
     result.work = {given.boxes().size(), held.elements(), ranks.bytes(),

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,16 @@ class vertex_groups {
     explicit vertex_groups(std::size_t vertices)
         : parent_(vertices), groups_(vertices), retreats_(vertices) {
         std::iota(parent_.begin(), parent_.end(), vertex_index(0));
+    }
+
+    /// One more vertex, which goes all the way by itself; all have become one group: with them.
+    vertex_index add() {
+        const auto v = static_cast<vertex_index>(parent_.size());
+        parent_.push_back(v);
+        groups_.emplace_back();
+        retreats_.push_back(0);
+        if (all_are_one_) join(0, v);
+        return v;
     }
 
     std::size_t vertices() const { return parent_.size(); }
@@ -47,7 +58,12 @@ class vertex_groups {
             all.shortened = more.shortened;
         }
     }
+    /// Joins it with the others that were named the same.
+    void join_named(int name, vertex_index v) {
+        join(first_named_.try_emplace(name, v).first->second, v);
+    }
     void join_all() {
+        all_are_one_ = true;
         for (vertex_index v = 1; v < parent_.size(); ++v) join(0, v);
     }
 
@@ -128,6 +144,8 @@ class vertex_groups {
     std::vector<vertex_index> parent_;
     std::vector<group> groups_;           ///< at the root of each
     std::vector<std::uint8_t> retreats_;  ///< of each vertex, how often
+    std::unordered_map<int, vertex_index> first_named_;
+    bool all_are_one_ = false;
 };
 
 }  // namespace ccd::detail

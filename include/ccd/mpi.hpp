@@ -18,6 +18,7 @@
 #include <mpi.h>
 
 #include <array>
+#include <ccd/advance.hpp>
 #include <ccd/kind.hpp>
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
@@ -87,5 +88,25 @@ struct step_result {
 /// to and from every rank that has elements of its box.
 step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& options = {},
                  placement pairs = placement::owners);
+
+struct advance_result {
+    std::vector<point<double>> positions;  ///< of mesh.numbers
+    double fraction = 1;                   ///< the least of the whole mesh, the same on all ranks
+    std::vector<double> fractions;         ///< of mesh.numbers
+    first_time first_contact;              ///< of the whole step, the same on all ranks
+    pair_lists touching_at_start, near_at_start;  ///< of the whole mesh, sorted, on all ranks
+    rank_work work;
+};
+
+/// What ccd::advance of the whole mesh returns, bit for bit, if numbers order vertices as indices
+/// do there. Options mean what they mean to it: options.groups and the filter's are those of
+/// mesh.numbers, the same number being the same group on every rank; can_collide and part must not
+/// be given.
+///
+/// Throws as ccd::mpi::step, and ccd::stopped on all ranks where options.stop says so on one.
+///
+/// Memory: that of a step; and, on every rank, the pairs of the whole mesh that touch or are near
+/// at the start, those that meet by rounding, and, where groups are given, all that meet.
+advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_options& options = {});
 
 }  // namespace ccd::mpi

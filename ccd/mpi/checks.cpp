@@ -1,0 +1,102 @@
+// Checks of what ranks are given.
+#include "ccd/mpi/checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <unordered_set>
+
+#include "ccd/step/checks.hpp"
+
+namespace ccd::mpi::detail {
+namespace {
+
+/// By numbers that must be the same everywhere.
+template <std::size_t N>
+void check_same(exchanger& ranks, const std::array<double, N>& asked, const std::string& caller) {
+    const auto all = ranks.gather(std::vector{asked}).items;
+    ranks.agree([&] {
+        if (all.front() != asked)
+            throw std::invalid_argument(caller +
+                                        ": found other options than on rank 0, expected the same");
+    });
+}
+
+void check_lengths(const vertex_lists& lists, std::size_t vertices, const std::string& caller) {
+    for (const std::size_t length :
+         {lists.groups.size(), lists.pinned.size(), lists.thickness.size(), lists.islands.size()})
+        if (length != 0 && length != vertices)
+            throw std::invalid_argument(caller + ": found a list of " + std::to_string(length) +
+                                        " vertices, expected " + std::to_string(vertices) +
+                                        ", one entry a number");
+}
+
+/// Of lists that one rank with vertices has and another does not.
+void check_given_alike(exchanger& ranks, const vertex_lists& lists, std::size_t vertices,
+                       const std::string& caller) {
+    const std::array given{!lists.groups.empty(), !lists.pinned.empty(), !lists.thickness.empty(),
+                           !lists.islands.empty()};
+    // Ranks without vertices have nothing to say.
+    const auto all =
+        ranks.gather(vertices == 0 ? std::vector<std::array<bool, 4>>() : std::vector{given});
+    ranks.agree([&] {
+        if (vertices != 0 && all.items.front() != given)
+            throw std::invalid_argument(
+                caller +
+                ": found other lists of groups, flags or thicknesses than elsewhere, expected the "
+                "same on all ranks with vertices");
+    });
+}
+
+}  // namespace
+
+void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filter,
+                const vertex_lists& lists, const std::string& caller) {
+    const std::size_t vertices = mesh.numbers.size();
+    ranks.agree([&] {
+        if (mesh.positions.vertices != vertices)
+            throw std::invalid_argument(
+                caller + ": found " + std::to_string(mesh.positions.vertices) +
+                " positions, expected " + std::to_string(vertices) + ", one a number");
+        const std::unordered_set<vertex_number> unique(mesh.numbers.begin(), mesh.numbers.end());
+        if (unique.size() != vertices)
+            throw std::invalid_argument(caller + ": found a vertex's number given twice");
+        if (filter.can_collide || filter.part)
+            throw std::invalid_argument(caller +
+                                        ": found can_collide or a part of space, expected groups "
+                                        "and pinned flags alone");
+        ccd::detail::check_elements(mesh.faces, mesh.edges, vertices, caller);
+        ccd::detail::check_positions(mesh.positions, vertices);
+        check_lengths(lists, vertices, caller);
+    });
+    check_given_alike(ranks, lists, vertices, caller);
+}
+
+void check_options(exchanger& ranks, const step_options& options, placement pairs,
+                   std::size_t vertices, const std::string& caller) {
+    ranks.agree([&] { ccd::detail::check_options(options, vertices); });
+    check_same(ranks,
+               std::array{static_cast<double>(options.method), double(options.count_candidates),
+                          double(options.explain), double(options.initial_contact),
+                          double(options.first_contact), double(options.times), options.t_max,
+                          options.distances.all, static_cast<double>(options.filter.rule),
+                          static_cast<double>(pairs)},
+               caller);
+}
+
+void check_options(exchanger& ranks, const advance_options& options, std::size_t vertices,
+                   const std::string& caller) {
+    ranks.agree([&] {
+        ccd::detail::check_options(
+            {.set = options.set, .distances = options.distances, .filter = options.filter},
+            vertices);
+    });
+    check_same(ranks, std::array{options.distances.all, static_cast<double>(options.filter.rule)},
+               caller);
+}
+
+bool is_given_anywhere(exchanger& ranks, std::span<const int> list) {
+    return ranks.least(list.empty() ? 1 : 0) == 0;
+}
+
+}  // namespace ccd::mpi::detail

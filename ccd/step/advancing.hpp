@@ -1,0 +1,269 @@
+// Advances: positions are tried, asked and shortened until a step to them is free. Written once for
+// a mesh in one process and for one that is spread over many, which tell one another what they
+// find (`Others`).
+#pragma once
+
+#include <algorithm>
+#include <ccd/advance.hpp>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ccd/step/vertex_groups.hpp"
+
+namespace ccd::detail {
+
+/// The largest double before which, itself included, there certainly is no contact.
+inline double last_before(const first_time& time) {
+    return time.low < time.high ? time.low : std::nextafter(time.low, 0.0);
+}
+
+/// Where a fraction of the way leads, taken back by so many last places, or to `before`.
+inline point<double> between(const moving_point<double>& way, double fraction,
+                             int last_places_back) {
+    const auto on_axis = [=](double before, double after) {
+        double x = std::lerp(before, after, fraction);
+        for (int i = 0; i < last_places_back; ++i) x = std::nextafter(x, before);
+        return x;
+    };
+    return {on_axis(way.t0.x, way.t1.x), on_axis(way.t0.y, way.t1.y), on_axis(way.t0.z, way.t1.z)};
+}
+
+template <class Pair>
+std::vector<Pair> without(const std::vector<Pair>& pairs, const std::vector<Pair>& left_out) {
+    std::vector<Pair> rest;
+    std::ranges::set_difference(pairs, left_out, std::back_inserter(rest));
+    return rest;
+}
+
+/// A pair with a contact, and when.
+template <class Pair>
+struct timed_pair {
+    Pair pair;
+    first_time time;
+};
+
+/// The mesh is in this process alone: nothing is found elsewhere.
+struct no_others {
+    template <class Pair>
+    std::vector<timed_pair<Pair>> found_by_all(std::vector<timed_pair<Pair>> pairs) {
+        return pairs;
+    }
+    void call(const std::function<void()>& what) { what(); }
+    first_time earliest(const first_time& time) { return time; }
+    bool all(bool holds) { return holds; }
+};
+
+/// One advance. Others must have the members of no_others: found_by_all gives on all processes the
+/// same pairs in the same order, call throws on all what `what` throws on one. Vertices that are
+/// not of `way` follow those that are, in `groups`.
+template <class Others>
+class advancing {
+  public:
+    /// Of groups that are as the caller made them: `islands`, or one of all.
+    advancing(mesh_steps& steps, const vertex_rows& way, const advance_options& options,
+              bool islands, vertex_groups& groups, Others& others)
+        : steps_(steps),
+          way_(way),
+          options_(options),
+          islands_(islands),
+          groups_(groups),
+          others_(others) {}
+
+    /// All but result.fraction, which is 1; the lists hold what all found.
+    advance_result run() {
+        ask_whole_way();
+        // Each round joins groups, takes vertices back or shortens a way. Where meetings go on, all
+        // become one group, whose way is then not shortened more often than vertex_groups says.
+        constexpr int rounds_by_group = 60;
+        for (int round = 0; set_positions(); ++round) {
+            may_retreat_ = round < rounds_by_group;
+            if (round == rounds_by_group) groups_.join_all();
+            if (!separate_known() && !separate_others()) break;
+        }
+        return std::move(result_);
+    }
+
+  private:
+    /// What is on the whole way: who is left out, who is known to meet, and how far groups get.
+    void ask_whole_way();
+    template <class Pair>
+    void hold(const timed_pair<Pair>& contact);
+    template <kind K>
+    void ask_near_ones();
+
+    /// Where the groups' fractions lead. Returns false if that is the whole way of all.
+    bool set_positions();
+    vertex_rows way_to_result() const {
+        return {way_.before, reinterpret_cast<const double*>(result_.positions.data()),
+                way_.vertices};
+    }
+
+    /// Separates pairs in contact on the way to the result's positions: known ones, or any. Returns
+    /// whether there were any.
+    bool separate_known();
+    bool separate_others();
+    /// Separates what this and the others found. Returns whether there was any.
+    template <class Pair>
+    bool separate(const std::vector<Pair>& found);
+
+    step_result step(const vertex_rows& way, const step_options& asked) {
+        step_result found;
+        others_.call([&] { found = steps_.run(way, asked); });
+        return found;
+    }
+    template <class Pair>
+    std::vector<timed_pair<Pair>> timed(const vertex_rows& way, const std::vector<Pair>& pairs,
+                                        const pair_distances& distances) {
+        std::vector<timed_pair<Pair>> found;
+        others_.call([&] {
+            const std::vector<first_time> times = first_times(
+                way, pairs, {1, distances, options_.threads, options_.set, options_.stop});
+            for (std::size_t i = 0; i < pairs.size(); ++i) found.push_back({pairs[i], times[i]});
+        });
+        return found;
+    }
+    template <class Pair>
+    std::vector<Pair> found_by_all(const std::vector<Pair>& pairs) {
+        std::vector<timed_pair<Pair>> own;
+        for (const Pair& pair : pairs) own.push_back({pair, {}});
+        std::vector<Pair> all;
+        for (const auto& found : others_.found_by_all(std::move(own))) all.push_back(found.pair);
+        return all;
+    }
+
+    step_options step_asked() const {
+        return {.threads = options_.threads,
+                .set = options_.set,
+                .distances = options_.distances,
+                .stop = options_.stop,
+                .filter = options_.filter};
+    }
+
+    mesh_steps& steps_;
+    const vertex_rows& way_;
+    const advance_options& options_;
+    bool islands_;
+    vertex_groups& groups_;
+    Others& others_;
+    pair_lists at_start_;            ///< of all
+    pair_lists known_, known_near_;  ///< found here
+    bool may_retreat_ = true;
+    advance_result result_;
+};
+
+/// Joins a pair's vertices, which then get to just before that time.
+template <class Others>
+template <class Pair>
+void advancing<Others>::hold(const timed_pair<Pair>& contact) {
+    const auto vertices = vertices_of(contact.pair);
+    for (const vertex_index v : vertices) groups_.join(vertices[0], v);
+    const first_time& time = contact.time;
+    if (time.outcome != outcome::collides || time.at_start()) return;
+    groups_.limit(vertices[0], last_before(time));
+    first_time& first = result_.first_contact;
+    if (first.outcome != outcome::collides ||
+        std::pair(time.low, time.high) < std::pair(first.low, first.high))
+        first = time;
+}
+
+/// Of pairs within their distance at the start: which touch, and when the others do.
+template <class Others>
+template <kind K>
+void advancing<Others>::ask_near_ones() {
+    const auto contacts = timed(way_, known_near_.of<K>(), {});
+    known_near_.of<K>().clear();
+    for (const auto& contact : contacts)
+        if (!contact.time.at_start()) known_near_.of<K>().push_back(contact.pair);
+    for (const auto& contact : others_.found_by_all(contacts)) {
+        (contact.time.at_start() ? result_.touching_at_start : result_.near_at_start)
+            .template of<K>()
+            .push_back(contact.pair);
+        hold(contact);
+    }
+}
+
+template <class Others>
+void advancing<Others>::ask_whole_way() {
+    step_options asked = step_asked();
+    const bool contact = options_.distances.ask_for_contact();
+    asked.first_contact = true;
+    asked.times = islands_;
+    const step_result whole = step(way_, asked);
+    result_.first_contact = others_.earliest(whole.first_contact);
+    if (result_.first_contact.outcome == outcome::collides && !islands_)
+        groups_.limit(0, last_before(result_.first_contact));
+    for_each_kind([&]<kind K>() {
+        const auto& pairs = whole.pairs.of<K>();
+        const auto& times = whole.times.of<K>();
+        at_start_.of<K>() = found_by_all(whole.touching_at_start.of<K>());
+        if (contact) result_.touching_at_start.of<K>() = at_start_.of<K>();
+        std::ranges::sort(at_start_.of<K>());
+        known_.of<K>() = without(pairs, at_start_.of<K>());
+        if (islands_) {
+            std::vector<timed_pair<pair_of_kind<K>>> timed;
+            for (std::size_t i = 0; i < pairs.size(); ++i) timed.push_back({pairs[i], times[i]});
+            for (const auto& pair : others_.found_by_all(std::move(timed))) hold(pair);
+        }
+        if (!contact) {
+            known_near_.of<K>() = whole.touching_at_start.of<K>();
+            ask_near_ones<K>();
+        }
+    });
+}
+
+template <class Others>
+bool advancing<Others>::set_positions() {
+    result_.positions.resize(way_.vertices);
+    result_.fractions.resize(way_.vertices);
+    bool all_the_way = true;
+    for (vertex_index v = 0; v < way_.vertices; ++v) {
+        const double f = result_.fractions[v] = groups_.fraction(v);
+        result_.positions[v] = between(way_[v], f, groups_.last_places_back(v));
+        all_the_way &= f == 1;
+    }
+    return !others_.all(all_the_way);
+}
+
+template <class Others>
+template <class Pair>
+bool advancing<Others>::separate(const std::vector<Pair>& found) {
+    const std::vector<Pair> all = found_by_all(found);
+    groups_.separate(all, may_retreat_);
+    return !all.empty();
+}
+
+template <class Others>
+bool advancing<Others>::separate_known() {
+    bool any = false;
+    for_each_kind([&]<kind K>() {
+        const auto separate_of = [&](const auto& pairs, const pair_distances& distances) {
+            std::vector<pair_of_kind<K>> found;
+            for (const auto& [pair, time] : timed(way_to_result(), pairs, distances))
+                if (time.outcome == outcome::collides) found.push_back(pair);
+            any |= separate(found);
+        };
+        separate_of(known_.of<K>(), options_.distances);
+        separate_of(known_near_.of<K>(), {});
+    });
+    return any;
+}
+
+template <class Others>
+bool advancing<Others>::separate_others() {
+    const step_result found = step(way_to_result(), step_asked());
+    bool any = false;
+    for_each_kind([&]<kind K>() {
+        const auto others = without(found.pairs.of<K>(), at_start_.of<K>());
+        any |= separate(others);
+        known_.of<K>().insert(known_.of<K>().end(), others.begin(), others.end());
+    });
+    return any;
+}
+
+}  // namespace ccd::detail

@@ -1,0 +1,202 @@
+// Meshes that are spread over ranks for tests: every rank makes the same meshes and takes its
+// share.
+#pragma once
+
+#include <algorithm>
+#include <ccd/mpi.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace distributed {
+
+inline int rank = 0, size = 1, failures = 0;
+
+inline void expect(bool holds, const std::string& what) {
+    if (holds) return;
+    std::printf("rank %d of %d: %s\n", rank, size, what.c_str());
+    ++failures;
+}
+
+struct scene {
+    std::string name;
+    ccd::mesh before, after;
+};
+
+/// Triangles, rods and points at random; `crowd` says how near to one another, in last places at
+/// worst.
+inline scene soup(std::mt19937& random, std::size_t vertices, double length) {
+    std::uniform_real_distribution<double> place(0, 1), move(-length, length);
+    const auto vertex = [&] { return static_cast<ccd::vertex_index>(random() % vertices); };
+    scene s{"soup of " + std::to_string(vertices), {}, {}};
+    for (std::size_t v = 0; v < vertices; ++v) {
+        s.before.vertices.push_back({place(random), place(random), place(random)});
+        const auto& p = s.before.vertices.back();
+        s.after.vertices.push_back({p.x + move(random), p.y + move(random), p.z + move(random)});
+    }
+    for (std::size_t i = 0; i < vertices / 3; ++i) {
+        // Corners near one another, so that boxes are not of the size of all.
+        const ccd::vertex_index a = vertex();
+        const auto near = [&] {
+            ccd::vertex_index best = vertex();
+            const auto far = [&](ccd::vertex_index v) {
+                const auto &p = s.before.vertices[a], &q = s.before.vertices[v];
+                return std::abs(p.x - q.x) + std::abs(p.y - q.y) + std::abs(p.z - q.z);
+            };
+            for (int k = 0; k < 60; ++k) {
+                const ccd::vertex_index v = vertex();
+                if (v != a && (best == a || far(v) < far(best))) best = v;
+            }
+            return best;
+        };
+        s.before.faces.push_back({a, near(), near()});
+        if (i % 4 == 0) s.before.edges.push_back({vertex(), near()});
+    }
+    s.after.faces = s.before.faces;
+    s.after.edges = s.before.edges;
+    return s;
+}
+
+/// Copies of a bumpy sheet, one above the other, that fall onto each other: `n` by `n` squares
+/// each.
+inline scene sheets(std::size_t layers, std::size_t n) {
+    scene s{"sheets of " + std::to_string(layers * n * n * 2) + " triangles", {}, {}};
+    for (std::size_t l = 0; l < layers; ++l) {
+        const auto first = static_cast<ccd::vertex_index>(s.before.vertices.size());
+        for (std::size_t i = 0; i <= n; ++i)
+            for (std::size_t j = 0; j <= n; ++j) {
+                const double x = static_cast<double>(i), y = static_cast<double>(j);
+                const double z =
+                    0.3 * std::sin(7 * x + 3 * static_cast<double>(l)) * std::cos(5 * y);
+                const double height = 2 * static_cast<double>(l);
+                s.before.vertices.push_back({x, y, z + height});
+                s.after.vertices.push_back({x + 0.1, y, z + 0.8 * height});
+            }
+        const auto at = [&](std::size_t i, std::size_t j) {
+            return first + static_cast<ccd::vertex_index>(i * (n + 1) + j);
+        };
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j) {
+                s.before.faces.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+                s.before.faces.push_back({at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)});
+            }
+    }
+    s.after.faces = s.before.faces;
+    return s;
+}
+
+/// Beside a sheet, one face over all of it and points in a heap at one place.
+inline scene huge_face_and_heap() {
+    scene s = sheets(1, 20);
+    s.name = "a huge face and a heap";
+    const auto add = [&s](const ccd::point<double>& p, const ccd::point<double>& q) {
+        s.before.vertices.push_back(p);
+        s.after.vertices.push_back(q);
+        return static_cast<ccd::vertex_index>(s.before.vertices.size() - 1);
+    };
+    const auto a = add({-100, -100, 5}, {-100, -100, -5}), b = add({200, -100, 5}, {200, -100, -5}),
+               c = add({0, 300, 5}, {0, 300, -5});
+    s.before.faces.push_back({a, b, c});
+    for (int i = 0; i < 30; ++i) add({3, 3, 3}, {3, 3, 3.0 + i % 3});
+    s.after.faces = s.before.faces;
+    return s;
+}
+
+/// A rank's share: which faces and edges, and which vertices beyond theirs.
+struct share {
+    std::vector<ccd::mpi::vertex_number> numbers;
+    std::vector<ccd::vertex_index> of_whole;
+    std::vector<ccd::point<double>> before, after;
+    std::vector<ccd::face> faces;
+    std::vector<ccd::edge> edges;
+
+    ccd::mpi::mesh_part part() const { return {numbers, {before, after}, faces, edges}; }
+};
+
+/// The number that a vertex has for MPI: none is another's, they do not ascend by ones, but keep
+/// their order.
+inline ccd::mpi::vertex_number number_of(ccd::vertex_index v) {
+    return (std::uint64_t(1) << 40) + 1000 * std::uint64_t(v);
+}
+
+using placing = std::function<int(std::size_t)>;  ///< the rank of an element
+
+inline share share_of(const scene& s, const placing& place, bool doubled) {
+    share own;
+    std::map<ccd::vertex_index, ccd::vertex_index> local;
+    const auto use = [&](ccd::vertex_index v) {
+        const auto [at, is_new] =
+            local.try_emplace(v, static_cast<ccd::vertex_index>(own.numbers.size()));
+        if (is_new) {
+            own.numbers.push_back(number_of(v));
+            own.of_whole.push_back(v);
+            own.before.push_back(s.before.vertices[v]);
+            own.after.push_back(s.after.vertices[v]);
+        }
+        return at->second;
+    };
+    // Some elements are on the next rank as well.
+    const auto is_here = [&](std::size_t i) {
+        return place(i) == rank || (doubled && i % 7 == 0 && (place(i) + 1) % size == rank);
+    };
+    for (std::size_t i = 0; i < s.before.faces.size(); ++i)
+        if (is_here(i)) {
+            const ccd::face& f = s.before.faces[i];
+            own.faces.push_back({use(f[0]), use(f[1]), use(f[2])});
+        }
+    for (std::size_t i = 0; i < s.before.edges.size(); ++i)
+        if (is_here(i)) own.edges.push_back({use(s.before.edges[i][0]), use(s.before.edges[i][1])});
+    for (ccd::vertex_index v = 0; v < s.before.vertices.size(); ++v)
+        if (is_here(v)) use(v);
+    return own;
+}
+
+template <ccd::kind K>
+std::vector<ccd::mpi::numbered_pair<K>> numbered(const std::vector<ccd::pair_of_kind<K>>& pairs) {
+    std::vector<ccd::mpi::numbered_pair<K>> all;
+    for (const auto& p : pairs) {
+        ccd::mpi::numbered_pair<K> n{};
+        std::ranges::transform(vertices_of(p), n.begin(), number_of);
+        all.push_back(n);
+    }
+    return all;
+}
+
+inline bool same(const ccd::first_time& a, const ccd::first_time& b) {
+    return a.outcome == b.outcome &&
+           (a.outcome != ccd::outcome::collides || (a.low == b.low && a.high == b.high));
+}
+
+/// One placing after the other, by name: of element i to a rank.
+inline std::vector<std::pair<std::string, placing>> placings(const scene& s) {
+    const auto faces = s.before.faces.size(), ranks = static_cast<std::size_t>(size);
+    const auto as_rank = [](std::size_t i) { return static_cast<int>(i); };
+    return {{"blocks",
+             [=](std::size_t i) { return as_rank(std::min(ranks - 1, i * ranks / (faces + 1))); }},
+            {"interleaved", [=](std::size_t i) { return as_rank(i % ranks); }},
+            {"doubled", [=](std::size_t i) { return as_rank(i * 7919 % ranks); }},
+            {"all on the last", [](std::size_t) { return size - 1; }},
+            {"every other rank empty",
+             [=](std::size_t i) { return as_rank(i % ((ranks + 1) / 2) * 2); }}};
+}
+
+/// Runs tests between MPI_Init and MPI_Finalize; the exit status.
+inline int run(int argc, char** argv, const std::function<void()>& tests) {
+    MPI_Init(&argc, &argv);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    tests();
+    int all = 0;
+    MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    if (rank == 0) std::printf("%d ranks: %d failures\n", size, all);
+    MPI_Finalize();
+    return all != 0;
+}
+
+}  // namespace distributed
