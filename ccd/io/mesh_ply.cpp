@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ccd/io/element_check.hpp"
+#include "ccd/io/mesh_shares.hpp"
 #include "ccd/io/ply_header.hpp"
 #include "ccd/io/ply_values.hpp"
 
@@ -25,39 +26,72 @@ class body_reader {
     body_reader(const header& header, Values values, const std::string& name)
         : header_(header), values_(std::move(values)), name_(name) {}
 
-    mesh read() {
+    mesh_share read(share_of_file share) {
         require_elements();
         for (const element& e : header_.elements) {
-            if (e.name == "vertex") {
-                result_.vertices.reserve(capacity(e));
-            } else if (e.name == "face") {
-                result_.faces.reserve(capacity(e));
-            } else if (e.name == "edge") {
-                result_.edges.reserve(capacity(e));
-            }
-            for (std::uint64_t i = 0; i < e.count; ++i) read_element(e, i);
+            const auto first = share.first_of(e.count), last = share.last_of(e.count);
+            reserve(e, last - first);
+            skip_elements(e, 0, first);
+            for (std::uint64_t i = first; i < last; ++i) read_element(e, i);
+            skip_elements(e, last, e.count);
+            const mesh_share::place place{static_cast<std::size_t>(first),
+                                          static_cast<std::size_t>(e.count)};
+            if (e.name == "vertex") result_.vertices = place;
+            if (e.name == "face") result_.faces = place;
+            if (e.name == "edge") result_.edges = place;
         }
         values_.finish();
-        require_good("face", result_.faces);
-        require_good("edge", result_.edges);
+        require_good("face", result_.elements.faces, result_.faces.first);
+        require_good("edge", result_.elements.edges, result_.edges.first);
         return std::move(result_);
     }
 
   private:
     template <class Element>
-    void require_good(const char* kind, const std::vector<Element>& elements) const {
-        for (std::size_t i = 0; i < elements.size(); ++i) {
-            if (const auto fault = fault_of(elements[i], result_.vertices.size()))
-                throw file_error(name_ + ": " + kind + " " + std::to_string(i) + ": " + *fault);
+    void require_good(const char* kind, const std::vector<Element>& elements,
+                      std::size_t first) const {
+        for (std::size_t i = 0; i < elements.size(); ++i)
+            if (const auto fault = fault_of(elements[i], result_.vertices.all))
+                throw file_error(name_ + ": " + kind + " " + std::to_string(first + i) + ": " +
+                                 *fault);
+    }
+
+    /// No more than the bytes that are there can hold, whatever the header claims. Every element
+    /// takes at least one byte per property.
+    void reserve(const element& e, std::uint64_t count) {
+        const std::size_t limit =
+            values_.remaining() / std::max<std::size_t>(e.properties.size(), 1);
+        const auto capacity = static_cast<std::size_t>(std::min<std::uint64_t>(count, limit));
+        mesh& elements = result_.elements;
+        if (e.name == "vertex") elements.vertices.reserve(capacity);
+        if (e.name == "face") elements.faces.reserve(capacity);
+        if (e.name == "edge") elements.edges.reserve(capacity);
+    }
+
+    void skip_elements(const element& e, std::uint64_t first, std::uint64_t last) {
+        if (first == last) return;
+        values_.begin(e.name, first);
+        const std::optional<std::size_t> bytes = bytes_of_each(e);
+        if (bytes && values_.skip_elements(*bytes, last - first)) return;
+        for (std::uint64_t i = first; i < last; ++i) {
+            if (i > first) values_.begin(e.name, i);
+            values_.skip_rest([&] {
+                for (const property& p : e.properties) skip(p);
+            });
         }
     }
 
-    /// What to reserve: no more than the bytes that are there can hold, whatever the header claims.
-    /// Every element takes at least one byte per property.
-    std::size_t capacity(const element& e) const {
-        const std::size_t limit =
-            values_.remaining() / std::max<std::size_t>(e.properties.size(), 1);
-        return static_cast<std::size_t>(std::min<std::uint64_t>(e.count, limit));
+    /// Of an element in a binary file, where all have as many: a face its three vertices. If one
+    /// has not, then whose share has the first such face reads it where it is, and tells.
+    static std::optional<std::size_t> bytes_of_each(const element& e) {
+        std::size_t bytes = 0;
+        for (const property& p : e.properties) {
+            const bool is_face = e.name == "face" && is_face_list(p);
+            if (p.count_type && !is_face) return std::nullopt;
+            bytes += is_face ? io::ply::bytes_of(*p.count_type) + 3 * io::ply::bytes_of(p.type)
+                             : io::ply::bytes_of(p.type);
+        }
+        return bytes;
     }
 
     const element* find(std::string_view element_name) const {
@@ -138,11 +172,11 @@ class body_reader {
     void read_element(const element& e, std::uint64_t number) {
         values_.begin(e.name, number);
         if (e.name == "vertex") {
-            result_.vertices.push_back(read_vertex(e));
+            result_.elements.vertices.push_back(read_vertex(e));
         } else if (e.name == "face") {
-            result_.faces.push_back(read_face(e));
+            result_.elements.faces.push_back(read_face(e));
         } else if (e.name == "edge") {
-            result_.edges.push_back(read_edge(e));
+            result_.elements.edges.push_back(read_edge(e));
         } else {
             for (const property& p : e.properties) skip(p);
         }
@@ -224,22 +258,26 @@ class body_reader {
     const header& header_;
     Values values_;
     const std::string& name_;
-    mesh result_;
+    mesh_share result_;
 };
 
 }  // namespace
 }  // namespace ply
 
-mesh parse_mesh_ply(std::string_view text, const std::string& name) {
+mesh_share parse_mesh_ply(std::string_view text, const std::string& name, share_of_file share) {
     if (text.empty()) throw file_error(name + ": found an empty file, expected a PLY mesh");
     using namespace ply;
     text = without_byte_order_mark(text, name);
     const header head = parse_header(text, name);
     if (head.format == encoding::ascii)
-        return body_reader(head, ascii_values(text, name, head.lines), name).read();
+        return body_reader(head, ascii_values(text, name, head.lines), name).read(share);
     const std::endian order =
         head.format == encoding::little ? std::endian::little : std::endian::big;
-    return body_reader(head, binary_values(text, name, order), name).read();
+    return body_reader(head, binary_values(text, name, order), name).read(share);
+}
+
+mesh parse_mesh_ply(std::string_view text, const std::string& name) {
+    return parse_mesh_ply(text, name, share_of_file()).elements;
 }
 
 }  // namespace ccd::io

@@ -56,6 +56,20 @@ class binary_values {
         text_.remove_prefix(static_cast<std::size_t>(count) * bytes_of(type));
     }
 
+    /// Elements of so many bytes each, from the one that has begun.
+    bool skip_elements(std::size_t bytes, std::uint64_t count) {
+        if (bytes == 0) return true;
+        if (count > text_.size() / bytes) fail_truncated();
+        text_.remove_prefix(static_cast<std::size_t>(count) * bytes);
+        return true;
+    }
+
+    /// The properties of an element that has begun, which `each` skips one by one.
+    template <class Each>
+    void skip_rest(const Each& each) {
+        each();
+    }
+
     void end() const {}
 
     void finish() const {
@@ -134,6 +148,13 @@ class ascii_values {
             if (take_word(line_).empty()) fail("found too few values, expected one per property");
         }
     }
+
+    /// They have no size of their own.
+    bool skip_elements(std::size_t, std::uint64_t) { return false; }
+
+    /// An element is its line.
+    template <class Each>
+    void skip_rest(const Each&) {}
 
     void end() {
         if (!trimmed(line_).empty()) {

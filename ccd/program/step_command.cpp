@@ -1,6 +1,4 @@
 // `ccd step`: one step of a mesh, from files to colliding pairs.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <ccd/io/mesh_file.hpp>
@@ -15,8 +13,10 @@
 #include "ccd/io/view/view_files.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
+#include "ccd/program/pair_lines.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/peak_memory.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -27,16 +27,6 @@ using errbound::support::table;
 using errbound::support::text_of;
 using errbound::support::usage_error;
 using errbound::support::write_whole;
-
-std::size_t peak_memory_bytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-    return static_cast<std::size_t>(usage.ru_maxrss);
-#else
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux and the BSDs count KiB
-#endif
-}
 
 /// What is asked of a step.
 struct step_question {
@@ -68,21 +58,6 @@ struct step_outcome {
     double read_seconds = 0;
     std::size_t memory = 0;
 };
-
-/// With their times if those are wanted, which the result must have.
-std::string lines_of_pairs(const step_result& result, bool with_times) {
-    std::string lines;
-    for_each_kind([&]<kind K>() {
-        for (std::size_t i = 0; i < result.pairs.of<K>().size(); ++i) {
-            lines += short_name(K);
-            for (const vertex_index v : vertices_of(result.pairs.of<K>()[i]))
-                lines += ',' + std::to_string(v);
-            if (with_times) lines += ',' + text_of_time(result.times.of<K>()[i]);
-            lines += '\n';
-        }
-    });
-    return lines;
-}
 
 /// Vertex/edge and vertex/vertex pairs are reported where there are any.
 template <kind K>
@@ -282,7 +257,7 @@ class step final : public command {
             found.advance = ccd::advance(
                 before, after,
                 {.distances = {asked_.distance}, .threads = asked_.threads, .set = asked_.set});
-        found.memory = peak_memory_bytes();
+        found.memory = errbound::support::peak_memory_bytes();
         write(before, after, found);
         errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_})
             << text_of_step(asked_, before, found);
@@ -333,8 +308,9 @@ class step final : public command {
 
     void write(const mesh& before, const mesh& after, step_outcome& found) const {
         std::vector<errbound::support::output> outputs;
-        if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.result, false)});
-        if (toi_) outputs.push_back({*toi_, lines_of_pairs(found.result, true)});
+        if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.result.pairs)});
+        if (toi_)
+            outputs.push_back({*toi_, lines_of_pairs(found.result.pairs, &found.result.times)});
         if (advance_)
             outputs.push_back({*advance_, io::ply_of({std::move(found.advance->positions),
                                                       before.faces, before.edges})});

@@ -1,6 +1,6 @@
-// A step of a mesh that is spread over MPI's ranks, as a simulation with a decomposition of its own
-// has it: layers of cloth, a strip of each on every rank. Run by mpirun -n 4
-// example_distributed_step.
+// A step, and a free one, of a mesh that is spread over MPI's ranks, as a simulation with a
+// decomposition of its own has it: layers of cloth, a strip of each on every rank. Run by mpirun -n
+// 4 example_distributed_step.
 #include <ccd/mpi.hpp>
 #include <cmath>
 #include <cstddef>
@@ -67,7 +67,10 @@ int main(int argc, char** argv) {
         rank, found.pairs.vertex_face.size(), found.pairs.edge_edge.size(),
         static_cast<std::size_t>(given), static_cast<std::size_t>(held),
         static_cast<std::size_t>(bytes));
-    if (rank == 0) std::printf("the first contact: t = %.6f\n", found.first_contact.low);
+    const ccd::mpi::advance_result free = ccd::mpi::advance(MPI_COMM_WORLD, part);
+    if (rank == 0)
+        std::printf("the first contact: t = %.6f; all may move by %.6f of their ways\n",
+                    found.first_contact.low, free.fraction);
     MPI_Finalize();
     return found.first_contact.outcome == ccd::outcome::collides ? 0 : 1;
 }

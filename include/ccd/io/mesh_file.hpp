@@ -4,6 +4,7 @@
 #pragma once
 
 #include <ccd/mesh.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -30,9 +31,29 @@ mesh parse_mesh_ply(std::string_view text, const std::string& name);
 /// no keyword are refused. `name` is used in messages. Throws as read_mesh does.
 mesh parse_mesh_obj(std::string_view text, const std::string& name);
 
+/// Some of a frame's vertices, faces and edges, one after the other; faces and edges name vertices
+/// by their indices in the whole frame.
+struct mesh_share {
+    struct place {
+        std::size_t first = 0, all = 0;  ///< of how many of the whole frame
+    };
+    mesh elements;
+    place vertices, faces, edges;
+};
+
+/// One of `shares` shares of a frame in a file (not a pipe), for processes that read one together.
+/// Of a PLY file no more is held than the share: binary ones are not even looked at elsewhere; OBJ
+/// files are read whole. Throws as read_mesh does, on some share if there is reason to, and
+/// std::invalid_argument unless share < shares.
+mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
+                           std::size_t shares);
+
 /// Throws errbound::support::file_error unless both frames have the same topology.
 void require_same_topology(const mesh& before, const std::string& before_name, const mesh& after,
                            const std::string& after_name);
+/// Of the same share of both.
+void require_same_topology(const mesh_share& before, const std::string& before_name,
+                           const mesh_share& after, const std::string& after_name);
 
 /// A frame as the text of a PLY file, binary, in this machine's byte order: coordinates in doubles,
 /// bit for bit. read_mesh reads it back as it was.

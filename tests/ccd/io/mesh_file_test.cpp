@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -513,6 +514,102 @@ TEST(Meshes, Files) {
               std::string::npos);
     fs::create_directory(directory.path / "d.ply");
     EXPECT_NE(message_of([&] { read_mesh(directory.path / "d.ply"); }).find("found a directory"),
+              std::string::npos);
+}
+
+mesh larger_mesh() {
+    mesh m;
+    for (int i = 0; i < 23; ++i) m.vertices.push_back({i * 0.25, i * 3.0, -i * 0.5});
+    for (vertex_index i = 0; i + 2 < 23; ++i) m.faces.push_back({i + 2, i, i + 1});
+    for (vertex_index i = 0; i < 5; ++i) m.edges.push_back({i, 22 - i});
+    return m;
+}
+
+std::string obj(const mesh& m) {
+    std::string text;
+    for (const auto& p : m.vertices)
+        text += "v " + std::to_string(p.x) + ' ' + std::to_string(p.y) + ' ' + std::to_string(p.z) +
+                '\n';
+    const auto elements = [&](const char* word, const auto& all) {
+        for (const auto& element : all) {
+            text += word;
+            for (const vertex_index v : element) text += ' ' + std::to_string(v + 1);
+            text += '\n';
+        }
+    };
+    elements("f", m.faces);
+    elements("l", m.edges);
+    return text;
+}
+
+/// Shares, put together, are the file.
+void expect_shared(const fs::path& path, const mesh& whole) {
+    for (std::size_t shares = 1; shares < 30; ++shares) {
+        mesh together;
+        for (std::size_t i = 0; i < shares; ++i) {
+            const mesh_share share = read_mesh_share(path, i, shares);
+            EXPECT_EQ(share.vertices.first, together.vertices.size());
+            EXPECT_EQ(share.faces.first, together.faces.size());
+            EXPECT_EQ(share.edges.first, together.edges.size());
+            EXPECT_EQ(share.vertices.all, whole.vertices.size());
+            const auto append = [&](auto& all, const auto& more) {
+                EXPECT_LE(more.size(), (whole.vertices.size() + shares - 1) / shares);
+                all.insert(all.end(), more.begin(), more.end());
+            };
+            append(together.vertices, share.elements.vertices);
+            append(together.faces, share.elements.faces);
+            append(together.edges, share.elements.edges);
+        }
+        expect_same(together, whole);
+    }
+}
+
+TEST(Shares, MakeTheWholeOfEveryForm) {
+    const temporary_directory directory;
+    const mesh m = larger_mesh();
+    for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        write(directory.path / "m.ply", ply<double, std::int32_t>(m, format, "double", "int"));
+        expect_shared(directory.path / "m.ply", m);
+    }
+    write(directory.path / "m.obj", obj(m));
+    expect_shared(directory.path / "m.obj", m);
+    write(
+        directory.path / "m.ply",
+        ascii_header + "9 3 2 1 0 2 1.5 2.5\r\n0.5\r\n-7 2 1 1 0.1 0.5\r\n1 0 0 0\r\n2 0 0 0\r\n");
+    expect_shared(directory.path / "m.ply", {{{-7, 0.1, 0.5}, {1, 0, 0}, {2, 0, 0}}, {{2, 1, 0}}});
+}
+
+TEST(Shares, BadFilesAreToldOfBySomeShare) {
+    const temporary_directory directory;
+    const fs::path path = directory.path / "m.ply";
+    const auto first_error = [&](const std::string& text) {
+        write(path, text);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::string error = message_of([&] { read_mesh_share(path, i, 3); });
+            if (error != "no error") return error.substr(path.string().size() + 2);
+        }
+        return std::string("no error");
+    };
+    const std::string good =
+        ply<double, std::int32_t>(larger_mesh(), "binary_little_endian", "double", "int");
+    EXPECT_EQ(first_error(good), "no error");
+    EXPECT_EQ(first_error(""), "found an empty file, expected a PLY mesh");
+    for (std::size_t size = 1; size < good.size(); size += 7)
+        EXPECT_NE(first_error(good.substr(0, size)), "no error") << size;
+    EXPECT_EQ(first_error(good + '0'),
+              "found 1 bytes after the last element, expected the end of the file");
+    std::string quad = good;
+    quad[quad.size() - 5 * 8 - 13 * 10] = 4;  // the eleventh face's count
+    EXPECT_EQ(first_error(quad), "face 11: found a face with 4 vertices, expected a triangle");
+    mesh beyond = larger_mesh();
+    beyond.faces[20][1] = 23;
+    EXPECT_EQ(first_error(ply<double, std::int32_t>(beyond, "ascii", "double", "int")),
+              "face 20: found vertex index 23, expected less than 23");
+    EXPECT_THROW(read_mesh_share(path, 3, 3), std::invalid_argument);
+    EXPECT_NE(
+        message_of([&] { read_mesh_share("/dev/null", 0, 3); }).find("expected one, of which"),
+        std::string::npos);
+    EXPECT_NE(message_of([&] { read_mesh_share(directory.path / "none", 0, 3); }).find("no such"),
               std::string::npos);
 }
 

@@ -1,0 +1,28 @@
+// Which elements of a file are a share of it.
+#pragma once
+
+#include <ccd/io/mesh_file.hpp>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ccd::io {
+
+/// One of so many shares, as large as one another but for one element.
+struct share_of_file {
+    std::uint64_t share = 0, shares = 1;
+
+    std::uint64_t first_of(std::uint64_t count) const { return start(count, share); }
+    std::uint64_t last_of(std::uint64_t count) const { return start(count, share + 1); }
+
+  private:
+    /// count * i / shares, without overflow.
+    std::uint64_t start(std::uint64_t count, std::uint64_t i) const {
+        return count / shares * i + count % shares * i / shares;
+    }
+};
+
+/// Elements that are not of the share are passed over, in ascii line by line, else at once.
+mesh_share parse_mesh_ply(std::string_view text, const std::string& name, share_of_file share);
+
+}  // namespace ccd::io

@@ -1,0 +1,101 @@
+#include "ccd/program/mpi/shared_frames.hpp"
+
+#include <algorithm>
+#include <ccd/io/mesh_file.hpp>
+#include <cstddef>
+#include <unordered_map>
+
+namespace ccd::program {
+namespace {
+
+struct frames {
+    io::mesh_share before, after;
+
+    std::size_t first() const { return before.vertices.first; }
+    std::size_t last() const { return first() + before.elements.vertices.size(); }
+    bool has(vertex_index v) const { return first() <= v && v < last(); }
+};
+
+frames read_frames(const std::filesystem::path& before, const std::filesystem::path& after,
+                   std::size_t rank, std::size_t ranks) {
+    frames own{io::read_mesh_share(before, rank, ranks), io::read_mesh_share(after, rank, ranks)};
+    io::require_same_topology(own.before, before.string(), own.after, after.string());
+    return own;
+}
+
+struct sent_positions {
+    point<double> before, after;
+};
+
+/// Calls visit with each vertex of an element.
+template <class Visit>
+void for_each_corner(const mesh& elements, const Visit& visit) {
+    for (const face& f : elements.faces) std::ranges::for_each(f, visit);
+    for (const edge& e : elements.edges) std::ranges::for_each(e, visit);
+}
+
+/// The vertices of this rank's elements that others read, each at whom.
+std::vector<std::vector<vertex_index>> read_elsewhere(mpi::detail::exchanger& ranks,
+                                                      const frames& own) {
+    const auto lasts = ranks.gather(std::vector{own.last()}).items;
+    std::vector<std::vector<vertex_index>> at(ranks.size());
+    for_each_corner(own.before.elements, [&](vertex_index v) {
+        if (own.has(v)) return;
+        const auto rank = std::ranges::upper_bound(lasts, std::size_t(v)) - lasts.begin();
+        at[static_cast<std::size_t>(rank)].push_back(v);
+    });
+    for (auto& list : at) {
+        std::ranges::sort(list);
+        list.erase(std::ranges::unique(list).begin(), list.end());
+    }
+    return at;
+}
+
+}  // namespace
+
+shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::filesystem::path& before,
+                                 const std::filesystem::path& after) {
+    frames own;
+    ranks.agree([&] { own = read_frames(before, after, ranks.rank(), ranks.size()); });
+    const auto wanted = read_elsewhere(ranks, own);
+    const auto asked = ranks.all_to_all(wanted);
+    std::vector<std::vector<sent_positions>> answers(ranks.size());
+    std::vector<bool> has_element(own.before.elements.vertices.size());  // here or elsewhere
+    for (std::size_t r = 0; r < ranks.size(); ++r)
+        for (std::size_t i = asked.starts[r]; i < asked.starts[r + 1]; ++i) {
+            const std::size_t v = asked.items[i] - own.first();
+            has_element[v] = true;
+            answers[r].push_back({own.before.elements.vertices[v], own.after.elements.vertices[v]});
+        }
+    const auto positions = ranks.all_to_all(answers).items;
+
+    shared_frames result;
+    std::unordered_map<vertex_index, vertex_index> places;
+    const auto add = [&](vertex_index v, const sent_positions& at) {
+        places.emplace(v, static_cast<vertex_index>(result.numbers.size()));
+        result.numbers.push_back(v);
+        result.before.push_back(at.before);
+        result.after.push_back(at.after);
+    };
+    std::size_t next = 0;
+    for (const auto& list : wanted)
+        for (const vertex_index v : list) add(v, positions[next++]);
+    std::vector<bool> is_used_here(has_element.size());
+    for_each_corner(own.before.elements, [&](vertex_index v) {
+        if (own.has(v)) is_used_here[v - own.first()] = true;
+    });
+    // A vertex that nobody's elements have is a point, which its reader gives.
+    for (std::size_t v = 0; v < has_element.size(); ++v)
+        if (is_used_here[v] || !has_element[v])
+            add(static_cast<vertex_index>(own.first() + v),
+                {own.before.elements.vertices[v], own.after.elements.vertices[v]});
+    const auto placed = [&](auto element) {
+        for (vertex_index& v : element) v = places.at(v);
+        return element;
+    };
+    std::ranges::transform(own.before.elements.faces, std::back_inserter(result.faces), placed);
+    std::ranges::transform(own.before.elements.edges, std::back_inserter(result.edges), placed);
+    return result;
+}
+
+}  // namespace ccd::program

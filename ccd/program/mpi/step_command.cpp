@@ -1,0 +1,194 @@
+// `ccd_mpi step`: one step of a mesh, from files of which each rank reads a share to one sorted
+// list of colliding pairs.
+#include <algorithm>
+#include <ccd/mpi.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "ccd/mpi/exchange.hpp"
+#include "ccd/program/mpi/commands.hpp"
+#include "ccd/program/mpi/shared_frames.hpp"
+#include "ccd/program/options.hpp"
+#include "ccd/program/pair_lines.hpp"
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/output_file.hpp"
+#include "errbound/support/peak_memory.hpp"
+#include "errbound/support/table.hpp"
+
+namespace ccd::program {
+namespace {
+
+using errbound::support::grouped;
+using errbound::support::usage_error;
+
+/// What a rank did, for the table.
+struct rank_report {
+    mpi::rank_work work;
+    std::uint64_t decided = 0, vertices = 0;
+    std::size_t memory = 0;
+    double read_seconds = 0;
+};
+
+class distributed_step final : public command {
+  public:
+    explicit distributed_step(CLI::App& program)
+        : command(program, "step", "One step of a mesh: the colliding pairs") {
+        line_.add_option("FRAME0", before_, "PLY or OBJ, which all ranks can read")->required();
+        line_.add_option("FRAME1", after_, "PLY or OBJ, same topology")->required();
+        line_.add_option("--method", method_, "The method, else exact")->type_name("M");
+        line_
+            .add_option("--pairs", pairs_,
+                        "Write the lines of ccd step --pairs, sorted; -: standard output")
+            ->type_name("OUT");
+        line_
+            .add_option("--toi", toi_,
+                        "Write these lines, each followed by ,low,high: between these times is\n"
+                        "the first contact; -: standard output")
+            ->type_name("OUT");
+        add_threads_option(line_, threads_, "Threads of each rank; 0: one per core");
+        line_.add_flag("--candidates", candidates_, "Count candidates, of each rank, too");
+        line_.add_option("--json", json_, "Write counts, seconds and what each rank did as JSON")
+            ->type_name("OUT");
+    }
+
+    exit_status run() override {
+        mpi::detail::exchanger ranks(MPI_COMM_WORLD);
+        const step_options options = checked_options();
+        const bool is_root = ranks.rank() == 0;
+        ranks.agree([&] {
+            if (is_root)
+                errbound::support::require_good_outputs({pairs_, toi_, json_}, {before_, after_});
+        });
+        const auto start = std::chrono::steady_clock::now();
+        const shared_frames frames = read_shared_frames(ranks, before_, after_);
+        rank_report own;
+        own.vertices = frames.numbers.size();
+        own.read_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const mpi::step_result found =
+            mpi::step(MPI_COMM_WORLD, frames.part(), options, mpi::placement::root);
+        own.work = found.work;
+        if (found.decided) for_each_kind([&]<kind K>() { own.decided += found.decided->of<K>(); });
+        own.memory = errbound::support::peak_memory_bytes();
+        const auto all = ranks.gather(std::vector{own}).items;
+        ranks.agree([&] {
+            if (is_root) write(found, all);
+        });
+        return done;
+    }
+
+  private:
+    step_options checked_options() const {
+        const ccd::method method = method_named(method_);
+        if (toi_ && method != method::exact)
+            throw usage_error("--toi: found --method " + method_ + ", expected exact");
+        return {.method = method,
+                .threads = threads_,
+                .count_candidates = candidates_ || method != method::exact,
+                .times = toi_.has_value()};
+    }
+
+    void write(const mpi::step_result& found, const std::vector<rank_report>& ranks) const {
+        std::vector<errbound::support::output> outputs;
+        if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.pairs)});
+        if (toi_) outputs.push_back({*toi_, lines_of_pairs(found.pairs, &found.times)});
+        if (json_) outputs.push_back({*json_, json_of(found, ranks)});
+        errbound::support::write_whole(outputs);
+        errbound::support::stream_for_people({pairs_, toi_, json_}) << text_of_step(found, ranks);
+    }
+
+    std::string json_of(const mpi::step_result& found,
+                        const std::vector<rank_report>& ranks) const {
+        nlohmann::ordered_json document = {{"method", method_},
+                                           {"candidates", nullptr},
+                                           {"collisions", nlohmann::ordered_json::object()}};
+        for_each_kind([&]<kind K>() {
+            if (!is_shown<K>(found)) return;
+            const std::string kind(name(K));
+            if (found.candidates) document["candidates"][kind] = found.candidates->of<K>();
+            document["collisions"][kind] = found.pairs.of<K>().size();
+        });
+        if (toi_) {
+            const first_time& first = found.first_contact;
+            document["first_contact"] = nullptr;
+            if (first.outcome == outcome::collides)
+                document["first_contact"] = {first.low, first.high};
+        }
+        for (const rank_report& r : ranks)
+            document["ranks"].push_back({{"vertices_given", r.vertices},
+                                         {"elements_given", r.work.elements_given},
+                                         {"elements_held", r.work.elements_held},
+                                         {"bytes_sent", r.work.bytes_sent},
+                                         {"candidates", nullptr},
+                                         {"read_seconds", r.read_seconds},
+                                         {"step_seconds", r.work.seconds},
+                                         {"peak_memory_bytes", r.memory}});
+        if (found.candidates)
+            for (std::size_t i = 0; i < ranks.size(); ++i)
+                document["ranks"][i]["candidates"] = ranks[i].decided;
+        return document.dump(2) + '\n';
+    }
+
+    /// Vertex/edge and vertex/vertex pairs are told of where there are any.
+    template <kind K>
+    static bool is_shown(const mpi::step_result& found) {
+        return K == kind::vertex_face || K == kind::edge_edge || !found.pairs.of<K>().empty() ||
+               (found.candidates && found.candidates->of<K>() > 0);
+    }
+
+    static std::string fixed(double value, const char* format) {
+        char text[64];
+        std::snprintf(text, sizeof text, format, value);
+        return text;
+    }
+
+    std::string text_of_step(const mpi::step_result& found,
+                             const std::vector<rank_report>& ranks) const {
+        errbound::support::table pairs = {{method_, "collisions"}};
+        if (found.candidates) pairs[0].insert(pairs[0].begin() + 1, "candidates");
+        for_each_kind([&]<kind K>() {
+            if (!is_shown<K>(found)) return;
+            auto& row = pairs.emplace_back(std::vector{std::string(path_name(K))});
+            if (found.candidates) row.push_back(std::to_string(found.candidates->of<K>()));
+            row.push_back(std::to_string(found.pairs.of<K>().size()));
+        });
+        errbound::support::table work = {{"rank", "elements read", "held", "bytes sent",
+                                          "candidates", "read", "step", "peak memory"}};
+        for (const rank_report& r : ranks)
+            work.push_back({std::to_string(work.size() - 1), grouped(r.work.elements_given),
+                            grouped(r.work.elements_held), grouped(r.work.bytes_sent),
+                            found.candidates ? grouped(r.decided) : "-",
+                            fixed(1e3 * r.read_seconds, "%.1f ms"),
+                            fixed(1e3 * r.work.seconds, "%.1f ms"),
+                            fixed(static_cast<double>(r.memory) / (1 << 20), "%.1f MiB")});
+        std::string text =
+            errbound::support::text_of(pairs, 1) + '\n' + errbound::support::text_of(work, 0);
+        if (toi_)
+            text += "\nfirst contact: " +
+                    (found.first_contact.outcome == outcome::collides
+                         ? fixed(found.first_contact.low, "%.17g") + " to " +
+                               fixed(found.first_contact.high, "%.17g")
+                         : "-") +
+                    '\n';
+        return text;
+    }
+
+    std::filesystem::path before_, after_;
+    std::string method_ = "exact";
+    std::optional<std::filesystem::path> pairs_, toi_, json_;
+    int threads_ = 0;
+    bool candidates_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<command> distributed_step_command(CLI::App& program) {
+    return std::make_unique<distributed_step>(program);
+}
+
+}  // namespace ccd::program

@@ -1,0 +1,77 @@
+# The program `ccd_mpi` against `ccd step`, on several ranks. MPIEXEC and MPIEXEC_NUMPROC_FLAG say how
+# programs are run over ranks, CCD_MPI_PROGRAM which; ERRBOUND_SHARED_DATA names the folder of the
+# stored scenes, which need not be there.
+import json
+import os
+import pathlib
+import subprocess
+import unittest
+
+from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, ply
+
+SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
+RANKS = (1, 2, 3, 5)
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1")
+
+
+class DistributedStep(ProgramTest):
+    def over_ranks(self, ranks, *arguments):
+        return subprocess.run(
+            [os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks),
+             os.environ["CCD_MPI_PROGRAM"], *map(str, arguments)],
+            capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
+
+    def expect_same(self, before, after):
+        one = [self.directory / f"one.{what}" for what in ("pairs", "toi", "json")]
+        all_ = [self.directory / f"all.{what}" for what in ("pairs", "toi", "json")]
+        options = lambda files: ["--pairs", files[0], "--toi", files[1], "--json", files[2]]
+        self.good("step", before, after, "--explain", *options(one))
+        expected = json.loads(one[2].read_text())
+        for ranks in RANKS:
+            done = self.over_ranks(ranks, "step", before, after, "--candidates", *options(all_))
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(all_[0].read_bytes(), one[0].read_bytes())
+            self.assertEqual(all_[1].read_bytes(), one[1].read_bytes())
+            found = json.loads(all_[2].read_text())
+            for key in ("method", "candidates", "collisions", "first_contact"):
+                self.assertEqual(found[key], expected[key], key)
+            self.assertEqual(len(found["ranks"]), ranks)
+            self.assertEqual(sum(rank["candidates"] for rank in found["ranks"]),
+                             sum(expected["candidates"].values()))
+
+    def test_made_mesh_in_every_form(self):
+        frames = [self.write(name, ply(vertices, FACES))
+                  for name, vertices in (("a.ply", BEFORE), ("b.ply", AFTER))]
+        self.expect_same(*frames)
+        obj = lambda vertices: "".join("v {} {} {}\n".format(*v) for v in vertices) + "".join(
+            "f {} {} {}\n".format(*(i + 1 for i in f)) for f in FACES)
+        self.expect_same(self.write("a.obj", obj(BEFORE)), self.write("b.obj", obj(AFTER)))
+
+    def test_bundled_scene(self):
+        self.expect_same(*sorted((SOURCE / "examples/scenes/cloth-over-ball").glob("*.ply")))
+
+    @unittest.skipUnless(SCENES.is_dir(), "skipped: no stored scenes")
+    def test_stored_scenes(self):
+        for folder in sorted(SCENES.iterdir()):
+            frames = sorted(folder.glob("frames/*.ply"), key=lambda f: (len(f.name), f.name))
+            for before, after in zip(frames, frames[1:]):
+                with self.subTest(before=before.name):
+                    self.expect_same(before, after)
+
+    def test_errors_are_told_once(self):
+        a = self.write("a.ply", ply(BEFORE, FACES))
+        for message, status, arguments in (
+                ("c.ply: found no such file", 1, (a, self.directory / "c.ply")),
+                ("found 5 vertices, expected 6", 1, (a, self.write("d.ply", ply(AFTER[:5], [(0, 1, 2)])))),
+                ("--method: found 'none'", 2, (a, a, "--method", "none")),
+                ("--toi: found --method tight", 2, (a, a, "--method", "tight", "--toi", "-")),
+                ("found the output", 1, (a, a, "--pairs", a))):
+            for ranks in (1, 3):
+                done = self.over_ranks(ranks, "step", *arguments)
+                self.assertEqual(done.returncode, status, done.stderr)
+                self.assertEqual(done.stderr.count(message), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
