@@ -7,8 +7,11 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// Of all ranks together.
-constexpr std::size_t samples_wanted = 4096;
+/// Of all ranks together: enough of each box to weigh it.
+std::size_t samples_wanted(std::size_t ranks) {
+    return std::max<std::size_t>(4096, 64 * ranks);
+}
+
 /// A candidate's share of the work that an element makes by being there.
 constexpr double work_of_candidate = 0.1;
 
@@ -35,7 +38,8 @@ decomposition::decomposition(exchanger& ranks, std::span<const swept_box> boxes)
 /// A pair begins near the smaller of its boxes: its work is that one's.
 std::vector<decomposition::sample> decomposition::weighted_samples(
     exchanger& ranks, std::span<const swept_box> boxes) {
-    std::vector<sample> own(std::min(boxes.size(), samples_wanted / ranks.size() + 1));
+    std::vector<sample> own(
+        std::min(boxes.size(), samples_wanted(ranks.size()) / ranks.size() + 1));
     for (std::size_t i = 0; i < own.size(); ++i)
         own[i] = {boxes[i * boxes.size() / own.size()],
                   static_cast<double>(boxes.size()) / static_cast<double>(own.size())};

@@ -84,8 +84,8 @@ struct step_result {
 /// elsewhere, or more than 2^32 − 1 vertices in its box.
 ///
 /// Memory of a rank: 56 bytes a vertex and 24 a face that it sends and receives, what
-/// ccd::mesh_steps takes for the elements that meet its box, and some 300 KB of samples. Messages:
-/// to and from every rank that has elements of its box.
+/// ccd::mesh_steps takes for the elements that meet its box, and 64 bytes for each of 4,096
+/// samples, or of 64 a rank. Messages: to and from every rank that has elements of its box.
 step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& options = {},
                  placement pairs = placement::owners);
 

@@ -1,0 +1,133 @@
+"""Steps of tiled scenes over ranks: that pairs, times and first contacts are the same however a mesh
+is spread, and how evenly.
+
+Arguments: the benchmark program and mpirun, with --ranks-option=-n or whatever it takes a number of
+ranks by. Status 1 if anything differs. --quick: the bundled scene alone.
+"""
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+RANKS = (1, 2, 3, 5, 8)
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="./run bench --mpi",
+                                     description="Steps of tiled scenes over the ranks of MPI.")
+    for name in ("program", "mpirun"):
+        parser.add_argument(name, help=argparse.SUPPRESS)
+    parser.add_argument("--ranks-option", default="-n", help=argparse.SUPPRESS)
+    parser.add_argument("--quick", action="store_true", help="the bundled scene alone")
+    parser.add_argument("--faces", type=int, default=10_000_000, metavar="N",
+                        help="of the largest tiled scenes, else 10,000,000")
+    parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared/data/scenes",
+                        metavar="DIR", help="stored scenes, else ../shared/data/scenes")
+    return parser.parse_args()
+
+
+def scenes(data, quick):
+    """Name, frames, faces."""
+    folders = [ROOT / "examples/scenes/cloth-over-ball"]
+    if not quick and data.is_dir():
+        folders += [folder / "frames" for folder in sorted(data.iterdir()) if (folder / "frames").is_dir()]
+    elif not quick:
+        print(f"skipped: no stored scenes in {data}")
+    for folder in folders:
+        frames = sorted(folder.glob("*.ply"), key=lambda f: (len(f.name), f.name))
+        if len(frames) >= 2:
+            yield (folder.parent if folder.name == "frames" else folder).name, frames[:2]
+
+
+def measured(given, ranks, frames, *options):
+    done = subprocess.run([given.mpirun, given.ranks_option, str(ranks), given.program, *map(str, frames),
+                           *map(str, options)], capture_output=True, text=True, env=ENVIRONMENT)
+    if done.returncode:
+        sys.exit(f"{' '.join(map(str, done.args))}: status {done.returncode}\n{done.stderr}")
+    return json.loads(done.stdout)
+
+
+def same(result, expected, what, failures):
+    for key in ("hash", "pairs", "first_contact"):
+        if result[key] != expected[key]:
+            failures.append(f"{what}: {key} {result[key]}, expected {expected[key]}")
+
+
+def spread(values):
+    """Of a list of a figure a rank: all, and the worst over the mean."""
+    return sum(values), max(values) * len(values) / max(1, sum(values))
+
+
+def table(rows):
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    for row in rows:
+        print("  ".join(cell.rjust(w) if i else cell.ljust(w)
+                        for i, (cell, w) in enumerate(zip(row, widths))).rstrip())
+    print()
+
+
+def row_of(name, copies, result, placement):
+    columns = {key: [rank[key] for rank in result["ranks"]]
+               for key in ("given", "held", "sent", "candidates", "memory")}
+    (given, _), (held, held_worst) = spread(columns["given"]), spread(columns["held"])
+    (sent, _), (candidates, worst) = spread(columns["sent"]), spread(columns["candidates"])
+    return [name, f"{copies:,}", f"{result['faces']:,}", str(len(result["ranks"])), placement,
+            f"{result['pairs']:,}", f"{held / max(1, given):.3f}", f"{held_worst:.2f}",
+            f"{candidates:,}", f"{worst:.2f}", f"{sent / max(1, given):.0f}",
+            f"{max(columns['memory']) / 2**20:.0f}"]
+
+
+HEADING = ["scene", "copies", "faces", "ranks", "placed", "pairs", "held/given", "worst/mean",
+           "candidates", "worst/mean", "bytes sent a face", "most MiB of a rank"]
+
+
+def sizes(faces, largest):
+    """Numbers of copies: 1, 10, 100, ..., and as many as have so many faces."""
+    copies, most = 1, max(1, largest // faces)
+    while copies < most:
+        yield copies
+        copies *= 10
+    yield most
+
+
+def compare_copies(given, name, frames, copies, failures):
+    """Rows of a scene so often; placements that differ for those that take little time."""
+    first = measured(given, 1, frames, "--copies", copies)
+    if first["hash"] != first["hash_of_whole"]:
+        failures.append(f"{name}, {copies} copies: the whole mesh has another hash")
+    asked = [(ranks, "blocks") for ranks in RANKS]
+    if first["faces"] <= 1_000_000:
+        asked += [(ranks, placement) for placement in ("interleaved", "one", "empty") for ranks in (3, 8)]
+    for ranks, placement in asked:
+        result = measured(given, ranks, frames, "--copies", copies, "--placement", placement)
+        same(result, first, f"{name}, {copies} copies, {ranks} ranks, {placement}", failures)
+        yield row_of(name, copies, result, placement)
+
+
+def compare_with_huge_face(given, name, frames, failures):
+    results = [measured(given, ranks, frames, "--copies", 4, "--huge-face") for ranks in (1, 3, 8)]
+    for result in results:
+        same(result, results[0], f"{name}, a huge face, {len(result['ranks'])} ranks", failures)
+        yield row_of(name, 4, result, "blocks and a huge face")
+
+
+def main():
+    given = arguments()
+    failures, rows = [], [HEADING]
+    for name, frames in scenes(given.data, given.quick):
+        faces = measured(given, 1, frames)["faces"]
+        for copies in sizes(faces, 10 * faces if given.quick else given.faces):
+            rows += compare_copies(given, name, frames, copies, failures)
+        rows += compare_with_huge_face(given, name, frames, failures)
+    table(rows)
+    print("\n".join(failures) if failures else "pairs, times and first contacts: the same in all")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
