@@ -92,7 +92,7 @@ class other_ranks {
         for (const sent& s : all) {
             std::array<vertex_index, n> v;
             for (std::size_t i = 0; i < n; ++i) v[i] = vertices_.index(s.numbers[i], s.islands[i]);
-            pairs.push_back({std::make_from_tuple<Pair>(v), s.time});
+            pairs.push_back({std::apply([](auto... i) { return Pair{i...}; }, v), s.time});
         }
         return pairs;
     }
