@@ -89,7 +89,7 @@ held_mesh::routes held_mesh::routes_of(std::size_t ranks, const mesh_part& mesh,
         });
     for (auto& vertices : to.vertices) {
         std::ranges::sort(vertices);
-        vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     }
     return to;
 }
@@ -207,9 +207,10 @@ std::vector<std::size_t> held_mesh::owners(const std::vector<Pair>& pairs) const
         std::ranges::sort(first);
         const auto seen = [&](vertex_index v, vertex_index w, std::size_t rank) {
             const edge e{std::min(v, w), std::max(v, w)};
-            const auto [begin, end] =
-                std::ranges::equal_range(first, e, {}, &std::pair<edge, std::size_t>::first);
-            if (begin != end) begin->second = std::min(begin->second, rank);
+            const auto found =
+                std::ranges::lower_bound(first, e, {}, &std::pair<edge, std::size_t>::first);
+            if (found != first.end() && found->first == e)
+                found->second = std::min(found->second, rank);
         };
         for (std::size_t i = 0; i < edges_.size(); ++i)
             seen(edges_[i][0], edges_[i][1], owner_of_edge_[i]);

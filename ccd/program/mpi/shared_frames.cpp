@@ -46,7 +46,7 @@ std::vector<std::vector<vertex_index>> read_elsewhere(mpi::detail::exchanger& ra
     });
     for (auto& list : at) {
         std::ranges::sort(list);
-        list.erase(std::ranges::unique(list).begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
     }
     return at;
 }
