@@ -115,10 +115,12 @@ def python_reference(folder):
     """Into folder/python. Returns of each class and function whether it has a docstring: a class its
     own, a method that of the class it comes from will do."""
     modules = ["errbound"]
-    if importlib.util.find_spec("ipctk"):
-        modules.append("errbound.ipctk")
-    else:
-        print("errbound.ipctk is left out: ipctk is not installed (ERRBOUND_VIEWERS=1 ./run python)")
+    for module, needed, how in (("errbound.ipctk", "ipctk", "ERRBOUND_VIEWERS=1 ./run python"),
+                                ("errbound.mpi", "errbound._mpi", "./run python where MPI is")):
+        if importlib.util.find_spec(needed):
+            modules.append(module)
+        else:
+            print(f"{module} is left out: {needed} is not installed ({how})")
     run("pdoc", [sys.executable, "-W", "error::UserWarning", "-m", "pdoc", *modules, "-o", folder / "python",
                  "--docformat", "markdown", "--no-show-source", "-t", HERE / "pdoc"])
     members = [member for name in modules for member in public_members(pdoc.doc.Module.from_name(name))]

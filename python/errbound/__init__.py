@@ -5,6 +5,7 @@
 * roots: real roots of polynomials, counted and isolated exactly
 * tracked: arrays of numbers that carry a certified bound on their rounding error
 * ipctk: for ipc-toolkit's package; imported by its name alone, since that must be there
+* mpi: meshes that are spread over ranks; imported by its name alone, since mpi4py must be there
 * io: files of meshes, of queries, and of steps to look at
 * show: looks at a step, in polyscope or on a page for a browser
 

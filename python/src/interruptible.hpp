@@ -33,13 +33,15 @@ class pending_signals {
     clock::time_point next_ = clock::now() + pause;
 };
 
-/// Returns call(stop) and throws what it throws; what a signal's handler raised if that stopped it.
+/// Returns call(stop) and throws what it throws; what a signal's handler raised if that stopped it,
+/// KeyboardInterrupt if that was in another process.
 template <class Call>
 auto without_gil(const Call& call) {
     try {
         nb::gil_scoped_release released;
         return call(ccd::stop_query(pending_signals()));
     } catch (const ccd::stopped&) {
+        if (!PyErr_Occurred()) PyErr_SetString(PyExc_KeyboardInterrupt, "stopped on another rank");
         throw nb::python_error();
     }
 }

@@ -7,10 +7,13 @@ from conftest import ROOT
 
 @pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("docs/python.md", "vertex 2"),
                                            ("docs/in-ten-minutes.md", "free for 0.250"),
-                                           ("docs/from-ipc-toolkit.md", "theirs 0.0")])
+                                           ("docs/from-ipc-toolkit.md", "theirs 0.0"),
+                                           ("docs/many-machines.md", "rank 0: ")])
 def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
     if page == "docs/from-ipc-toolkit.md":
         pytest.importorskip("ipctk", reason="ipctk is not installed (pip install ipctk)")
+    if page == "docs/many-machines.md":
+        pytest.importorskip("errbound.mpi", reason="no mpi4py, or an errbound without MPI", exc_type=ImportError)
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.MULTILINE | re.DOTALL)
