@@ -21,6 +21,31 @@ bool touch(const swept_box& a, const swept_box& b) {
     return true;
 }
 
+/// The place such that those before it have about so large a share of all the work; 0 if there is
+/// none. Time: linear in their number.
+template <class Sample, class Place>
+double weighted_quantile(std::span<Sample> samples, const Place& place, double share) {
+    if (samples.empty()) return 0;
+    const auto sum = [](std::span<const Sample> some) {
+        return std::transform_reduce(some.begin(), some.end(), 0.0, std::plus<>(),
+                                     [](const Sample& s) { return s.work; });
+    };
+    double left = share * sum(samples);
+    while (samples.size() > 1) {
+        const std::size_t middle = samples.size() / 2;
+        std::ranges::nth_element(samples, samples.begin() + static_cast<std::ptrdiff_t>(middle), {},
+                                 place);
+        const double half = sum(samples.first(middle));
+        if (half >= left) {
+            samples = samples.first(middle);
+        } else {
+            left -= half;
+            samples = samples.subspan(middle);
+        }
+    }
+    return place(samples.front());
+}
+
 double size(const swept_box& b) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) sum += b.high[k] - b.low[k];
@@ -73,22 +98,13 @@ std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<s
     const std::array spreads{spread(0), spread(1), spread(2)};
     const auto axis = static_cast<std::size_t>(std::ranges::max_element(spreads) - spreads.begin());
     const auto place = [axis](const sample& s) { return s.box.low[axis]; };
-    std::ranges::stable_sort(samples, {}, place);
-
     const std::size_t below = count / 2;
-    const double all = std::transform_reduce(samples.begin(), samples.end(), 0.0, std::plus<>(),
-                                             [](const sample& s) { return s.work; });
-    double sum = 0;
-    std::size_t of_below = 0;
-    while (of_below < samples.size() &&
-           sum * static_cast<double>(count) < all * static_cast<double>(below))
-        sum += samples[of_below++].work;
-    const double at = of_below < samples.size() ? place(samples[of_below])
-                      : samples.empty()         ? 0
-                                                : place(samples.back());
+    const double at =
+        weighted_quantile(samples, place, static_cast<double>(below) / static_cast<double>(count));
     // Samples at the cut are above it.
-    of_below = static_cast<std::size_t>(std::ranges::lower_bound(samples, at, {}, place) -
-                                        samples.begin());
+    const auto above = std::partition(samples.begin(), samples.end(),
+                                      [&](const sample& s) { return place(s) < at; });
+    const auto of_below = static_cast<std::size_t>(above - samples.begin());
 
     space_part low = part, high = part;
     low.high[axis] = high.low[axis] = at;
