@@ -7,10 +7,14 @@
 namespace ccd::mpi::detail {
 namespace {
 
-/// Of all ranks together: enough of each box to weigh it.
+/// Of all ranks together: enough of each box to weigh it, in 50 MB or less up to 10,000 ranks.
 std::size_t samples_wanted(std::size_t ranks) {
-    return std::max<std::size_t>(4096, 64 * ranks);
+    const std::size_t most = std::max<std::size_t>(1 << 19, 64 * ranks);
+    return std::max<std::size_t>(4096, std::min(256 * ranks, most));
 }
+
+/// Of these, so many are asked what touches a sample.
+constexpr std::size_t others_asked = 4096;
 
 /// A candidate's share of the work that an element makes by being there.
 constexpr double work_of_candidate = 0.1;
@@ -63,21 +67,32 @@ decomposition::decomposition(exchanger& ranks, std::span<const swept_box> boxes)
 /// A pair begins near the smaller of its boxes: its work is that one's.
 std::vector<decomposition::sample> decomposition::weighted_samples(
     exchanger& ranks, std::span<const swept_box> boxes) {
-    std::vector<sample> own(
-        std::min(boxes.size(), samples_wanted(ranks.size()) / ranks.size() + 1));
+    std::size_t elements = 0;
+    for (const std::size_t n : ranks.gather(std::vector{boxes.size()}).items) elements += n;
+    const std::size_t wanted = samples_wanted(ranks.size());
+    // As large a share of the samples as of the elements.
+    std::vector<sample> own(elements <= wanted ? boxes.size()
+                                               : (boxes.size() * wanted + elements - 1) / elements);
     for (std::size_t i = 0; i < own.size(); ++i)
         own[i] = {boxes[i * boxes.size() / own.size()],
                   static_cast<double>(boxes.size()) / static_cast<double>(own.size())};
-    const received<sample> all = ranks.gather(own);
-    for (sample& s : own) {
+    received<sample> all = ranks.gather(own);
+    const std::size_t step = std::max<std::size_t>(1, all.items.size() / others_asked);
+    std::vector<double> work;
+    for (const sample& s : own) {
         double candidates = 0;
-        for (const sample& other : all.items)
+        for (std::size_t i = 0; i < all.items.size(); i += step) {
+            const sample& other = all.items[i];
             if (size(s.box) <= size(other.box) && touch(s.box, other.box))
-                candidates += other.elements;
-        // Itself was among them.
-        s.work = s.elements * (1 + work_of_candidate * (candidates - s.elements));
+                candidates += static_cast<double>(step) * other.elements;
+        }
+        // Itself may be among them.
+        work.push_back(s.elements *
+                       (1 + work_of_candidate * std::max(0.0, candidates - s.elements)));
     }
-    return ranks.gather(own).items;
+    const std::vector<double> of_all = ranks.gather(work).items;
+    for (std::size_t i = 0; i < of_all.size(); ++i) all.items[i].work = of_all[i];
+    return std::move(all.items);
 }
 
 /// Returns the node's place.

@@ -17,8 +17,9 @@ using swept_box = ccd::detail::box<double>;
 /// Boxes that tile space, one a rank; the same on all ranks. Some may be empty.
 class decomposition {
   public:
-    /// By some of each rank's boxes, which elements sweep. Collective. Time: with n samples, 4096
-    /// or 64 a rank, n² tests of boxes over the number of ranks.
+    /// By some of each rank's boxes, which elements sweep. Collective. Time: at most
+    /// a million tests of boxes a rank, and what it takes to cut the samples, 256 a rank (4096 at
+    /// least, at most 2^19 or 64 a rank), once for each bit of the number of ranks.
     decomposition(exchanger& ranks, std::span<const swept_box> boxes);
 
     const space_part& part(std::size_t rank) const { return parts_[rank]; }
