@@ -417,18 +417,22 @@ constexpr std::array rewritings{
 };
 
 /// What CGAL cannot be given: a property of no element (it takes the second line for the format
-/// whatever it says), elements without bytes that it counts
-/// through, and lists as long as they claim to be.
+/// whatever it says), elements without bytes that it counts through, and lists as long as they
+/// claim to be, or, after a value that is not of its type, as long as chance has it.
 bool harms_cgal(std::string_view text, bool is_taken_by_us) {
     const outline o(text);
     const bool mistakes_line = o.lines.size() > 1 && !o.lines[1].empty() &&
                                (o.lines[1][0] == "element" || o.lines[1][0] == "end_header");
+    const bool has_odd_value =
+        any_value(text, [](const element&, const property&, const type& t,
+                           const std::string& word) { return !is_of_type(word, t); });
     return o.has_stray_property || mistakes_line ||
            std::ranges::any_of(o.elements, [&](const element& e) {
                const bool may_be_long = std::ranges::any_of(e.properties, [](const property& p) {
                    return p.count && p.count->highest > 1e5;
                });
-               return (e.properties.empty() && e.count > 1000) || (may_be_long && !is_taken_by_us);
+               return (e.properties.empty() && e.count > 1000) ||
+                      (may_be_long && (!is_taken_by_us || has_odd_value));
            });
 }
 
