@@ -115,12 +115,13 @@ class input_maker {
     double middle_;
 };
 
-/// Out of so many: + − × ÷, −x, ·2^e.
+/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma.
 using operation_mix = std::array<int, operation_kinds>;
-constexpr std::array<operation_mix, 4> mixes{{{3, 3, 6, 0, 1, 1},  // polynomials
-                                              {4, 6, 1, 0, 1, 0},  // sums
-                                              {1, 1, 6, 0, 0, 2},  // products
-                                              {2, 3, 3, 4, 1, 1}}};
+constexpr std::array<operation_mix, 5> mixes{{{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0},  // polynomials
+                                              {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0},  // sums
+                                              {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0},  // products
+                                              {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4},  // functions
+                                              {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1}}};
 
 operation_kind kind_from(const operation_mix& mix, random_source& random) {
     int sum = 0;
@@ -146,7 +147,7 @@ expression made(random_source& random, bool may_divide, int longest) {
         in.quarters = random.one_in(2) ? (random.one_in(2) ? 4 : -4) : random.between(-4, 4);
     }
 
-    const operation_mix& mix = mixes[may_divide ? 3 : static_cast<std::size_t>(random.below(3))];
+    const operation_mix& mix = mixes[may_divide ? 4 : static_cast<std::size_t>(random.below(4))];
     // Few operands among the latest values make an expression deep, many make it wide.
     const bool deep = random.one_in(2);
     e.operation_count = static_cast<std::size_t>(random.between(1, longest));
@@ -160,6 +161,7 @@ expression made(random_source& random, bool may_divide, int longest) {
         const bool exchanged = random.one_in(2);
         o.left = static_cast<std::uint8_t>(exchanged ? other : recent);
         o.right = static_cast<std::uint8_t>(exchanged ? recent : other);
+        if (o.has_third()) o.third = static_cast<std::uint8_t>(random.below(values));
         const int reach = random.one_in(4) ? limits::max_exponent : 8;
         if (o.kind == operation_kind::scale) o.exponent = random.between(-reach, reach);
     }
@@ -178,8 +180,9 @@ std::string name_of_value(std::size_t value) {
 }  // namespace
 
 std::string_view name_of(operation_kind kind) {
-    constexpr std::array<std::string_view, operation_kinds> names{"add",    "subtract", "multiply",
-                                                                  "divide", "negate",   "scale"};
+    constexpr std::array<std::string_view, operation_kinds> names{
+        "add",  "subtract", "multiply", "divide", "negate", "scale",
+        "sqrt", "abs",      "min",      "max",    "fma"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -222,6 +225,21 @@ void evaluate(const expression& e, ball* values) {
             case operation_kind::scale:
                 values[n].set_scaled(values[o.left], o.exponent);
                 break;
+            case operation_kind::root:
+                values[n].set_root(values[o.left]);
+                break;
+            case operation_kind::absolute:
+                values[n].set_absolute(values[o.left]);
+                break;
+            case operation_kind::lesser:
+                values[n].set_lesser(values[o.left], values[o.right]);
+                break;
+            case operation_kind::greater:
+                values[n].set_greater(values[o.left], values[o.right]);
+                break;
+            case operation_kind::fused:
+                values[n].set_fused(values[o.left], values[o.right], values[o.third]);
+                break;
         }
     }
 }
@@ -231,6 +249,36 @@ std::string hexadecimal(double x, number_type type) {
     std::snprintf(text, sizeof text, "%a", x);
     return std::string(text) + (type == number_type::float_type ? "F" : "");
 }
+
+namespace {
+
+std::string cpp_text(const expression_operation& o) {
+    const std::string left = name_of_value(o.left), right = name_of_value(o.right);
+    switch (o.kind) {
+        case operation_kind::add:
+            return left + " + " + right;
+        case operation_kind::subtract:
+            return left + " - " + right;
+        case operation_kind::multiply:
+            return left + " * " + right;
+        case operation_kind::divide:
+            return left + " / " + right;
+        case operation_kind::negate:
+            return "-" + left;
+        case operation_kind::scale:
+            return "scale(" + left + ", " + std::to_string(o.exponent) + ")";
+        case operation_kind::root:
+        case operation_kind::absolute:
+        case operation_kind::lesser:
+        case operation_kind::greater:
+        case operation_kind::fused:
+            break;
+    }
+    return std::string(name_of(o.kind)) + "(" + left + (o.has_right() ? ", " + right : "") +
+           (o.has_third() ? ", " + name_of_value(o.third) : "") + ")";
+}
+
+}  // namespace
 
 std::string cpp_text(const expression& e, number_type type, std::string_view rule) {
     const std::string names(name_of(type));
@@ -248,29 +296,8 @@ std::string cpp_text(const expression& e, number_type type, std::string_view rul
         }
     }
     for (std::size_t i = 0; i < e.operation_count; ++i) {
-        const expression_operation& o = e.operations[i];
-        const std::string left = name_of_value(o.left), right = name_of_value(o.right);
-        text += "const number " + name_of_value(e.input_count + i) + " = ";
-        switch (o.kind) {
-            case operation_kind::add:
-                text += left + " + " + right;
-                break;
-            case operation_kind::subtract:
-                text += left + " - " + right;
-                break;
-            case operation_kind::multiply:
-                text += left + " * " + right;
-                break;
-            case operation_kind::divide:
-                text += left + " / " + right;
-                break;
-            case operation_kind::negate:
-                text += "-" + left;
-                break;
-            case operation_kind::scale:
-                text += "scale(" + left + ", " + std::to_string(o.exponent) + ")";
-                break;
-        }
+        text +=
+            "const number " + name_of_value(e.input_count + i) + " = " + cpp_text(e.operations[i]);
         text += ";\n";
     }
     return text;

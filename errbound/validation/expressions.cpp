@@ -43,7 +43,8 @@ class reference {
     bool operands_defined(const expression& e, std::size_t n) const {
         if (n < e.input_count) return true;
         const expression_operation& o = e.operations[n - e.input_count];
-        return values_[o.left].is_defined() && (!o.has_right() || values_[o.right].is_defined());
+        return values_[o.left].is_defined() && (!o.has_right() || values_[o.right].is_defined()) &&
+               (!o.has_third() || values_[o.third].is_defined());
     }
     /// Whether every error is known in size, or known to be zero.
     bool tells_errors(const expression& e, const claim* computed) const {

@@ -13,9 +13,8 @@ expression cut(const expression& e, std::size_t root) {
     used[root] = true;
     for (std::size_t n = root + 1; n-- > e.input_count;) {
         if (!used[n]) continue;
-        const expression_operation& o = e.operations[n - e.input_count];
-        used[o.left] = true;
-        if (o.has_right()) used[o.right] = true;
+        expression_operation o = e.operations[n - e.input_count];
+        o.for_each_operand([&](std::uint8_t& v) { used[v] = true; });
     }
     expression r;
     std::array<std::uint8_t, expression::max_values> renamed{};
@@ -26,8 +25,8 @@ expression cut(const expression& e, std::size_t root) {
             r.inputs[r.input_count++] = e.inputs[n];
         } else {
             expression_operation o = e.operations[n - e.input_count];
-            o.left = renamed[o.left];
-            o.right = o.has_right() ? renamed[o.right] : std::uint8_t{0};
+            o.for_each_operand([&](std::uint8_t& v) { v = renamed[v]; });
+            if (!o.has_right()) o.right = 0;
             r.operations[r.operation_count++] = o;
         }
     }
@@ -85,11 +84,8 @@ std::optional<expression> with_input(const expression& e, std::size_t n,
     const auto moved = [&](std::uint8_t v) {
         return static_cast<std::uint8_t>(v == n ? added : v >= added ? v + 1U : v);
     };
-    for (std::size_t i = 0; i < r.operation_count; ++i) {
-        expression_operation& o = r.operations[i];
-        o.left = moved(o.left);
-        o.right = moved(o.right);
-    }
+    for (std::size_t i = 0; i < r.operation_count; ++i)
+        r.operations[i].for_each_operand([&](std::uint8_t& v) { v = moved(v); });
     r.inputs[r.input_count++] = in;
     return cut(r, n == root ? added : root + 1);
 }
@@ -99,8 +95,9 @@ expression with_other(const expression& e, std::size_t n, std::size_t m) {
     if (n == e.size() - 1) return cut(e, m);
     expression r = e;
     for (std::size_t i = 0; i < r.operation_count; ++i)
-        for (std::uint8_t* v : {&r.operations[i].left, &r.operations[i].right})
-            if (*v == n) *v = static_cast<std::uint8_t>(m);
+        r.operations[i].for_each_operand([&](std::uint8_t& v) {
+            if (v == n) v = static_cast<std::uint8_t>(m);
+        });
     return cut(r, r.size() - 1);
 }
 
@@ -112,9 +109,8 @@ std::vector<expression> smaller(const expression& e, number_type type) {
     else
         evaluate<none, double>(e, plain.data());
     for (std::size_t n = e.input_count; n < e.size(); ++n) {
-        const expression_operation& o = e.operations[n - e.input_count];
-        r.push_back(with_other(e, n, o.left));
-        if (o.has_right()) r.push_back(with_other(e, n, o.right));
+        expression_operation o = e.operations[n - e.input_count];
+        o.for_each_operand([&](std::uint8_t& v) { r.push_back(with_other(e, n, v)); });
         if (std::isfinite(plain[n].value))
             if (auto with = with_input(e, n, {.value = plain[n].value})) r.push_back(*with);
         if (o.kind == operation_kind::scale)

@@ -63,6 +63,31 @@ void tiny_judge::check_quotient(const claim& r, const exact_range& n, const exac
         check_sign(r, -n.high, -n.low, how);
 }
 
+namespace {
+
+/// The sign of x² − y, exactly: for x of so few bits that its square neither overflows nor
+/// underflows.
+int compare_square(double x, double y) {
+    const double square = x * x, off = std::fma(x, x, -square);
+    if (square != y) return square < y ? -1 : 1;
+    return off < 0 ? -1 : off > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void tiny_judge::check_root(const claim& r, const exact_range& x, const tiny_account& how) {
+    if (!x.defined() || x.low < 0 || !std::isfinite(r.value)) {
+        check(r, {}, how);
+        return;
+    }
+    ++found_.values;
+    const double least = r.value - r.error, most = r.value + r.error;  // exact, or infinite
+    if (!std::isnan(r.error) && !((least <= 0 || compare_square(least, x.low) <= 0) &&
+                                  (std::isinf(most) || compare_square(most, x.high) >= 0)))
+        add(r, "the bound is too small", how);
+    check_sign(r, x.low, x.high, how);
+}
+
 void tiny_judge::check_sign(const claim& r, double low, double high, const tiny_account& how) {
     if ((r.sign == sign_type::positive && !(low > 0)) ||
         (r.sign == sign_type::negative && !(high < 0)) ||

@@ -76,6 +76,8 @@ tiny_tables::tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction)
             add_to(product, mpfr_mul);
             add_to(quotient, mpfr_div);
         }
+        mpfr_clear_flags();
+        root.push_back(result(mpfr_sqrt(r, a, direction)));
         for (int e = -max_scale; e <= max_scale; ++e) {
             mpfr_clear_flags();
             scaled.push_back(result(mpfr_mul_2si(r, a, e, direction)));

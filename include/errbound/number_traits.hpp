@@ -37,6 +37,16 @@ struct number_traits {
     }
     static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }
     static constexpr bool is_finite(const T& x) { return abs(x) <= largest(); }
+    /// √x, rounded once; NaN below zero.
+    static T sqrt(const T& x) {
+        using std::sqrt;
+        return sqrt(x);
+    }
+    /// ab + c, rounded once.
+    static T fma(const T& a, const T& b, const T& c) {
+        using std::fma;
+        return fma(a, b, c);
+    }
     /// x·2^e, rounded once.
     static constexpr T scale(const T& x, int e) { return std::ldexp(x, e); }
     /// e with 2^(e−1) <= |x| < 2^e, for x finite and not zero.

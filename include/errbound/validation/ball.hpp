@@ -147,6 +147,39 @@ class ball {
         mpfr_neg(middle_.get(), a.middle(), MPFR_RNDN);
         mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
     }
+    /// |√x − √m| <= r/√m; undefined if a is below 0, unknown if it may be.
+    void set_root(const ball& a) {
+        MPFR_DECL_INIT(least, radius_precision);
+        mpfr_sub(least, a.middle(), a.radius(), MPFR_RNDD);
+        if (!a.is_defined() || a.sign() == sign_type::negative) {
+            mpfr_set_nan(middle_.get());
+            return;
+        }
+        if (a.is_unknown() || mpfr_sgn(least) < 0) {
+            mpfr_set_zero(middle_.get(), 1);
+            mpfr_set_inf(radius_.get(), 1);
+            return;
+        }
+        mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
+        if (!a.is_exact()) {
+            mpfr_sqrt(least, a.middle(), MPFR_RNDD);
+            mpfr_div(radius_.get(), radius_.get(), least, MPFR_RNDU);
+        }
+        rounded(mpfr_sqrt(middle_.get(), a.middle(), MPFR_RNDN));
+    }
+    void set_absolute(const ball& a) {
+        mpfr_abs(middle_.get(), a.middle(), MPFR_RNDN);
+        mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
+    }
+    /// Of the two the lesser or the greater: |max(x, y) − max(a, b)| <= max(ra, rb).
+    void set_lesser(const ball& a, const ball& b) { set_one(a, b, mpfr_lessequal_p); }
+    void set_greater(const ball& a, const ball& b) { set_one(a, b, mpfr_greaterequal_p); }
+    /// ab + c.
+    void set_fused(const ball& a, const ball& b, const ball& c) {
+        ball product(mpfr_get_prec(middle_.get()));
+        product.set_product(a, b);
+        set_sum(product, c);
+    }
     /// a·2^e.
     void set_scaled(const ball& a, int e) {
         mpfr_mul_2si(middle_.get(), a.middle(), e, MPFR_RNDN);
@@ -171,6 +204,25 @@ class ball {
 
   private:
     static constexpr mpfr_prec_t radius_precision = 64;
+
+    /// The one that `first` says; exact where that is certain and it is.
+    void set_one(const ball& a, const ball& b, int (*first)(mpfr_srcptr, mpfr_srcptr)) {
+        if (!a.is_defined() || !b.is_defined()) {
+            mpfr_set_nan(middle_.get());
+            return;
+        }
+        MPFR_DECL_INIT(apart, radius_precision);
+        MPFR_DECL_INIT(radii, radius_precision);
+        mpfr_sub(apart, a.middle(), b.middle(), MPFR_RNDZ);
+        mpfr_add(radii, a.radius(), b.radius(), MPFR_RNDU);
+        const bool certain = mpfr_cmpabs(apart, radii) > 0;
+        const ball& chosen = first(a.middle(), b.middle()) != 0 ? a : b;
+        mpfr_max(radii, a.radius(), b.radius(), MPFR_RNDU);
+        const mpfr_number radius = chosen.radius_;
+        mpfr_set(middle_.get(), chosen.middle(), MPFR_RNDN);
+        mpfr_set(radius_.get(), certain ? radius.get() : static_cast<mpfr_srcptr>(radii),
+                 MPFR_RNDU);
+    }
 
     /// Pays for the rounding of the midpoint, where there was one: half a last place.
     void rounded(int off) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/functions.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/ball.hpp>
 #include <errbound/validation/rule_list.hpp>
@@ -15,8 +16,20 @@
 
 namespace errbound::validation {
 
-enum class operation_kind : std::uint8_t { add, subtract, multiply, divide, negate, scale };
-inline constexpr std::size_t operation_kinds = 6;
+enum class operation_kind : std::uint8_t {
+    add,
+    subtract,
+    multiply,
+    divide,
+    negate,
+    scale,
+    root,
+    absolute,
+    lesser,
+    greater,
+    fused
+};
+inline constexpr std::size_t operation_kinds = 11;
 std::string_view name_of(operation_kind kind);
 
 /// Stands for value + error·quarters/4, and is known to within error of value; error 0: exact.
@@ -25,14 +38,23 @@ struct expression_input {
     int quarters = 0;
 };
 
-/// left ∘ right; −left; left·2^exponent.
+/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third.
 struct expression_operation {
     operation_kind kind = operation_kind::add;
-    std::uint8_t left = 0, right = 0;
+    std::uint8_t left = 0, right = 0, third = 0;
     int exponent = 0;
 
     bool has_right() const {
-        return kind != operation_kind::negate && kind != operation_kind::scale;
+        return kind != operation_kind::negate && kind != operation_kind::scale &&
+               kind != operation_kind::root && kind != operation_kind::absolute;
+    }
+    bool has_third() const { return kind == operation_kind::fused; }
+    /// Calls visit with each operand's place.
+    template <class Visit>
+    void for_each_operand(const Visit& visit) {
+        visit(left);
+        if (has_right()) visit(right);
+        if (has_third()) visit(third);
     }
 };
 
@@ -70,6 +92,39 @@ struct claim {
     sign_type sign;
 };
 
+/// The result of an operation on values that are there. Precondition: it does not divide, or the
+/// rule has division.
+template <class Rule, class T>
+tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* x) {
+    const auto &left = x[o.left], &right = x[o.right];
+    switch (o.kind) {
+        case operation_kind::add:
+            return left + right;
+        case operation_kind::subtract:
+            return left - right;
+        case operation_kind::multiply:
+            return left * right;
+        case operation_kind::divide:
+            if constexpr (has_division<Rule>) return left / right;
+            break;
+        case operation_kind::negate:
+            return -left;
+        case operation_kind::scale:
+            return scale(left, o.exponent);
+        case operation_kind::root:
+            return sqrt(left);
+        case operation_kind::absolute:
+            return abs(left);
+        case operation_kind::lesser:
+            return min(left, right);
+        case operation_kind::greater:
+            return max(left, right);
+        case operation_kind::fused:
+            return fma(left, right, x[o.third]);
+    }
+    return {};
+}
+
 /// Every value of the expression in tracked<T, Rule>. Precondition: it does not divide, or the rule
 /// has division.
 template <class Rule, class T>
@@ -82,29 +137,8 @@ void evaluate(const expression& e, claim* claims) {
         const T value = static_cast<T>(in.value);
         x[n] = in.error == 0 ? number(value) : number::within(value, static_cast<T>(in.error));
     }
-    for (std::size_t i = 0; i < e.operation_count; ++i, ++n) {
-        const expression_operation& o = e.operations[i];
-        switch (o.kind) {
-            case operation_kind::add:
-                x[n] = x[o.left] + x[o.right];
-                break;
-            case operation_kind::subtract:
-                x[n] = x[o.left] - x[o.right];
-                break;
-            case operation_kind::multiply:
-                x[n] = x[o.left] * x[o.right];
-                break;
-            case operation_kind::divide:
-                if constexpr (has_division<Rule>) x[n] = x[o.left] / x[o.right];
-                break;
-            case operation_kind::negate:
-                x[n] = -x[o.left];
-                break;
-            case operation_kind::scale:
-                x[n] = scale(x[o.left], o.exponent);
-                break;
-        }
-    }
+    for (std::size_t i = 0; i < e.operation_count; ++i, ++n)
+        x[n] = applied(e.operations[i], x.data());
     for (std::size_t i = 0; i < n; ++i)
         claims[i] = {static_cast<double>(x[i].value()), static_cast<double>(x[i].error()),
                      sign_of(x[i])};

@@ -87,6 +87,9 @@ class tiny_judge {
     void check_quotient(const claim& r, const exact_range& n, const exact_range& d,
                         const tiny_account& how);
 
+    /// The root of what lies in a range: compared squared.
+    void check_root(const claim& r, const exact_range& x, const tiny_account& how);
+
   private:
     /// A certain sign must be that of all numbers from low to high.
     void check_sign(const claim& r, double low, double high, const tiny_account& how);
@@ -157,6 +160,16 @@ class tiny_checker {
         Tiny::clear_flag();
     }
 
+    void check_root(const operand_range& a, tiny_account& how) {
+        const number r = sqrt(a.x);
+        if (!Tiny::overflowed_unnoticed()) {
+            how.operation = "sqrt(a)";
+            judge_.check_root({double(r.value()), double(r.error()), sign_of(r)}, {a.low, a.high},
+                              how);
+        }
+        Tiny::clear_flag();
+    }
+
     /// Every operation on two operands.
     void check_pair(const operand_range& a, const operand_range& b) {
         tiny_account how{{a.as_operand, b.as_operand}, 2};
@@ -166,6 +179,13 @@ class tiny_checker {
         check(a.x * b.x, product(a, b), how, "a * b");
         if constexpr (has_division<Rule>)
             check_quotient(a.x / b.x, {a.low, a.high}, {b.low, b.high}, how, "a / b");
+        const bool both = std::isfinite(a.low) && std::isfinite(b.low);
+        check(min(a.x, b.x),
+              both ? exact_range{std::min(a.low, b.low), std::min(a.high, b.high)} : exact_range{},
+              how, "min(a, b)");
+        check(max(a.x, b.x),
+              both ? exact_range{std::max(a.low, b.low), std::max(a.high, b.high)} : exact_range{},
+              how, "max(a, b)");
     }
     static exact_range product(const operand_range& a, const operand_range& b) {
         if (!std::isfinite(a.low) || !std::isfinite(b.low)) return {};
@@ -173,12 +193,18 @@ class tiny_checker {
         const auto [low, high] = std::minmax_element(std::begin(products), std::end(products));
         return {*low, *high};
     }
-    /// The operand itself, −x, and x·2^e for every e that leaves something.
+    /// The operand itself, −x, |x|, √x, and x·2^e for every e that leaves something.
     void check_one(const operand_range& a) {
         tiny_account how{{a.as_operand}, 1};
         Tiny::clear_flag();
         check(a.x, {a.low, a.high}, how, "a");
         check(-a.x, {-a.high, -a.low}, how, "-a");
+        const double sizes[] = {std::abs(a.low), std::abs(a.high)};
+        check(abs(a.x),
+              {a.low <= 0 && a.high >= 0 ? 0 : std::min(sizes[0], sizes[1]),
+               std::max(sizes[0], sizes[1])},
+              how, "abs(a)");
+        check_root(a, how);
         constexpr int reach = (1 << Tiny::exponent_bits) + Tiny::precision;
         for (int e = -reach; e <= reach; ++e) {
             how.exponent = e;

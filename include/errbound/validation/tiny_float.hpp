@@ -27,7 +27,7 @@ struct tiny_tables {
     static constexpr int max_scale = 64;  ///< scaling by more has the same result
 
     int bits = 0;  ///< codes have so many
-    std::vector<std::uint16_t> sum, difference, product, quotient, scaled;
+    std::vector<std::uint16_t> sum, difference, product, quotient, scaled, root;
 
     tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction);
     std::size_t pair(std::uint8_t a, std::uint8_t b) const { return (std::size_t{a} << bits) | b; }
@@ -80,6 +80,7 @@ class tiny_float {
     tiny_float times_power(int e) const {
         return looked_up(tables_->scaled[tables_->scale(code_, e)]);
     }
+    tiny_float root() const { return looked_up(tables_->root[code_]); }
     tiny_float operator-() const { return from_code(code_ ^ (codes >> 1)); }
     friend bool operator==(tiny_float a, tiny_float b) { return double(a) == double(b); }
     friend auto operator<=>(tiny_float a, tiny_float b) { return double(a) <=> double(b); }
@@ -148,6 +149,7 @@ struct number_traits<validation::tiny_float<P, E>> {
     static number infinity() { return number::from_code(number::codes / 2 - (1 << (P - 1))); }
     static number abs(const number& x) { return x < 0 ? -x : x; }
     static number max(const number& x, const number& y) { return x < y ? y : x; }
+    static number sqrt(const number& x) { return x.root(); }
     static bool is_finite(const number& x) { return std::isfinite(double(x)); }
     static number scale(const number& x, int e) { return x.times_power(e); }
     static int exponent(const number& x) { return std::ilogb(double(x)) + 1; }
