@@ -4,6 +4,7 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/bsc.hpp>
 #include <errbound/environment.hpp>
+#include <errbound/functions.hpp>
 #include <errbound/polynomial.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
