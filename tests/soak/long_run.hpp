@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/soak/findings.hpp"
 
@@ -62,5 +63,22 @@ struct run_options {
 /// part or save throws.
 state run(state from, const run_options& options, const part& what, const std::atomic<bool>& stop,
           const std::function<void(const state&)>& progress);
+
+/// The processes that share a run: the ranks of MPI.
+struct team {
+    std::size_t rank = 0, size = 1;
+    /// Everybody's text, by rank, on rank 0; collective, as is share.
+    std::function<std::vector<std::string>(const std::string&)> gather = {};
+    /// Rank 0's text, on all.
+    std::function<std::string(const std::string&)> share = {};
+};
+
+/// The same for a team, with the same result and the same state on disk, which rank 0 alone writes:
+/// whatever the number of ranks, a run goes on from where another one of it stopped. In rounds of a
+/// few seconds, of which each rank compares every size-th block; `stop` of rank 0 counts. Where a
+/// rank dies MPI ends the others, and what was saved last stays. Throws on all ranks what a part
+/// throws on one. Returns the whole run's state on rank 0, its number of blocks on the others.
+state run_shared(const team& who, state from, const run_options& options, const part& what,
+                 const std::atomic<bool>& stop, const std::function<void(const state&)>& progress);
 
 }  // namespace soak

@@ -1,6 +1,8 @@
 // ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
 // against itself on images of them; steps and advances of meshes against every pair; roots against
 // FLINT.
+#include "tests/soak/program/command_line.hpp"
+
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -168,7 +170,8 @@ std::vector<soak::decider> compared_with_reference() {
 }
 
 /// Runs the part to its end or to a signal; returns the exit status.
-int run(const soak::part& part, const soak::run_options& options, const soak::state& from) {
+int carry_out(const soak::team& who, const soak::part& part, const soak::run_options& options,
+              const soak::state& from) {
     struct sigaction action {};
     action.sa_handler = ask_to_stop;
     action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal ends the program at once
@@ -179,8 +182,10 @@ int run(const soak::part& part, const soak::run_options& options, const soak::st
                 grouped(part.count(options.blocks)).c_str(), part.unit.c_str());
     std::fflush(stdout);
     progress_display display(part, from, options.blocks);
-    const soak::state last =
-        soak::run(from, options, part, stop, [&](const soak::state& now) { display(now); });
+    const auto show = [&](const soak::state& now) { display(now); };
+    const soak::state last = who.size == 1 ? soak::run(from, options, part, stop, show)
+                                           : soak::run_shared(who, from, options, part, stop, show);
+    if (who.rank != 0) return 0;
     display.end();
     report(part, last, options.folder);
     if (last.found.different > 0) return 1;
@@ -237,21 +242,37 @@ void add_parts(CLI::App& app, choice& chosen) {
 #endif
 }
 
+/// The state to go on from, as rank 0 reads it. Throws on all ranks what is wrong with it.
+soak::state begin_shared(const soak::team& who, const soak::part& of,
+                         const std::function<soak::state()>& begin) {
+    if (who.size == 1) return begin();
+    std::string text, failure;
+    if (who.rank == 0) try {
+            text = soak::to_json(begin(), of);
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+    failure = who.share(failure);
+    if (!failure.empty()) throw std::runtime_error(failure);
+    return soak::from_json(who.share(text), of);
+}
+
 }  // namespace
 
-int main(int argc, char** argv) try {
+int soak::run_program(int argc, char** argv, const team& who) try {
     CLI::App app{"What is exact against a reference, or against itself."};
     app.name("./run soak");
     choice chosen;
     std::uint64_t seed = 1;
     bool resume = false, anew = false;
-    soak::run_options options;
+    run_options options;
     add_parts(app, chosen);
     CLI::Option* const seed_option =
         app.add_option("--seed", seed, "Same seed, same questions")->capture_default_str();
     app.add_flag("--resume", resume, "Go on where the last run stopped");
     app.add_flag("--anew", anew, "Forget the last run")->excludes("--resume");
-    app.add_option("--threads", options.threads, "0: one per core")->capture_default_str();
+    app.add_option("--threads", options.threads, "Of each rank; 0: one per core")
+        ->capture_default_str();
     app.add_option("--folder", options.folder,
                    "For the state and what differs; by default out/soak/PART");
     app.footer(
@@ -262,12 +283,15 @@ int main(int argc, char** argv) try {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
-    const soak::part part = chosen.part();
+    const struct part part = chosen.part();
     if (options.folder.empty()) options.folder = fs::path("out/soak") / part.name;
-    if (anew) fs::remove(soak::state_path(options.folder));
     options.blocks = part.blocks_for(chosen.count);
-    return run(part, options, begin(part, seed, seed_option->count() > 0, resume, options.folder));
+    const state from = begin_shared(who, part, [&] {
+        if (anew) fs::remove(state_path(options.folder));
+        return begin(part, seed, seed_option->count() > 0, resume, options.folder);
+    });
+    return carry_out(who, part, options, from);
 } catch (const std::exception& error) {
-    std::fprintf(stderr, "soak: %s\n", error.what());
+    if (who.rank == 0) std::fprintf(stderr, "soak: %s\n", error.what());
     return 1;
 }
