@@ -7,11 +7,12 @@ import math
 
 # Of `./run bench --mpi` and `./run bench --sections growth` on cloth of triangles of about the same
 # size, two-core AMD EPYC: docs/many-machines.md.
-HALO = 6.0            # elements that a box shares with others: HALO * sqrt(its own)
+HALO = 20.0           # elements that a box shares with others: HALO * sqrt(its own); 6 for flat cloth, 20 for crumpled
 VERTICES = 0.52       # a face, of cloth in large parts
 BYTES_FACE, BYTES_VERTEX = 24, 56       # sent
+BYTES_PAIR, PAIRS = 64, 1.2             # sent back; pairs a face, as in a crumpled cloth
 BYTES_SAMPLE = 72
-MEMORY_FACE = 1000    # of a rank, a face held: what was given, what is on its way, ccd::mesh_steps
+MEMORY_FACE = 600     # of a rank, a face held: what was given, what is on its way, ccd::mesh_steps, pairs
 SECONDS_FACE = 1.6e-6  # one thread, a face held: a fresh step with its pairs, the route there and back
 SECONDS_SAMPLE = 40e-9  # a sample and cut
 BANDWIDTH, LATENCY = 1e9, 20e-6  # assumed: bytes a second of a rank; a message
@@ -28,11 +29,11 @@ def held(faces, ranks):
     return 1 + (HALO / math.sqrt(faces / ranks) if ranks > 1 else 0)
 
 
-def bytes_sent(faces, ranks, vertices=VERTICES):
+def bytes_sent(faces, ranks, vertices=VERTICES, pairs=PAIRS):
     """A face, at most: that of a mesh none of which is where it belongs."""
     if ranks == 1:
         return 0
-    moved = (BYTES_FACE + BYTES_VERTEX * vertices) * held(faces, ranks)
+    moved = (BYTES_FACE + BYTES_VERTEX * vertices) * held(faces, ranks) + BYTES_PAIR * pairs
     return moved + BYTES_SAMPLE * samples(ranks, faces) * (ranks - 1) / faces
 
 
@@ -48,7 +49,20 @@ def seconds(faces, ranks):
     return SECONDS_FACE * held(faces, ranks) * own + cuts + bytes_sent(faces, ranks) * own / BANDWIDTH + messages
 
 
+def check():
+    """Beside what `./run bench --mpi` counted of 8 ranks: cloth-over-ball, cloth-ball and cloth-funnel, tiled."""
+    print("| | held / given | model | bytes sent a face | model, at most | most MB of a rank | model |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    for name, faces, pairs, counted in (("cloth-over-ball", 9_996_942, 0.11, (1.005, 54, 420)),
+                                        ("cloth-ball", 9_960_840, 1.23, (1.012, 110, 704)),
+                                        ("cloth-funnel", 9_999_844, 0.007, (1.006, 47, 453))):
+        print(f"| {name} | {counted[0]} | {held(faces, 8):.3f} | {counted[1]} | {bytes_sent(faces, 8, pairs=pairs):.0f} | "
+              f"{counted[2]} | {memory(faces, 8) / 1e6:.0f} |")
+    print()
+
+
 def main():
+    check()
     print("| faces | ranks | faces a rank | held / given | MB of a rank | bytes sent a face | seconds |")
     print("|---:|---:|---:|---:|---:|---:|---:|")
     for faces in (10**8, 10**9):
