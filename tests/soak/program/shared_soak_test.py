@@ -15,6 +15,19 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
                    OMPI_MCA_rmaps_base_oversubscribe="1")
 
 
+def children_of(process):
+    """By Linux's /proc: the process's number, its name in parentheses, its state, its parent, ..."""
+    found = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            text = stat.read_text()
+        except OSError:  # it has ended
+            continue
+        if int(text.rpartition(")")[2].split()[1]) == process:
+            found.append(int(stat.parent.name))
+    return sorted(found)
+
+
 class SharedSoak(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -50,9 +63,9 @@ class SharedSoak(unittest.TestCase):
         try:
             run.stdout.readline()  # only then has it started
             time.sleep(2)
-            found = subprocess.run(["pgrep", "-P", str(run.pid)], capture_output=True, text=True).stdout.split()
-            self.assertEqual(len(found), 3)
-            os.kill(int(found[1]), signal.SIGKILL)
+            ranks = children_of(run.pid)
+            self.assertEqual(len(ranks), 3)
+            os.kill(ranks[1], signal.SIGKILL)
             _, error = run.communicate(timeout=30)  # within seconds
         finally:
             if run.poll() is None:
