@@ -38,12 +38,12 @@ struct number_traits {
     static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }
     static constexpr bool is_finite(const T& x) { return abs(x) <= largest(); }
     /// √x, rounded once; NaN below zero.
-    static T sqrt(const T& x) {
+    static constexpr T sqrt(const T& x) {
         using std::sqrt;
         return sqrt(x);
     }
     /// ab + c, rounded once.
-    static T fma(const T& a, const T& b, const T& c) {
+    static constexpr T fma(const T& a, const T& b, const T& c) {
         using std::fma;
         return fma(a, b, c);
     }
