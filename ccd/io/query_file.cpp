@@ -5,6 +5,7 @@
 #include <errbound/support/error.hpp>
 #include <nlohmann/json.hpp>
 
+#include "ccd/io/query_ranges.hpp"
 #include "ccd/io/stored_kinds.hpp"
 #include "ccd/io/text.hpp"
 #include "errbound/support/output_file.hpp"
@@ -45,14 +46,16 @@ columns split(std::string_view line) {
 
 class query_parser {
   public:
-    query_parser(const std::string& name, ccd::kind kind, bool round) : name_(name), round_(round) {
+    query_parser(const std::string& name, ccd::kind kind, bool round, std::size_t rows = 0,
+                 std::size_t columns = 0)
+        : name_(name), round_(round), columns_(rows > 0 ? columns : 0), line_(rows) {
         visit_stored_kind(kind, [this]<ccd::kind K>() {
             result_.queries.emplace<std::vector<typename kind_traits<K>::template query<double>>>();
         });
     }
 
     query_file parse(std::string_view text) {
-        text = without_byte_order_mark(text, name_);
+        if (line_ == 0) text = without_byte_order_mark(text, name_);
         text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
         if (text.empty()) {
             throw file_error(name_ + ": found an empty file, expected rows of " + row_forms);
@@ -251,8 +254,12 @@ query_file parse_queries(std::string_view text, const std::string& name, ccd::ki
     return query_parser(name, kind, round).parse(text);
 }
 
-query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round) {
-    const std::string text = read_whole(path);
+query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
+                      std::uint64_t rows, std::uint64_t columns) {
+    return query_parser(name, kind, round, rows, columns).parse(text);
+}
+
+ccd::kind kind_of_file(const fs::path& path, std::optional<ccd::kind> kind) {
     if (!kind) kind = kind_from_path(path);
     if (!kind) {
         throw file_error(path.string() +
@@ -260,11 +267,19 @@ query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, boo
                          "'vertex-face', 'edge-edge', 'vf' or 'ee', a name that ends in 'vf' or "
                          "'ee', or --kind");
     }
-    query_file result = parse_queries(text, path.string(), *kind, round);
+    return *kind;
+}
+
+fs::path truth_beside(const fs::path& path) {
+    return path.parent_path() / ".." / "mma_bool" / (path.stem().string() + "_mma_bool.json");
+}
+
+query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round) {
+    const std::string text = read_whole(path);
+    query_file result = parse_queries(text, path.string(), kind_of_file(path, kind), round);
     if (result.truth) return result;
 
-    const fs::path truth_path =
-        path.parent_path() / ".." / "mma_bool" / (path.stem().string() + "_mma_bool.json");
+    const fs::path truth_path = truth_beside(path);
     std::error_code error;
     if (!fs::exists(truth_path, error)) return result;
     result.truth = parse_truth(read_whole(truth_path), truth_path.string());

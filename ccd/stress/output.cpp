@@ -148,7 +148,7 @@ std::string report_broken(const std::vector<const cell*>& broken, const plan& wh
     std::string lines;
     for (const cell* c : broken) {
         const std::string& method = what.subjects[c->subject].name;
-        lines += "broken by " + method + ": " + std::string(c->broken->what) + "; family " +
+        lines += "broken by " + method + ": " + c->broken->what + "; family " +
                  std::string(c->family->name) + ", knob " + knob_of(*c) + ", " +
                  std::string(short_name(c->kind)) + ", query " + std::to_string(c->broken->index);
         if (c->family->finite) {
@@ -226,19 +226,10 @@ std::string markdown_of(const table& rows, const plan& what, const std::string& 
            markdown_table(families);
 }
 
-/// The folder for outputs, there and writable: known now, not after the run.
-void prepare(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw file_error(folder.string() + ": cannot be made (" + error.message() + ")");
-    if (access(folder.c_str(), W_OK) != 0)
-        throw file_error(folder.string() + ": cannot be written to");
-}
-
 }  // namespace
 
 bool run_and_write(const plan& what, const outputs& to, std::ostream& text) {
-    if (to.folder) prepare(*to.folder);
+    prepare(to);
     std::vector<cell> cells;
     {
         progress_line line;
@@ -246,6 +237,21 @@ bool run_and_write(const plan& what, const outputs& to, std::ostream& text) {
             line.show(done, all, std::string(next.name));
         });
     }
+    return write(cells, what, to, text);
+}
+
+void prepare(const outputs& to) {
+    if (!to.folder) return;
+    const fs::path& folder = *to.folder;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw file_error(folder.string() + ": cannot be made (" + error.message() + ")");
+    if (access(folder.c_str(), W_OK) != 0)
+        throw file_error(folder.string() + ": cannot be written to");
+}
+
+bool write(const std::vector<cell>& cells, const plan& what, const outputs& to,
+           std::ostream& text) {
     const table rows = rows_of(summaries_of(cells, what.subjects.size()), what);
     const std::vector<const cell*> broken = broken_of(cells);
     const std::string verdict = report_broken(broken, what, to.folder.value_or(fs::path())) +

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <vector>
 
 #include "ccd/stress/stress.hpp"
 
@@ -15,9 +16,16 @@ struct outputs {
     std::optional<std::filesystem::path> json;
 };
 
-/// Runs the plan and writes what was found. Returns whether all promises were kept; else the text
-/// says which not, and a query for each is in the folder, or the current one. Throws
-/// errbound::support::file_error, before the run if the folder cannot be written to.
+/// Runs the plan and writes what was found, as the two functions below.
 bool run_and_write(const plan& what, const outputs& to, std::ostream& text);
+
+/// Makes the folder. Throws errbound::support::file_error if it cannot be written to: known now,
+/// not after the run.
+void prepare(const outputs& to);
+
+/// Writes the cells of the plan. Returns whether all promises were kept; else the text says which
+/// not, and a query for each is in the folder, or the current one. Throws
+/// errbound::support::file_error.
+bool write(const std::vector<cell>& cells, const plan& what, const outputs& to, std::ostream& text);
 
 }  // namespace ccd::stress

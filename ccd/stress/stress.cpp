@@ -73,7 +73,7 @@ cell asked(const plan& what, const subject& who, const decider<Query>& decide,
         }
         if (out.broken) continue;
         if (const auto how = broken_by(who, said[i], truth))
-            out.broken = {*how, i, truth == outcome::collides};
+            out.broken = {std::string(*how), i, truth == outcome::collides};
     }
     return out;
 }
@@ -89,6 +89,11 @@ void add_cells(const plan& what, const family& f, double knob, std::vector<cell>
         c.subject = s;
         cells.push_back(c);
     }
+}
+
+void add_cells(const plan& what, const family& f, double knob, std::vector<cell>& cells) {
+    for (const kind which : stored_kinds)
+        visit_stored_kind(which, [&]<kind K>() { add_cells<K>(what, f, knob, cells); });
 }
 
 }  // namespace
@@ -132,12 +137,16 @@ std::vector<cell> run(const plan& what, const progress& show) {
         for (const family* f : what.families) {
             for (const double knob : f->knobs) {
                 show(done++, all, *f);
-                for (const kind which : stored_kinds)
-                    visit_stored_kind(which,
-                                      [&]<kind K>() { add_cells<K>(what, *f, knob, cells); });
+                add_cells(what, *f, knob, cells);
             }
         }
     });
+    return cells;
+}
+
+std::vector<cell> run_at(const plan& what, const family& f, double knob) {
+    std::vector<cell> cells;
+    detail::on_threads(what.threads, [&] { add_cells(what, f, knob, cells); });
     return cells;
 }
 

@@ -35,7 +35,7 @@ subject subject_of(const method_info& method);
 
 /// How a method broke its promise, and on which query of the cell: make(...) makes it again.
 struct broken_promise {
-    std::string_view what;  ///< a clause: "it said ..."
+    std::string what;  ///< a clause: "it said ..."
     std::uint64_t index = 0;
     bool collides = false;  ///< the truth, of finite coordinates
 };
@@ -73,6 +73,9 @@ using progress = std::function<void(std::size_t done, std::size_t all, const fam
 /// All cells, by family, knob, kind and subject. The truth is found on several threads; methods are
 /// timed on this one while nothing else runs. Deterministic but for the times.
 std::vector<cell> run(const plan& what, const progress& show);
+
+/// The cells of one family at one value of its knob, by kind and subject, as run has them.
+std::vector<cell> run_at(const plan& what, const family& f, double knob);
 
 /// How `said` breaks what `who` promises, if it does. `truth` is uncertain if coordinates are not
 /// finite. Promised are: no collision lost and none reported falsely, as far as the method says so;

@@ -30,7 +30,7 @@ LAYERS = [
     ("ccd: queries and calls", r"include/ccd/(?!ccd\.hpp)\w+\.hpp"),
     ("ccd: methods' headers", r"include/ccd/methods/"),
     ("all of ccd", r"include/ccd/"),
-    ("support of programs", r"errbound/support/"),
+    ("support of programs", r"errbound/(support|study)/"),
     ("validation", r"(include/)?errbound/validation/"),
     ("ccd: one query", r"ccd/(exact|contact)/"),
     ("ccd: other methods", r"ccd/methods/"),
@@ -44,7 +44,7 @@ LAYERS = [
     ("Python package", r"python/"),
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
-INTERNAL = r"(errbound/(detail|integers|filters|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
+INTERNAL = r"(errbound/(study|detail|integers|filters|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
 PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|adapters)/)?)\w+\.hpp$"
 
 

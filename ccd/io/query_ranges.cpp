@@ -1,0 +1,139 @@
+// Where ranges of queries are in a file, and what is read of one.
+#include "ccd/io/query_ranges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/crc.hpp>
+#include <errbound/support/error.hpp>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "errbound/support/output_file.hpp"
+
+namespace ccd::io {
+namespace {
+
+using errbound::support::file_error;
+
+constexpr std::size_t rows_per_query = 8;
+
+/// Counts rows as they go by.
+class row_scanner {
+  public:
+    explicit row_scanner(std::uint64_t rows_of_a_range) : per_range_(rows_of_a_range) {}
+
+    void take(std::string_view bytes) {
+        for (const char c : bytes) {
+            if (c == '\n' && after_cr_) {  // the end of the line has been met
+                ++offset_;
+                line_begin_ = offset_;
+                after_cr_ = false;
+                continue;
+            }
+            if (line_begin_ == offset_) begin_line();
+            after_cr_ = c == '\r';
+            ++offset_;
+            if (c == '\n' || c == '\r') {
+                ++rows_;
+                line_begin_ = offset_;
+            } else if (c != ' ' && c != '\t') {
+                content_end_ = offset_;
+            }
+            if (rows_ == 0 && c == ',') ++index_.columns;
+        }
+    }
+
+    query_index result() {
+        auto& ranges = index_.ranges;
+        while (ranges.size() > 1 && ranges.back().begin >= content_end_) ranges.pop_back();
+        if (ranges.empty()) ranges.emplace_back();
+        for (std::size_t i = 0; i + 1 < ranges.size(); ++i) ranges[i].end = ranges[i + 1].begin;
+        ranges.back().end = content_end_;
+        ++index_.columns;
+        index_.bytes = offset_;
+        return std::move(index_);
+    }
+
+  private:
+    void begin_line() {
+        if (rows_ % per_range_ == 0) index_.ranges.push_back({offset_, offset_, rows_});
+    }
+
+    std::uint64_t per_range_, offset_ = 0, line_begin_ = 0, rows_ = 0, content_end_ = 0;
+    bool after_cr_ = false;
+    query_index index_;
+};
+
+std::string read_bytes(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t end) {
+    std::ifstream in(path, std::ios::binary);
+    std::string text(end - begin, '\0');
+    in.seekg(static_cast<std::streamoff>(begin));
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!in || static_cast<std::uint64_t>(in.gcount()) != text.size())
+        throw file_error(path.string() + ": cannot be read from byte " + std::to_string(begin) +
+                         " to " + std::to_string(end) + ", where it had queries before");
+    return text;
+}
+
+}  // namespace
+
+query_index index_queries(const std::filesystem::path& path, std::size_t queries_of_a_range) {
+    std::error_code error;
+    const auto type = std::filesystem::status(path, error).type();
+    if (type == std::filesystem::file_type::not_found)
+        throw file_error(path.string() + ": found no such file, expected a readable file");
+    if (type != std::filesystem::file_type::regular)
+        throw file_error(path.string() +
+                         ": found no regular file, expected one, which can be read in parts");
+    std::ifstream in(path, std::ios::binary);
+    row_scanner rows(rows_per_query * queries_of_a_range);
+    boost::crc_32_type checksum;
+    std::array<char, 1 << 16> block;
+    while (in.read(block.data(), block.size()), in.gcount() > 0) {
+        const auto size = static_cast<std::size_t>(in.gcount());
+        rows.take({block.data(), size});
+        checksum.process_bytes(block.data(), size);
+    }
+    if (!in.eof() || in.bad()) throw file_error(path.string() + ": cannot be read");
+    if (std::filesystem::exists(truth_beside(path), error)) {
+        const std::string truth = errbound::support::read_whole(truth_beside(path));
+        checksum.process_bytes(truth.data(), truth.size());
+    }
+    query_index index = rows.result();
+    index.checksum = checksum.checksum();
+    return index;
+}
+
+range_reader::range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,
+                           query_index index)
+    : path_(std::move(path)),
+      kind_(kind_of_file(path_, kind)),
+      round_(round),
+      index_(std::move(index)) {}
+
+query_file range_reader::read(std::size_t range) {
+    const query_range& where = index_.ranges.at(range);
+    query_file result = parse_rows(read_bytes(path_, where.begin, where.end), path_.string(), kind_,
+                                   round_, where.rows, index_.columns);
+    if (!result.truth) add_truth(where, result);
+    return result;
+}
+
+void range_reader::add_truth(const query_range& range, query_file& to) {
+    const std::filesystem::path beside = truth_beside(path_);
+    std::error_code error;
+    if (!std::exchange(has_looked_for_truth_, true) && std::filesystem::exists(beside, error))
+        truth_ = parse_truth(errbound::support::read_whole(beside), beside.string());
+    if (!truth_) return;
+    const std::size_t begin = range.rows / rows_per_query, end = begin + to.size();
+    const bool is_last = range.end == index_.ranges.back().end;
+    if (is_last ? truth_->size() != end : truth_->size() < end)
+        throw file_error(beside.string() + ": found " + std::to_string(truth_->size()) +
+                         " truth values, expected " + (is_last ? "" : "at least ") +
+                         std::to_string(end) + ", one per query of " + path_.string());
+    to.truth.emplace(truth_->begin() + static_cast<std::ptrdiff_t>(begin),
+                     truth_->begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+}  // namespace ccd::io

@@ -1,0 +1,123 @@
+// The journal's file: made, read, cut off where it is torn, appended to.
+#include "errbound/study/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <errbound/support/error.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "errbound/support/output_file.hpp"
+
+namespace errbound::study {
+namespace {
+
+using errbound::support::file_error;
+
+constexpr std::string_view title = "errbound study 1 ";
+constexpr std::size_t checksum_digits = 8;
+
+std::string line_of(const std::string& text) {
+    if (text.find('\n') != std::string::npos)
+        throw std::logic_error("a study's results are lines: found one with a line end");
+    boost::crc_32_type crc;
+    crc.process_bytes(text.data(), text.size());
+    char checksum[16];
+    std::snprintf(checksum, sizeof checksum, "%08x ", static_cast<unsigned>(crc.checksum()));
+    return checksum + text + '\n';
+}
+
+/// The chunk and result of a line without its end; nothing if it is not what was written.
+std::optional<chunk_result> entry_of(std::string_view line) {
+    if (line.size() <= checksum_digits) return std::nullopt;
+    const std::string text(line.substr(checksum_digits + 1));
+    if (std::string_view(line_of(text)).substr(0, line.size()) != line) return std::nullopt;
+    chunk_result entry;
+    const char* const end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, entry.first);
+    if (number.ec != std::errc{} || number.ptr == end || *number.ptr != ' ') return std::nullopt;
+    entry.second.assign(number.ptr + 1, end);
+    return entry;
+}
+
+void write_all(int descriptor, std::string_view text, const std::filesystem::path& path) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0)
+            throw file_error(path.string() + ": writing failed (" + std::strerror(errno) + ")");
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (fsync(descriptor) != 0)
+        throw file_error(path.string() + ": writing failed (" + std::strerror(errno) + ")");
+}
+
+}  // namespace
+
+journal::journal(std::filesystem::path path, const std::string& identity) : path_(std::move(path)) {
+    const std::string first_line = std::string(title) + line_of(identity);
+    if (!std::filesystem::exists(path_)) support::write_whole(path_, first_line);
+    const std::string text = support::read_whole(path_);
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    try {
+        if (descriptor_ < 0)
+            throw file_error(path_.string() + ": cannot be written (" + std::strerror(errno) + ")");
+        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            throw file_error(path_.string() + ": found the journal of a run that has not ended");
+        read(text, first_line);
+    } catch (...) {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        throw;
+    }
+}
+
+journal::~journal() {
+    ::close(descriptor_);
+}
+
+void journal::read(const std::string& text, const std::string& first_line) {
+    if (!text.starts_with(title))
+        throw file_error(path_.string() +
+                         ":1: found no journal of a study, expected one or no file");
+    if (!text.starts_with(first_line)) {
+        const std::size_t begin = title.size() + checksum_digits + 1;
+        const std::string found = text.substr(0, text.find('\n'));
+        throw file_error(path_.string() + ":1: found the journal of another study, " +
+                         found.substr(std::min(begin, found.size())) + ", expected " +
+                         first_line.substr(begin, first_line.size() - begin - 1) +
+                         "; remove it or name another");
+    }
+    std::size_t good = first_line.size();
+    for (;;) {
+        const std::size_t end = text.find('\n', good);
+        if (end == std::string::npos) break;
+        auto entry = entry_of(std::string_view(text).substr(good, end - good));
+        if (!entry) break;
+        results_.push_back(std::move(*entry));
+        good = end + 1;
+    }
+    if (good < text.size() && ftruncate(descriptor_, static_cast<off_t>(good)) != 0)
+        throw file_error(path_.string() + ": cannot be cut off (" + std::strerror(errno) + ")");
+}
+
+void journal::append(const std::vector<chunk_result>& results) {
+    std::string lines;
+    for (const auto& [chunk, result] : results)
+        lines += line_of(std::to_string(chunk) + ' ' + result);
+    write_all(descriptor_, lines, path_);
+}
+
+void journal::remove() {
+    std::filesystem::remove(path_);
+}
+
+}  // namespace errbound::study
