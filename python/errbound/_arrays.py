@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import math
 import numbers
+import re
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -13,9 +15,11 @@ Indices = NDArray[np.uint32]
 
 
 def as_array(name: str, values: ArrayLike) -> NDArray[Any]:
-    """As NumPy takes it, unless that would drop a mask."""
+    """As NumPy takes it, unless that would drop a mask or wrap up a mesh."""
     if isinstance(values, np.ma.MaskedArray):
         raise TypeError(f"{name}: found a masked array, expected one without a mask")
+    if hasattr(values, "vertices") and hasattr(values, "faces"):
+        raise TypeError(f"{name}: found {type(values).__name__}, expected an array, say its vertices or its faces")
     try:
         return np.asarray(values)
     except ValueError as error:  # of rows of different lengths
@@ -45,14 +49,15 @@ def check_shape(name: str, array: NDArray[Any], shape: tuple[int | None, ...]) -
     fits = array.ndim == len(shape) and all(n is None or n == found
                                             for n, found in zip(shape, array.shape))
     if not fits:
-        expected = ", ".join("n" if n is None else str(n) for n in shape)
+        expected = ", ".join("n" if n is None else str(n) for n in shape) + ("," if len(shape) == 1 else "")
         raise ValueError(f"{name}: found shape {array.shape}, expected ({expected})")
 
 
-def indices(name: str, values: ArrayLike, columns: int) -> Indices:
+def indices(name: str, values: ArrayLike, columns: int, vertices: int) -> Indices:
     """C-contiguous uint32 rows of vertex indices, the argument itself if it is such of uint32 or int32.
 
-    Negative int32 become large ones, which the library refuses.
+    Of other types they are checked to be below the number of vertices. Negative int32 become large ones,
+    which check_range or the library refuses.
     """
     array = as_array(name, values)
     if array.size == 0:
@@ -63,17 +68,33 @@ def indices(name: str, values: ArrayLike, columns: int) -> Indices:
     if array.dtype == np.int32:
         return np.require(array, np.int32, ["C", "A"]).view(np.uint32)
     if array.dtype.itemsize > 4 or array.dtype.kind == "i":
-        check_range(name, array, 2**32 - 1)
+        check_range(name, array, vertices)
     return np.require(array, np.uint32, ["C", "A"])
 
 
 def check_range(name: str, array: NDArray[Any], vertices: int) -> None:
     """That every index is below the number of vertices and not negative."""
+    if array.dtype == np.uint32 and vertices <= 2**31:
+        array = array.view(np.int32)  # as those that were negative are told
     wrong = (array < 0) | (array >= vertices)
     if wrong.any():
         row = int(np.argwhere(wrong)[0][0])
         found = array[row][wrong[row]][0]
-        raise IndexError(f"{name}: row {row}: found vertex {found}, expected 0 to {vertices - 1}")
+        expected = f"0 to {vertices - 1}" if vertices else "none, as there are no vertices"
+        raise IndexError(f"{name}: row {row}: found vertex {found}, expected {expected}")
+
+
+def checked_indices(name: str, values: ArrayLike, columns: int, vertices: int) -> Indices:
+    """As indices, checked whatever their type."""
+    found = indices(name, values, columns, vertices)
+    check_range(name, found, vertices)
+    return found
+
+
+def restated(error: ValueError) -> ValueError:
+    """What the library refuses, without the name of its function; another error as it is."""
+    said = re.sub(r"^\w+(::\w+)+: ", "", str(error))
+    return error if said == str(error) else ValueError(said)
 
 
 def check_finite(name: str, array: Doubles) -> None:
@@ -91,14 +112,27 @@ def frames(before: ArrayLike, after: ArrayLike, columns: int = 3) -> tuple[Doubl
     return at_start, at_end
 
 
-def option(name: str, value: Any, kind: type) -> Any:
-    """An option of that type: bool, int (not negative), float or str; NumPy's scalars are such, too."""
+def frames_of(positions: Any) -> tuple[Doubles, Doubles]:
+    """The pair (before, after), or an array (2, n, 3) of both."""
+    if isinstance(positions, np.ndarray):
+        fits, found = positions.ndim == 3 and len(positions) == 2, f"an array of shape {positions.shape}"
+    elif isinstance(positions, Sequence):
+        fits, found = len(positions) == 2, f"{len(positions)} items"
+    else:
+        fits, found = False, type(positions).__name__
+    if not fits:
+        raise TypeError(f"positions: found {found}, expected a pair (before, after)")
+    return frames(positions[0], positions[1])
+
+
+def option(name: str, value: Any, kind: type, end: int = 2**31) -> Any:
+    """An option of that type: bool, int (from 0 to below end), float or str; NumPy's scalars are such, too."""
     fits: Any = {bool: (bool, np.bool_), int: numbers.Integral, float: numbers.Real, str: str}[kind]
     if not isinstance(value, fits) or (kind is not bool and isinstance(value, bool)):
         expected = {bool: "True or False", int: "a whole number", float: "a number", str: "a name"}[kind]
         raise TypeError(f"{name}: found {value!r}, expected {expected}")
-    if kind is int and not 0 <= value < 2**31:
-        raise ValueError(f"{name}: found {value}, expected 0 to {2**31 - 1}")
+    if kind is int and not 0 <= value < end:
+        raise ValueError(f"{name}: found {value}, expected 0 to {end - 1}")
     try:
         converted = kind(value)
     except OverflowError:  # of a whole number or fraction
@@ -106,6 +140,46 @@ def option(name: str, value: Any, kind: type) -> Any:
     if converted != value and value == value:
         raise ValueError(f"{name}: found {value!r}, expected a number that a double equals")
     return converted
+
+
+def end_time(value: Any) -> float:
+    """The option t_max."""
+    t_max: float = option("t_max", value, float)
+    if not math.isfinite(t_max):
+        raise ValueError(f"t_max: found {t_max}, expected a finite number")
+    return t_max
+
+
+def distance_option(value: Any) -> float:
+    distance: float = option("distance", value, float)
+    if not 0 <= distance < math.inf:
+        raise ValueError(f"distance: found {distance}, expected a finite number that is not negative")
+    return distance
+
+
+def thickness_option(values: ArrayLike | None, vertices: int) -> Any:
+    """One thickness a vertex, or None."""
+    thickness = of_vertices("thickness", values, np.float64, vertices)
+    if thickness is not None:
+        wrong = ~((thickness >= 0) & (thickness < math.inf))
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            raise ValueError(f"thickness: row {row}: found {thickness[row]}, "
+                             "expected a finite number that is not negative")
+    return thickness
+
+
+def pinned_option(values: ArrayLike | None, vertices: int) -> Any:
+    """One flag a vertex, or None."""
+    if values is None:
+        return None
+    flags = as_array("pinned", values)
+    if flags.shape != (vertices,):
+        raise ValueError(f"pinned: found shape {flags.shape}, expected ({vertices},): a flag for each vertex, "
+                         "not the pinned ones' indices")
+    if flags.dtype.kind not in "biu" or (flags.astype(np.uint8) != flags).any() or (flags > 1).any():
+        raise ValueError(f"pinned: found {flags.dtype} other than 0 and 1, expected a flag for each vertex")
+    return np.require(flags, np.uint8, ["C", "A"])
 
 
 def of_vertices(name: str, values: ArrayLike | None, dtype: Any, vertices: int) -> Any:

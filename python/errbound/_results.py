@@ -58,11 +58,20 @@ class Method:
     source: str
 
 
-@dataclass(frozen=True, eq=False)
+def _first(time: tuple[float, float] | None) -> str:
+    return "no first contact" if time is None else f"first contact at {time[0]:.6g}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Decisions:
     """One outcome a query, uint8 (n,), as Outcome numbers them; stages if they were asked for."""
     outcome: Codes
     stages: list[Stage] | None = None
+
+    def __repr__(self) -> str:
+        uncertain = np.count_nonzero(self.outcome == Outcome.UNCERTAIN)
+        return (f"<ccd.Decisions of {len(self.outcome)} queries: {np.count_nonzero(self.collides)} collide, "
+                f"{uncertain} uncertain>")
 
     @property
     def collides(self) -> Flags:
@@ -75,7 +84,7 @@ class Decisions:
         return np.asarray(self.outcome != Outcome.SEPARATE)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FirstTimes:
     """The k queries that collide, ascending, with their first times in [0, t_max].
 
@@ -89,13 +98,17 @@ class FirstTimes:
     def __len__(self) -> int:
         return len(self.query)
 
+    def __repr__(self) -> str:
+        first = f", the first at {self.low.min():.6g}" if len(self) else ""
+        return f"<ccd.{type(self).__name__} of {len(self)} queries{first}>"
+
     @property
     def at_start(self) -> Flags:
         """Which hold at t = 0 already, (k,)."""
         return np.asarray(self.high == 0)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FirstContacts(FirstTimes):
     """The same, and how they meet (docs/time-of-impact.md), k rows each:
 
@@ -117,7 +130,7 @@ class FirstContacts(FirstTimes):
     normal_velocity_error: Doubles
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pairs:
     """Pairs of vertex indices, uint32, each list sorted: vertex_face (k, 4): v f0 f1 f2; edge_edge (k, 4):
     a0 a1 b0 b1; vertex_edge (k, 3): v e0 e1; vertex_vertex (k, 2)."""
@@ -129,13 +142,25 @@ class Pairs:
     def __len__(self) -> int:
         return sum(map(len, (self.vertex_face, self.edge_edge, self.vertex_edge, self.vertex_vertex)))
 
+    def __repr__(self) -> str:
+        return f"<ccd.Pairs, {_listed(self)}>"
 
-@dataclass(frozen=True, eq=False)
+
+def _listed(pairs: Any) -> str:
+    """The numbers of pairs, of those kinds that there are."""
+    kinds = {kind: len(getattr(pairs, kind))
+             for kind in ("vertex_face", "edge_edge", "vertex_edge", "vertex_vertex")}
+    counts = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
+    return f"{sum(kinds.values())} pairs" + (f": {counts}" if counts else "")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class StepResult:
     """The pairs of a step that are not certainly separate; what else was asked for, else None or empty.
 
     times: by kind, dictionaries of low and high, float64 (k,) as FirstTimes has them, in the order of
-    pairs. first_contact: (low, high) of the earliest pair that does not touch at the start, or None.
+    pairs. first_contact: (low, high) of the earliest pair that does not touch at the start, or None; option
+    times asks for it, too. touching_at_start: those that do, by the options initial_contact, first_contact, times.
     candidates: counts by kind. seconds: by phase.
     """
     pairs: Pairs
@@ -147,8 +172,12 @@ class StepResult:
     threads: int
     stages: list[Stage] | None
 
+    def __repr__(self) -> str:
+        told = f"; {_first(self.first_contact)}" if self.times is not None or self.first_contact else ""
+        return f"<ccd.StepResult, {_listed(self.pairs)}{told}; {self.seconds['total']:.3g} s>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class AdvanceResult:
     """Positions (n, 3) float64 to which the step is certainly free, but for the pairs listed.
 
@@ -161,6 +190,10 @@ class AdvanceResult:
     first_contact: tuple[float, float] | None
     touching_at_start: Pairs
     near_at_start: Pairs
+
+    def __repr__(self) -> str:
+        return (f"<ccd.AdvanceResult of {len(self.positions)} vertices: fraction {self.fraction!r}, "
+                f"{_first(self.first_contact)}; {len(self.touching_at_start)} pairs touching at the start>")
 
 
 def stages(rows: Any) -> list[Stage] | None:

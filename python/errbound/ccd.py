@@ -10,20 +10,28 @@ are in the unit of the positions. threads: at most; 0: one per core. Answers do 
 """
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+import sys
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, check_shape, doubles, frames,
-                      indices, of_vertices, option)
+from ._arrays import (Doubles, Indices, check_finite, check_range, check_shape, checked_indices, distance_option,
+                      doubles, end_time, frames, frames_of, indices, of_vertices, option, pinned_option, restated,
+                      thickness_option)
 from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Method,
                        NormalSource, Outcome, Pairs, Stage, StepResult, stages)
 
-__all__ = ["AdvanceResult", "Decisions", "Features", "FirstContacts", "FirstTimes", "Method",
-           "NormalSource", "Outcome", "Pairs", "Stage", "StepResult", "Steps", "advance",
+if TYPE_CHECKING:
+    if sys.version_info >= (3, 11):
+        from typing import Unpack
+    else:
+        from typing_extensions import Unpack
+
+__all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FirstContacts", "FirstTimes", "Method",
+           "NormalSource", "Outcome", "Pairs", "RunOptions", "SearchOptions", "Stage", "StepResult", "Steps", "advance",
            "candidates", "decide", "first_contact", "first_time", "instruction_sets", "methods",
            "step", "touches_at_start"]
 
@@ -47,22 +55,21 @@ class _Questions:
             self.native = _native.Questions(kind, np.require(rows, requirements="C"), None, None, None)
             self.vertices = 0
         else:
-            self.frames = before, after = frames(*positions)
+            self.frames = before, after = frames_of(positions)
             self.vertices = len(before)
-            self.pairs = indices("queries", queries, points)
+            self.pairs = indices("queries", queries, points, self.vertices)
             self.native = _native.Questions(kind, None, self.pairs, before, after)
 
     def check_indices(self) -> None:
         if self.pairs is not None:
-            check_range("queries", self.pairs.view(np.int32)
-                        if self.vertices < 2**31 else self.pairs, self.vertices)
+            check_range("queries", self.pairs, self.vertices)
 
     def call(self, ask: Callable[[Any], Any]) -> Any:
         try:
             return ask(self.native)
-        except ValueError:
+        except ValueError as error:
             self.check_indices()
-            raise
+            raise restated(error) from None
 
     def require_certain(self, outcome: Any) -> None:
         """"exact" is uncertain where a coordinate is not finite, and only there."""
@@ -81,7 +88,7 @@ class _Questions:
     def thickness(self, values: ArrayLike | None) -> Any:
         if values is not None and self.frames is None:
             raise ValueError("thickness: found one, expected none without positions")
-        return of_vertices("thickness", values, np.float64, self.vertices)
+        return thickness_option(values, self.vertices)
 
 
 def methods() -> list[Method]:
@@ -105,7 +112,7 @@ def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
 
     Raises IndexError for indices out of range, ValueError for coordinates that are not finite.
     """
-    threads, distance = option("threads", threads, int), option("distance", distance, float)
+    threads, distance = option("threads", threads, int), distance_option(distance)
     method, stages = option("method", method, str), option("stages", stages, bool)
     asked = _Questions(queries, kind, positions)
     near = asked.thickness(thickness)
@@ -138,8 +145,8 @@ def first_time(queries: ArrayLike, kind: str, *, positions: Positions | None = N
                t_max: float = 1, distance: float = 0, thickness: ArrayLike | None = None,
                threads: int = 0) -> FirstTimes:
     """Of the queries that touch, or come within a distance, in [0, t_max]: when first. Raises as decide."""
-    threads, distance = option("threads", threads, int), option("distance", distance, float)
-    t_max = option("t_max", t_max, float)
+    threads, distance = option("threads", threads, int), distance_option(distance)
+    t_max = end_time(t_max)
     asked = _Questions(queries, kind, positions)
     near = asked.thickness(thickness)
     found = asked.call(lambda q: q.first_times(t_max, distance, near, threads))
@@ -153,7 +160,7 @@ def first_contact(queries: ArrayLike, kind: str, *, positions: Positions | None 
 
     Cost: decide, and about a microsecond a contact. Raises as decide.
     """
-    threads, t_max = option("threads", threads, int), option("t_max", t_max, float)
+    threads, t_max = option("threads", threads, int), end_time(t_max)
     asked = _Questions(queries, kind, positions)
     found = asked.call(lambda q: q.first_contacts(t_max, threads))
     _require_certain_times(asked, found)
@@ -169,6 +176,50 @@ def _require_certain_times(asked: _Questions, found: dict[str, Any]) -> None:
 _stages = stages
 
 
+class SearchOptions(TypedDict, total=False):
+    """Which pairs are looked at."""
+    threads: int
+    """At most; 0, the default: one per core."""
+    distance: float
+    """Of all pairs: those that come within it are meant, instead of those that touch."""
+    thickness: ArrayLike | None
+    """(n,), one a vertex, instead of distance: as decide."""
+    groups: ArrayLike | None
+    """Whole numbers (n,): only pairs between different groups are looked at."""
+    between_groups: bool
+    """False: only those within groups."""
+    pinned: ArrayLike | None
+    """Flags (n,), one a vertex: pairs of which all vertices are pinned are left out."""
+    can_collide: Callable[[int, int], bool] | None
+    """Asked of two vertices, one of each element; a pair is left out if it is False for all. Slow; called from
+    several threads in turn."""
+
+
+class RunOptions(SearchOptions, total=False):
+    """Which pairs, by which method, and what else is told."""
+    method: str
+    """By name, one of methods(); "exact" by default. All other options but stages are for "exact" alone."""
+    times: bool
+    """Fills times and first_contact of the result, and touching_at_start."""
+    first_contact: bool
+    """Fills first_contact, and touching_at_start."""
+    initial_contact: bool
+    """Fills touching_at_start: pairs that touch at t = 0 already."""
+    t_max: float
+    """The end of the times that are asked about, 1 by default."""
+    stages: bool
+    """Fills stages."""
+    count_candidates: bool
+    """Fills candidates."""
+
+
+class AdvanceOptions(SearchOptions, total=False):
+    """Which pairs to keep apart, and what goes by one fraction."""
+    islands: ArrayLike | None
+    """Whole numbers (n,): vertices of one island go by one fraction, and so do islands that meet. By default all
+    are one. Not groups, by which pairs are left out."""
+
+
 _OF_SEARCH = {"threads": int, "distance": float, "thickness": np.float64, "groups": np.int32,
               "between_groups": bool, "pinned": np.uint8, "can_collide": Callable}
 _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
@@ -176,23 +227,31 @@ _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "i
 _OF_ADVANCE = {**_OF_SEARCH, "islands": np.int32}
 
 
-def _question(vertices: int, known: dict[str, Any], options: dict[str, Any]) -> Any:
-    """The options, each of the type that is known of it; NumPy's types are of one number a vertex."""
+def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
+    """An option of the type that is known of it; NumPy's types are of one number a vertex."""
+    if name == "t_max":
+        return end_time(value)
+    if name == "distance":
+        return distance_option(value)
+    if name == "thickness":
+        return thickness_option(value, vertices)
+    if name == "pinned":
+        return pinned_option(value, vertices)
+    if kind is Callable:
+        if value is not None and not callable(value):
+            raise TypeError(f"{name}: found {value!r}, expected a function of two vertices")
+        return value
+    return of_vertices(name, value, kind, vertices) if issubclass(kind, np.generic) else option(name, value, kind)
+
+
+def _question(vertices: int, known: dict[str, Any], options: Mapping[str, Any]) -> Any:
     asked = _native.StepQuestion()
     for name, value in options.items():
         if name not in known:
             raise TypeError(f"found option {name!r}, expected one of {', '.join(sorted(known))}")
-        kind = known[name]
-        if kind is Callable:
-            if value is not None and not callable(value):
-                raise TypeError(f"{name}: found {value!r}, expected a function of two vertices")
-        elif not issubclass(kind, np.generic):
-            value = option(name, value, kind)
-        else:
-            if name == "pinned" and value is not None:
-                value = as_array(name, value) != 0
-            value = of_vertices(name, value, kind, vertices)
-        setattr(asked, name, value)
+        setattr(asked, name, _checked_option(name, value, known[name], vertices))
+    if not options.get("between_groups", True) and options.get("groups") is None:
+        raise ValueError("between_groups: found False without groups, expected both or neither")
     return asked
 
 
@@ -205,20 +264,17 @@ class Steps:
     """
 
     def __init__(self, faces: ArrayLike, edges: ArrayLike = (), *, vertices: int) -> None:
-        of_faces, of_edges = indices("faces", faces, 3), indices("edges", edges, 2)
-        check_range("faces", of_faces, vertices)
-        check_range("edges", of_edges, vertices)
-        self.vertices, self._columns = vertices, 3
-        self._steps = _native.Steps(of_faces, of_edges, vertices)
+        self.vertices, self._columns = option("vertices", vertices, int, 2**32), 3
+        of_faces = checked_indices("faces", faces, 3, self.vertices)
+        of_edges = checked_indices("edges", edges, 2, self.vertices)
+        self._steps = _native.Steps(of_faces, of_edges, self.vertices)
 
     @classmethod
     def in_plane(cls, edges: ArrayLike, *, vertices: int) -> Steps:
         """Of edges and points in the plane: positions are (n, 2), copied once."""
-        of_edges = indices("edges", edges, 2)
-        check_range("edges", of_edges, vertices)
         made = cls.__new__(cls)
-        made.vertices, made._columns = vertices, 2
-        made._steps = _native.Steps.in_plane(of_edges, vertices)
+        made.vertices, made._columns = option("vertices", vertices, int, 2**32), 2
+        made._steps = _native.Steps.in_plane(checked_indices("edges", edges, 2, made.vertices), made.vertices)
         return made
 
     def __repr__(self) -> str:
@@ -231,38 +287,42 @@ class Steps:
             return found
         return np.pad(found[0], ((0, 0), (0, 1))), np.pad(found[1], ((0, 0), (0, 1)))
 
-    def run(self, before: ArrayLike, after: ArrayLike, **options: Any) -> StepResult:
+    def _call(self, call: Callable[[Doubles, Doubles, Any], Any], before: ArrayLike, after: ArrayLike,
+              known: dict[str, Any], options: Mapping[str, Any]) -> Any:
+        """One of the extension's, whose refusals are told by argument and row."""
+        frames = self._frames(before, after)
+        asked = _question(self.vertices, known, options)
+        try:
+            return call(*frames, asked)
+        except ValueError as error:
+            for name, frame in zip(("before", "after"), frames):
+                check_finite(name, frame[:, :self._columns])
+            raise restated(error) from None
+
+    def run(self, before: ArrayLike, after: ArrayLike, **options: Unpack[RunOptions]) -> StepResult:
         """The pairs of the step from before to after, (n, 3) each, that are not certainly separate.
 
-        Options: method ("exact"); threads (0: one per core); times, first_contact, initial_contact: fill
-        times, first_contact, touching_at_start; t_max (1); distance, or thickness (n,): as decide;
-        stages, count_candidates: fill stages, candidates. Filter: groups, whole numbers (n,), of which
-        pairs between are looked at, or within, if between_groups is False; pinned (n,): pairs of which
-        all vertices are pinned are left out; can_collide(v, w), slow, from several threads in turn.
-        Raises ValueError that names frame, vertex and axis of a coordinate that is not finite.
+        Options, by name: RunOptions, SearchOptions. Raises ValueError that names frame and row of a
+        coordinate that is not finite.
         """
-        at_start, at_end = self._frames(before, after)
-        found = self._steps.run(at_start, at_end, _question(self.vertices, _OF_RUN, options))
+        found = self._call(self._steps.run, before, after, _OF_RUN, options)
         for name in "pairs", "touching_at_start":
             found[name] = Pairs(**found[name])
         found["stages"] = _stages(found["stages"])
         return StepResult(**found)
 
-    def candidates(self, before: ArrayLike, after: ArrayLike, **options: Any) -> Pairs:
-        """All pairs whose swept boxes touch, for a narrow phase of one's own; options of the filter, threads
-        and distances as run's."""
-        at_start, at_end = self._frames(before, after)
-        asked = _question(self.vertices, _OF_SEARCH, options)
-        return Pairs(**self._steps.candidates(at_start, at_end, asked))
+    def candidates(self, before: ArrayLike, after: ArrayLike, **options: Unpack[SearchOptions]) -> Pairs:
+        """All pairs whose swept boxes touch, for a narrow phase of one's own. Options: SearchOptions."""
+        found = self._call(self._steps.candidates, before, after, _OF_SEARCH, options)
+        return Pairs(**found)
 
-    def advance(self, before: ArrayLike, after: ArrayLike, **options: Any) -> AdvanceResult:
+    def advance(self, before: ArrayLike, after: ArrayLike, **options: Unpack[AdvanceOptions]) -> AdvanceResult:
         """The longest step found to be free from before towards after, with positions rounded already.
 
-        Options: threads, distance, thickness and the filter as run's; islands, whole numbers (n,): vertices
-        of one island go by one fraction, and so do islands that meet; by default all are one.
+        Options, by name: AdvanceOptions, SearchOptions. Pairs that groups, pinned or can_collide leave out are
+        not kept from passing through each other.
         """
-        at_start, at_end = self._frames(before, after)
-        found = self._steps.advance(at_start, at_end, _question(self.vertices, _OF_ADVANCE, options))
+        found = self._call(self._steps.advance, before, after, _OF_ADVANCE, options)
         for name in "touching_at_start", "near_at_start":
             found[name] = Pairs(**found[name])
         return AdvanceResult(**found)
@@ -273,18 +333,28 @@ def _steps_of(before: ArrayLike, faces: ArrayLike, edges: ArrayLike) -> Steps:
 
 
 def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
-         **options: Any) -> StepResult:
-    """One step alone: Steps(faces, edges, vertices=len(before)).run(before, after, **options)."""
+         **options: Unpack[RunOptions]) -> StepResult:
+    """The pairs of one step from before to after, (n, 3) each, that are not certainly separate.
+
+    faces: (m, 3); edges: (k, 2), those beside the faces' own. Options, by name: RunOptions (method, times,
+    first_contact, initial_contact, t_max, stages, count_candidates) and SearchOptions (threads, distance,
+    thickness, groups, between_groups, pinned, can_collide). As Steps.run, of a mesh of many steps.
+    """
     return _steps_of(before, faces, edges).run(before, after, **options)
 
 
 def candidates(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
-               **options: Any) -> Pairs:
+               **options: Unpack[SearchOptions]) -> Pairs:
     """The candidates of one step alone, as Steps.candidates."""
     return _steps_of(before, faces, edges).candidates(before, after, **options)
 
 
 def advance(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
-            **options: Any) -> AdvanceResult:
-    """How far one step is free, as Steps.advance."""
+            **options: Unpack[AdvanceOptions]) -> AdvanceResult:
+    """How far one step is free, as Steps.advance: positions, and the fraction of the way.
+
+    Options, by name: AdvanceOptions (islands: vertices that go by one fraction) and SearchOptions (threads,
+    distance, thickness; groups, between_groups, pinned, can_collide leave out pairs, which then may pass through
+    each other).
+    """
     return _steps_of(before, faces, edges).advance(before, after, **options)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, Indices, check_finite, check_range, doubles, frames, indices
+from ._arrays import Doubles, Indices, check_finite, checked_indices, doubles, frames
 from ._results import StepResult
 from .ccd import POINTS
 
@@ -28,20 +28,27 @@ def _name(path: str | os.PathLike[str]) -> str:
     return name
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Mesh:
     """One frame: vertices (n, 3) float64; faces (m, 3) and edges beside the faces' (k, 2), uint32."""
     vertices: Doubles
     faces: Indices
     edges: Indices = field(default_factory=lambda: np.empty((0, 2), np.uint32))
 
+    def __repr__(self) -> str:
+        return f"<io.Mesh of {len(self.vertices)} vertices, {len(self.faces)} faces, {len(self.edges)} edges>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Queries:
     """Stored queries (n, 8, 3) float64, as ccd.decide takes them; truth (n,) bool, or None."""
     queries: Doubles
     kind: str
     truth: NDArray[np.bool_] | None
+
+    def __repr__(self) -> str:
+        known = "without truth" if self.truth is None else f"of which {np.count_nonzero(self.truth)} collide"
+        return f"<io.Queries: {len(self.queries)} {self.kind}, {known}>"
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
@@ -51,13 +58,15 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
 
 def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
                edges: ArrayLike = ()) -> None:
-    """A binary PLY file in double precision. Indices out of range are an IndexError."""
+    """A binary PLY file in double precision, NAME.ply. Indices out of range are an IndexError."""
+    name = _name(path)
+    if not name.lower().endswith(".ply"):
+        raise ValueError(f"path: found {name!r}, expected a name that ends in .ply")
     points = doubles("vertices", vertices, (None, 3))
     check_finite("vertices", points)
-    of_faces, of_edges = indices("faces", faces, 3), indices("edges", edges, 2)
-    check_range("faces", of_faces, len(points))
-    check_range("edges", of_edges, len(points))
-    _native.write_mesh(_name(path), points, of_faces, of_edges)
+    of_faces = checked_indices("faces", faces, 3, len(points))
+    of_edges = checked_indices("edges", edges, 2, len(points))
+    _native.write_mesh(name, points, of_faces, of_edges)
 
 
 def read_queries(path: str | os.PathLike[str], kind: str | None = None, *,
@@ -99,10 +108,10 @@ def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices,
     at_start, at_end = frames(before.vertices, after.vertices)
     check_finite("before", at_start)
     check_finite("after", at_end)
-    faces, edges = indices("faces", before.faces, 3), indices("edges", before.edges, 2)
+    faces = checked_indices("faces", before.faces, 3, len(at_start))
+    edges = checked_indices("edges", before.edges, 2, len(at_start))
     for name, found, others in ("faces", faces, after.faces), ("edges", edges, after.edges):
-        check_range(name, found, len(at_start))
-        if not np.array_equal(found, indices(name, others, found.shape[1])):
+        if not np.array_equal(found, checked_indices(name, others, found.shape[1], len(at_start))):
             raise ValueError(f"after: found other {name}, expected those of before")
     return at_start, at_end, faces, edges
 
@@ -113,8 +122,7 @@ def _checked_result(result: StepResult, vertices: int) -> tuple[dict[str, Indice
         raise TypeError(f"result: found {type(result).__name__}, expected what ccd.step returns")
     pairs, times = {}, {}
     for kind, points in POINTS.items():
-        pairs[kind] = indices(f"result.pairs.{kind}", getattr(result.pairs, kind), points)
-        check_range(f"result.pairs.{kind}", pairs[kind], vertices)
+        pairs[kind] = checked_indices(f"result.pairs.{kind}", getattr(result.pairs, kind), points, vertices)
         if result.times is not None:
             times[kind] = np.column_stack([result.times[kind]["low"], result.times[kind]["high"]])
     return pairs, times

@@ -1,7 +1,7 @@
 """Steps of meshes that are spread over the ranks of MPI, by mpi4py's communicators.
 
 Imported by its name alone, since it needs mpi4py, and an errbound that was built where MPI is:
-pip install --no-binary errbound -C cmake.define.ERRBOUND_WITH_MPI=ON errbound. Both must be of the same MPI.
+pip install --no-binary errbound --config-settings cmake.define.ERRBOUND_WITH_MPI=ON errbound. Both must be of the same MPI.
 
 Each rank gives what it has: the numbers of its vertices in the whole mesh, (n,), any whole numbers from 0
 that differ, positions (n, 3) before and after, faces (m, 3) and edges (k, 2) by row of these. A vertex may be
@@ -28,9 +28,10 @@ try:
 except ImportError as missing:
     raise ImportError("errbound.mpi: found an errbound that was built without MPI, or not the MPI that it was "
                       "built with; build it where MPI is: pip install --no-binary errbound "
-                      f"-C cmake.define.ERRBOUND_WITH_MPI=ON errbound ({missing})") from None
+                      f"--config-settings cmake.define.ERRBOUND_WITH_MPI=ON errbound ({missing})") from None
 
-from ._arrays import as_array, check_range, frames, indices, option
+from ._arrays import as_array, checked_indices, frames, option
+from ._results import _listed
 from .ccd import _OF_ADVANCE, _OF_RUN, _question
 
 __all__ = ["AdvanceResult", "Pairs", "StepResult", "Work", "advance", "step"]
@@ -44,7 +45,7 @@ _OF_STEP = {name: kind for name, kind in _OF_RUN.items() if name not in ("can_co
 _OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name != "can_collide"}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Pairs:
     """Pairs of the vertices' numbers, uint64, each list sorted, as errbound.ccd.Pairs."""
     vertex_face: Numbers
@@ -54,6 +55,9 @@ class Pairs:
 
     def __len__(self) -> int:
         return sum(map(len, (self.vertex_face, self.edge_edge, self.vertex_edge, self.vertex_vertex)))
+
+    def __repr__(self) -> str:
+        return f"<mpi.Pairs, {_listed(self)}>"
 
 
 @dataclass(frozen=True)
@@ -117,9 +121,8 @@ def _asked(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLi
             raise ValueError(f"numbers: found shape {of_vertices.shape}, expected ({vertices},) as before has rows")
         if of_vertices.size and of_vertices.min() < 0:
             raise ValueError(f"numbers: found {of_vertices.min()}, expected 0 or more")
-        of_faces, of_edges = indices("faces", faces, 3), indices("edges", edges, 2)
-        check_range("faces", of_faces, vertices)
-        check_range("edges", of_edges, vertices)
+        of_faces = checked_indices("faces", faces, 3, vertices)
+        of_edges = checked_indices("edges", edges, 2, vertices)
         mesh = _mpi.Mesh(comm.py2f(), np.require(of_vertices, np.uint64, ["C", "A"]), at_start, at_end, of_faces,
                          of_edges)
         return mesh, _question(vertices, known, options)

@@ -77,7 +77,10 @@ class Roots:
         return len(self._roots)
 
     def __repr__(self) -> str:
-        return f"<roots.Roots: {len(self)} in [{self._interval[0]}, {self._interval[1]}], low={self.low!r}>"
+        a, b = self._interval
+        if self.everywhere:
+            return f"<roots.Roots of zero: everywhere in [{a}, {b}]>"
+        return f"<roots.Roots: {len(self)} in [{a}, {b}], low={np.array2string(self.low, threshold=20)}>"
 
     def _check(self, k: int) -> int:
         k = operator.index(k)
@@ -88,7 +91,10 @@ class Roots:
     def interval(self, k: int, width: float | None = None) -> tuple[Fraction, Fraction]:
         """An interval of at most that width, if given: root k is strictly inside, or is both ends."""
         if width is not None:
-            self._roots.refine(self._check(k), option("width", width, float))
+            width = option("width", width, float)
+            if not 0 < width < math.inf:
+                raise ValueError(f"width: found {width}, expected a positive finite number")
+            self._roots.refine(self._check(k), width)
         low, high = (Fraction(int(n, 16)) * Fraction(2)**e
                      for n, e in self._roots.interval(self._check(k)))
         return low, high

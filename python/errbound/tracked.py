@@ -21,9 +21,11 @@ UNCERTAIN = 2
 
 
 class Array:
-    """Operators + - * / on arrays of one rule and dtype, or with plain numbers, broadcast as NumPy's.
+    """Operators + - * / and abs on arrays of one rule and dtype, or with plain numbers, broadcast as NumPy's.
 
-    Division by a rule that has none (safe) is a ValueError. Indexing, slices and reshape copy.
+    Division by a rule that has none (safe) is a ValueError. Indexing, slices and reshape copy. Python's sum adds
+    along the first axis; there is no power, and NumPy's functions are not for these arrays: sqrt, fma, minimum,
+    maximum of this module are.
     """
     __array_ufunc__ = None  # so that NumPy's arrays leave operators to this class
 
@@ -49,7 +51,8 @@ class Array:
         return self.shape[0]
 
     def __repr__(self) -> str:
-        return f"tracked.array(value={self.value!r}, error={self.error!r}, rule={self.rule!r})"
+        with np.printoptions(threshold=20):
+            return f"tracked.array(value={self.value!r}, error={self.error!r}, rule={self.rule!r})"
 
     def _taken(self, places: NDArray[np.int64]) -> Array:
         row = self._row.taken(np.ascontiguousarray(places, np.int64).reshape(-1))
@@ -69,12 +72,16 @@ class Array:
         """Times 2^exponent: exact unless it underflows, which the bound then covers."""
         return Array(self._row.scaled(exponent), self.shape, self.rule, self.dtype)
 
+    def _like(self, other: Any) -> Array:
+        return other if isinstance(other, Array) else array(other, rule=self.rule, dtype=self.dtype)
+
+    def _broadcast(self, shape: tuple[int, ...]) -> Array:
+        return self if self.shape == shape else self._taken(np.broadcast_to(self._places(), shape))
+
     def _with(self, other: Any, operation: str, swapped: bool = False) -> Array:
-        if not isinstance(other, Array):
-            other = array(other, rule=self.rule, dtype=self.dtype)
+        other = self._like(other)
         shape = np.broadcast_shapes(self.shape, other.shape)
-        a, b = (x if x.shape == shape else x._taken(np.broadcast_to(x._places(), shape))
-                for x in ((other, self) if swapped else (self, other)))
+        a, b = (x._broadcast(shape) for x in ((other, self) if swapped else (self, other)))
         return Array(getattr(a._row, operation)(b._row), shape, self.rule, self.dtype)
 
     def __add__(self, other: Any) -> Array:
@@ -107,6 +114,9 @@ class Array:
     def __pos__(self) -> Array:
         return self
 
+    def __abs__(self) -> Array:
+        return Array(self._row.absolute(), self.shape, self.rule, self.dtype)
+
     def __bool__(self) -> bool:
         raise TypeError("tracked: found an array as a condition, expected the sign of one")
 
@@ -116,8 +126,40 @@ class Array:
     __hash__ = None  # type: ignore[assignment]
 
 
+def _first_array(name: str, *operands: Any) -> Array:
+    for operand in operands:
+        if isinstance(operand, Array):
+            return operand
+    raise TypeError(f"{name}: found no tracked array, expected at least one")
+
+
+def sqrt(x: Array) -> Array:
+    """Square roots; nothing is known (error is infinity or NaN) where x may be negative."""
+    x = _first_array("sqrt", x)
+    return Array(x._row.root(), x.shape, x.rule, x.dtype)
+
+
+def minimum(x: Any, y: Any) -> Array:
+    """The lesser of each two, by their values."""
+    return _first_array("minimum", x, y)._like(x)._with(y, "minimum")
+
+
+def maximum(x: Any, y: Any) -> Array:
+    """The greater of each two, by their values."""
+    return _first_array("maximum", x, y)._like(x)._with(y, "maximum")
+
+
+def fma(x: Any, y: Any, z: Any) -> Array:
+    """x y + z, rounded once."""
+    first = _first_array("fma", x, y, z)
+    all_three = [first._like(each) for each in (x, y, z)]
+    shape = np.broadcast_shapes(*(each.shape for each in all_three))
+    a, b, c = (each._broadcast(shape) for each in all_three)
+    return Array(a._row.fused(b._row, c._row), shape, first.rule, first.dtype)
+
+
 def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype: Any = None) -> Array:
-    """Numbers known to lie within error of value (0: exactly), which is of any shape.
+    """Numbers known to lie within error of value (0: exactly; infinity or NaN: anywhere), of any shape.
 
     dtype: float64 or float32, that of value by default. A value that it does not hold is rounded, as
     NumPy does, and counts as the exact number then.
@@ -129,5 +171,7 @@ def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype:
     if values.dtype.kind not in "fiu":
         raise TypeError(f"value: found {values.dtype}, expected numbers")
     errors = np.broadcast_to(as_array("error", error), values.shape)
+    if (errors < 0).any():
+        raise ValueError(f"error: found {errors.min()}, expected none that is negative")
     flat = [np.ascontiguousarray(x, number).reshape(-1) for x in (values, errors)]
     return Array(_native.tracked_row(flat[0], flat[1], rule), values.shape, rule, number)

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <errbound/functions.hpp>
 #include <errbound/tracked.hpp>
 #include <memory>
 #include <stdexcept>
@@ -28,7 +29,11 @@ class tracked_row {
     virtual nb::object signs() const = 0;
     virtual std::unique_ptr<tracked_row> combine(char operation,
                                                  const tracked_row& other) const = 0;
+    virtual std::unique_ptr<tracked_row> fused(const tracked_row& factor,
+                                               const tracked_row& term) const = 0;
     virtual std::unique_ptr<tracked_row> negated() const = 0;
+    virtual std::unique_ptr<tracked_row> absolute() const = 0;
+    virtual std::unique_ptr<tracked_row> root() const = 0;
     virtual std::unique_ptr<tracked_row> scaled(int exponent) const = 0;
     virtual std::unique_ptr<tracked_row> taken(const input<std::int64_t, -1>& places) const = 0;
 };
@@ -54,24 +59,38 @@ class row_of final : public tracked_row {
         });
     }
     row_pointer combine(char operation, const tracked_row& other) const override {
-        const auto* row = dynamic_cast<const row_of*>(&other);
-        if (row == nullptr)
-            throw std::invalid_argument("tracked: found arrays of two rules or number types");
+        const row_of& row = alike(other);
         switch (operation) {
             case '+':
-                return pairwise(*row, [](const number& x, const number& y) { return x + y; });
+                return pairwise(row, [](const number& x, const number& y) { return x + y; });
             case '-':
-                return pairwise(*row, [](const number& x, const number& y) { return x - y; });
+                return pairwise(row, [](const number& x, const number& y) { return x - y; });
             case '*':
-                return pairwise(*row, [](const number& x, const number& y) { return x * y; });
+                return pairwise(row, [](const number& x, const number& y) { return x * y; });
+            case '<':
+                return pairwise(row, [](const number& x, const number& y) { return min(x, y); });
+            case '>':
+                return pairwise(row, [](const number& x, const number& y) { return max(x, y); });
             default:
                 if constexpr (!std::is_same_v<Rule, safe>)  // whose division does not compile
-                    return pairwise(*row, [](const number& x, const number& y) { return x / y; });
+                    return pairwise(row, [](const number& x, const number& y) { return x / y; });
                 throw std::invalid_argument("tracked: this bound rule has no division");
         }
     }
+    row_pointer fused(const tracked_row& factor, const tracked_row& term) const override {
+        const row_of &b = alike(factor), &c = alike(term);
+        std::vector<number> made;
+        for (std::size_t i = 0; i < size(); ++i) made.push_back(fma(all_[i], b.all_[i], c.all_[i]));
+        return std::make_unique<row_of>(std::move(made));
+    }
     row_pointer negated() const override {
         return each([](const number& x) { return -x; });
+    }
+    row_pointer absolute() const override {
+        return each([](const number& x) { return abs(x); });
+    }
+    row_pointer root() const override {
+        return each([](const number& x) { return sqrt(x); });
     }
     row_pointer scaled(int exponent) const override {
         return each([exponent](const number& x) { return scale(x, exponent); });
@@ -84,6 +103,14 @@ class row_of final : public tracked_row {
     }
 
   private:
+    const row_of& alike(const tracked_row& other) const {
+        const auto* row = dynamic_cast<const row_of*>(&other);
+        if (row == nullptr)
+            throw std::invalid_argument("tracked: found arrays of two rules or number types");
+        if (row->size() != size())
+            throw std::invalid_argument("tracked: found rows of different lengths");
+        return *row;
+    }
     template <class Number, class Convert>
     nb::object numbers_from(const Convert& convert) const {
         std::vector<Number> found;
@@ -98,8 +125,6 @@ class row_of final : public tracked_row {
     }
     template <class Operation>
     row_pointer pairwise(const row_of& other, const Operation& operation) const {
-        if (other.size() != size())
-            throw std::invalid_argument("tracked: found rows of different lengths");
         std::vector<number> made;
         for (std::size_t i = 0; i < size(); ++i) made.push_back(operation(all_[i], other.all_[i]));
         return std::make_unique<row_of>(std::move(made));
@@ -146,7 +171,14 @@ void bind_tracked(nb::module_& m) {
         .def("multiply",
              [](const tracked_row& a, const tracked_row& b) { return a.combine('*', b); })
         .def("divide", [](const tracked_row& a, const tracked_row& b) { return a.combine('/', b); })
+        .def("minimum",
+             [](const tracked_row& a, const tracked_row& b) { return a.combine('<', b); })
+        .def("maximum",
+             [](const tracked_row& a, const tracked_row& b) { return a.combine('>', b); })
+        .def("fused", &tracked_row::fused)
         .def("negated", &tracked_row::negated)
+        .def("absolute", &tracked_row::absolute)
+        .def("root", &tracked_row::root)
         .def("scaled", &tracked_row::scaled)
         .def("taken", &tracked_row::taken);
     m.def("tracked_row", row_by<double>, nb::arg("values").noconvert(),

@@ -28,10 +28,81 @@ FRAMES = io.Mesh(BEFORE, np.array(FACES)), io.Mesh(AFTER, np.array(FACES))
     ({"can_collide": 3}, TypeError, "can_collide: found 3, expected a function of two vertices"),
     ({"can_collide": lambda v, w: None}, TypeError, "can_collide: found a function that returns None"),
     ({"can_collide": lambda v, w: 1 // 0}, ZeroDivisionError, "by zero"),
+    ({"distance": -1}, ValueError, "distance: found -1.0, expected a finite number that is not negative"),
+    ({"distance": np.nan}, ValueError, "distance: found nan"), ({"t_max": np.inf}, ValueError, "t_max: found inf"),
+    ({"thickness": [0, 0, np.inf, 0]}, ValueError, "thickness: row 2: found inf"),
+    ({"thickness": 1.0}, ValueError, r"thickness: found shape \(\), expected \(4,\)"),
+    ({"method": "tight", "times": True}, ValueError, "^found method tight, expected exact"),
+    ({"between_groups": False}, ValueError, "between_groups: found False without groups"),
+    ({"pinned": [0, 3]}, ValueError, r"pinned: found shape \(2,\), expected \(4,\): a flag for each vertex"),
+    ({"pinned": [0, 3, 1, 2]}, ValueError, "pinned: found int64 other than 0 and 1"),
+    ({"pinned": [0, 1, 0, -255]}, ValueError, "pinned: found int64 other than 0 and 1"),
+    ({"pinned": [0, .5, 0, 1]}, ValueError, "pinned: found float64 other than 0 and 1"),
 ])
 def test_options_of_steps(options, error, said):
     with pytest.raises(error, match=said):
         ccd.step(BEFORE, AFTER, FACES, **options)
+
+
+def test_options_have_types_and_words():
+    hints = ccd.SearchOptions.__annotations__.keys()
+    assert ccd._OF_SEARCH.keys() == hints and ccd._OF_ADVANCE.keys() == ccd.AdvanceOptions.__annotations__.keys()
+    assert ccd._OF_RUN.keys() == ccd.RunOptions.__annotations__.keys()
+
+
+@pytest.mark.parametrize("call", [ccd.step, ccd.advance, ccd.candidates])
+def test_coordinates_that_are_not_finite_are_named(call):
+    for name, frames in ("before", (BEFORE * np.nan, AFTER)), ("after", (BEFORE, np.where(AFTER < 0, np.inf, AFTER))):
+        row = 3 if name == "after" else 0
+        with pytest.raises(ValueError, match=rf"^{name}: row {row}: found \[.*\], expected finite numbers"):
+            call(*frames, FACES)
+    flat = ccd.Steps.in_plane([[0, 1]], vertices=4)
+    with pytest.raises(ValueError, match=r"^after: row 1: found \[inf, 0.0\]"):
+        flat.run(BEFORE[:, :2], np.array([[0, 0], [np.inf, 0], [0, 0], [0, 0]]))
+
+
+def test_what_a_callback_raises_is_its_own():
+    def refuse(v, w):
+        raise errbound.FileError("mine")
+
+    with pytest.raises(errbound.FileError, match="^mine$"):
+        ccd.step(BEFORE, AFTER, FACES, can_collide=refuse)
+
+
+@pytest.mark.parametrize("dtype", [np.int64, np.int32])
+def test_the_range_of_indices_is_that_of_the_mesh(dtype):
+    wrong = np.array([[0, 1, 2, -1]], dtype)
+    said = "row 0: found vertex -1, expected 0 to 3"
+    with pytest.raises(IndexError, match=f"queries: {said}"):
+        ccd.decide(wrong, "vertex_face", positions=(BEFORE, AFTER))
+    with pytest.raises(IndexError, match=f"faces: {said}"):
+        ccd.step(BEFORE, AFTER, wrong[:, 1:])
+    for refuse in ccd.Steps, lambda faces, vertices: ccd.Steps.in_plane([[0, 1]], vertices=vertices):
+        with pytest.raises(TypeError, match="vertices: found 4.0, expected a whole number"):
+            refuse(FACES, vertices=4.0)
+    with pytest.raises(IndexError, match="expected none, as there are no vertices"):
+        ccd.Steps(FACES, vertices=0)
+
+
+@pytest.mark.parametrize("positions, said", [
+    (BEFORE, r"an array of shape \(4, 3\)"), ((BEFORE, AFTER, AFTER), "3 items"), ((BEFORE,), "1 items"), (5, "int")])
+def test_positions_are_a_pair(positions, said):
+    with pytest.raises(TypeError, match=f"positions: found {said}, expected a pair"):
+        ccd.decide([[3, 0, 1, 2]], "vertex_face", positions=positions)
+    assert ccd.decide([[3, 0, 1, 2]], "vertex_face", positions=np.stack([BEFORE, AFTER])).collides.all()
+
+
+def test_a_mesh_is_no_array():
+    for call in lambda: ccd.step(*FRAMES, FACES), lambda: ccd.step(BEFORE, AFTER, FRAMES[0]):
+        with pytest.raises(TypeError, match="found Mesh, expected an array, say its vertices or its faces"):
+            call()
+
+
+@pytest.mark.parametrize("name", ["mesh.obj", "mesh.stl", "mesh"])
+def test_other_files_of_meshes_are_not_written(name, tmp_path):
+    with pytest.raises(ValueError, match="path: found .*, expected a name that ends in .ply"):
+        io.write_mesh(tmp_path / name, BEFORE, FACES)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_options_of_another_call_are_no_options():
@@ -87,6 +158,18 @@ def test_ends_of_intervals_are_doubles(a, b, error):
         roots.isolate([-1, 0, 4], a, b)
 
 
+@pytest.mark.parametrize("width", [0, -1, np.nan, np.inf])
+def test_widths_are_positive(width):
+    with pytest.raises(ValueError, match=f"width: found {float(width)}"):
+        roots.isolate([-2, 0, 1]).interval(0, width)
+
+
+def test_errors_are_not_negative():
+    with pytest.raises(ValueError, match="error: found -1, expected none that is negative"):
+        tracked.array([1.0, 2.0], [0, -1])
+    assert (tracked.array([1.0, 2.0], [np.nan, np.inf]).error == np.inf).all()
+
+
 def test_a_tracked_array_is_no_condition():
     x = tracked.array([0.1, 0.2])
     for ask in lambda: x == x, lambda: x != 0.1, lambda: bool(x):
@@ -115,6 +198,19 @@ def test_what_is_shown_are_meshes_and_a_result(tmp_path):
     with pytest.raises(TypeError, match="result: found NoneType, expected what ccd.step returns"):
         io.write_view(tmp_path / "step.vtp", *FRAMES, None)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_is_printed_is_short():
+    many = np.random.default_rng(3).random((2000, 3))
+    moved = many + 0.1
+    faces = np.random.default_rng(4).permutation(2000)[:1800].reshape(-1, 3)
+    found = ccd.step(many, moved, faces, times=True)
+    for shown in (found, found.pairs, ccd.advance(many, moved, faces), io.Mesh(many, faces), tracked.array(many),
+                  ccd.decide(np.tile(QUERY, (2000, 1, 1)), "vertex_face"),
+                  ccd.first_contact(np.tile(QUERY, (2000, 1, 1)), "vertex_face"), roots.isolate([0, 0]),
+                  io.Queries(QUERY, "vertex_face", None), ccd.Steps(faces, vertices=2000)):
+        assert len(repr(shown)) < 800 and "object at" not in repr(shown), repr(shown)
+    assert "everywhere" in repr(roots.isolate([0, 0]))
 
 
 def test_results_are_copied_and_pickled():

@@ -1,11 +1,12 @@
 """The Python of documents runs, block after block, in a folder that has the repository's examples."""
+import importlib.resources
 import re
 
 import pytest
 from conftest import ROOT
 
 
-@pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("docs/python.md", "vertex 2"),
+@pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("python/README.md", "free for 0.250"), ("docs/python.md", "vertex 2"),
                                            ("docs/in-ten-minutes.md", "free for 0.250"),
                                            ("docs/from-ipc-toolkit.md", "theirs 0.0"),
                                            ("docs/many-machines.md", "rank 0: ")])
@@ -22,3 +23,12 @@ def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
     for block in blocks:
         exec(compile(block, page, "exec"), names)
     assert printed in capsys.readouterr().out
+
+
+def test_pages_that_docstrings_name_are_in_the_package():
+    docs = importlib.resources.files("errbound") / "docs"
+    names = {name for file in (ROOT / "python" / "errbound").glob("*.py")
+             for name in re.findall(r"docs/([\w-]+\.md)", file.read_text())}
+    assert names
+    for name in names | {"in-ten-minutes.md", "python.md"}:
+        assert (docs / name).read_bytes() == (ROOT / "docs" / name).read_bytes()

@@ -114,6 +114,29 @@ def test_tracked_bounds_hold(rule, dtype):
             assert z.sign[i, j] == (exact > 0) - (exact < 0)
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("rule", ["safe", "tight", "sharp", "interval", "residual"])
+def test_tracked_functions(rule, dtype):
+    x, y, z = RANDOM.standard_normal((3, 4, 25)).astype(dtype)
+    a, b, c = (tracked.array(v, rule=rule) for v in (x, y, z))
+    fused, least, most = tracked.fma(a, b, c), tracked.minimum(a * b, c), tracked.maximum(z, a * b)
+    root = tracked.sqrt(abs(a * b))
+    for i, j in np.ndindex(x.shape):
+        p, q, r = (Fraction(float(v[i, j])) for v in (x, y, z))
+        for found, exact in (fused, p * q + r), (least, min(p * q, r)), (most, max(p * q, r)):
+            assert abs(Fraction(float(found.value[i, j])) - exact) <= Fraction(float(found.error[i, j]))
+        value, error = Fraction(float(root.value[i, j])), Fraction(float(root.error[i, j]))
+        assert max(value - error, 0)**2 <= abs(p * q) <= (value + error)**2
+    np.testing.assert_array_equal(root.value, np.sqrt(abs(x * y)))
+    assert tracked.fma(a[0], 1, b).shape == (4, 25)
+    unknown, known = tracked.sqrt(tracked.array([-1, 4], rule=rule)).error
+    assert not np.isfinite(unknown) and known == 0
+    with pytest.raises(TypeError, match="sqrt: found no tracked array"):
+        tracked.sqrt(x)
+    with pytest.raises(ValueError, match="two rules"):
+        tracked.minimum(a, tracked.array(1.0, rule="none", dtype=dtype))
+
+
 def test_tracked_operators():
     x = tracked.array([1.0, 2.0], error=[0, 0.5])
     np.testing.assert_array_equal((1 - x).value, [0, -1])

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <ccd/first_contacts.hpp>
 #include <ccd/io/step_view.hpp>
 #include <cstdint>
 #include <span>
@@ -52,6 +53,21 @@ std::string bytes_of_parts(const step_view& step) {
     return bytes;
 }
 
+/// Where each pair with a time meets, to be read by people: weights and normal, in floats.
+template <kind K>
+std::string bytes_of_contacts(const step_view& step) {
+    std::string bytes;
+    const auto& times = step.times.of<K>();
+    if (times.empty()) return bytes;
+    for (const first_contact& contact : first_contacts(step.positions, step.pairs.of<K>(), times)) {
+        for (const double weight : contact.weights)
+            append_number(bytes, static_cast<float>(weight));
+        for (const double n : {contact.normal.x, contact.normal.y, contact.normal.z})
+            append_number(bytes, static_cast<float>(n));
+    }
+    return bytes;
+}
+
 std::string arrays_of(const step_view& step) {
     std::string text;
     const std::size_t vertices = step.positions.vertices;
@@ -72,6 +88,7 @@ std::string arrays_of(const step_view& step) {
         const std::string id(name(K));
         append_array(text, id, std::move(pairs));
         append_array(text, id + "_times", std::move(times));
+        append_array(text, id + "_contacts", bytes_of_contacts<K>(step));
     });
     return text;
 }

@@ -23,9 +23,11 @@ struct step_view {
 
 /// A page of HTML, whole in itself, that fetches nothing: the mesh at every time of the step, to
 /// turn, move and zoom with mouse, fingers or keys, its pairs, and a list of them, each with its
-/// time and as a query in numbers that read back exactly. Needs a browser with WebGL 2.
+/// time, weights and normal, and as a query in numbers that read back exactly. Needs a browser with
+/// WebGL 2.
 ///
-/// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 43 with times. Throws
+/// Size: 65 bytes a vertex and 16 a face, and 22 a pair, or 80 with times. Cost: a contact's data
+/// for each pair with a time. Throws
 /// std::invalid_argument if an index is out of range, or times are neither none nor as many as
 /// pairs.
 std::string page_of(const step_view& step);

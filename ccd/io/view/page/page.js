@@ -21,20 +21,21 @@ function readStep() {
     faces: new Uint32Array(bytes("faces")), edges: new Uint32Array(bytes("edges")), parts: new Uint8Array(bytes("parts"))};
   step.kinds = NAMES.map((name, k) => {
     const vertices = new Uint32Array(bytes(name)), times = new Float64Array(bytes(name + "_times"));
-    return {vertices, times, count: vertices.length / POINTS[k]};
+    return {vertices, times, contacts: new Float32Array(bytes(name + "_contacts")), count: vertices.length / POINTS[k]};
   });
   step.count = step.kinds.reduce((sum, kind) => sum + kind.count, 0);
   step.timed = step.kinds.some(kind => kind.times.length > 0);
   return step;
 }
 
-/// Kind and vertices of a pair, and its times where they are known.
+/// Kind and vertices of a pair, and its times, weights and normal where they are known.
 function pairOf(step, i) {
   let k = 0;
   while (i >= step.kinds[k].count) i -= step.kinds[k++].count;
-  const {vertices, times} = step.kinds[k], all = Array.from(vertices.subarray(POINTS[k] * i, POINTS[k] * (i + 1)));
+  const {vertices, times, contacts} = step.kinds[k], contact = Array.from(contacts.subarray(7 * i, 7 * i + 7));
+  const all = Array.from(vertices.subarray(POINTS[k] * i, POINTS[k] * (i + 1)));
   return {kind: k, vertices: all, elements: [all.slice(0, FIRST[k]), all.slice(FIRST[k])],
-    low: times[2 * i], high: times[2 * i + 1]};
+    low: times[2 * i], high: times[2 * i + 1], weights: contact.slice(0, POINTS[k]), normal: contact.slice(4)};
 }
 
 /// The picture's coordinates: floats, relative to the middle of both frames and to their largest extent.
@@ -192,6 +193,14 @@ function whenOf(pair) {
   return pair.low === pair.high ? `First at t = ${pair.low}.` : `First between t = ${pair.low} and ${pair.high}.`;
 }
 
+/// Weights are all 0 where features do not touch at that time: they come within a distance.
+function whereOf(pair) {
+  if (!pair.weights.some(w => w > 0)) return "";
+  const digits = x => String(Number(x.toPrecision(4)));
+  const of = pair.elements.map((e, k) => e.map((v, i) => `${digits(pair.weights[k * FIRST[pair.kind] + i])} of ${v}`));
+  return `Where ${of.map(e => e.join(" + ")).join(" meets ")}; normal (${pair.normal.map(digits).join(", ")}).`;
+}
+
 function queryOf(pair) {
   const row = (frame, v) => Array.from(frame.subarray(3 * v, 3 * v + 3)).join(",");
   return [step.before, step.after].flatMap(frame => pair.vertices.map(v => row(frame, v))).join("\n") + "\n";
@@ -213,6 +222,7 @@ function choose(i) {
   element("detail").hidden = false;
   element("what").textContent = said(pair.elements);
   element("when").textContent = whenOf(pair);
+  element("where").textContent = whereOf(pair);
   element("query").textContent = queryOf(pair);
   const {t, middle, radius} = placeOfPair(pair);
   if (picture) picture.choose(pair.elements, middle, radius);
@@ -323,7 +333,7 @@ function start() {
   const counted = step.kinds.map((kind, k) => `${kind.count.toLocaleString("en")} ${NAMES[k].replace("_", "/")}`);
   element("count").textContent = step.count.toLocaleString("en") + (step.count === 1 ? " pair" : " pairs");
   element("kinds").textContent = counted.filter((_, k) => k < 2 || step.kinds[k].count > 0).join(", ");
-  if (step.timed) element("order").add(new Option("by time", "time"));
+  if (step.timed) element("order").add(new Option("by time", "time", true, true), 0);
   try {
     picture = new Picture(element("picture"), scene);
   } catch (error) {
@@ -337,7 +347,7 @@ function start() {
     redraw();
   }).observe(document.body);
   new ResizeObserver(redraw).observe(element("picture"));
-  showList();
+  arrange();
 }
 
 start();
