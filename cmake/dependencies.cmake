@@ -3,6 +3,10 @@ find_path(ERRBOUND_GMP_INCLUDE gmp.h)
 find_library(ERRBOUND_GMP_LIBRARY gmp)
 find_path(ERRBOUND_MPFR_INCLUDE mpfr.h)
 find_library(ERRBOUND_MPFR_LIBRARY mpfr)
+# The library alone: CMake's own module would link what a static one needs, too.
+find_path(ERRBOUND_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
+find_library(ERRBOUND_HDF5_LIBRARY NAMES hdf5_serial hdf5)
+mark_as_advanced(ERRBOUND_HDF5_INCLUDE ERRBOUND_HDF5_LIBRARY)
 mark_as_advanced(ERRBOUND_GMP_INCLUDE ERRBOUND_GMP_LIBRARY ERRBOUND_MPFR_INCLUDE
                  ERRBOUND_MPFR_LIBRARY)
 

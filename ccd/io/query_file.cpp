@@ -3,9 +3,11 @@
 #include <ccd/io/query_file.hpp>
 #include <cctype>
 #include <errbound/support/error.hpp>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "ccd/io/query_ranges.hpp"
+#include "ccd/io/store/store_reader.hpp"
 #include "ccd/io/stored_kinds.hpp"
 #include "ccd/io/text.hpp"
 #include "errbound/support/output_file.hpp"
@@ -259,7 +261,29 @@ query_file parse_rows(std::string_view text, const std::string& name, ccd::kind 
     return query_parser(name, kind, round, rows, columns).parse(text);
 }
 
+namespace {
+
+ccd::kind kind_in(const store_reader& store, const fs::path& path,
+                  const std::optional<ccd::kind>& asked) {
+    if (asked && *asked != store.kind())
+        throw file_error(path.string() + ": found queries of kind " +
+                         std::string(name(store.kind())) + ", expected " +
+                         std::string(name(*asked)));
+    return store.kind();
+}
+
+bool is_store_file(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) return false;
+    std::array<char, 8> first{};
+    std::ifstream(path, std::ios::binary).read(first.data(), first.size());
+    return is_store({first.data(), first.size()});
+}
+
+}  // namespace
+
 ccd::kind kind_of_file(const fs::path& path, std::optional<ccd::kind> kind) {
+    if (is_store_file(path)) return kind_in(store_reader(path), path, kind);
     if (!kind) kind = kind_from_path(path);
     if (!kind) {
         throw file_error(path.string() +
@@ -274,10 +298,18 @@ fs::path truth_beside(const fs::path& path) {
     return path.parent_path() / ".." / "mma_bool" / (path.stem().string() + "_mma_bool.json");
 }
 
+query_file parse_stored_queries(std::string_view bytes, const std::string& name,
+                                std::optional<ccd::kind> kind, bool round) {
+    if (!is_store(bytes)) return parse_queries(bytes, name, kind_of_file(name, kind), round);
+    const store_reader store(bytes, name);
+    kind_in(store, name, kind);
+    return store.read(0, store.size());
+}
+
 query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round) {
     const std::string text = read_whole(path);
-    query_file result = parse_queries(text, path.string(), kind_of_file(path, kind), round);
-    if (result.truth) return result;
+    query_file result = parse_stored_queries(text, path.string(), kind, round);
+    if (result.truth || is_store(text)) return result;
 
     const fs::path truth_path = truth_beside(path);
     std::error_code error;

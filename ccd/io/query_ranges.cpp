@@ -65,6 +65,14 @@ class row_scanner {
     query_index index_;
 };
 
+std::vector<query_range> ranges_of(const store_reader& store, std::uint64_t queries_of_a_range) {
+    std::vector<query_range> ranges;
+    for (std::uint64_t begin = 0; begin < store.size(); begin += queries_of_a_range)
+        ranges.push_back(
+            {begin, std::min(store.size(), begin + queries_of_a_range), rows_per_query * begin});
+    return ranges;
+}
+
 std::string read_bytes(const std::filesystem::path& path, std::uint64_t begin, std::uint64_t end) {
     std::ifstream in(path, std::ios::binary);
     std::string text(end - begin, '\0');
@@ -90,12 +98,18 @@ query_index index_queries(const std::filesystem::path& path, std::size_t queries
     row_scanner rows(rows_per_query * queries_of_a_range);
     boost::crc_32_type checksum;
     std::array<char, 1 << 16> block;
+    std::uint64_t bytes = 0;
+    bool in_store = false;
     while (in.read(block.data(), block.size()), in.gcount() > 0) {
         const auto size = static_cast<std::size_t>(in.gcount());
-        rows.take({block.data(), size});
+        if (bytes == 0) in_store = is_store({block.data(), size});
+        if (!in_store) rows.take({block.data(), size});
         checksum.process_bytes(block.data(), size);
+        bytes += size;
     }
     if (!in.eof() || in.bad()) throw file_error(path.string() + ": cannot be read");
+    if (in_store)
+        return {ranges_of(store_reader(path), queries_of_a_range), 0, bytes, checksum.checksum()};
     if (std::filesystem::exists(truth_beside(path), error)) {
         const std::string truth = errbound::support::read_whole(truth_beside(path));
         checksum.process_bytes(truth.data(), truth.size());
@@ -114,10 +128,19 @@ range_reader::range_reader(std::filesystem::path path, std::optional<ccd::kind> 
 
 query_file range_reader::read(std::size_t range) {
     const query_range& where = index_.ranges.at(range);
+    if (index_.columns == 0) return read_from_store(where);
     query_file result = parse_rows(read_bytes(path_, where.begin, where.end), path_.string(), kind_,
                                    round_, where.rows, index_.columns);
     if (!result.truth) add_truth(where, result);
     return result;
+}
+
+query_file range_reader::read_from_store(const query_range& range) {
+    if (!store_) store_.emplace(path_);
+    if (range.end > store_->size())
+        throw file_error(path_.string() + ": found " + std::to_string(store_->size()) +
+                         " queries, where it had more before");
+    return store_->read(range.begin, range.end);
 }
 
 void range_reader::add_truth(const query_range& range, query_file& to) {

@@ -10,17 +10,19 @@
 #include <string_view>
 #include <vector>
 
+#include "ccd/io/store/store_reader.hpp"
+
 namespace ccd::io {
 
-/// Rows of whole queries, but for the last range of a file that is truncated.
+/// Rows of whole queries, but for the last range of a CSV file that is truncated.
 struct query_range {
-    std::uint64_t begin = 0, end = 0;  ///< bytes
+    std::uint64_t begin = 0, end = 0;  ///< bytes; of a store: queries
     std::uint64_t rows = 0;            ///< before it
 };
 
 struct query_index {
     std::vector<query_range> ranges;  ///< at least one
-    std::uint64_t columns = 0;        ///< of the first row
+    std::uint64_t columns = 0;        ///< of the first row; of a store: 0
     std::uint64_t bytes = 0;
     std::uint32_t checksum = 0;  ///< CRC-32 of the file, and of its truth if that lies beside it
 };
@@ -40,6 +42,7 @@ class range_reader {
     query_file read(std::size_t range);
 
   private:
+    query_file read_from_store(const query_range& range);
     void add_truth(const query_range& range, query_file& to);
 
     std::filesystem::path path_;
@@ -48,13 +51,15 @@ class range_reader {
     query_index index_;
     bool has_looked_for_truth_ = false;
     std::optional<std::vector<bool>> truth_;  // that lies beside it
+    std::optional<store_reader> store_;       // once it is open
 };
 
 /// As parse_queries, of rows that follow `rows` others of so many columns.
 query_file parse_rows(std::string_view text, const std::string& name, ccd::kind kind, bool round,
                       std::uint64_t rows, std::uint64_t columns);
 
-/// As read_queries has them: the kind of a file's queries, and where the truth beside it is.
+/// As read_queries has them: the kind of a file's queries (of a store its own, which `kind` must
+/// not contradict), and where the truth beside it is.
 /// Throws errbound::support::file_error.
 ccd::kind kind_of_file(const std::filesystem::path& path, std::optional<ccd::kind> kind);
 std::filesystem::path truth_beside(const std::filesystem::path& path);

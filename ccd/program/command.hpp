@@ -33,6 +33,7 @@ std::unique_ptr<command> query_command(CLI::App& program);
 std::unique_ptr<command> step_command(CLI::App& program);
 std::unique_ptr<command> stress_command(CLI::App& program);
 std::unique_ptr<command> report_command(CLI::App& program);
+std::unique_ptr<command> convert_command(CLI::App& program);
 std::unique_ptr<command> methods_command(CLI::App& program);
 
 }  // namespace ccd::program

@@ -11,9 +11,9 @@ namespace ccd::program {
 namespace {
 
 exit_status run(CLI::App& app, int argc, char** argv) {
-    const std::unique_ptr<command> commands[] = {query_command(app), step_command(app),
-                                                 stress_command(app), report_command(app),
-                                                 methods_command(app)};
+    const std::unique_ptr<command> commands[] = {query_command(app),   step_command(app),
+                                                 stress_command(app),  report_command(app),
+                                                 convert_command(app), methods_command(app)};
     app.parse(argc, argv);
     for (const auto& c : commands)
         if (c->was_given()) return c->run();

@@ -41,8 +41,14 @@ std::optional<ccd::kind> kind_from_path(const std::filesystem::path& path);
 query_file parse_queries(std::string_view text, const std::string& name, ccd::kind kind,
                          bool round);
 
+/// The same of text, or of a store's bytes (ccd/io/query_store.hpp), whose kind `kind` must not
+/// contradict.
+query_file parse_stored_queries(std::string_view bytes, const std::string& name,
+                                std::optional<ccd::kind> kind, bool round);
+
 /// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` beside it.
-/// The kind is `kind` if given, else from the path. Throws errbound::support::file_error.
+/// The kind is `kind` if given, else from the path. A store (ccd/io/query_store.hpp) has kind and
+/// truth of its own. Throws errbound::support::file_error.
 query_file read_queries(const std::filesystem::path& path, std::optional<ccd::kind> kind,
                         bool round);
 

@@ -1,0 +1,260 @@
+// Stores of queries: what is in them is checked before it is believed.
+#include "ccd/io/store/store_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "ccd/io/store/hdf5.hpp"
+#include "ccd/io/stored_kinds.hpp"
+
+namespace ccd::io {
+namespace {
+
+using errbound::support::file_error;
+using hdf5::checked;
+using hdf5::handle;
+
+using moving = std::array<double, 6>;
+
+/// A dataset of rows of numbers.
+class rows_on_disk {
+  public:
+    rows_on_disk(hid_t file, const std::string& name, const char* of, H5T_class_t type,
+                 std::vector<std::size_t> bytes, hsize_t columns)
+        : what_(name + ": dataset " + of),
+          set_(H5Dopen2(file, of, H5P_DEFAULT), H5Dclose, what_),
+          columns_(columns) {
+        const handle stored(H5Dget_type(set_), H5Tclose, what_);
+        bytes_ = H5Tget_size(stored);
+        if (H5Tget_class(stored) != type || std::ranges::find(bytes, bytes_) == bytes.end())
+            throw file_error(what_ + ": found numbers of " + std::to_string(bytes_) +
+                             " bytes or of another class, expected " +
+                             (type == H5T_FLOAT ? "floats" : "whole numbers") + " of " +
+                             std::to_string(bytes.front()) + " bytes");
+        const handle space(H5Dget_space(set_), H5Sclose, what_);
+        const int rank = columns == 1 ? 1 : 2;
+        hsize_t size[2] = {0, 1};
+        if (H5Sget_simple_extent_ndims(space) != rank ||
+            H5Sget_simple_extent_dims(space, size, nullptr) != rank || size[1] != columns)
+            throw file_error(what_ + ": found another shape, expected rows of " +
+                             std::to_string(columns));
+        rows_ = size[0];
+        // Deflate makes at most 1032 bytes of one, so that more than this is not there to be read.
+        const hsize_t most = 1100 * H5Dget_storage_size(set_) / bytes_ / columns;
+        if (rows_ > most)
+            throw file_error(what_ + ": found " + std::to_string(rows_) +
+                             " rows, more than the file can hold");
+    }
+
+    std::uint64_t rows() const { return rows_; }
+    /// Of a number.
+    std::size_t bytes() const { return bytes_; }
+
+    /// Rows [begin, end).
+    template <class Row>
+    std::vector<Row> read(hid_t number, std::uint64_t begin, std::uint64_t end) const {
+        std::vector<Row> all(end - begin);
+        if (all.empty()) return all;
+        const int rank = columns_ == 1 ? 1 : 2;
+        const hsize_t start[] = {begin, 0}, count[] = {end - begin, columns_};
+        const handle from(H5Dget_space(set_), H5Sclose, what_);
+        checked(H5Sselect_hyperslab(from, H5S_SELECT_SET, start, nullptr, count, nullptr), what_);
+        const handle to(H5Screate_simple(rank, count, nullptr), H5Sclose, what_);
+        if (H5Dread(set_, number, to, from, H5P_DEFAULT, all.data()) < 0)
+            throw file_error(what_ + ": rows " + std::to_string(begin) + " to " +
+                             std::to_string(end - 1) + " cannot be read (HDF5: " + hdf5::reason() +
+                             ")");
+        return all;
+    }
+    [[noreturn]] void refuse(std::uint64_t row, const std::string& said) const {
+        throw file_error(what_ + ": row " + std::to_string(row) + ": " + said);
+    }
+
+  private:
+    std::string what_;
+    handle set_;
+    hsize_t columns_;
+    std::uint64_t rows_ = 0;
+    std::size_t bytes_ = 0;
+};
+
+std::string text_attribute(hid_t file, const std::string& name, const char* of) {
+    const std::string what = name + ": attribute " + of;
+    const handle attribute(H5Aopen(file, of, H5P_DEFAULT), H5Aclose, what);
+    const handle type(H5Aget_type(attribute), H5Tclose, what);
+    const handle space(H5Aget_space(attribute), H5Sclose, what);
+    constexpr std::size_t longest = 64;
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        H5Tget_size(type) > longest || H5Sget_simple_extent_npoints(space) != 1)
+        throw file_error(what + ": expected one string of at most 64 bytes, of fixed length");
+    std::string text(H5Tget_size(type), '\0');
+    checked(H5Aread(attribute, type, text.data()), what);
+    return text.substr(0, text.find('\0'));
+}
+
+std::uint32_t version_of(hid_t file, const std::string& name) {
+    const std::string what = name + ": attribute version";
+    const handle attribute(H5Aopen(file, "version", H5P_DEFAULT), H5Aclose, what);
+    const handle type(H5Aget_type(attribute), H5Tclose, what);
+    const handle space(H5Aget_space(attribute), H5Sclose, what);
+    if (H5Tget_class(type) != H5T_INTEGER || H5Sget_simple_extent_npoints(space) != 1)
+        throw file_error(what + ": expected one whole number");
+    std::uint32_t version = 0;
+    checked(H5Aread(attribute, H5T_NATIVE_UINT32, &version), what);
+    return version;
+}
+
+ccd::kind kind_of_store(hid_t file, const std::string& name) {
+    if (const std::string format = text_attribute(file, name, "format");
+        format != "errbound queries")
+        throw file_error(name + ": attribute format: found another, expected errbound queries");
+    if (const std::uint32_t version = version_of(file, name); version != 1)
+        throw file_error(name + ": attribute version: found " + std::to_string(version) +
+                         ", expected 1");
+    const std::string kind = text_attribute(file, name, "kind");
+    for (const ccd::kind k : stored_kinds)
+        if (kind == ccd::name(k)) return k;
+    throw file_error(name + ": attribute kind: expected vertex_face or edge_edge");
+}
+
+handle opened_image(std::string_view bytes, const std::string& name) {
+    const handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name);
+    checked(H5Pset_fapl_core(access, std::size_t{1} << 20, false), name);
+    // Copied by the library, which leaves what is given as it is.
+    checked(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), name);
+    // A name that no file has: images of files that are there are refused.
+    return {H5Fopen("/dev/null/store", H5F_ACC_RDONLY, access), H5Fclose, name};
+}
+
+}  // namespace
+
+class store_reader::opened {
+  public:
+    opened(handle file, const std::string& name)
+        : file_(std::move(file)),
+          kind_(kind_of_store(file_, name)),
+          points_(file_, name, "points", H5T_FLOAT, {8}, 6),
+          queries_(file_, name, "queries", H5T_INTEGER, {4, 2}, 4),
+          first_point_(file_, name, "first_point", H5T_INTEGER, {8}, 1) {
+        if (checked(H5Lexists(file_, "truth", H5P_DEFAULT), name) > 0)
+            truth_.emplace(file_, name, "truth", H5T_INTEGER, std::vector<std::size_t>{1}, 1);
+        if (size() == 0) throw file_error(name + ": dataset queries: found none");
+        if (truth_ && truth_->rows() != size())
+            throw file_error(name + ": dataset truth: found " + std::to_string(truth_->rows()) +
+                             " rows, expected " + std::to_string(size()) + ", one a query");
+        begins_ = first_point_.read<std::uint64_t>(H5T_NATIVE_UINT64, 0, first_point_.rows());
+        const std::uint64_t chunks = (size() + queries_of_a_chunk - 1) / queries_of_a_chunk;
+        if (begins_.size() != chunks + 1 || begins_.front() != 0 ||
+            begins_.back() != points_.rows() || !std::ranges::is_sorted(begins_))
+            throw file_error(name + ": dataset first_point: expected " +
+                             std::to_string(chunks + 1) + " rows that ascend from 0 to " +
+                             std::to_string(points_.rows()));
+    }
+
+    ccd::kind kind() const { return kind_; }
+    std::uint64_t size() const { return queries_.rows(); }
+
+    query_file read(std::uint64_t begin, std::uint64_t end) const {
+        query_file found;
+        visit_stored_kind(kind_, [&]<ccd::kind K>() {
+            using query = typename kind_traits<K>::template query<double>;
+            static_assert(sizeof(query) == 4 * sizeof(moving) &&
+                          std::is_trivially_copyable_v<query>);
+            auto& all = found.queries.emplace<std::vector<query>>();
+            all.reserve(end - begin);
+            for (std::uint64_t at = begin; at < end;) {
+                const std::uint64_t chunk = at / queries_of_a_chunk;
+                const std::uint64_t next = std::min(end, (chunk + 1) * queries_of_a_chunk);
+                append(chunk, at, next, all);
+                at = next;
+            }
+        });
+        if (truth_) {
+            const auto values = truth_->read<std::uint8_t>(H5T_NATIVE_UINT8, begin, end);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                if (values[i] > 1)
+                    truth_->refuse(begin + i,
+                                   "found " + std::to_string(values[i]) + ", expected 0 or 1");
+            found.truth.emplace(values.begin(), values.end());
+        }
+        return found;
+    }
+
+  private:
+    /// Queries [begin, end) of one chunk.
+    template <class Query>
+    void append(std::uint64_t chunk, std::uint64_t begin, std::uint64_t end,
+                std::vector<Query>& all) const {
+        const auto points =
+            points_.read<moving>(H5T_NATIVE_DOUBLE, begins_[chunk], begins_[chunk + 1]);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (!std::ranges::all_of(points[i], [](double x) { return std::isfinite(x); }))
+                points_.refuse(begins_[chunk] + i, "found a number that is not finite");
+        if (queries_.bytes() == 2)
+            append_rows<std::uint16_t>(H5T_NATIVE_UINT16, points, begin, end, all);
+        else
+            append_rows<std::uint32_t>(H5T_NATIVE_UINT32, points, begin, end, all);
+    }
+
+    template <class Index, class Query>
+    void append_rows(hid_t number, const std::vector<moving>& points, std::uint64_t begin,
+                     std::uint64_t end, std::vector<Query>& all) const {
+        const auto rows = queries_.read<std::array<Index, 4>>(number, begin, end);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            for (const Index point : rows[i])
+                if (point >= points.size())
+                    queries_.refuse(begin + i, "found point " + std::to_string(point) +
+                                                   ", expected one of the chunk's " +
+                                                   std::to_string(points.size()));
+            const auto [a, b, c, d] = rows[i];
+            all.push_back(
+                std::bit_cast<Query>(std::array{points[a], points[b], points[c], points[d]}));
+        }
+    }
+
+    handle file_;
+    ccd::kind kind_;
+    rows_on_disk points_, queries_, first_point_;
+    std::optional<rows_on_disk> truth_;
+    std::vector<std::uint64_t> begins_;  // of each chunk's points, and their end
+};
+
+store_reader::store_reader(std::string_view bytes, const std::string& name) {
+    const hdf5::quiet_use use;
+    opened_ = std::make_unique<opened>(opened_image(bytes, name), name);
+}
+
+store_reader::store_reader(const std::filesystem::path& path) {
+    const hdf5::quiet_use use;
+    const std::string name = path.string();
+    opened_ = std::make_unique<opened>(
+        handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, name), name);
+}
+
+store_reader::~store_reader() {
+    const hdf5::quiet_use use;
+    opened_.reset();
+}
+store_reader::store_reader(store_reader&&) noexcept = default;
+store_reader& store_reader::operator=(store_reader&& other) noexcept {
+    std::swap(opened_, other.opened_);
+    return *this;
+}
+
+ccd::kind store_reader::kind() const {
+    return opened_->kind();
+}
+std::uint64_t store_reader::size() const {
+    return opened_->size();
+}
+query_file store_reader::read(std::uint64_t begin, std::uint64_t end) const {
+    const hdf5::quiet_use use;
+    return opened_->read(begin, end);
+}
+
+}  // namespace ccd::io
