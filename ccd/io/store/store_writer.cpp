@@ -105,7 +105,7 @@ std::string store_of(const store_parts& parts) {
     write_attribute(file, "version", H5T_STD_U32LE, H5T_NATIVE_UINT32, &version);
     write_text(file, "kind", parts.kind);
     // What is larger takes longer to decompress than to read.
-    const bool compressed = parts.query_count <= queries_of_a_chunk;
+    const bool compressed = parts.query_count <= 4096;
     const std::span all(parts.queries, 4 * parts.query_count);
     const hid_t index = *std::ranges::max_element(all) < 65536 ? H5T_STD_U16LE : H5T_STD_U32LE;
     write(file,
