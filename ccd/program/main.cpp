@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "ccd/io/store/store_reader.hpp"
 #include "ccd/program/command.hpp"
 #include "errbound/support/program.hpp"
 
@@ -39,6 +40,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace ccd::program
 
 int main(int argc, char** argv) {
+    ccd::io::leave_stores_at_exit();
     return errbound::support::run_program(
         "ccd", [&] { return ccd::program::run_command_line(argc, argv); });
 }

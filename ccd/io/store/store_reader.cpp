@@ -133,6 +133,10 @@ handle opened_image(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
+void leave_stores_at_exit() {
+    H5dont_atexit();
+}
+
 class store_reader::opened {
   public:
     opened(handle file, const std::string& name)

@@ -21,6 +21,10 @@ constexpr bool is_store(std::string_view first_bytes) {
     return first_bytes.starts_with("\x89HDF\r\n\x1a\n");
 }
 
+/// For programs that use no HDF5 of their own, before all else: the library does nothing at exit,
+/// where 1.10 prints complaints if it has met a damaged file.
+void leave_stores_at_exit();
+
 /// Every call throws errbound::support::file_error where the file is damaged or no store, with
 /// `name` in its message. One call at a time in a process: they wait for each other.
 class store_reader {

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string>
 
+#include "ccd/io/store/store_reader.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/mpi/commands.hpp"
 #include "errbound/study/program.hpp"
@@ -50,5 +51,6 @@ exit_status run_command_line(int argc, char** argv) {
 }  // namespace ccd::program
 
 int main(int argc, char** argv) {
+    ccd::io::leave_stores_at_exit();
     return errbound::study::run_over_ranks("ccd_mpi", argc, argv, ccd::program::run_command_line);
 }

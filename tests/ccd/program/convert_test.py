@@ -1,0 +1,67 @@
+# `ccd convert`: stored queries from CSV to HDF5 and back, and what is refused.
+import json
+import os
+import pathlib
+import unittest
+
+from program_test import HIT, MISS, ProgramTest, with_truth
+
+
+class ConvertTest(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.folder = self.directory
+        if "without HDF5" in self.run_program("convert", "none.csv", "none.h5").stderr:
+            self.skipTest("built without HDF5")
+        self.write("vf.csv", with_truth(HIT, 1) + with_truth(MISS, 0))
+
+    def bad(self, status, message, *arguments):
+        done = self.run_program(*arguments)
+        self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
+        self.assertIn(message, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_there_and_back(self):
+        self.good("convert", self.folder / "vf.csv", self.folder / "vf.csv.h5", "--kind", "vf")
+        table = self.folder / "table.json"
+        self.good("convert", self.folder / "vf.csv.h5", self.folder / "back-vf.csv", "--json", table)
+        rows = json.loads(table.read_text())
+        self.assertEqual([(pathlib.Path(r["file"]).name, r["queries"]) for r in rows],
+                         [("vf.csv.h5", 2), ("back-vf.csv", 2)])
+        for row in rows:
+            self.assertEqual(row["bytes"], os.path.getsize(row["file"]))
+        self.good("convert", self.folder / "back-vf.csv", self.folder / "again.h5")
+        self.assertEqual((self.folder / "again.h5").read_bytes(), (self.folder / "vf.csv.h5").read_bytes())
+        results = self.folder / "results.json"
+        self.good("query", self.folder / "vf.csv.h5", self.folder / "vf.csv", "--method", "exact", "--json", results)
+        first, second = ({k: v for k, v in r.items() if k not in ("file", "ns_per_query")}
+                         for r in json.loads(results.read_text()))
+        self.assertEqual(first, second)
+
+    def test_files_are_joined(self):
+        self.good("convert", self.folder / "vf.csv", self.folder / "vf.csv", self.folder / "two.h5")
+        out = self.good("query", self.folder / "two.h5", "--method", "exact")
+        self.assertRegex(out, r"two\.h5 +vf +exact +4 +2 +0 +0")
+
+    def test_what_is_refused(self):
+        vf, out = self.folder / "vf.csv", self.folder / "out.h5"
+        plain = self.write("plain-vf.csv", HIT)
+        edges = self.write("ee.csv", with_truth(HIT, 1))
+        self.bad(2, "expected a name that ends in .h5, .hdf5 or .csv", "convert", vf, self.folder / "out.txt")
+        self.bad(1, "plain-vf.csv: found queries without truth, expected it as in the first file",
+                 "convert", vf, plain, out)
+        self.bad(1, "ee.csv: found queries of kind edge_edge, expected vertex_face", "convert", vf, edges, out)
+        self.bad(2, "among the inputs or twice", "convert", vf, vf)
+        self.bad(1, "none.csv: found no such file", "convert", self.folder / "none.csv", out)
+        self.assertFalse(out.exists())
+        self.good("convert", vf, out)
+        self.bad(1, "out.h5: found queries of kind vertex_face, expected edge_edge", "query", out, "--kind", "ee")
+        whole = out.read_bytes()
+        out.write_bytes(whole[:60] + bytes([whole[60] ^ 255]) + whole[61:])
+        self.bad(1, "out.h5: ", "query", out)
+        out.write_bytes(whole[:-100])
+        self.bad(1, "out.h5: cannot be read", "query", out)
+
+
+if __name__ == "__main__":
+    unittest.main()
