@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -74,20 +76,57 @@ def read_queries(path: str | os.PathLike[str], kind: str | None = None, *,
     """Vertex/face or edge/edge queries, eight rows each: four points at t = 0, then at t = 1.
 
     Rows are rationals, decimal or hexadecimal floats (docs/program.md); truth is their last column, or
-    in the JSON file beside them. kind, "vertex_face" or "edge_edge", is told from the path if None. With
+    in the JSON file beside them. Stores, as `ccd convert` makes them, are read by h5py, if it is installed. kind, "vertex_face" or "edge_edge", is told from the path if None. With
     round, numbers that no double equals are rounded instead of refused.
     """
+    name = _name(path)
+    if _is_store(name):
+        return _read_store(name, kind)
     short = None if kind is None else {"vertex_face": "vf", "edge_edge": "ee"}.get(kind)
     if kind is not None and short is None:
         raise ValueError(f"kind: found {kind!r}, expected 'vertex_face' or 'edge_edge'")
-    name, rows, truth = _native.read_queries(_name(path), short, round)
+    found, rows, truth = _native.read_queries(name, short, round)
     queries = rows.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3)
-    return Queries(queries, name, None if truth is None else truth.view(np.bool_))
+    return Queries(queries, found, None if truth is None else truth.view(np.bool_))
+
+
+def _is_store(name: str) -> bool:
+    try:
+        if not os.path.isfile(name):
+            return False
+        with open(name, "rb") as file:
+            return file.read(8) == b"\x89HDF\r\n\x1a\n"
+    except OSError:
+        return False  # told by who reads it
+
+
+def _read_store(name: str, kind: str | None) -> Queries:
+    """A store of queries, whose layout docs/program.md has."""
+    try:
+        h5py: Any = import_module("h5py")
+    except ImportError:
+        raise FileError(f"{name}: found an HDF5 file, expected CSV, or h5py installed (pip install h5py)") from None
+    try:
+        with h5py.File(name) as file:
+            stored = bytes(file.attrs["kind"]).decode()
+            begins, indices = file["first_point"][:].astype(np.int64), file["queries"]
+            chunks = [file["points"][begin:end][indices[65536 * c:65536 * (c + 1)]]
+                      for c, (begin, end) in enumerate(zip(begins, begins[1:]))]
+            truth = file["truth"][:].astype(bool) if "truth" in file else None
+    except (OSError, KeyError, IndexError, TypeError, ValueError) as error:
+        raise FileError(f"{name}: found no whole store of queries ({error})") from None
+    if kind not in (None, stored):
+        raise FileError(f"{name}: found queries of kind {stored}, expected {kind}")
+    points = np.concatenate(chunks)
+    return Queries(points.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3), stored, truth)
 
 
 def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
                   truth: ArrayLike | None = None) -> None:
-    """Queries (n, 8, 3) as rows of hexadecimal floats, exactly; truth (n,) as a fourth column."""
+    """Queries (n, 8, 3) as rows of hexadecimal floats, exactly; truth (n,) as a fourth column.
+
+    In CSV: `ccd convert` makes a store of it.
+    """
     array = doubles("queries", queries, (None, 8, 3))
     check_finite("queries", array)
     known = None if truth is None else np.asarray(truth, np.bool_)

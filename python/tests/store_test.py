@@ -1,0 +1,49 @@
+"""Stores of queries, as `ccd convert` makes them, by h5py: alone, and by io.read_queries."""
+import subprocess
+
+import numpy as np
+import pytest
+
+from errbound import FileError, io
+
+h5py = pytest.importorskip("h5py", reason="no h5py: pip install h5py")
+
+
+@pytest.fixture(scope="module")
+def files(program, tmp_path_factory):
+    """CSV, and the same as a store, of more than a chunk."""
+    folder = tmp_path_factory.mktemp("stores")
+    random = np.random.default_rng(5)
+    points = random.standard_normal((5000, 2, 3)) * 2.0 ** random.integers(-1000, 1000, (5000, 2, 3))
+    queries = points[random.integers(0, 5000, (66000, 4))].swapaxes(1, 2).reshape(-1, 8, 3)
+    io.write_queries(folder / "ee.csv", queries, random.integers(0, 2, 66000))
+    done = subprocess.run([program, "convert", folder / "ee.csv", folder / "ee.h5"], capture_output=True, text=True)
+    if "without HDF5" in done.stderr:
+        pytest.skip("the program was built without HDF5")
+    assert done.returncode == 0, done.stderr
+    return folder / "ee.csv", folder / "ee.h5"
+
+
+def test_a_store_has_what_the_rows_have(files):
+    rows, store = (io.read_queries(file) for file in files)
+    assert store.kind == rows.kind == "edge_edge" and len(store.queries) == 66000
+    np.testing.assert_array_equal(store.queries.view(np.uint64), rows.queries.view(np.uint64))
+    np.testing.assert_array_equal(store.truth, rows.truth)
+    assert files[1].stat().st_size * 10 < files[0].stat().st_size
+
+
+def test_a_store_is_read_by_h5py_alone(files):
+    with h5py.File(files[1]) as file:
+        first, last = file["first_point"][1:3]
+        points = file["points"][first:last][file["queries"][65536:]]
+    expected = io.read_queries(files[0]).queries[65536:]
+    np.testing.assert_array_equal(points.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3), expected)
+
+
+def test_what_is_no_store_is_told(files, tmp_path):
+    with pytest.raises(FileError, match="found queries of kind edge_edge, expected vertex_face"):
+        io.read_queries(files[1], "vertex_face")
+    torn = tmp_path / "torn.h5"
+    torn.write_bytes(files[1].read_bytes()[:5000])
+    with pytest.raises(FileError, match="torn.h5: found no whole store of queries"):
+        io.read_queries(torn)
