@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "ccd/io/store/hdf5.hpp"
-#include "ccd/io/stored_kinds.hpp"
 
 namespace ccd::io {
 namespace {
@@ -165,19 +164,10 @@ class store_reader::opened {
 
     query_file read(std::uint64_t begin, std::uint64_t end) const {
         query_file found;
-        visit_stored_kind(kind_, [&]<ccd::kind K>() {
-            using query = typename kind_traits<K>::template query<double>;
-            static_assert(sizeof(query) == 4 * sizeof(moving) &&
-                          std::is_trivially_copyable_v<query>);
-            auto& all = found.queries.emplace<std::vector<query>>();
-            all.reserve(end - begin);
-            for (std::uint64_t at = begin; at < end;) {
-                const std::uint64_t chunk = at / queries_of_a_chunk;
-                const std::uint64_t next = std::min(end, (chunk + 1) * queries_of_a_chunk);
-                append(chunk, at, next, all);
-                at = next;
-            }
-        });
+        if (kind_ == kind::edge_edge)
+            found.queries = queries_of<edge_edge<double>>(begin, end);
+        else
+            found.queries = queries_of<vertex_face<double>>(begin, end);
         if (truth_) {
             const auto values = truth_->read<std::uint8_t>(H5T_NATIVE_UINT8, begin, end);
             for (std::size_t i = 0; i < values.size(); ++i)
@@ -190,6 +180,20 @@ class store_reader::opened {
     }
 
   private:
+    template <class Query>
+    std::vector<Query> queries_of(std::uint64_t begin, std::uint64_t end) const {
+        static_assert(sizeof(Query) == 4 * sizeof(moving) && std::is_trivially_copyable_v<Query>);
+        std::vector<Query> all;
+        all.reserve(end - begin);
+        for (std::uint64_t at = begin; at < end;) {
+            const std::uint64_t chunk = at / queries_of_a_chunk;
+            const std::uint64_t next = std::min(end, (chunk + 1) * queries_of_a_chunk);
+            append(chunk, at, next, all);
+            at = next;
+        }
+        return all;
+    }
+
     /// Queries [begin, end) of one chunk.
     template <class Query>
     void append(std::uint64_t chunk, std::uint64_t begin, std::uint64_t end,
