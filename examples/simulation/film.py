@@ -8,8 +8,12 @@ import pathlib
 import re
 import sys
 
-import numpy
-from PIL import Image, ImageDraw
+try:
+    import numpy
+    from PIL import Image, ImageDraw
+except ImportError as missing:
+    sys.exit(f"film.py: {missing}: this Python wants NumPy and Pillow (pip install numpy pillow, or on Debian "
+             "python3-matplotlib and /usr/bin/python3)")
 
 COLOURS = numpy.array([[86, 130, 196], [214, 128, 66], [105, 164, 103], [186, 92, 110],
                        [139, 116, 178], [120, 120, 120]], float)
