@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "errbound/study/signals.hpp"
+#include "errbound/support/signals.hpp"
 
 namespace errbound::study {
 
@@ -52,7 +52,7 @@ void study::take(chunk_result found) {
 }
 
 bool study::complete(const progress& show) {
-    std::optional<awaited_signals> signals;
+    std::optional<support::awaited_signals> signals;
     static const std::atomic<bool> never = false;
     if (path_)
         signals.emplace(rank_ > 0

@@ -47,4 +47,13 @@ void findings::add(const findings& next) {
     stir(next.checksum);
 }
 
+void collector::add(std::uint64_t block, findings found) {
+    waiting_.emplace(block, std::move(found));
+    for (auto next = waiting_.find(sum_.blocks); next != waiting_.end();
+         next = waiting_.find(sum_.blocks)) {
+        sum_.add(next->second);
+        waiting_.erase(next);
+    }
+}
+
 }  // namespace soak

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace soak {
@@ -54,6 +56,20 @@ struct findings {
     void stir(std::uint64_t answer) { checksum = (checksum ^ answer) * 0x100000001b3; }
 
     friend bool operator==(const findings&, const findings&) = default;
+};
+
+/// Findings of blocks, added up in the blocks' order as they come in.
+class collector {
+  public:
+    explicit collector(findings from) : sum_(std::move(from)) {}
+
+    void add(std::uint64_t block, findings found);
+    /// Of all blocks before the first that is missing.
+    const findings& sum() const { return sum_; }
+
+  private:
+    findings sum_;
+    std::map<std::uint64_t, findings> waiting_;
 };
 
 }  // namespace soak

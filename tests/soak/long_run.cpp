@@ -50,25 +50,29 @@ count_table table_of(const json& j) {
     return table;
 }
 
-/// Finished blocks, added up in their order.
-class collector {
-  public:
-    explicit collector(findings from) : sum_(std::move(from)) {}
+json json_of(const findings& f) {
+    json all{{"blocks", f.blocks},
+             {"checksum", f.checksum},
+             {"different", f.different},
+             {"tables", json::array()},
+             {"differences", json::array()}};
+    for (const count_table& table : f.tables) all["tables"].push_back(json_of(table));
+    for (const difference& d : f.differences)
+        all["differences"].push_back({{"text", d.text}, {"file", d.file}, {"lines", d.lines}});
+    return all;
+}
 
-    void add(std::uint64_t block, findings found) {
-        waiting_.emplace(block, std::move(found));
-        for (auto next = waiting_.find(sum_.blocks); next != waiting_.end();
-             next = waiting_.find(sum_.blocks)) {
-            sum_.add(next->second);
-            waiting_.erase(next);
-        }
-    }
-    const findings& sum() const { return sum_; }
-
-  private:
-    findings sum_;
-    std::map<std::uint64_t, findings> waiting_;
-};
+findings findings_of(const json& all) {
+    findings f;
+    f.blocks = whole(all.at("blocks"));
+    f.checksum = all.at("checksum").get<std::uint64_t>();
+    f.different = whole(all.at("different"));
+    for (const json& table : all.at("tables")) f.tables.push_back(table_of(table));
+    for (const json& d : all.at("differences"))
+        f.differences.push_back({d.at("text").get<std::string>(), d.at("file").get<std::string>(),
+                                 d.at("lines").get<std::string>()});
+    return f;
+}
 
 /// Threads that compare block after block, and what they have found.
 class comparing_threads {
@@ -159,18 +163,9 @@ std::uint64_t part::blocks_for(std::uint64_t questions) const {
 }
 
 std::string to_json(const state& s, const part& of) {
-    json all{{"part", of.name},
-             {"version", of.version},
-             {"seed", s.seed},
-             {"blocks", s.found.blocks},
-             {"seconds", s.seconds},
-             {"checksum", s.found.checksum},
-             {"different", s.found.different},
-             {"tables", json::array()},
-             {"differences", json::array()}};
-    for (const count_table& table : s.found.tables) all["tables"].push_back(json_of(table));
-    for (const difference& d : s.found.differences)
-        all["differences"].push_back({{"text", d.text}, {"file", d.file}, {"lines", d.lines}});
+    json all = json_of(s.found);
+    all.update(
+        {{"part", of.name}, {"version", of.version}, {"seed", s.seed}, {"seconds", s.seconds}});
     return all.dump(1) + "\n";
 }
 
@@ -179,21 +174,19 @@ state from_json(const std::string& text, const part& of) {
         const json all = json::parse(text);
         if (all.at("part") != of.name || all.at("version") != of.version)
             throw std::runtime_error("the run asked other questions than this program does");
-        state s;
-        s.seed = all.at("seed").get<std::uint64_t>();
-        s.seconds = all.at("seconds").get<double>();
-        s.found.blocks = whole(all.at("blocks"));
-        s.found.checksum = all.at("checksum").get<std::uint64_t>();
-        s.found.different = whole(all.at("different"));
-        for (const json& table : all.at("tables")) s.found.tables.push_back(table_of(table));
-        for (const json& d : all.at("differences"))
-            s.found.differences.push_back({d.at("text").get<std::string>(),
-                                           d.at("file").get<std::string>(),
-                                           d.at("lines").get<std::string>()});
-        return s;
+        return {all.at("seed").get<std::uint64_t>(), findings_of(all),
+                all.at("seconds").get<double>()};
     } catch (const json::exception& error) {
         throw std::runtime_error(std::string("not the state of a run: ") + error.what());
     }
+}
+
+std::string line_of(const findings& found) {
+    return json_of(found).dump();
+}
+
+findings findings_of(const std::string& line) {
+    return findings_of(json::parse(line));
 }
 
 fs::path state_path(const fs::path& folder) {
@@ -214,7 +207,7 @@ void save(const state& s, const part& of, const fs::path& folder) {
 }
 
 state run(state from, const run_options& options, const part& what, const std::atomic<bool>& stop,
-          const std::function<void(const state&)>& progress) {
+          const progress& show) {
     // A folder that cannot be written to is refused now, not in an hour.
     save(from, what, options.folder);
     const clock::time_point start = clock::now();
@@ -229,7 +222,7 @@ state run(state from, const run_options& options, const part& what, const std::a
             save(current, what, options.folder);
             saved = clock::now();
         }
-        progress(current);
+        show(current);
     }
     const state last = now();
     save(last, what, options.folder);

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "tests/soak/findings.hpp"
 
@@ -43,6 +42,10 @@ struct state {
 std::string to_json(const state& s, const part& of);
 state from_json(const std::string& text, const part& of);
 
+/// Findings as one line, and back.
+std::string line_of(const findings& found);
+findings findings_of(const std::string& line);
+
 /// Where a run keeps its state; files of differing queries lie beside it.
 std::filesystem::path state_path(const std::filesystem::path& folder);
 
@@ -57,28 +60,13 @@ struct run_options {
     double seconds_between_saves = 30;
 };
 
+/// Called now and then, from the calling thread.
+using progress = std::function<void(const state&)>;
+
 /// Continues `from` until all blocks are done or `stop` is set, and saves now and then and at the
 /// end. Blocks count in their order alone, so the result depends on nothing but seed and number of
-/// blocks. `progress` is called about ten times a second, from the calling thread. Throws what the
-/// part or save throws.
+/// blocks. `show` is called about ten times a second. Throws what the part or save throws.
 state run(state from, const run_options& options, const part& what, const std::atomic<bool>& stop,
-          const std::function<void(const state&)>& progress);
-
-/// The processes that share a run: the ranks of MPI.
-struct team {
-    std::size_t rank = 0, size = 1;
-    /// Everybody's text, by rank, on rank 0; collective, as is share.
-    std::function<std::vector<std::string>(const std::string&)> gather = {};
-    /// Rank 0's text, on all.
-    std::function<std::string(const std::string&)> share = {};
-};
-
-/// The same for a team, with the same result and the same state on disk, which rank 0 alone writes:
-/// whatever the number of ranks, a run goes on from where another one of it stopped. In rounds of a
-/// few seconds, of which each rank compares every size-th block; `stop` of rank 0 counts. Where a
-/// rank dies MPI ends the others, and what was saved last stays. Throws on all ranks what a part
-/// throws on one. Returns the whole run's state on rank 0, its number of blocks on the others.
-state run_shared(const team& who, state from, const run_options& options, const part& what,
-                 const std::atomic<bool>& stop, const std::function<void(const state&)>& progress);
+          const progress& show);
 
 }  // namespace soak

@@ -4,23 +4,21 @@
 import json
 import os
 import pathlib
-import subprocess
+import sys
 import unittest
 
 from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, ply
 
+sys.path.append(str(SOURCE / "tests/support"))
+import over_ranks
+
 SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
 RANKS = (1, 2, 3, 5)
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                   OMPI_MCA_rmaps_base_oversubscribe="1")
 
 
 class DistributedStep(ProgramTest):
     def over_ranks(self, ranks, *arguments):
-        return subprocess.run(
-            [os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks),
-             os.environ["CCD_MPI_PROGRAM"], *map(str, arguments)],
-            capture_output=True, text=True, timeout=300, env=ENVIRONMENT)
+        return over_ranks.run(ranks, os.environ["CCD_MPI_PROGRAM"], *arguments)
 
     def expect_same(self, before, after):
         one = [self.directory / f"one.{what}" for what in ("pairs", "toi", "json")]
@@ -30,7 +28,7 @@ class DistributedStep(ProgramTest):
         expected = json.loads(one[2].read_text())
         for ranks in RANKS:
             done = self.over_ranks(ranks, "step", before, after, "--candidates", *options(all_))
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual((done[0], done[2]), (0, ""))
             self.assertEqual(all_[0].read_bytes(), one[0].read_bytes())
             self.assertEqual(all_[1].read_bytes(), one[1].read_bytes())
             found = json.loads(all_[2].read_text())
@@ -68,9 +66,9 @@ class DistributedStep(ProgramTest):
                 ("--toi: found --method tight", 2, (a, a, "--method", "tight", "--toi", "-")),
                 ("found the output", 1, (a, a, "--pairs", a))):
             for ranks in (1, 3):
-                done = self.over_ranks(ranks, "step", *arguments)
-                self.assertEqual(done.returncode, status, done.stderr)
-                self.assertEqual(done.stderr.count(message), 1, done.stderr)
+                found, _, err = self.over_ranks(ranks, "step", *arguments)
+                self.assertEqual(found, status, err)
+                self.assertEqual(err.count(message), 1, err)
 
 
 if __name__ == "__main__":

@@ -4,47 +4,27 @@
 import fcntl
 import json
 import os
-import pathlib
 import random
 import signal
-import subprocess
+import sys
 import time
 import unittest
 
-from program_test import HIT, MISS, ProgramTest, with_truth
+from program_test import HIT, MISS, SOURCE, ProgramTest, with_truth
 
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                   OMPI_MCA_rmaps_base_oversubscribe="1")
-
+sys.path.append(str(SOURCE / "tests/support"))
+import over_ranks
 
 def without_times(results):
     return [{key: value for key, value in r.items() if key != "ns_per_query"} for r in results]
 
 
-def children(process):
-    """The processes that it has started."""
-    found = []
-    for status in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        try:
-            fields = status.read_text().rsplit(")", 1)[1].split()
-        except OSError:
-            continue  # it has ended meanwhile
-        if int(fields[1]) == process.pid:
-            found.append(int(status.parent.name))
-    return sorted(found)
-
-
 class StudyTest(ProgramTest):
     def start_over(self, ranks, *arguments):
-        return subprocess.Popen(
-            [os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks),
-             os.environ["CCD_MPI_PROGRAM"], *map(str, arguments)],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
+        return over_ranks.start(ranks, os.environ["CCD_MPI_PROGRAM"], *arguments)
 
     def over_ranks(self, ranks, *arguments):
-        process = self.start_over(ranks, *arguments)
-        out, err = process.communicate(timeout=300)
-        return process.returncode, out, err
+        return over_ranks.run(ranks, os.environ["CCD_MPI_PROGRAM"], *arguments)
 
     def good_over(self, ranks, *arguments):
         status, out, err = self.over_ranks(ranks, *arguments)
@@ -110,7 +90,7 @@ class Query(StudyTest):
         self.good("query", file, "--method", "exact", "--verdicts", one)
         arguments = ("query", file, "--method", "exact", "--chunk", 20, "--verdicts", all_)
         process = self.started(3, kept, *arguments)
-        os.kill(children(process)[1], signal_)
+        os.kill(over_ranks.pids(process)[1], signal_)
         begin = time.monotonic()
         out, err = process.communicate(timeout=60)
         self.assertLess(time.monotonic() - begin, 15)
@@ -146,7 +126,7 @@ class Query(StudyTest):
         arguments = ("query", file, "--method", "exact", "--chunk", 20, "--verdicts",
                      self.directory / "all.txt")
         process = self.started(2, kept, *arguments)
-        os.kill(children(process)[0], signal.SIGKILL)
+        os.kill(over_ranks.pids(process)[0], signal.SIGKILL)
         process.communicate(timeout=60)
         good = kept.read_bytes()
         one = self.directory / "one.txt"
@@ -181,7 +161,7 @@ class Query(StudyTest):
         kept.unlink()
         slow = ("query", self.slow("slow-vf.csv"), "--chunk", 20, "--journal", kept, "--method")
         process = self.started(2, kept, *slow[:-3], "--method", "exact")
-        os.kill(children(process)[0], signal.SIGKILL)
+        os.kill(over_ranks.pids(process)[0], signal.SIGKILL)
         process.communicate(timeout=60)
         self.bad_over(1, 1, "kept:1: found the journal of another study", *slow, "tight")
         with kept.open() as held:
@@ -210,7 +190,7 @@ class Stress(StudyTest):
                    "scale,offset,displacement,sliver,stiff")
         self.good(*options, "--out", one)
         process = self.started(3, kept, *options, "--out", all_)
-        os.kill(children(process)[2], signal.SIGKILL)
+        os.kill(over_ranks.pids(process)[2], signal.SIGKILL)
         out, err = process.communicate(timeout=60)
         self.assertEqual((process.returncode, out), (137, ""), err)
         self.assertEqual(list(all_.iterdir()), [])

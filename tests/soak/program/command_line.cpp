@@ -1,45 +1,31 @@
-// ./run soak: `exact`, one by one and in batches, on millions of queries: against the reference, or
-// against itself on images of them; steps and advances of meshes against every pair; roots against
-// FLINT.
+// The command line of the soak: which part, how far it is, what it has found.
 #include "tests/soak/program/command_line.hpp"
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/signals.hpp"
 #include "errbound/support/table.hpp"
 #include "tests/soak/comparison.hpp"
 #include "tests/soak/first_times.hpp"
-#include "tests/soak/long_run.hpp"
 #include "tests/soak/polynomials.hpp"
 #include "tests/soak/steps/advances.hpp"
 #include "tests/soak/steps/meshes.hpp"
 #include "tests/soak/symmetries.hpp"
 
+namespace soak {
 namespace {
 
 namespace fs = std::filesystem;
 using errbound::support::grouped;
-
-std::atomic<bool> stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
-volatile std::sig_atomic_t caught_signal = 0;
-
-void ask_to_stop(int signal) {
-    caught_signal = signal;
-    stop = true;
-}
 
 std::string duration(double seconds) {
     const auto minutes = static_cast<std::uint64_t>(seconds / 60);
@@ -169,42 +155,7 @@ std::vector<soak::decider> compared_with_reference() {
     return all;
 }
 
-/// Runs the part to its end or to a signal; returns the exit status.
-int carry_out(const soak::team& who, const soak::part& part, const soak::run_options& options,
-              const soak::state& from) {
-    struct sigaction action {};
-    action.sa_handler = ask_to_stop;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second signal ends the program at once
-    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
-
-    std::printf("%s, seed %ju: %s of %s %s done\n", part.name.c_str(), std::uintmax_t{from.seed},
-                grouped(part.count(from.found.blocks)).c_str(),
-                grouped(part.count(options.blocks)).c_str(), part.unit.c_str());
-    std::fflush(stdout);
-    progress_display display(part, from, options.blocks);
-    const auto show = [&](const soak::state& now) { display(now); };
-    const soak::state last = who.size == 1 ? soak::run(from, options, part, stop, show)
-                                           : soak::run_shared(who, from, options, part, stop, show);
-    if (who.rank != 0) return 0;
-    display.end();
-    report(part, last, options.folder);
-    if (last.found.different > 0) return 1;
-    if (last.found.blocks < options.blocks) {
-        std::printf("stopped by signal %d; --resume goes on\n", static_cast<int>(caught_signal));
-        return 3;
-    }
-    return 0;
-}
-
-/// Which part, and how much of it.
-struct choice {
-    std::uint64_t count = 20'000'000;
-    soak::part (*part)() = [] {
-        return soak::comparison_part(soak::reference(), compared_with_reference());
-    };
-};
-
-void add_parts(CLI::App& app, choice& chosen) {
+void add_parts(CLI::App& app, command_line::choice& chosen) {
     CLI::Option* const queries =
         app.add_option("--queries", chosen.count,
                        "At least so many, a resumed run's earlier ones included")
@@ -242,56 +193,54 @@ void add_parts(CLI::App& app, choice& chosen) {
 #endif
 }
 
-/// The state to go on from, as rank 0 reads it. Throws on all ranks what is wrong with it.
-soak::state begin_shared(const soak::team& who, const soak::part& of,
-                         const std::function<soak::state()>& begin) {
-    if (who.size == 1) return begin();
-    std::string text, failure;
-    if (who.rank == 0) try {
-            text = soak::to_json(begin(), of);
-        } catch (const std::exception& error) {
-            failure = error.what();
-        }
-    failure = who.share(failure);
-    if (!failure.empty()) throw std::runtime_error(failure);
-    return soak::from_json(who.share(text), of);
-}
-
 }  // namespace
 
-int soak::run_program(int argc, char** argv, const team& who) try {
-    CLI::App app{"What is exact against a reference, or against itself."};
-    app.name("./run soak");
-    choice chosen;
-    std::uint64_t seed = 1;
-    bool resume = false, anew = false;
-    run_options options;
-    add_parts(app, chosen);
-    CLI::Option* const seed_option =
-        app.add_option("--seed", seed, "Same seed, same questions")->capture_default_str();
-    app.add_flag("--resume", resume, "Go on where the last run stopped");
-    app.add_flag("--anew", anew, "Forget the last run")->excludes("--resume");
-    app.add_option("--threads", options.threads, "Of each rank; 0: one per core")
+command_line::command_line(const std::string& how, unsigned threads) {
+    options_.threads = threads;
+    chosen_.part = [] {
+        return soak::comparison_part(soak::reference(), compared_with_reference());
+    };
+    app_.name(how);
+    add_parts(app_, chosen_);
+    seed_option_ =
+        app_.add_option("--seed", seed_, "Same seed, same questions")->capture_default_str();
+    app_.add_flag("--resume", resume_, "Go on where the last run stopped");
+    app_.add_flag("--anew", anew_, "Forget the last run")->excludes("--resume");
+    app_.add_option("--threads", options_.threads, "0: one per core; over ranks those of each")
         ->capture_default_str();
-    app.add_option("--folder", options.folder,
-                   "For the state and what differs; by default out/soak/PART");
-    app.footer(
+    app_.add_option("--folder", options_.folder,
+                    "For the state and what differs; by default out/soak/PART");
+    app_.footer(
         "Exit status: 0 no difference, 1 a difference or bad input, 2 bad usage, 3 stopped "
         "by a signal (go on with --resume).");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    const struct part part = chosen.part();
-    if (options.folder.empty()) options.folder = fs::path("out/soak") / part.name;
-    options.blocks = part.blocks_for(chosen.count);
-    const state from = begin_shared(who, part, [&] {
-        if (anew) fs::remove(state_path(options.folder));
-        return begin(part, seed, seed_option->count() > 0, resume, options.folder);
-    });
-    return carry_out(who, part, options, from);
-} catch (const std::exception& error) {
-    if (who.rank == 0) std::fprintf(stderr, "soak: %s\n", error.what());
-    return 1;
 }
+
+void command_line::parse(int argc, char** argv) {
+    app_.parse(argc, argv);
+    part_ = chosen_.part();
+    if (options_.folder.empty()) options_.folder = fs::path("out/soak") / part_.name;
+    options_.blocks = part_.blocks_for(chosen_.count);
+}
+
+int command_line::run(const runner& run_part) const {
+    if (anew_) fs::remove(soak::state_path(options_.folder));
+    const state from = begin(part_, seed_, seed_option_->count() > 0, resume_, options_.folder);
+    const errbound::support::awaited_signals signals("soak: asked to end; --resume goes on\n");
+    std::printf("%s, seed %ju: %s of %s %s done\n", part_.name.c_str(), std::uintmax_t{from.seed},
+                grouped(part_.count(from.found.blocks)).c_str(),
+                grouped(part_.count(options_.blocks)).c_str(), part_.unit.c_str());
+    std::fflush(stdout);
+    progress_display display(part_, from, options_.blocks);
+    const soak::state last = run_part(from, options_, part_, signals.arrived(),
+                                      [&](const soak::state& now) { display(now); });
+    display.end();
+    report(part_, last, options_.folder);
+    if (last.found.different > 0) return 1;
+    if (last.found.blocks < options_.blocks) {
+        std::printf("stopped by signal %d; --resume goes on\n", signals.signal());
+        return 3;
+    }
+    return 0;
+}
+
+}  // namespace soak

@@ -1,91 +1,123 @@
-"""A soak over the ranks of MPI: the same as in one process, for every number of ranks; a rank that is
-killed ends the run, which goes on from its state, over ranks or alone, to the same result.
+"""The soak over ranks: the state of one process, also after a rank was killed, and each goes on with
+the other's.
 """
+
 import json
 import os
+import pathlib
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
-from pathlib import Path
 
-ALONE, SHARED = os.environ["SOAK_PROGRAM"], os.environ["SOAK_MPI_PROGRAM"]
-ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                   OMPI_MCA_rmaps_base_oversubscribe="1")
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+import over_ranks
 
 
-def children_of(process):
-    """By Linux's /proc: the process's number, its name in parentheses, its state, its parent, ..."""
-    found = []
-    for stat in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            text = stat.read_text()
-        except OSError:  # it has ended
-            continue
-        if int(text.rpartition(")")[2].split()[1]) == process:
-            found.append(int(stat.parent.name))
-    return sorted(found)
-
-
-class SharedSoak(unittest.TestCase):
+class OverRanks(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        self.folder = pathlib.Path(folder.name)
 
-    def command(self, name, ranks, queries, *options):
-        launcher = [os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks), SHARED]
-        return [*(launcher if ranks else [ALONE]), "--threads", "1", "--folder", str(self.folder / name),
-                "--queries", str(queries), *options]
+    def start(self, ranks, name, *options):
+        program = os.environ["SOAK_MPI_PROGRAM"]
+        return over_ranks.start(ranks, program, "--folder", self.folder / name, *options)
 
-    def run_to_end(self, name, ranks, queries, *options):
-        done = subprocess.run(self.command(name, ranks, queries, *options), capture_output=True, text=True,
-                              timeout=300, env=ENVIRONMENT)
+    def run_over(self, ranks, name, *options):
+        program = os.environ["SOAK_MPI_PROGRAM"]
+        return over_ranks.run(ranks, program, "--folder", self.folder / name, *options)
+
+    def run_in_one(self, name, *options):
+        folder = str(self.folder / name)
+        command = [os.environ["SOAK_PROGRAM"], "--folder", folder, *options]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertEqual(done.stdout.count(" 0 differ, checksum "), 1, done.stdout)
 
     def state(self, name):
         state = json.loads((self.folder / name / "state.json").read_text())
         del state["seconds"]
         return state
 
-    def test_same_for_every_number_of_ranks(self):
-        self.run_to_end("alone", 0, 8000)
-        for ranks in (1, 2, 3):
-            self.run_to_end(f"{ranks}", ranks, 8000)
-            self.assertEqual(self.state(f"{ranks}"), self.state("alone"))
+    def expect_same(self, *part):
+        self.run_in_one("one", *part)
+        for ranks in (1, 2, 5):
+            status, out, err = self.run_over(ranks, f"over{ranks}", *part)
+            self.assertEqual((status, err), (0, ""))
+            self.assertIn(" 0 differ, checksum ", out)
+            self.assertEqual(self.state(f"over{ranks}"), self.state("one"))
 
-    def test_goes_on_after_a_rank_was_killed(self):
-        many = 10**9
-        run = subprocess.Popen(self.command("killed", 3, many, "--symmetries"), stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, start_new_session=True)
-        try:
-            run.stdout.readline()  # only then has it started
-            time.sleep(2)
-            ranks = children_of(run.pid)
-            self.assertEqual(len(ranks), 3)
-            os.kill(ranks[1], signal.SIGKILL)
-            _, error = run.communicate(timeout=30)  # within seconds
-        finally:
-            if run.poll() is None:
-                os.killpg(run.pid, signal.SIGKILL)
-        self.assertNotEqual(run.returncode, 0)
-        self.assertIn("signal 9", error)
+    def test_same_as_one_process(self):
+        self.expect_same("--queries", "4000", "--seed", "3")
+
+    def test_meshes(self):
+        self.expect_same("--meshes", "300")
+
+    def begun(self, ranks, name, *options):
+        """A run that has done something."""
+        process = self.start(ranks, name, *options)
+        path = self.folder / name / "state.json"
+        while not path.exists() or json.loads(path.read_text())["blocks"] == 0:
+            self.assertIsNone(process.poll(), "ended too soon")
+            time.sleep(0.01)
+        return process
+
+    def test_killed_and_resumed(self):
+        part = ("--queries", "60000")
+        self.run_in_one("one", *part)
+        killed = self.begun(3, "all", *part)
+        os.kill(over_ranks.pids(killed)[1], signal.SIGKILL)
+        begin = time.monotonic()
+        _, err = killed.communicate(timeout=60)
+        self.assertLess(time.monotonic() - begin, 15)
+        self.assertEqual(killed.returncode, 137)
+        self.assertIn("exited on signal 9", err)
+        self.assertIn("soak: asked to end; --resume goes on\n", err)
+        self.assertLess(self.state("all")["blocks"], self.state("one")["blocks"])
+
+        asked = self.start(2, "all", *part, "--resume")
+        asked.stdout.readline()  # only then has it started
+        os.kill(over_ranks.pids(asked)[0], signal.SIGTERM)
+        out, err = asked.communicate(timeout=60)
+        if asked.returncode != 0:
+            self.assertEqual(asked.returncode, 3, err)
+            self.assertIn("--resume goes on", out)
+        self.run_in_one("all", *part, "--resume")
+        self.assertEqual(self.state("all"), self.state("one"))
+
+        more = ("--queries", "64000", "--resume")
+        self.run_in_one("one", *more)
+        self.assertEqual(self.run_over(3, "all", *more)[0], 0)
+        self.assertEqual(self.state("all"), self.state("one"))
+
+    def test_symmetries_go_on_over_other_ranks_and_alone(self):
+        killed = self.begun(3, "killed", "--queries", str(10**9), "--symmetries")
+        os.kill(over_ranks.pids(killed)[1], signal.SIGKILL)
+        _, err = killed.communicate(timeout=30)  # within seconds
+        self.assertNotEqual(killed.returncode, 0)
+        self.assertIn("signal 9", err)
         blocks = self.state("killed")["blocks"]
-        # Over other ranks, then alone: as if nothing had been.
-        queries = 40000
-        self.run_to_end("killed", 2, queries // 2, "--symmetries", "--resume")
-        self.run_to_end("killed", 0, queries, "--symmetries", "--resume")
-        self.run_to_end("whole", 0, queries, "--symmetries")
+        queries = 600000  # more blocks than the killed run has done
+        status, out, err = self.run_over(2, "killed", "--queries", str(queries // 2), "--symmetries", "--resume")
+        self.assertEqual((status, err), (0, ""))
+        self.run_in_one("killed", "--queries", str(queries), "--symmetries", "--resume")
+        self.run_in_one("whole", "--queries", str(queries), "--symmetries")
         self.assertGreaterEqual(self.state("killed")["blocks"], blocks)
         self.assertEqual(self.state("killed"), self.state("whole"))
 
-    def test_what_is_wrong_is_told_once(self):
-        self.run_to_end("there", 0, 4000)
-        done = subprocess.run(self.command("there", 3, 8000), capture_output=True, text=True, env=ENVIRONMENT)
-        self.assertEqual(done.returncode, 1)
-        self.assertEqual(done.stderr.count("found a run's state"), 1, done.stderr)
+    def test_errors_are_told_once(self):
+        self.assertEqual(self.run_over(2, "once", "--queries", "1")[0], 0)
+        for status, message, options in (
+            (1, "found a run's state; go on with --resume", ("--queries", "1")),
+            (1, "found seed 1, expected the seed given, 2", ("--resume", "--seed", "2")),
+            (2, "--unknown", ("--unknown",)),
+        ):
+            for ranks in (1, 3):
+                found, _, err = self.run_over(ranks, "once", *options)
+                self.assertEqual(found, status, err)
+                self.assertEqual(err.count(message), 1, err)
 
 
 if __name__ == "__main__":

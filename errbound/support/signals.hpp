@@ -7,22 +7,24 @@
 #include <atomic>
 #include <string>
 
-namespace errbound::study {
+namespace errbound::support {
 
 /// While one lives, the first SIGINT or SIGTERM sets a flag and prints a line to standard error;
 /// another ends the program. At most one at a time.
 class awaited_signals {
   public:
     /// `line`, if not empty, is printed at once: whoever sends the signal may not wait for long.
-    explicit awaited_signals(const std::string& line);
+    explicit awaited_signals(const std::string& line = {});
     ~awaited_signals();
     awaited_signals(const awaited_signals&) = delete;
     awaited_signals& operator=(const awaited_signals&) = delete;
 
     const std::atomic<bool>& arrived() const;
+    /// Which has, if one has.
+    int signal() const;
 
   private:
     std::array<struct sigaction, 2> before_;
 };
 
-}  // namespace errbound::study
+}  // namespace errbound::support

@@ -1,23 +1,26 @@
 // Handlers of the signals that end long work.
-#include "errbound/study/signals.hpp"
+#include "errbound/support/signals.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
 
-namespace errbound::study {
+namespace errbound::support {
 namespace {
 
 constexpr std::array signals{SIGINT, SIGTERM};
 std::atomic<bool> caught = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "set by a signal handler");
+std::atomic<int> which = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "set by a signal handler");
 
 // A handler may not allocate.
 std::array<char, 4096> line_to_print;
 std::size_t line_length = 0;
 
-void catch_signal(int) {
+void catch_signal(int signal) {
+    which = signal;
     if (caught.exchange(true)) return;
     [[maybe_unused]] const ssize_t ignored =
         ::write(STDERR_FILENO, line_to_print.data(), line_length);
@@ -43,4 +46,8 @@ const std::atomic<bool>& awaited_signals::arrived() const {
     return caught;
 }
 
-}  // namespace errbound::study
+int awaited_signals::signal() const {
+    return which;
+}
+
+}  // namespace errbound::support
