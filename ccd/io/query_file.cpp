@@ -301,12 +301,17 @@ fs::path truth_beside(const fs::path& path) {
 query_file parse_stored_queries(std::string_view bytes, const std::string& name,
                                 std::optional<ccd::kind> kind, bool round) {
     if (!is_store(bytes)) return parse_queries(bytes, name, kind_of_file(name, kind), round);
-    const store_reader store(bytes, name);
+    store_reader store(bytes, name);
     kind_in(store, name, kind);
     return store.read(0, store.size());
 }
 
 query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round) {
+    if (is_store_file(path)) {  // without a copy of all that is in it
+        store_reader store(path);
+        kind_in(store, path, kind);
+        return store.read(0, store.size());
+    }
     const std::string text = read_whole(path);
     query_file result = parse_stored_queries(text, path.string(), kind, round);
     if (result.truth || is_store(text)) return result;

@@ -1,19 +1,16 @@
 // `ccd convert`: stored queries from CSV to a store and back.
 #include <ccd/io/query_store.hpp>
-#include <charconv>
+#include <ccd/methods/transform.hpp>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string_view>
-#include <type_traits>
 
 #include "ccd/io/query_ranges.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/options.hpp"
+#include "ccd/stress/generators/query_points.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
@@ -33,32 +30,13 @@ struct read_file {
     double seconds = 0;
 };
 
-void append_hexadecimal(std::string& text, double x) {
-    char digits[32];
-    const char* const end =
-        std::to_chars(digits, digits + sizeof digits, std::abs(x), std::chars_format::hex).ptr;
-    text += std::signbit(x) ? "-0x" : "0x";
-    text.append(digits, static_cast<std::size_t>(end - digits));
-}
-
 /// Rows of hexadecimal floats, and of truth where it is known.
 void append_rows(std::string& text, const io::query_file& queries) {
     std::visit(
         [&](const auto& all) {
             for (std::size_t i = 0; i < all.size(); ++i) {
-                using type = std::remove_cvref_t<decltype(all[i])>;
-                double numbers[24];
-                static_assert(sizeof(type) == sizeof numbers && std::is_trivially_copyable_v<type>);
-                std::memcpy(numbers, &all[i], sizeof numbers);
-                for (const std::size_t t : {0, 1})
-                    for (std::size_t p = 0; p < 4; ++p) {
-                        for (std::size_t axis = 0; axis < 3; ++axis) {
-                            if (axis > 0) text += ',';
-                            append_hexadecimal(text, numbers[6 * p + 3 * t + axis]);
-                        }
-                        if (queries.truth) text += (*queries.truth)[i] ? ",1" : ",0";
-                        text += '\n';
-                    }
+                const char* const truth = !queries.truth ? "" : (*queries.truth)[i] ? ",1" : ",0";
+                text += stress::csv(points_of(all[i]), truth);
             }
         },
         queries.queries);

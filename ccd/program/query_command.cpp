@@ -21,7 +21,7 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
             "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
             "is\n"
             "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
-            "-: standard input")
+            "or a store of queries, as ccd convert makes it; -: standard input")
         ->required()
         ->transform(errbound::support::input_named);
     line_

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "ccd/io/store/store_reader.hpp"
 #include "errbound/program/validate_command.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/program.hpp"
@@ -97,6 +98,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace errbound::validation
 
 int main(int argc, char** argv) {
+    ccd::io::leave_stores_at_exit();
     return errbound::support::run_program(
         "errbound", [&] { return errbound::validation::run_command_line(argc, argv); });
 }

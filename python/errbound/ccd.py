@@ -198,7 +198,7 @@ class SearchOptions(TypedDict, total=False):
 class RunOptions(SearchOptions, total=False):
     """Which pairs, by which method, and what else is told."""
     method: str
-    """By name, one of methods(); "exact" by default. All other options but stages are for "exact" alone."""
+    """By name, one of methods(); "exact" by default, which alone has times, distances and t_max."""
     times: bool
     """Fills times and first_contact of the result, and touching_at_start."""
     first_contact: bool

@@ -5,10 +5,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "ccd/io/store/chunk_checksum.hpp"
 #include "ccd/io/store/hdf5.hpp"
 
 namespace ccd::io {
@@ -139,11 +142,13 @@ void leave_stores_at_exit() {
 class store_reader::opened {
   public:
     opened(handle file, const std::string& name)
-        : file_(std::move(file)),
+        : name_(name),
+          file_(std::move(file)),
           kind_(kind_of_store(file_, name)),
           points_(file_, name, "points", H5T_FLOAT, {8}, 6),
           queries_(file_, name, "queries", H5T_INTEGER, {4, 2}, 4),
-          first_point_(file_, name, "first_point", H5T_INTEGER, {8}, 1) {
+          first_point_(file_, name, "first_point", H5T_INTEGER, {8}, 1),
+          checksums_(file_, name, "checksums", H5T_INTEGER, {4}, 1) {
         if (checked(H5Lexists(file_, "truth", H5P_DEFAULT), name) > 0)
             truth_.emplace(file_, name, "truth", H5T_INTEGER, std::vector<std::size_t>{1}, 1);
         if (size() == 0) throw file_error(name + ": dataset queries: found none");
@@ -157,79 +162,115 @@ class store_reader::opened {
             throw file_error(name + ": dataset first_point: expected " +
                              std::to_string(chunks + 1) + " rows that ascend from 0 to " +
                              std::to_string(points_.rows()));
+        sums_ = checksums_.read<std::uint32_t>(H5T_NATIVE_UINT32, 0, checksums_.rows());
+        if (sums_.size() != chunks)
+            throw file_error(name + ": dataset checksums: found " + std::to_string(sums_.size()) +
+                             " rows, expected " + std::to_string(chunks));
     }
 
     ccd::kind kind() const { return kind_; }
     std::uint64_t size() const { return queries_.rows(); }
 
-    query_file read(std::uint64_t begin, std::uint64_t end) const {
+    query_file read(std::uint64_t begin, std::uint64_t end) {
         query_file found;
+        if (truth_) found.truth.emplace();
         if (kind_ == kind::edge_edge)
-            found.queries = queries_of<edge_edge<double>>(begin, end);
+            found.queries = queries_of<edge_edge<double>>(begin, end, found.truth);
         else
-            found.queries = queries_of<vertex_face<double>>(begin, end);
-        if (truth_) {
-            const auto values = truth_->read<std::uint8_t>(H5T_NATIVE_UINT8, begin, end);
-            for (std::size_t i = 0; i < values.size(); ++i)
-                if (values[i] > 1)
-                    truth_->refuse(begin + i,
-                                   "found " + std::to_string(values[i]) + ", expected 0 or 1");
-            found.truth.emplace(values.begin(), values.end());
-        }
+            found.queries = queries_of<vertex_face<double>>(begin, end, found.truth);
         return found;
     }
 
   private:
+    /// A chunk as it is stored, found to be what was written.
+    struct stored_chunk {
+        std::uint64_t number = 0;
+        std::vector<moving> points;
+        std::vector<std::array<std::uint16_t, 4>> narrow;  // this or the next, as the file has them
+        std::vector<std::array<std::uint32_t, 4>> wide;
+        std::vector<std::uint8_t> truth;
+    };
+
     template <class Query>
-    std::vector<Query> queries_of(std::uint64_t begin, std::uint64_t end) const {
+    std::vector<Query> queries_of(std::uint64_t begin, std::uint64_t end,
+                                  std::optional<std::vector<bool>>& truth) {
         static_assert(sizeof(Query) == 4 * sizeof(moving) && std::is_trivially_copyable_v<Query>);
         std::vector<Query> all;
         all.reserve(end - begin);
         for (std::uint64_t at = begin; at < end;) {
-            const std::uint64_t chunk = at / queries_of_a_chunk;
-            const std::uint64_t next = std::min(end, (chunk + 1) * queries_of_a_chunk);
-            append(chunk, at, next, all);
+            const std::uint64_t number = at / queries_of_a_chunk;
+            const std::uint64_t first = number * queries_of_a_chunk;
+            const std::uint64_t next = std::min(end, first + queries_of_a_chunk);
+            const stored_chunk& chunk = chunk_of(number);
+            if (queries_.bytes() == 2)
+                append(chunk.points, chunk.narrow, at, next, all);
+            else
+                append(chunk.points, chunk.wide, at, next, all);
+            for (std::uint64_t i = at; truth && i < next; ++i) truth->push_back(truth_of(chunk, i));
             at = next;
         }
         return all;
     }
 
-    /// Queries [begin, end) of one chunk.
-    template <class Query>
-    void append(std::uint64_t chunk, std::uint64_t begin, std::uint64_t end,
-                std::vector<Query>& all) const {
-        const auto points =
-            points_.read<moving>(H5T_NATIVE_DOUBLE, begins_[chunk], begins_[chunk + 1]);
-        for (std::size_t i = 0; i < points.size(); ++i)
-            if (!std::ranges::all_of(points[i], [](double x) { return std::isfinite(x); }))
-                points_.refuse(begins_[chunk] + i, "found a number that is not finite");
+    /// The last one is kept: ranges may be parts of it.
+    const stored_chunk& chunk_of(std::uint64_t number) {
+        if (last_ && last_->number == number) return *last_;
+        last_.reset();
+        const std::uint64_t begin = number * queries_of_a_chunk;
+        const std::uint64_t end = std::min(size(), begin + queries_of_a_chunk);
+        stored_chunk chunk;
+        chunk.number = number;
+        chunk.points =
+            points_.read<moving>(H5T_NATIVE_DOUBLE, begins_[number], begins_[number + 1]);
         if (queries_.bytes() == 2)
-            append_rows<std::uint16_t>(H5T_NATIVE_UINT16, points, begin, end, all);
+            chunk.narrow =
+                queries_.read<std::array<std::uint16_t, 4>>(H5T_NATIVE_UINT16, begin, end);
         else
-            append_rows<std::uint32_t>(H5T_NATIVE_UINT32, points, begin, end, all);
+            chunk.wide = queries_.read<std::array<std::uint32_t, 4>>(H5T_NATIVE_UINT32, begin, end);
+        if (truth_) chunk.truth = truth_->read<std::uint8_t>(H5T_NATIVE_UINT8, begin, end);
+        const auto bytes = [](const auto& rows) { return std::as_bytes(std::span(rows)); };
+        const auto rows = queries_.bytes() == 2 ? bytes(chunk.narrow) : bytes(chunk.wide);
+        if (checksum(bytes(chunk.points), rows, bytes(chunk.truth)) != sums_[number])
+            throw file_error(name_ + ": queries " + std::to_string(begin) + " to " +
+                             std::to_string(end - 1) +
+                             ": found another checksum, expected what was written");
+        for (std::size_t i = 0; i < chunk.points.size(); ++i)
+            if (!std::ranges::all_of(chunk.points[i], [](double x) { return std::isfinite(x); }))
+                points_.refuse(begins_[number] + i, "found a number that is not finite");
+        return last_.emplace(std::move(chunk));
     }
 
-    template <class Index, class Query>
-    void append_rows(hid_t number, const std::vector<moving>& points, std::uint64_t begin,
-                     std::uint64_t end, std::vector<Query>& all) const {
-        const auto rows = queries_.read<std::array<Index, 4>>(number, begin, end);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            for (const Index point : rows[i])
+    /// Queries [begin, end), of the chunk with these points and rows.
+    template <class Query, class Rows>
+    void append(const std::vector<moving>& points, const Rows& rows, std::uint64_t begin,
+                std::uint64_t end, std::vector<Query>& all) const {
+        for (std::uint64_t q = begin; q < end; ++q) {
+            const auto& row = rows[q % queries_of_a_chunk];
+            for (const auto point : row)
                 if (point >= points.size())
-                    queries_.refuse(begin + i, "found point " + std::to_string(point) +
-                                                   ", expected one of the chunk's " +
-                                                   std::to_string(points.size()));
-            const auto [a, b, c, d] = rows[i];
-            all.push_back(
-                std::bit_cast<Query>(std::array{points[a], points[b], points[c], points[d]}));
+                    queries_.refuse(q, "found point " + std::to_string(point) +
+                                           ", expected one of the chunk's " +
+                                           std::to_string(points.size()));
+            all.push_back(std::bit_cast<Query>(
+                std::array{points[row[0]], points[row[1]], points[row[2]], points[row[3]]}));
         }
     }
 
+    bool truth_of(const stored_chunk& chunk, std::uint64_t query) const {
+        const std::uint8_t truth = chunk.truth[query % queries_of_a_chunk];
+        if (truth > 1)
+            truth_->refuse(query, "found " + std::to_string(truth) + ", expected 0 or 1");
+        return truth == 1;
+    }
+
+    std::string name_;
     handle file_;
     ccd::kind kind_;
-    rows_on_disk points_, queries_, first_point_;
+    rows_on_disk points_, queries_, first_point_, checksums_;
     std::optional<rows_on_disk> truth_;
     std::vector<std::uint64_t> begins_;  // of each chunk's points, and their end
+    std::vector<std::uint32_t> sums_;
+    std::optional<stored_chunk> last_;
 };
 
 store_reader::store_reader(std::string_view bytes, const std::string& name) {

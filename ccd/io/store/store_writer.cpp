@@ -1,4 +1,4 @@
-// A store of queries as an HDF5 file, every part with a checksum.
+// A store of queries as an HDF5 file, each chunk of queries with a checksum.
 #include "ccd/io/store/store_writer.hpp"
 
 #include <stdlib.h>
@@ -8,7 +8,9 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
+#include "ccd/io/store/chunk_checksum.hpp"
 #include "ccd/io/store/hdf5.hpp"
 #include "ccd/io/store/store_reader.hpp"
 #include "errbound/support/output_file.hpp"
@@ -90,6 +92,33 @@ void write_text(hid_t file, const char* name, std::string_view text) {
     write_attribute(file, name, type, type, text.data());
 }
 
+/// Of each chunk, with indices as they are stored.
+template <class Index>
+std::vector<std::uint32_t> checksums_of(const store_parts& parts, const Index* queries) {
+    std::vector<std::uint32_t> sums;
+    for (std::size_t c = 0; c + 1 < parts.first_point.size(); ++c) {
+        const std::size_t begin = c * queries_of_a_chunk;
+        const std::size_t end = std::min(parts.query_count, begin + queries_of_a_chunk);
+        const std::span points(parts.points + 6 * parts.first_point[c],
+                               parts.points + 6 * parts.first_point[c + 1]);
+        sums.push_back(checksum(
+            std::as_bytes(points), std::as_bytes(std::span(queries + 4 * begin, queries + 4 * end)),
+            std::as_bytes(parts.truth.empty() ? parts.truth
+                                              : parts.truth.subspan(begin, end - begin))));
+    }
+    return sums;
+}
+
+template <class Index>
+void write_queries(hid_t file, const store_parts& parts, const Index* queries, hid_t stored,
+                   hid_t given, bool compressed) {
+    write(file, {"queries", stored, given, parts.query_count, 4, queries_of_a_chunk, compressed},
+          queries);
+    const std::vector<std::uint32_t> sums = checksums_of(parts, queries);
+    write(file, {"checksums", H5T_STD_U32LE, H5T_NATIVE_UINT32, sums.size(), 1, 65536, true},
+          sums.data());
+}
+
 }  // namespace
 
 bool has_query_stores() {
@@ -107,14 +136,15 @@ std::string store_of(const store_parts& parts) {
     // What is larger takes longer to decompress than to read.
     const bool compressed = parts.query_count <= 4096;
     const std::span all(parts.queries, 4 * parts.query_count);
-    const hid_t index = *std::ranges::max_element(all) < 65536 ? H5T_STD_U16LE : H5T_STD_U32LE;
     write(file,
           {"points", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, parts.point_count, 6, 16384, compressed},
           parts.points);
-    write(
-        file,
-        {"queries", index, H5T_NATIVE_UINT32, parts.query_count, 4, queries_of_a_chunk, compressed},
-        parts.queries);
+    if (*std::ranges::max_element(all) < 65536) {
+        const std::vector<std::uint16_t> narrow(all.begin(), all.end());
+        write_queries(file, parts, narrow.data(), H5T_STD_U16LE, H5T_NATIVE_UINT16, compressed);
+    } else {
+        write_queries(file, parts, parts.queries, H5T_STD_U32LE, H5T_NATIVE_UINT32, compressed);
+    }
     write(
         file,
         {"first_point", H5T_STD_U64LE, H5T_NATIVE_UINT64, parts.first_point.size(), 1, 65536, true},
