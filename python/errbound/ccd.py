@@ -177,47 +177,52 @@ _stages = stages
 
 
 class SearchOptions(TypedDict, total=False):
-    """Which pairs are looked at."""
+    """Which pairs are looked at.
+
+    threads: at most; 0, the default: one per core.
+    distance: of all pairs: those that come within it are meant, instead of those that touch.
+    thickness: (n,), one a vertex, instead of distance: as decide.
+    groups: whole numbers (n,): only pairs between different groups are looked at.
+    between_groups: False: only those within groups.
+    pinned: flags (n,), one a vertex: pairs of which all vertices are pinned are left out.
+    can_collide: asked of two vertices, one of each element; a pair is left out if it is False for all. Slow;
+    called from several threads in turn.
+    """
     threads: int
-    """At most; 0, the default: one per core."""
     distance: float
-    """Of all pairs: those that come within it are meant, instead of those that touch."""
     thickness: ArrayLike | None
-    """(n,), one a vertex, instead of distance: as decide."""
     groups: ArrayLike | None
-    """Whole numbers (n,): only pairs between different groups are looked at."""
     between_groups: bool
-    """False: only those within groups."""
     pinned: ArrayLike | None
-    """Flags (n,), one a vertex: pairs of which all vertices are pinned are left out."""
     can_collide: Callable[[int, int], bool] | None
-    """Asked of two vertices, one of each element; a pair is left out if it is False for all. Slow; called from
-    several threads in turn."""
 
 
 class RunOptions(SearchOptions, total=False):
-    """Which pairs, by which method, and what else is told."""
+    """Which pairs (SearchOptions), by which method, and what else is told.
+
+    method: by name, one of methods(); "exact" by default, which alone has times, distances and t_max.
+    times: fills times and first_contact of the result, and touching_at_start.
+    first_contact: fills first_contact, and touching_at_start.
+    initial_contact: fills touching_at_start: pairs that touch at t = 0 already.
+    t_max: the end of the times that are asked about, 1 by default.
+    stages, count_candidates: fill stages, candidates.
+    """
     method: str
-    """By name, one of methods(); "exact" by default, which alone has times, distances and t_max."""
     times: bool
-    """Fills times and first_contact of the result, and touching_at_start."""
     first_contact: bool
-    """Fills first_contact, and touching_at_start."""
     initial_contact: bool
-    """Fills touching_at_start: pairs that touch at t = 0 already."""
     t_max: float
-    """The end of the times that are asked about, 1 by default."""
     stages: bool
-    """Fills stages."""
     count_candidates: bool
-    """Fills candidates."""
 
 
 class AdvanceOptions(SearchOptions, total=False):
-    """Which pairs to keep apart, and what goes by one fraction."""
+    """Which pairs to keep apart (SearchOptions), and what goes by one fraction.
+
+    islands: whole numbers (n,): vertices of one island go by one fraction, and so do islands that meet. By
+    default all are one. Not groups, by which pairs are left out.
+    """
     islands: ArrayLike | None
-    """Whole numbers (n,): vertices of one island go by one fraction, and so do islands that meet. By default all
-    are one. Not groups, by which pairs are left out."""
 
 
 _OF_SEARCH = {"threads": int, "distance": float, "thickness": np.float64, "groups": np.int32,

@@ -48,6 +48,8 @@ def test_options_have_types_and_words():
     hints = ccd.SearchOptions.__annotations__.keys()
     assert ccd._OF_SEARCH.keys() == hints and ccd._OF_ADVANCE.keys() == ccd.AdvanceOptions.__annotations__.keys()
     assert ccd._OF_RUN.keys() == ccd.RunOptions.__annotations__.keys()
+    said = " ".join(c.__doc__ for c in (ccd.SearchOptions, ccd.RunOptions, ccd.AdvanceOptions))
+    assert all(name in said for name in [*ccd._OF_RUN, *ccd._OF_ADVANCE])
 
 
 @pytest.mark.parametrize("call", [ccd.step, ccd.advance, ccd.candidates])
