@@ -1,5 +1,4 @@
 // How much larger bounds are than the true errors, by MPFR (errbound/validation/validation.hpp).
-#include <algorithm>
 #include <errbound/validation/validation.hpp>
 #include <utility>
 
@@ -10,26 +9,10 @@ namespace {
 
 namespace validation = errbound::validation;
 
-/// Distributions of one quantity, of both kinds of query and all data sets, as one.
-void merge(std::vector<validation::tightness>& all, const validation::tightness& one) {
-    const auto same = [&one](const validation::tightness& other) {
-        return std::tie(other.rule, other.number, other.quantity) ==
-               std::tie(one.rule, one.number, one.quantity);
-    };
-    const auto known = std::ranges::find_if(all, same);
-    if (known == all.end()) {
-        all.push_back(one);
-    } else {
-        known->log10.merge(one.log10);
-    }
-}
-
 /// A row for each distribution; broken promises are in the column `broken`.
 rows rows_of(const validation::report& found) {
-    std::vector<validation::tightness> all;
-    for (const validation::tightness& one : found.distributions) merge(all, one);
     rows result;
-    for (const validation::tightness& t : all) {
+    for (const validation::tightness& t : found.distributions) {
         row r = {{"rule", t.rule},
                  {"number", t.number},
                  {"quantity", t.quantity},
@@ -62,12 +45,12 @@ rows measure_expressions(const sample_sizes& size, int threads, const progress& 
 
 rows measure_tightness(const std::vector<const data_set*>& data, const sample_sizes& size,
                        int threads, const progress& show) {
-    validation::report found;
+    validation::report found;  // of both kinds of query and all data sets
     for (std::size_t i = 0; i < data.size(); ++i) {
         show(static_cast<double>(i) / static_cast<double>(data.size()));
         data[i]->queries.for_each([&](const auto& known) {
             const auto queries = known.queries.at_most(size.tightness).all_stored();
-            found.add(
+            found.merge(
                 validation::validate_queries(validation::rules(), std::span(queries), threads));
         });
     }

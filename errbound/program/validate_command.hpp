@@ -3,24 +3,28 @@
 
 #include <ccd/io/query_file.hpp>
 #include <errbound/validation/validation.hpp>
-#include <filesystem>
-#include <optional>
+#include <string>
 #include <vector>
+
+#include "errbound/program/validate_options.hpp"
 
 namespace errbound::validation {
 
-struct validate_arguments {
-    std::vector<rule> rules;
-    bool expressions = false, tiny = false;  ///< whether to run them
-    expression_options options;              ///< threads: of all parts
-    std::vector<std::filesystem::path> queries;
-    std::optional<ccd::kind> kind;  ///< none: from each path
-    bool round = false;
-    std::optional<std::filesystem::path> json, csv;
+/// What a run looks at.
+struct part {
+    std::string name;  ///< "expressions", "tiny" or the file
+    evidence what;
 };
 
-/// Prints what was found; writes nothing unless all files are good. Returns whether every promise
-/// was kept. Throws errbound::support::file_error on bad input.
-bool run_validate(const validate_arguments& arguments);
+/// The files of queries. Throws errbound::support::file_error.
+std::vector<ccd::io::query_file> read_files(const validate_arguments& arguments);
+
+/// In the order of tables. They look at the queries of `files` as long as they are used.
+std::vector<part> parts_of(const validate_arguments& arguments,
+                           const std::vector<ccd::io::query_file>& files);
+
+/// Prints and writes what was found; writes nothing unless all files are good. Throws
+/// errbound::support::usage_error, errbound::support::file_error.
+exit_status run_validate(const validate_arguments& arguments);
 
 }  // namespace errbound::validation

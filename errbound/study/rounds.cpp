@@ -9,11 +9,14 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
 #include <utility>
+
+#include "errbound/support/command_line.hpp"
 
 namespace errbound::study {
 namespace {
@@ -277,6 +280,28 @@ std::string broadcast(MPI_Comm comm, std::string text) {
         MPI_Bcast(text.data() + begin, static_cast<int>(std::min(most, size - begin)), MPI_CHAR, 0,
                   comm);
     return text;
+}
+
+void on_root(MPI_Comm comm, const std::function<void()>& act) {
+    enum kind : char { none, usage, no_memory, other };
+    std::string failure(1, none);
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    if (rank == 0) {
+        try {
+            act();
+        } catch (const support::usage_error& error) {
+            failure = char{usage} + std::string(error.what());
+        } catch (const std::bad_alloc&) {
+            failure[0] = no_memory;
+        } catch (const std::exception& error) {
+            failure = char{other} + std::string(error.what());
+        }
+    }
+    failure = broadcast(comm, failure);
+    if (failure[0] == usage) throw support::usage_error(failure.substr(1));
+    if (failure[0] == no_memory) throw std::bad_alloc();
+    if (failure[0] == other) throw std::runtime_error(failure.substr(1));
 }
 
 }  // namespace errbound::study

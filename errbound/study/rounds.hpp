@@ -37,4 +37,8 @@ ending in_rounds(MPI_Comm comm, std::vector<std::uint64_t> chunks, const work& w
 /// Rank 0's text, on all.
 std::string broadcast(MPI_Comm comm, std::string text);
 
+/// Calls act() on rank 0. What it throws is thrown on all, with its message: support::usage_error
+/// and std::bad_alloc as such, all else as std::runtime_error.
+void on_root(MPI_Comm comm, const std::function<void()>& act);
+
 }  // namespace errbound::study

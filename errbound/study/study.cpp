@@ -2,7 +2,6 @@
 #include "errbound/study/study.hpp"
 
 #include <errbound/support/error.hpp>
-#include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
@@ -14,21 +13,7 @@ namespace errbound::study {
 study::study(MPI_Comm comm, subject what, std::optional<std::filesystem::path> journal)
     : comm_(comm), what_(std::move(what)), path_(std::move(journal)) {
     MPI_Comm_rank(comm, &rank_);
-    on_root([this] { open(); });
-}
-
-/// What it throws on rank 0 is thrown on all.
-void study::on_root(const std::function<void()>& act) {
-    std::string failure;
-    if (rank_ == 0) {
-        try {
-            act();
-        } catch (const std::exception& error) {
-            failure = error.what();
-        }
-    }
-    failure = broadcast(comm_, failure);
-    if (!failure.empty()) throw std::runtime_error(failure);
+    on_root(comm_, [this] { open(); });
 }
 
 void study::open() {
@@ -84,7 +69,7 @@ bool study::complete(const progress& show) {
 
 int study::conclude(const std::function<int()>& write) {
     int status = 0;
-    on_root([&] {
+    on_root(comm_, [&] {
         status = write();
         if (journal_) journal_->remove();
     });

@@ -50,7 +50,6 @@ class study {
 
   private:
     void open();
-    void on_root(const std::function<void()>& act);
     void take(chunk_result found);
 
     MPI_Comm comm_;

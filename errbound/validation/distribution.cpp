@@ -4,42 +4,82 @@
 #include <cmath>
 #include <errbound/validation/distribution.hpp>
 #include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
 
 namespace errbound::validation {
+namespace {
 
-std::size_t distribution::bin_of(double log10_ratio) {
-    const double inside = std::clamp(log10_ratio, least_log, max_log);
-    return static_cast<std::size_t>(std::lround((inside - least_log) / resolution));
+std::size_t bin_of(double log10_ratio) {
+    const double inside = std::clamp(log10_ratio, distribution::least_log, distribution::max_log);
+    return static_cast<std::size_t>(
+        std::lround((inside - distribution::least_log) / distribution::resolution));
+}
+
+}  // namespace
+
+distribution::distribution(counts from)
+    : counts_(std::move(from)),
+      ratios_(std::accumulate(counts_.bins.begin(), counts_.bins.end(), std::uint64_t{0})) {
+    const auto& bins = counts_.bins;
+    const bool good = bins.empty()
+                          ? counts_.first_bin == 0 && counts_.least == 0 && counts_.most == 0
+                          : bins.front() > 0 && bins.back() > 0 && std::isfinite(counts_.least) &&
+                                std::isfinite(counts_.most) && counts_.least <= counts_.most &&
+                                counts_.first_bin == bin_of(counts_.least) &&
+                                counts_.first_bin + bins.size() - 1 == bin_of(counts_.most);
+    if (!good) throw std::invalid_argument("found bins that no distribution has");
+}
+
+/// Has bins from first_bin on, as many; no fewer than there were.
+void distribution::make_room(std::size_t first_bin, std::size_t bins) {
+    auto& b = counts_.bins;
+    if (b.empty()) counts_.first_bin = first_bin;
+    const std::size_t first = std::min(first_bin, counts_.first_bin);
+    const std::size_t end = std::max(first_bin + bins, counts_.first_bin + b.size());
+    b.reserve(end - first);
+    b.insert(b.begin(), counts_.first_bin - first, 0);
+    counts_.first_bin = first;
+    b.resize(end - first);
+}
+
+void distribution::widen(double least, double most) {
+    counts_.least = ratios_ == 0 ? least : std::min(counts_.least, least);
+    counts_.most = ratios_ == 0 ? most : std::max(counts_.most, most);
 }
 
 void distribution::add(double log10_ratio) {
-    if (bins_.empty()) bins_.resize(bin_of(max_log) + 1);
-    ++bins_[bin_of(log10_ratio)];
-    least_ = ratios_ == 0 ? log10_ratio : std::min(least_, log10_ratio);
-    most_ = ratios_ == 0 ? log10_ratio : std::max(most_, log10_ratio);
+    const std::size_t bin = bin_of(log10_ratio);
+    make_room(bin, 1);
+    ++counts_.bins[bin - counts_.first_bin];
+    widen(log10_ratio, log10_ratio);
     ++ratios_;
 }
 
 void distribution::merge(const distribution& other) {
-    exact_ += other.exact_;
-    unknown_ += other.unknown_;
-    if (other.ratios_ == 0) return;
-    if (bins_.empty()) bins_.resize(other.bins_.size());
-    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
-    least_ = ratios_ == 0 ? other.least_ : std::min(least_, other.least_);
-    most_ = ratios_ == 0 ? other.most_ : std::max(most_, other.most_);
-    ratios_ += other.ratios_;
+    const counts& from = other.counts_;
+    if (other.ratios_ > 0) {
+        make_room(from.first_bin, from.bins.size());
+        for (std::size_t i = 0; i < from.bins.size(); ++i)
+            counts_.bins[from.first_bin - counts_.first_bin + i] += from.bins[i];
+        widen(from.least, from.most);
+        ratios_ += other.ratios_;
+    }
+    counts_.exact += from.exact;
+    counts_.unknown += from.unknown;
 }
 
 double distribution::quantile(double share) const {
     if (ratios_ == 0) return std::numeric_limits<double>::quiet_NaN();
-    if (share <= 0) return least_;
-    if (share >= 1) return most_;
+    if (share <= 0) return counts_.least;
+    if (share >= 1) return counts_.most;
     const double wanted = share * static_cast<double>(ratios_);
     std::uint64_t seen = 0;
-    std::size_t bin = 0;
-    while (static_cast<double>(seen += bins_[bin]) < wanted) ++bin;
-    return std::clamp(least_log + resolution * static_cast<double>(bin), least_, most_);
+    std::size_t i = 0;
+    while (static_cast<double>(seen += counts_.bins[i]) < wanted) ++i;
+    const auto bin = static_cast<double>(counts_.first_bin + i);
+    return std::clamp(least_log + resolution * bin, counts_.least, counts_.most);
 }
 
 }  // namespace errbound::validation

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "errbound/validation/blocks.hpp"
+#include "errbound/validation/chunks.hpp"
 #include "errbound/validation/minimise.hpp"
 
 namespace errbound::validation {
@@ -15,8 +15,7 @@ namespace {
 constexpr std::array<mpfr_prec_t, 4> precisions{192, 768, 3072, 12288};
 /// As long as errors are not told from zero, it goes on to this one; for promises, to the last.
 constexpr mpfr_prec_t precision_for_errors = 3072;
-constexpr std::uint64_t block_size = 1000;
-constexpr std::size_t kept_violations = 5;
+constexpr std::uint64_t least_chunk = 1000;
 
 void evaluate(const rule& r, number_type type, const expression& e, claim* claims) {
     (type == number_type::float_type ? r.evaluate_float : r.evaluate_double)(e, claims);
@@ -68,22 +67,10 @@ struct tally {
     std::uint64_t expressions = 0, values = 0, violations = 0, undetermined = 0;
     std::array<distribution, operation_kinds> log10;
     std::vector<std::uint64_t> violating;  ///< indices of the first expressions with a violation
-
-    void add_violating(std::uint64_t index) {
-        violating.insert(std::upper_bound(violating.begin(), violating.end(), index), index);
-        if (violating.size() > kept_violations) violating.pop_back();
-    }
-    void merge(const tally& other) {
-        expressions += other.expressions;
-        values += other.values;
-        violations += other.violations;
-        undetermined += other.undetermined;
-        for (std::size_t i = 0; i < operation_kinds; ++i) log10[i].merge(other.log10[i]);
-        for (const std::uint64_t index : other.violating) add_violating(index);
-    }
 };
 
-struct worker {
+/// A chunk of expressions.
+struct examination {
     reference exact;
     std::vector<std::array<claim, expression::max_values>> claims;  // one per rule
     std::map<number_type, std::vector<tally>> tallies;              // one per rule
@@ -137,11 +124,13 @@ struct worker {
                           exact.value(n), exact.off(n));
             }
         }
-        if (violated) to.add_violating(index);
+        if (violated && to.violating.size() < report::kept_violations)
+            to.violating.push_back(index);
     }
 };
 
-violation described(const rule& r, number_type type, const expression& e) {
+/// Tells what is violated, by the smallest expression that shows it.
+void tell(violation& to, const rule& r, number_type type, const expression& e) {
     reference exact;
     std::array<claim, expression::max_values> claims;
     const auto finding_of = [&](const expression& tried, std::size_t n) {
@@ -161,51 +150,74 @@ violation described(const rule& r, number_type type, const expression& e) {
     const expression small = minimised(e, type, search);
     const std::size_t last = search(small).value();
     const finding f = finding_of(small, last);
-    return {.rule = std::string(r.name),
-            .number = std::string(name_of(type)),
-            .what = sentence(f, claims[last], exact.value(last), exact.off(last)),
-            .code = cpp_text(small, type, r.name)};
+    to.what = sentence(f, claims[last], exact.value(last), exact.off(last));
+    to.code = cpp_text(small, type, r.name);
 }
+
+/// Random expressions under some rules.
+struct study {
+    std::vector<rule> rules;
+    expression_options options;
+
+    // Rules without division see three of four expressions.
+    chunks expressions() const {
+        return {options.expressions + (options.expressions + 2) / 3, least_chunk};
+    }
+    expression at(std::uint64_t index, number_type type) const {
+        return random_expression(options.seed, index, type,
+                                 std::clamp(options.operations, 1, max_operations));
+    }
+
+    report report_of(std::uint64_t chunk) const {
+        examination found;
+        for (const std::uint64_t index : expressions().indices(chunk))
+            for (const number_type type : number_types)
+                found.check(rules, at(index, type), type, index);
+        report result;
+        for (std::size_t k = 0; k < rules.size(); ++k)
+            for (const number_type type : number_types) {
+                auto& of_type = found.tallies[type];
+                of_type.resize(rules.size());
+                add(result, rules[k], name_of(type), of_type[k]);
+            }
+        return result;
+    }
+
+    static void add(report& to, const rule& r, std::string_view number_name, const tally& found) {
+        const std::string name(r.name), number(number_name);
+        to.counts.push_back(
+            {name, number, found.expressions, found.values, found.violations, found.undetermined});
+        for (std::size_t i = 0; i < operation_kinds; ++i)
+            if (found.log10[i].count() > 0)
+                to.distributions.push_back(
+                    {name, number, std::string(name_of(static_cast<operation_kind>(i))),
+                     r.promises ? "bound/error" : "error/value", found.log10[i]});
+        for (const std::uint64_t index : found.violating)
+            to.violations.push_back({name, number, index, {}, {}});
+    }
+
+    void tell_all(report& found) const {
+        for (violation& v : found.violations) {
+            const auto by_rule = [&v](const rule& r) { return r.name == v.rule; };
+            const auto by_number = [&v](number_type t) { return name_of(t) == v.number; };
+            const number_type type = *std::ranges::find_if(number_types, by_number);
+            tell(v, *std::ranges::find_if(rules, by_rule), type, at(v.index, type));
+        }
+    }
+};
 
 }  // namespace
 
+evidence evidence_of_expressions(std::span<const rule> rules, const expression_options& options) {
+    const study s{{rules.begin(), rules.end()}, options};
+    return with_mpfr({.chunks = s.expressions().count(),
+                      .report_of = [s](std::uint64_t chunk) { return s.report_of(chunk); },
+                      .tell = [s](report& found) { s.tell_all(found); }});
+}
+
 report validate_expressions(std::span<const rule> rules, const expression_options& options,
                             const progress& show) {
-    // Rules without division see three of four expressions.
-    const std::uint64_t all = options.expressions + (options.expressions + 2) / 3;
-    const std::uint64_t blocks = (all + block_size - 1) / block_size;
-    const int longest = std::clamp(options.operations, 1, max_operations);
-    const auto workers =
-        in_blocks<worker>(options.threads, blocks, show, [&](worker& w, std::uint64_t block) {
-            const std::uint64_t end = std::min(all, (block + 1) * block_size);
-            for (std::uint64_t index = block * block_size; index < end; ++index)
-                for (const number_type type : number_types)
-                    w.check(rules, random_expression(options.seed, index, type, longest), type,
-                            index);
-        });
-
-    report result;
-    const widest_exponents range;
-    for (std::size_t k = 0; k < rules.size(); ++k) {
-        for (const number_type type : number_types) {
-            tally sum;
-            for (const auto& w : workers)
-                if (const auto found = w->tallies.find(type); found != w->tallies.end())
-                    sum.merge(found->second[k]);
-            const std::string name(rules[k].name), number(name_of(type));
-            result.counts.push_back(
-                {name, number, sum.expressions, sum.values, sum.violations, sum.undetermined});
-            for (std::size_t i = 0; i < operation_kinds; ++i)
-                if (sum.log10[i].count() > 0)
-                    result.distributions.push_back(
-                        {name, number, std::string(name_of(static_cast<operation_kind>(i))),
-                         rules[k].promises ? "bound/error" : "error/value", sum.log10[i]});
-            for (const std::uint64_t index : sum.violating)
-                result.violations.push_back(described(
-                    rules[k], type, random_expression(options.seed, index, type, longest)));
-        }
-    }
-    return result;
+    return examine(evidence_of_expressions(rules, options), options.threads, show);
 }
 
 }  // namespace errbound::validation

@@ -3,10 +3,12 @@
 #include <array>
 #include <ccd/methods/transform.hpp>
 #include <errbound/validation/validation.hpp>
+#include <iterator>
 #include <map>
 #include <utility>
+#include <vector>
 
-#include "errbound/validation/blocks.hpp"
+#include "errbound/validation/chunks.hpp"
 
 namespace errbound::validation {
 
@@ -22,26 +24,12 @@ namespace {
 
 /// Products of degree 72 in 53-bit coordinates need some 4000 bits to be exact; few queries ask.
 constexpr std::array<mpfr_prec_t, 4> precisions{384, 1536, 6144, 24576};
-constexpr std::uint64_t block_size = 16;
-constexpr std::size_t kept_violations = 5;
+constexpr std::uint64_t least_chunk = 16;
 
 struct tally {
     rule_counts counts;
     std::map<std::string, distribution, std::less<>> quantities;
-    std::map<std::uint64_t, violation> violations;  ///< by query, the first of them
-
-    void add(std::uint64_t index, violation found) {
-        violations.emplace(index, std::move(found));
-        if (violations.size() > kept_violations) violations.erase(std::prev(violations.end()));
-    }
-    void merge(tally& other) {
-        counts.cases += other.counts.cases;
-        counts.values += other.counts.values;
-        counts.violations += other.counts.violations;
-        counts.undetermined += other.counts.undetermined;
-        for (const auto& [name, log10] : other.quantities) quantities[name].merge(log10);
-        for (auto& [index, found] : other.violations) add(index, std::move(found));
-    }
+    std::vector<violation> violations;  ///< the first
 };
 
 template <class Query>
@@ -73,60 +61,70 @@ void check(const rule& r, const Query& query, std::uint64_t index, tally& to) {
         to.counts.violations += session.violations();
         to.counts.undetermined += session.undetermined();
         for (const auto& [name, log10] : session.quantities()) to.quantities[name].merge(log10);
-        if (session.violations() > 0) {
+        if (session.violations() > 0 && to.violations.size() < report::kept_violations) {
             const auto& first = session.first_violation();
-            to.add(index, {.rule = std::string(r.name),
-                           .number = "double",
-                           .what = "query " + std::to_string(index) + ", " + first.operation +
-                                   ": " + first.what,
-                           .code = text_of(query)});
+            to.violations.push_back({.rule = std::string(r.name),
+                                     .number = "double",
+                                     .index = index,
+                                     .what = "query " + std::to_string(index) + ", " +
+                                             first.operation + ": " + first.what,
+                                     .code = text_of(query)});
         }
         return;
     }
 }
 
 template <class Query>
-report validate(std::span<const rule> rules, std::span<const Query> queries, int threads,
-                const progress& show) {
-    struct worker {
-        std::vector<tally> tallies;
-    };
-    const std::uint64_t blocks = (queries.size() + block_size - 1) / block_size;
-    const auto workers = in_blocks<worker>(threads, blocks, show, [&](worker& w, std::uint64_t b) {
-        w.tallies.resize(rules.size());
-        const std::size_t end = std::min<std::size_t>(queries.size(), (b + 1) * block_size);
-        for (std::size_t i = b * block_size; i < end; ++i)
-            for (std::size_t k = 0; k < rules.size(); ++k)
-                check(rules[k], queries[i], i, w.tallies[k]);
-    });
+report report_of(std::span<const rule> rules, std::span<const Query> queries,
+                 const chunks& of_queries, std::uint64_t chunk) {
     report result;
-    for (std::size_t k = 0; k < rules.size(); ++k) {
-        tally sum;
-        for (const auto& w : workers)
-            if (!w->tallies.empty()) sum.merge(w->tallies[k]);
-        sum.counts.rule = rules[k].name;
-        sum.counts.number = "double";
-        result.counts.push_back(sum.counts);
-        for (auto& [name, log10] : sum.quantities)
-            result.distributions.push_back({std::string(rules[k].name), "double", name,
-                                            rules[k].promises ? "bound/error" : "error/value",
+    for (const rule& r : rules) {
+        tally found;
+        found.counts.rule = r.name;
+        found.counts.number = "double";
+        for (const std::uint64_t i : of_queries.indices(chunk)) check(r, queries[i], i, found);
+        result.counts.push_back(found.counts);
+        for (auto& [name, log10] : found.quantities)
+            result.distributions.push_back({std::string(r.name), "double", name,
+                                            r.promises ? "bound/error" : "error/value",
                                             std::move(log10)});
-        for (auto& [index, found] : sum.violations) result.violations.push_back(std::move(found));
+        std::ranges::move(found.violations, std::back_inserter(result.violations));
     }
     return result;
 }
 
+template <class Query>
+evidence evidence_of(std::span<const rule> rules, std::span<const Query> queries) {
+    const chunks c(queries.size(), least_chunk);
+    return with_mpfr(
+        {.chunks = c.count(),
+         .report_of =
+             [rules = std::vector(rules.begin(), rules.end()), queries, c](std::uint64_t chunk) {
+                 return report_of(std::span(rules), queries, c, chunk);
+             },
+         .tell = [](report&) {}});
+}
+
 }  // namespace
+
+evidence evidence_of_queries(std::span<const rule> rules,
+                             std::span<const ccd::vertex_face<double>> queries) {
+    return evidence_of(rules, queries);
+}
+evidence evidence_of_queries(std::span<const rule> rules,
+                             std::span<const ccd::edge_edge<double>> queries) {
+    return evidence_of(rules, queries);
+}
 
 report validate_queries(std::span<const rule> rules,
                         std::span<const ccd::vertex_face<double>> queries, int threads,
                         const progress& show) {
-    return validate(rules, queries, threads, show);
+    return examine(evidence_of(rules, queries), threads, show);
 }
 report validate_queries(std::span<const rule> rules,
                         std::span<const ccd::edge_edge<double>> queries, int threads,
                         const progress& show) {
-    return validate(rules, queries, threads, show);
+    return examine(evidence_of(rules, queries), threads, show);
 }
 
 }  // namespace errbound::validation

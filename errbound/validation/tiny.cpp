@@ -3,13 +3,13 @@
 #include <errbound/validation/tiny_check.hpp>
 #include <errbound/validation/validation.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "errbound/validation/blocks.hpp"
+#include "errbound/validation/chunks.hpp"
 
 namespace errbound::validation {
 namespace {
-
-constexpr std::uint64_t max_described = 5;
 
 std::string text_of(const char* name, const tiny_account::operand& x) {
     const std::string value = hexadecimal(x.value);
@@ -96,7 +96,7 @@ void tiny_judge::check_sign(const claim& r, double low, double high, const tiny_
 }
 
 void tiny_judge::add(const claim& r, const char* broken, const tiny_account& how) {
-    if (++found_.violations > max_described) return;
+    if (++found_.violations > report::kept_violations) return;
     found_.first.push_back(
         {std::string(broken) + " (rounding " + std::string(direction_) + "): value " +
              hexadecimal(r.value) + ", bound " + hexadecimal(r.error),
@@ -105,22 +105,35 @@ void tiny_judge::add(const claim& r, const char* broken, const tiny_account& how
              ">;\n" + text_of(how)});
 }
 
-report validate_tiny(std::span<const rule> rules, int threads, const progress& show) {
-    std::vector<tiny_findings> found(rules.size() * tiny_format_count);
-    struct nothing {};
-    in_blocks<nothing>(threads, found.size(), show, [&](nothing&, std::uint64_t block) {
-        rules[block / tiny_format_count].check_tiny(block % tiny_format_count, found[block]);
-    });
+namespace {
+
+report report_of(const rule& r, std::size_t format) {
+    tiny_findings f;
+    r.check_tiny(format, f);
     report result;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        tiny_findings& f = found[i];
-        if (f.format.empty()) continue;
-        const std::string name(rules[i / tiny_format_count].name);
-        result.counts.push_back({name, f.format, f.values, f.values, f.violations, 0});
-        for (auto& [what, code] : f.first)
-            result.violations.push_back({name, f.format, std::move(what), std::move(code)});
-    }
+    if (f.format.empty()) return result;
+    const std::string name(r.name);
+    result.counts.push_back({name, f.format, f.values, f.values, f.violations, 0});
+    for (auto& [what, code] : f.first)
+        result.violations.push_back(
+            {.rule = name, .number = f.format, .what = std::move(what), .code = std::move(code)});
     return result;
+}
+
+}  // namespace
+
+evidence evidence_of_tiny(std::span<const rule> rules) {
+    return with_mpfr({.chunks = rules.size() * tiny_format_count,
+                      .report_of =
+                          [rules = std::vector(rules.begin(), rules.end())](std::uint64_t chunk) {
+                              return report_of(rules[chunk / tiny_format_count],
+                                               chunk % tiny_format_count);
+                          },
+                      .tell = [](report&) {}});
+}
+
+report validate_tiny(std::span<const rule> rules, int threads, const progress& show) {
+    return examine(evidence_of_tiny(rules), threads, show);
 }
 
 }  // namespace errbound::validation

@@ -1,7 +1,8 @@
 // The rules that there are, and reports joined.
 
+#include <algorithm>
 #include <errbound/validation/validation.hpp>
-#include <iterator>
+#include <utility>
 
 #include "errbound/validation/all_rules.hpp"
 
@@ -28,14 +29,65 @@ std::uint64_t report::violation_count() const {
     return sum;
 }
 
-void report::add(report other) {
-    const auto append = [](auto& to, auto& from) {
-        to.insert(to.end(), std::make_move_iterator(from.begin()),
-                  std::make_move_iterator(from.end()));
-    };
-    append(counts, other.counts);
-    append(violations, other.violations);
-    append(distributions, other.distributions);
+namespace {
+
+/// Entries of reports are in the order of these counts.
+class order_of {
+  public:
+    explicit order_of(const std::vector<rule_counts>& counts) : counts_(counts) {}
+
+    /// Where the entries of this one's rule and number are.
+    template <class Entry>
+    auto places(std::vector<Entry>& entries, const Entry& one) const {
+        const auto less = [this](const Entry& a, const Entry& b) { return place(a) < place(b); };
+        return std::equal_range(entries.begin(), entries.end(), one, less);
+    }
+
+  private:
+    template <class Entry>
+    std::size_t place(const Entry& e) const {
+        std::size_t i = 0;
+        while (i < counts_.size() && (counts_[i].rule != e.rule || counts_[i].number != e.number))
+            ++i;
+        return i;
+    }
+    const std::vector<rule_counts>& counts_;
+};
+
+void add(std::vector<rule_counts>& all, rule_counts one) {
+    const auto known = std::ranges::find_if(all, [&one](const rule_counts& other) {
+        return other.rule == one.rule && other.number == one.number;
+    });
+    if (known == all.end()) {
+        all.push_back(std::move(one));
+        return;
+    }
+    known->cases += one.cases;
+    known->values += one.values;
+    known->violations += one.violations;
+    known->undetermined += one.undetermined;
+}
+
+}  // namespace
+
+void report::merge(report later) {
+    for (rule_counts& one : later.counts) add(counts, std::move(one));
+    const order_of order(counts);
+    for (violation& one : later.violations) {
+        const auto [first, end] = order.places(violations, one);
+        if (static_cast<std::size_t>(end - first) < kept_violations)
+            violations.insert(end, std::move(one));
+    }
+    for (tightness& one : later.distributions) {
+        const auto [first, end] = order.places(distributions, one);
+        const auto known = std::find_if(first, end, [&one](const tightness& other) {
+            return other.quantity == one.quantity && other.measure == one.measure;
+        });
+        if (known != end)
+            known->log10.merge(one.log10);
+        else
+            distributions.insert(end, std::move(one));
+    }
 }
 
 }  // namespace errbound::validation

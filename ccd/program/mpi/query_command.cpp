@@ -12,7 +12,7 @@
 #include "ccd/io/query_ranges.hpp"
 #include "ccd/mpi/exchange.hpp"
 #include "ccd/program/mpi/commands.hpp"
-#include "ccd/program/mpi/study_options.hpp"
+#include "errbound/study/options.hpp"
 #include "errbound/support/command_line.hpp"
 
 namespace ccd::program {
@@ -83,7 +83,7 @@ class distributed_query final : public query {
                                       .chunks = chunks_.size(),
                                       .work = {[&](std::uint64_t i) { return decided(i, asked); }}},
                                      journal_.path());
-        return run_study(study, [&](const std::vector<std::string>& results) {
+        return run_study(study, stopped, [&](const std::vector<std::string>& results) {
             write(summed(results, asked));
             return done;
         });
@@ -97,8 +97,7 @@ class distributed_query final : public query {
     /// Rank 0 looks where the files' ranges are, and tells all.
     void read_indices(mpi::detail::exchanger& ranks) {
         std::vector<std::vector<io::query_range>> ranges(files_.size());
-        ranks.agree([&] {
-            if (ranks.rank() > 0) return;
+        errbound::study::on_root(MPI_COMM_WORLD, [&] {
             auto outputs = this->outputs();
             outputs.push_back(journal_.path());
             errbound::support::require_good_outputs(outputs, files_);
@@ -183,7 +182,7 @@ class distributed_query final : public query {
     }
 
     std::size_t chunk_ = 65536;
-    journal_option journal_{line_};
+    errbound::study::journal_option journal_{line_};
     std::vector<io::query_index> indices_;  ///< of each file
     std::vector<std::unique_ptr<io::range_reader>> readers_;
     std::vector<chunk> chunks_;

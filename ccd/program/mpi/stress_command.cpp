@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/mpi/agreement.hpp"
 #include "ccd/program/mpi/commands.hpp"
-#include "ccd/program/mpi/study_options.hpp"
+#include "errbound/study/options.hpp"
 #include "errbound/support/command_line.hpp"
 
 namespace ccd::program {
@@ -52,10 +51,7 @@ class distributed_stress final : public stress_run {
 
     exit_status run() override {
         const stress::plan plan = checked_plan();
-        int rank = 0;
-        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-        mpi::detail::agree(MPI_COMM_WORLD, [&] {
-            if (rank > 0) return;
+        errbound::study::on_root(MPI_COMM_WORLD, [&] {
             require_good_outputs();
             errbound::support::require_good_outputs({out_.json, journal_.path()}, {});
             stress::prepare(out_);
@@ -75,7 +71,7 @@ class distributed_stress final : public stress_run {
                                       .chunks = places.size(),
                                       .work = {cells}},
                                      journal_.path());
-        return run_study(study, [&](const std::vector<std::string>& results) {
+        return run_study(study, stopped, [&](const std::vector<std::string>& results) {
             return stress::write(joined(results, places, plan), plan, out_,
                                  errbound::support::stream_for_people({out_.json}))
                        ? done
@@ -116,7 +112,7 @@ class distributed_stress final : public stress_run {
         return cells;
     }
 
-    journal_option journal_{line_};
+    errbound::study::journal_option journal_{line_};
 };
 
 }  // namespace

@@ -11,31 +11,45 @@ class distribution {
   public:
     /// Quantiles are known to within this.
     static constexpr double resolution = 0.02;
+    // Beyond these ends, ratios share the outermost bins; the extremes are still kept exactly.
+    static constexpr double least_log = -40, max_log = 100;
 
-    /// A ratio by its log10.
+    /// All that a distribution is, for keeping it elsewhere. Bin i has the ratios whose log10 is
+    /// nearest to least_log + i · resolution; bins[0] is bin first_bin, and its ends are not zero.
+    struct counts {
+        std::uint64_t exact = 0, unknown = 0;
+        std::size_t first_bin = 0;
+        std::vector<std::uint64_t> bins{};
+        double least = 0, most = 0;  ///< log10 of the extremes; 0 without ratios
+    };
+
+    distribution() = default;
+    /// Throws std::invalid_argument: what no distribution has.
+    explicit distribution(counts from);
+    const counts& stored() const { return counts_; }
+
+    /// A ratio by its log10, which is finite.
     void add(double log10_ratio);
     /// The true error is zero, or too small for the reference to tell.
-    void add_exact() { ++exact_; }
+    void add_exact() { ++counts_.exact; }
     /// The bound is infinite or NaN: nothing is claimed.
-    void add_unknown() { ++unknown_; }
+    void add_unknown() { ++counts_.unknown; }
     void merge(const distribution& other);
 
     std::uint64_t ratios() const { return ratios_; }
-    std::uint64_t exact() const { return exact_; }
-    std::uint64_t unknown() const { return unknown_; }
-    std::uint64_t count() const { return ratios_ + exact_ + unknown_; }
+    std::uint64_t exact() const { return counts_.exact; }
+    std::uint64_t unknown() const { return counts_.unknown; }
+    std::uint64_t count() const { return ratios_ + exact() + unknown(); }
     /// Of the ratios: the least log10 that at least `share` of them do not exceed, 0 <= share <= 1;
     /// 0 and 1 are the extremes themselves. NaN without ratios.
     double quantile(double share) const;
 
   private:
-    // Beyond these ends, ratios share the outermost bins; the extremes are still kept exactly.
-    static constexpr double least_log = -40, max_log = 100;
-    static std::size_t bin_of(double log10_ratio);
+    void make_room(std::size_t first_bin, std::size_t bins);
+    void widen(double least, double most);
 
-    std::vector<std::uint64_t> bins_;  // empty until there is a ratio
-    std::uint64_t ratios_ = 0, exact_ = 0, unknown_ = 0;
-    double least_ = 0, most_ = 0;
+    counts counts_;
+    std::uint64_t ratios_ = 0;  // the sum of the bins
 };
 
 }  // namespace errbound::validation

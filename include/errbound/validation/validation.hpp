@@ -25,8 +25,9 @@ std::span<const rule> rules();
 /// A broken promise, with what it takes to see it again.
 struct violation {
     std::string rule, number;
-    std::string what;  ///< one sentence: which promise, and by how much it is broken
-    std::string code;  ///< C++ that shows it, as small as it could be made; lines end in \n
+    std::uint64_t index = 0;  ///< of the expression or query, from 0
+    std::string what;         ///< one sentence: which promise, and by how much it is broken
+    std::string code;         ///< C++ that shows it, as small as it could be made; lines end in \n
 };
 
 /// How tight bounds are, or how large errors, of one quantity under one rule.
@@ -47,17 +48,35 @@ struct rule_counts {
 };
 
 struct report {
+    /// Violations that are told, of each entry of counts; all are counted.
+    static constexpr std::size_t kept_violations = 5;
+
     std::vector<rule_counts> counts;
-    std::vector<violation> violations;  ///< the first few of each entry of counts
+    std::vector<violation> violations;  ///< the first of each entry of counts, in its order
     std::vector<tightness> distributions;
 
     std::uint64_t violation_count() const;
-    /// Appends what another run found.
-    void add(report other);
+    /// Adds what was found of further cases. Entries of counts that are not here come last.
+    void merge(report later);
+};
+
+/// Evidence in numbered chunks, which are the same whoever takes them: the threads of one program,
+/// or of many.
+struct evidence {
+    std::uint64_t chunks = 0;
+    /// What a chunk finds. May be called from several threads at once.
+    std::function<report(std::uint64_t chunk)> report_of;
+    /// Tells the violations of a report that all chunks' were merged into, in their order: before,
+    /// `what` and `code` may be empty.
+    std::function<void(report&)> tell;
 };
 
 /// Called now and then, from the calling thread only, with how much of all is done.
 using progress = std::function<void(std::uint64_t done, std::uint64_t all)>;
+
+/// What all chunks find; the same for every number of threads (0: one per core). Throws what a
+/// chunk throws, once all threads have ended.
+report examine(const evidence& what, int threads, const progress& show = {});
 
 struct expression_options {
     std::uint64_t expressions = 10'000'000;  ///< at least so many per rule and number type
@@ -68,12 +87,17 @@ struct expression_options {
 
 /// Random expressions in double and in float under all the rules against one reference. Rules
 /// without division are left out of expressions that divide; each gets its number all the same.
-/// The same for every number of threads. Cost: some microseconds an expression.
+/// Cost: some microseconds an expression.
+evidence evidence_of_expressions(std::span<const rule> rules, const expression_options& options);
 report validate_expressions(std::span<const rule> rules, const expression_options& options,
                             const progress& show = {});
 
-/// The forms of stored queries and BSC itself on them, operation by operation, in double. Cost:
-/// about a millisecond a query and rule.
+/// The forms of stored queries and BSC itself on them, operation by operation, in double. The
+/// evidence looks at the queries as long as it is used. Cost: about a millisecond a query and rule.
+evidence evidence_of_queries(std::span<const rule> rules,
+                             std::span<const ccd::vertex_face<double>> queries);
+evidence evidence_of_queries(std::span<const rule> rules,
+                             std::span<const ccd::edge_edge<double>> queries);
 report validate_queries(std::span<const rule> rules,
                         std::span<const ccd::vertex_face<double>> queries, int threads,
                         const progress& show = {});
@@ -83,6 +107,7 @@ report validate_queries(std::span<const rule> rules,
 
 /// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
 /// that a rule promises; in 6 bits also with every pair of bounds that operands can have.
+evidence evidence_of_tiny(std::span<const rule> rules);
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show = {});
 
 }  // namespace errbound::validation

@@ -153,7 +153,7 @@ class Query(StudyTest):
         self.bad_over(2, 1, "found no such file", "query", self.directory / "none-vf.csv")
         self.bad_over(2, 1, "found an empty file", "query", self.write("empty-vf.csv", ""))
         self.bad_over(2, 1, "found no kind of query", "query", self.write("coffee.csv", HIT))
-        self.bad_over(2, 1, "found the output", "query", file, "--journal", file)
+        self.bad_over(2, 2, "found the output", "query", file, "--journal", file)
         self.bad_over(2, 2, "--method: found 'none'", "query", file, "--method", "none")
         kept.write_text("1,2,3\n")
         self.bad_over(2, 1, "kept:1: found no journal of a study", "query", file, "--journal", kept)

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <errbound/validation/validation.hpp>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -107,6 +110,80 @@ TEST(Validate, ARuleWithTooSmallAFactorIsCaught) {
     constexpr rule broken = validation::rule_of<too_small>();
     for (const validation::violation& v : caught_in_expressions(broken))
         EXPECT_LE(std::count(v.code.begin(), v.code.end(), '\n'), 4) << v.what << "\n" << v.code;
+}
+
+TEST(Validate, ChunksAreTheWhole) {
+    const rule rules[] = {validation::rule_of<errbound::tight>(), validation::rule_of<as_printed>(),
+                          validation::rule_of<too_small>()};
+    const validation::expression_options options{.expressions = 6000, .seed = 4};
+    const validation::evidence what = validation::evidence_of_expressions(rules, options);
+    ASSERT_GT(what.chunks, 3U);
+    // Two halves of the chunks, each merged by itself.
+    validation::report first, second;
+    for (std::uint64_t c = 0; c < what.chunks; ++c)
+        (c < what.chunks / 2 ? first : second).merge(what.report_of(c));
+    first.merge(second);
+    what.tell(first);
+    const validation::report whole = validation::validate_expressions(rules, options);
+    EXPECT_EQ(all_violations(first), all_violations(whole));
+    ASSERT_EQ(first.counts.size(), 6U);
+    std::uint64_t told = 0;
+    for (const auto& c : whole.counts)
+        told += std::min<std::uint64_t>(c.violations, validation::report::kept_violations);
+    EXPECT_EQ(whole.violations.size(), told);
+    ASSERT_EQ(first.distributions.size(), whole.distributions.size());
+    for (std::size_t i = 0; i < whole.distributions.size(); ++i) {
+        EXPECT_EQ(first.distributions[i].quantity, whole.distributions[i].quantity);
+        EXPECT_EQ(first.distributions[i].log10.stored().bins,
+                  whole.distributions[i].log10.stored().bins);
+    }
+}
+
+TEST(Validate, AFailedChunkIsTold) {
+    validation::evidence what{.chunks = 100,
+                              .report_of = [](std::uint64_t c) -> validation::report {
+                                  if (c == 7) throw std::runtime_error("seven");
+                                  return {};
+                              },
+                              .tell = [](validation::report&) {}};
+    for (const int threads : {1, 3})
+        EXPECT_THROW(validation::examine(what, threads), std::runtime_error);
+    what.chunks = 0;
+    EXPECT_TRUE(validation::examine(what, 2).counts.empty());
+}
+
+TEST(Distribution, KeptElsewhere) {
+    validation::distribution d;
+    const auto is_kept = [&d] {
+        const validation::distribution kept(d.stored());
+        EXPECT_EQ(kept.count(), d.count());
+        EXPECT_EQ(kept.ratios(), d.ratios());
+        if (d.ratios() == 0) return;
+        for (const double share : {0.0, 0.3, 0.5, 1.0})
+            EXPECT_EQ(kept.quantile(share), d.quantile(share));
+    };
+    is_kept();
+    d.add_exact();
+    d.add_unknown();
+    is_kept();
+    for (const double log10 : {0.5, -3.0, 7.25, -1e6, 0.5, 1e6, 99.999}) {
+        d.add(log10);
+        is_kept();
+    }
+    EXPECT_EQ(d.quantile(0.5), 0.5);
+    EXPECT_EQ(d.quantile(0), -1e6);
+    EXPECT_EQ(d.quantile(1), 1e6);
+    using counts = validation::distribution::counts;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const counts& bad : {counts{.first_bin = 1}, counts{.least = 1}, counts{.bins = {1, 0}},
+                              counts{.first_bin = 2000, .bins = {1, 0}, .least = 0, .most = 0.02},
+                              counts{.first_bin = 2000, .bins = {1}, .least = 0, .most = nan},
+                              counts{.first_bin = 2001, .bins = {1}, .least = 0, .most = 0},
+                              counts{.first_bin = 2000, .bins = {1, 1}, .least = 0, .most = 0}})
+        EXPECT_THROW(validation::distribution{bad}, std::invalid_argument);
+    EXPECT_EQ(
+        validation::distribution({.first_bin = 2000, .bins = {1}, .least = 0, .most = 0}).ratios(),
+        1U);
 }
 
 }  // namespace

@@ -1,18 +1,17 @@
-// What commands over ranks that are studies share.
+// What commands that are studies share.
 #pragma once
 
-#include <mpi.h>
-
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "ccd/program/command.hpp"
 #include "errbound/study/study.hpp"
 #include "errbound/support/progress_line.hpp"
 
-namespace ccd::program {
+namespace errbound::study {
 
 /// --journal.
 class journal_option {
@@ -29,17 +28,16 @@ class journal_option {
 };
 
 /// Completes the study, shows how far it is, and calls write(results) on rank 0, whose status it
-/// returns on all. Collective; throws on all ranks what is thrown on one.
-template <class Write>
-exit_status run_study(errbound::study::study& study, const Write& write) {
+/// returns on all; `stopped` where it was ended before. Collective; throws on all ranks what is
+/// thrown on one.
+template <class Status, class Write>
+Status run_study(study& all, Status stopped, const Write& write) {
     {
-        errbound::support::progress_line line;
-        const auto show = [&](std::size_t done, std::size_t all) {
-            line.show(done, all, "chunks");
-        };
-        if (!study.complete(show)) return stopped;
+        support::progress_line line;
+        const auto show = [&](std::size_t done, std::size_t of) { line.show(done, of, "chunks"); };
+        if (!all.complete(show)) return stopped;
     }
-    return static_cast<exit_status>(study.conclude([&] { return write(study.results()); }));
+    return static_cast<Status>(all.conclude([&] { return write(all.results()); }));
 }
 
-}  // namespace ccd::program
+}  // namespace errbound::study

@@ -1,0 +1,65 @@
+// The options of `errbound validate`.
+#include "errbound/program/validate_options.hpp"
+
+#include <ccd/io/query_file.hpp>
+#include <cstdint>
+
+#include "errbound/support/command_line.hpp"
+
+namespace errbound::validation {
+namespace {
+
+rule rule_named(const std::string& name) {
+    return support::entry_named("--rules", name, rules(), &rule::name);
+}
+
+}  // namespace
+
+validate_options::validate_options(CLI::App& program, int threads)
+    : line_(*program.add_subcommand(
+          "validate",
+          "Hold every bound rule's bounds and certain signs against MPFR, and report how tight "
+          "they\nare. Random expressions, unless --tiny or --queries asks for those.")) {
+    arguments_.options.threads = threads;
+    line_
+        .add_option("--expressions", arguments_.options.expressions,
+                    "Random expressions, at least so many per rule and number type")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    line_.add_option("--seed", arguments_.options.seed, "Same seed, same expressions")
+        ->capture_default_str();
+    line_
+        .add_option("--operations", arguments_.options.operations,
+                    "Operations in an expression, at most")
+        ->check(CLI::Range(1, max_operations))
+        ->capture_default_str();
+    line_
+        .add_option("--queries", arguments_.queries,
+                    "Stored queries (ccd query --help says their form): their forms and BSC")
+        ->type_name("FILE...")
+        ->transform(support::input_named);
+    line_.add_option("--kind", kind_, "Kind of queries; else the path says")
+        ->check(CLI::IsMember(ccd::io::kind_names()));
+    line_.add_flag("--round", arguments_.round,
+                   "Round rationals that no double equals, instead of refusing them");
+    line_.add_flag("--tiny", arguments_.tiny, "Every case of number formats of 6 to 8 bits");
+    line_.add_option("--rules", rules_, "Rules R[,R...], else all")->type_name("R[,R...]");
+    line_.add_option("--threads", arguments_.options.threads, "Threads; 0: one per core")
+        ->check(CLI::Range(0, 4096));
+    line_.add_option("--json", arguments_.json, "Write all tables as JSON")->type_name("OUT");
+    line_.add_option("--csv", arguments_.csv, "Write the table of tightness as CSV")
+        ->type_name("OUT");
+}
+
+validate_arguments validate_options::checked() {
+    validate_arguments all = arguments_;
+    if (line_.count("--rules") == 0)
+        all.rules.assign(rules().begin(), rules().end());
+    else
+        all.rules = support::all_named(rules_, rule_named);
+    all.kind = ccd::find_kind(kind_);
+    all.expressions = line_.count("--expressions") > 0 || (!all.tiny && all.queries.empty());
+    return all;
+}
+
+}  // namespace errbound::validation

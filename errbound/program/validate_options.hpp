@@ -1,0 +1,42 @@
+// What the command line says of `errbound validate`, over ranks or not.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <ccd/kind.hpp>
+#include <errbound/validation/validation.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace errbound::validation {
+
+enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2, stopped = 3 };
+
+struct validate_arguments {
+    std::vector<rule> rules;
+    bool expressions = false, tiny = false;  ///< whether to run them
+    expression_options options;              ///< threads: of all parts
+    std::vector<std::filesystem::path> queries;
+    std::optional<ccd::kind> kind;  ///< none: from each path
+    bool round = false;
+    std::optional<std::filesystem::path> json, csv;
+};
+
+class validate_options {
+  public:
+    /// Adds the command, with that many threads unless the line says others.
+    validate_options(CLI::App& program, int threads);
+
+    bool was_given() const { return line_.parsed(); }
+    CLI::App& line() { return line_; }
+    /// Of the parsed line. Throws errbound::support::usage_error.
+    validate_arguments checked();
+
+  private:
+    CLI::App& line_;
+    validate_arguments arguments_;
+    std::string rules_, kind_;
+};
+
+}  // namespace errbound::validation

@@ -1,0 +1,149 @@
+// What `errbound validate` found, as tables, JSON and CSV.
+#include "errbound/program/validate_results.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "errbound/support/command_line.hpp"
+#include "errbound/support/output_file.hpp"
+#include "errbound/support/table.hpp"
+
+namespace errbound::validation {
+namespace {
+
+using nlohmann::ordered_json;
+using support::table;
+using support::text_of;
+
+struct named_quantile {
+    const char* name;
+    double share;
+};
+constexpr named_quantile quantiles[] = {{"min", 0},      {"q01", 0.01}, {"q25", 0.25},
+                                        {"median", 0.5}, {"q75", 0.75}, {"q99", 0.99},
+                                        {"max", 1}};
+
+std::string text_of_counts(const std::vector<found_part>& parts) {
+    table rows{{"part", "rule", "number", "cases", "values", "violations", "undetermined"}};
+    for (const found_part& p : parts)
+        for (const rule_counts& c : p.found.counts)
+            rows.push_back({p.name, c.rule, c.number, std::to_string(c.cases),
+                            std::to_string(c.values), std::to_string(c.violations),
+                            std::to_string(c.undetermined)});
+    return text_of(rows, 3);
+}
+
+std::string text_of_tightness(const std::vector<found_part>& parts) {
+    table rows{{"part", "rule", "number", "quantity", "measure", "ratios", "exact", "unknown"}};
+    for (const named_quantile& q : quantiles) rows.front().push_back(q.name);
+    for (const found_part& p : parts)
+        for (const tightness& t : p.found.distributions) {
+            rows.push_back({p.name, t.rule, t.number, t.quantity, t.measure,
+                            std::to_string(t.log10.ratios()), std::to_string(t.log10.exact()),
+                            std::to_string(t.log10.unknown())});
+            for (const named_quantile& q : quantiles) {
+                char text[32] = "-";
+                if (t.log10.ratios() > 0)
+                    std::snprintf(text, sizeof text, "%.2f", t.log10.quantile(q.share));
+                rows.back().push_back(text);
+            }
+        }
+    return rows.size() > 1 ? text_of(rows, 5) : std::string();
+}
+
+std::string text_of_violations(const std::vector<found_part>& parts) {
+    std::string text;
+    for (const found_part& p : parts)
+        for (const violation& v : p.found.violations)
+            text += "\nviolation: " + p.name + ", " + v.rule + ", " + v.number + "\n" + v.what +
+                    "\n" + v.code;
+    return text;
+}
+
+ordered_json number_or_null(double x) {
+    return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr);
+}
+
+std::string json_of(const std::vector<found_part>& parts) {
+    ordered_json all{{"counts", ordered_json::array()},
+                     {"violations", ordered_json::array()},
+                     {"tightness", ordered_json::array()}};
+    for (const found_part& p : parts) {
+        for (const rule_counts& c : p.found.counts)
+            all["counts"].push_back({{"part", p.name},
+                                     {"rule", c.rule},
+                                     {"number", c.number},
+                                     {"cases", c.cases},
+                                     {"values", c.values},
+                                     {"violations", c.violations},
+                                     {"undetermined", c.undetermined}});
+        for (const violation& v : p.found.violations)
+            all["violations"].push_back({{"part", p.name},
+                                         {"rule", v.rule},
+                                         {"number", v.number},
+                                         {"what", v.what},
+                                         {"code", v.code}});
+        for (const tightness& t : p.found.distributions) {
+            ordered_json entry{{"part", p.name},           {"rule", t.rule},
+                               {"number", t.number},       {"quantity", t.quantity},
+                               {"measure", t.measure},     {"ratios", t.log10.ratios()},
+                               {"exact", t.log10.exact()}, {"unknown", t.log10.unknown()}};
+            for (const named_quantile& q : quantiles)
+                entry[q.name] = number_or_null(t.log10.quantile(q.share));
+            all["tightness"].push_back(std::move(entry));
+        }
+    }
+    // A path need not be UTF-8; the default would throw on such a one.
+    return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+/// A field, quoted where CSV asks for it.
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + '"';
+}
+
+std::string csv_of(const std::vector<found_part>& parts) {
+    std::string text = "part,rule,number,quantity,measure,ratios,exact,unknown";
+    for (const named_quantile& q : quantiles) text += std::string(",") + q.name;
+    text += '\n';
+    for (const found_part& p : parts)
+        for (const tightness& t : p.found.distributions) {
+            text += field(p.name) + ',' + t.rule + ',' + t.number + ',' + t.quantity + ',' +
+                    t.measure + ',' + std::to_string(t.log10.ratios()) + ',' +
+                    std::to_string(t.log10.exact()) + ',' + std::to_string(t.log10.unknown());
+            for (const named_quantile& q : quantiles) {
+                char number[40] = ",";
+                if (t.log10.ratios() > 0)
+                    std::snprintf(number, sizeof number, ",%.6g", t.log10.quantile(q.share));
+                text += number;
+            }
+            text += '\n';
+        }
+    return text;
+}
+
+}  // namespace
+
+exit_status write_results(const std::vector<found_part>& parts, const validate_arguments& to) {
+    std::vector<support::output> outputs;
+    if (to.json) outputs.push_back({*to.json, json_of(parts)});
+    if (to.csv) outputs.push_back({*to.csv, csv_of(parts)});
+    support::write_whole(outputs);
+    std::ostream& people = support::stream_for_people({to.json, to.csv});
+    people << text_of_counts(parts);
+    if (const std::string text = text_of_tightness(parts); !text.empty())
+        people << "\nlog10 of the measure:\n" << text;
+    people << text_of_violations(parts);
+    std::uint64_t violations = 0;
+    for (const found_part& p : parts) violations += p.found.violation_count();
+    people << '\n' << (violations == 0 ? "no" : std::to_string(violations)) << " violations\n";
+    return violations == 0 ? done : violations_found;
+}
+
+}  // namespace errbound::validation

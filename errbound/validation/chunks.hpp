@@ -1,0 +1,39 @@
+// Evidence in chunks, whose sizes depend on what there is to do alone. Internal.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <errbound/validation/validation.hpp>
+#include <ranges>
+
+namespace errbound::validation {
+
+/// Numbered cases in some hundred chunks at most, one at least: a chunk's report is some hundred
+/// kilobytes where programs share chunks.
+class chunks {
+  public:
+    /// Chunks have `least` cases at least, but for the last.
+    constexpr chunks(std::uint64_t cases, std::uint64_t least)
+        : cases_(cases), size_(std::max(least, rounded_up(cases, most))) {}
+
+    constexpr std::uint64_t count() const {
+        return std::max<std::uint64_t>(rounded_up(cases_, size_), 1);
+    }
+    /// Of a chunk's cases.
+    constexpr auto indices(std::uint64_t chunk) const {
+        return std::views::iota(std::min(cases_, chunk * size_),
+                                std::min(cases_, (chunk + 1) * size_));
+    }
+
+  private:
+    static constexpr std::uint64_t most = 400;
+    static constexpr std::uint64_t rounded_up(std::uint64_t n, std::uint64_t d) {
+        return n / d + (n % d > 0);
+    }
+    std::uint64_t cases_, size_;
+};
+
+/// The same, which sets MPFR up on the thread that calls it, and frees what MPFR keeps there.
+evidence with_mpfr(evidence what);
+
+}  // namespace errbound::validation
