@@ -1,11 +1,16 @@
 // `ccd convert`: stored queries from CSV to a store and back.
+#include <atomic>
+#include <boost/crc.hpp>
 #include <ccd/io/query_store.hpp>
 #include <ccd/methods/transform.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 #include "ccd/io/query_ranges.hpp"
 #include "ccd/program/command.hpp"
@@ -15,6 +20,8 @@
 #include "errbound/support/error.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
+#include "errbound/support/scratch_file.hpp"
+#include "errbound/support/signals.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -30,8 +37,35 @@ struct read_file {
     double seconds = 0;
 };
 
+/// How many queries, and a checksum of their bits and truth, in order.
+class query_content {
+  public:
+    void add(const io::query_file& queries) {
+        size_ += queries.size();
+        std::visit(
+            [&](const auto& all) {
+                static_assert(std::is_trivially_copyable_v<std::remove_cvref_t<decltype(all[0])>>);
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    sum_.process_bytes(&all[i], sizeof all[i]);
+                    if (queries.truth) sum_.process_byte((*queries.truth)[i] ? 1 : 0);
+                }
+            },
+            queries.queries);
+    }
+    std::uint64_t size() const { return size_; }
+    bool operator==(const query_content& other) const {
+        return size_ == other.size_ && sum_.checksum() == other.sum_.checksum();
+    }
+
+  private:
+    std::uint64_t size_ = 0;
+    // CRC-64 of ECMA-182: of two lists that differ by chance, one in 2^64 have the same.
+    boost::crc_optimal<64, 0x42f0e1eba9ea3693, 0, 0, false, false> sum_;
+};
+
 /// Rows of hexadecimal floats, and of truth where it is known.
-void append_rows(std::string& text, const io::query_file& queries) {
+std::string rows_of(const io::query_file& queries) {
+    std::string text;
     std::visit(
         [&](const auto& all) {
             for (std::size_t i = 0; i < all.size(); ++i) {
@@ -40,9 +74,10 @@ void append_rows(std::string& text, const io::query_file& queries) {
             }
         },
         queries.queries);
+    return text;
 }
 
-/// What the output is made of, as queries come in.
+/// The output, made in a temporary file as queries come in.
 class converted {
   public:
     explicit converted(bool to_store) : to_store_(to_store) {}
@@ -51,7 +86,10 @@ class converted {
         if (!kind_) {
             kind_ = queries.kind();
             has_truth_ = queries.truth.has_value();
-            if (to_store_) packer_.emplace(*kind_, has_truth_);
+            if (to_store_)
+                packer_.emplace(*kind_, has_truth_);
+            else
+                rows_.emplace();
         }
         if (queries.kind() != *kind_)
             throw file_error(file + ": found queries of kind " + std::string(name(queries.kind())) +
@@ -60,19 +98,22 @@ class converted {
             throw file_error(file + ": found queries " + (has_truth_ ? "without" : "with") +
                              " truth, expected " + (has_truth_ ? "it" : "none") +
                              " as in the first file");
+        content_.add(queries);
         if (to_store_)
             packer_->add(queries);
         else
-            append_rows(text_, queries);
+            rows_->append(rows_of(queries));
     }
-    std::string bytes() const { return to_store_ ? packer_->bytes() : text_; }
+    const std::filesystem::path& finish() { return to_store_ ? packer_->finish() : rows_->path(); }
     kind kind_of_all() const { return *kind_; }
+    const query_content& content() const { return content_; }
 
   private:
     bool to_store_, has_truth_ = false;
     std::optional<kind> kind_;
+    query_content content_;
     std::optional<io::query_packer> packer_;
-    std::string text_;
+    std::optional<errbound::support::scratch_file> rows_;
 };
 
 class convert final : public command {
@@ -109,16 +150,16 @@ class convert final : public command {
             throw usage_error("FILE: found '" + out.string() +
                               "', expected a .csv: this was built without HDF5");
         errbound::support::require_good_outputs({out, json_}, files_);
-        converted all(to_store);
-        std::vector<read_file> table;
-        for (const std::filesystem::path& file : files_) table.push_back(take(file, all));
-        const std::string bytes = all.bytes();
-        table.push_back(read_back(out, bytes, all, table));
-        std::vector<errbound::support::output> outputs{{out, bytes}};
-        if (json_) outputs.push_back({*json_, json_of(table)});
-        errbound::support::write_whole(outputs);
-        errbound::support::stream_for_people({json_}) << text_of(table);
-        return done;
+        int ended_by = 0;
+        {
+            // Temporary files do not stay where they are.
+            const errbound::support::awaited_signals signals;
+            stop_ = &signals.arrived();
+            if (make(out, to_store)) return done;
+            ended_by = signals.signal();
+        }
+        std::raise(ended_by);
+        return stopped;
     }
 
   private:
@@ -126,36 +167,52 @@ class convert final : public command {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
-    read_file take(const std::filesystem::path& file, converted& all) const {
-        read_file read{file.string()};
+    /// Returns whether it got to the end.
+    bool make(const std::filesystem::path& out, bool to_store) const {
+        converted all(to_store);
+        std::vector<read_file> table;
+        for (const std::filesystem::path& file : files_) {
+            const auto read = for_each_range(
+                file, file.string(), find_kind(kind_), round_,
+                [&](const io::query_file& queries) { all.add(queries, file.string()); });
+            if (!read) return false;
+            table.push_back(*read);
+        }
+        const std::filesystem::path made = all.finish();
+        query_content content;  // what was made has to be what was read
+        const auto read =
+            for_each_range(made, out.string(), all.kind_of_all(), false,
+                           [&](const io::query_file& queries) { content.add(queries); });
+        if (!read) return false;
+        if (!(content == all.content()))
+            throw std::runtime_error(out.string() + ": what was made reads back as something else");
+        table.push_back(*read);
+        std::vector<errbound::support::output> outputs{{.path = out, .from = made}};
+        if (json_) outputs.push_back({*json_, json_of(table)});
+        errbound::support::write_whole(outputs);
+        errbound::support::stream_for_people({json_}) << text_of(table);
+        return true;
+    }
+
+    /// Reads a file, called `name`, in ranges; nothing where it was ended before.
+    template <class Take>
+    std::optional<read_file> for_each_range(const std::filesystem::path& file, std::string name,
+                                            std::optional<kind> kind, bool round,
+                                            const Take& take) const {
+        read_file read{std::move(name)};
         const io::query_index index = io::index_queries(file, 65536);
-        io::range_reader reader(file, find_kind(kind_), round_, index);
+        io::range_reader reader(file, kind, round, index);
         errbound::support::progress_line progress;
         for (std::size_t i = 0; i < index.ranges.size(); ++i) {
+            if (*stop_) return std::nullopt;
             progress.show(i, index.ranges.size(), read.name);
             const auto start = std::chrono::steady_clock::now();
             const io::query_file queries = reader.read(i);
             read.seconds += seconds_since(start);
             read.queries += queries.size();
-            all.add(queries, read.name);
+            take(queries);
         }
         read.bytes = index.bytes;
-        return read;
-    }
-
-    /// What was made has to be what was read.
-    static read_file read_back(const std::filesystem::path& out, const std::string& bytes,
-                               const converted& made, const std::vector<read_file>& from) {
-        const auto start = std::chrono::steady_clock::now();
-        const io::query_file queries =
-            io::parse_stored_queries(bytes, out.string(), made.kind_of_all(), false);
-        read_file read{out.string(), queries.size(), bytes.size(), seconds_since(start)};
-        converted again(out.extension() != ".csv");
-        again.add(queries, read.name);
-        std::uint64_t expected = 0;
-        for (const read_file& f : from) expected += f.queries;
-        if (read.queries != expected || again.bytes() != bytes)
-            throw std::runtime_error(out.string() + ": what was made reads back as something else");
         return read;
     }
 
@@ -189,6 +246,7 @@ class convert final : public command {
     std::string kind_;
     bool round_ = false;
     std::optional<std::filesystem::path> json_;
+    const std::atomic<bool>* stop_ = nullptr;
 };
 
 }  // namespace

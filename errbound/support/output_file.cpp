@@ -29,6 +29,18 @@ std::string reason() {
     return errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : std::string();
 }
 
+/// Block by block, not by the file's size: a pipe has none.
+template <class Take>
+void for_each_block(const fs::path& path, const Take& take) {
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw file_error(path.string() + ": cannot be read" + reason());
+    std::array<char, 1 << 16> block;
+    while (in.read(block.data(), block.size()), in.gcount() > 0)
+        take(std::string_view(block.data(), static_cast<std::size_t>(in.gcount())));
+    if (in.bad()) throw file_error(path.string() + ": reading failed" + reason());
+}
+
 /// While one of these lives, signals that would end the program are only taken down; the destructor
 /// lets them. Beyond a limit on a file's size writing fails.
 class deferred_signals {
@@ -77,11 +89,18 @@ void write_to(int descriptor, std::string_view text, const fs::path& shown) {
     }
 }
 
+void write_to(int descriptor, const output& out) {
+    if (out.from.empty()) return write_to(descriptor, out.text, out.path);
+    for_each_block(out.from,
+                   [&](std::string_view block) { write_to(descriptor, block, out.path); });
+}
+
 /// The same, and closes it.
-void write_and_close(int descriptor, std::string_view text, const fs::path& shown) {
+void write_and_close(int descriptor, const output& out) {
+    const fs::path& shown = out.path;
     if (descriptor < 0) throw file_error(shown.string() + ": cannot be written" + reason());
     try {
-        write_to(descriptor, text, shown);
+        write_to(descriptor, out);
     } catch (...) {
         ::close(descriptor);
         throw;
@@ -102,7 +121,7 @@ class temporary_file {
         try {
             constexpr mode_t permissions = 07777;
             if (replaces) ::fchmod(descriptor, replaced.st_mode & permissions);
-            write_and_close(descriptor, out.text, out.path);
+            write_and_close(descriptor, out);
         } catch (...) {
             if (descriptor >= 0) ::unlink(path_.c_str());
             throw;
@@ -207,10 +226,9 @@ void write_whole(const std::vector<output>& outputs) {
     for (const output* out : streams) {
         if (const auto descriptor = descriptor_of(out->path)) {
             std::cout.flush();
-            write_to(*descriptor, out->text, out->path);
+            write_to(*descriptor, *out);
         } else {
-            write_and_close(::open(out->path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY), out->text,
-                            out->path);
+            write_and_close(::open(out->path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY), *out);
         }
     }
     for (temporary_file& file : files) file.put_in_place();
@@ -229,16 +247,8 @@ std::string read_whole(const fs::path& path) {
     if (fs::is_directory(status)) {
         throw file_error(path.string() + ": found a directory, expected a file");
     }
-    errno = 0;
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw file_error(path.string() + ": cannot be read" + reason());
     std::string text;
-    // Block by block, not by the file's size: a pipe has none.
-    char block[1 << 16];
-    while (in.read(block, sizeof block), in.gcount() > 0) {
-        text.append(block, static_cast<std::size_t>(in.gcount()));
-    }
-    if (in.bad()) throw file_error(path.string() + ": reading failed" + reason());
+    for_each_block(path, [&text](std::string_view block) { text += block; });
     return text;
 }
 

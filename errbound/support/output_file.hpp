@@ -12,7 +12,8 @@ namespace errbound::support {
 /// A file to write, and all that goes into it.
 struct output {
     std::filesystem::path path;
-    std::string text;
+    std::string text{};
+    std::filesystem::path from{};  ///< a file whose bytes go into it instead, unless empty
 };
 
 /// The open descriptor that a path stands for: `-` and /dev/stdout are 1, /dev/stderr 2,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <errbound/validation/validation.hpp>
-#include <ranges>
 
 namespace errbound::validation {
 
@@ -19,10 +18,12 @@ class chunks {
     constexpr std::uint64_t count() const {
         return std::max<std::uint64_t>(rounded_up(cases_, size_), 1);
     }
-    /// Of a chunk's cases.
-    constexpr auto indices(std::uint64_t chunk) const {
-        return std::views::iota(std::min(cases_, chunk * size_),
-                                std::min(cases_, (chunk + 1) * size_));
+    /// Cases [begin, end).
+    struct range {
+        std::uint64_t begin, end;
+    };
+    constexpr range of(std::uint64_t chunk) const {
+        return {std::min(cases_, chunk * size_), std::min(cases_, (chunk + 1) * size_)};
     }
 
   private:

@@ -170,7 +170,7 @@ struct study {
 
     report report_of(std::uint64_t chunk) const {
         examination found;
-        for (const std::uint64_t index : expressions().indices(chunk))
+        for (auto [index, end] = expressions().of(chunk); index < end; ++index)
             for (const number_type type : number_types)
                 found.check(rules, at(index, type), type, index);
         report result;

@@ -82,7 +82,7 @@ report report_of(std::span<const rule> rules, std::span<const Query> queries,
         tally found;
         found.counts.rule = r.name;
         found.counts.number = "double";
-        for (const std::uint64_t i : of_queries.indices(chunk)) check(r, queries[i], i, found);
+        for (auto [i, end] = of_queries.of(chunk); i < end; ++i) check(r, queries[i], i, found);
         result.counts.push_back(found.counts);
         for (auto& [name, log10] : found.quantities)
             result.distributions.push_back({std::string(r.name), "double", name,

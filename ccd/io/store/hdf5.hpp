@@ -6,6 +6,7 @@
 #include <errbound/support/error.hpp>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace ccd::io::hdf5 {
@@ -43,7 +44,14 @@ inline std::string reason() {
             return 0;
         },
         &said);
-    return said.empty() ? "no reason" : said;
+    if (said.empty()) return "no reason";
+    // Of the system's failures it says much more, on several lines.
+    constexpr std::string_view of_system = "error message = '";
+    if (const std::size_t at = said.find(of_system); at != std::string::npos) {
+        const std::size_t begin = at + of_system.size();
+        return said.substr(begin, said.find('\'', begin) - begin);
+    }
+    return said.substr(0, said.find('\n'));
 }
 
 /// Of a call that is negative where it fails. `what` says where: "FILE: dataset points".

@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -23,21 +25,61 @@ using hdf5::handle;
 
 using moving = std::array<double, 6>;
 
+/// A type of numbers, as it is stored, and its name for people.
+struct stored_type {
+    hid_t type;
+    const char* name;
+};
+
+/// What a dataset has to be before its numbers are looked at: in this file, in chunks that fit in
+/// memory, by filters that every HDF5 has. (Others would be looked for among plug-ins.)
+void require_plain(hid_t file, hid_t set, const char* of, const std::string& what) {
+    H5L_info_t link;
+    checked(H5Lget_info(file, of, &link, H5P_DEFAULT), what);
+    if (link.type != H5L_TYPE_HARD)
+        throw file_error(what + ": found a link to another place, expected it in this file");
+    const handle how(H5Dget_create_plist(set), H5Pclose, what);
+    if (H5Pget_layout(how) != H5D_CHUNKED)
+        throw file_error(what + ": found no chunks, expected rows that are stored in chunks");
+    hsize_t chunk[2] = {0, 1};
+    checked(H5Pget_chunk(how, 2, chunk), what);
+    constexpr hsize_t most = 1 << 20;
+    if (chunk[0] > most)
+        throw file_error(what + ": found chunks of " + std::to_string(chunk[0]) +
+                         " rows, expected at most " + std::to_string(most));
+    const int filters = checked(H5Pget_nfilters(how), what);
+    for (int i = 0; i < filters; ++i) {
+        unsigned flags = 0;
+        std::size_t values = 0;
+        const H5Z_filter_t filter = H5Pget_filter2(how, static_cast<unsigned>(i), &flags, &values,
+                                                   nullptr, 0, nullptr, nullptr);
+        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
+            filter != H5Z_FILTER_FLETCHER32)
+            throw file_error(what + ": found filter " + std::to_string(filter) +
+                             ", expected deflate, shuffle and fletcher32 alone");
+    }
+}
+
 /// A dataset of rows of numbers.
 class rows_on_disk {
   public:
-    rows_on_disk(hid_t file, const std::string& name, const char* of, H5T_class_t type,
-                 std::vector<std::size_t> bytes, hsize_t columns)
+    rows_on_disk(hid_t file, const std::string& name, const char* of,
+                 std::initializer_list<stored_type> types, hsize_t columns)
         : what_(name + ": dataset " + of),
           set_(H5Dopen2(file, of, H5P_DEFAULT), H5Dclose, what_),
           columns_(columns) {
+        require_plain(file, set_, of, what_);
         const handle stored(H5Dget_type(set_), H5Tclose, what_);
         bytes_ = H5Tget_size(stored);
-        if (H5Tget_class(stored) != type || std::ranges::find(bytes, bytes_) == bytes.end())
-            throw file_error(what_ + ": found numbers of " + std::to_string(bytes_) +
-                             " bytes or of another class, expected " +
-                             (type == H5T_FLOAT ? "floats" : "whole numbers") + " of " +
-                             std::to_string(bytes.front()) + " bytes");
+        std::string expected;
+        bool is_one = false;
+        for (const stored_type& t : types) {
+            expected += (expected.empty() ? "" : " or ") + std::string(t.name);
+            is_one = is_one || checked(H5Tequal(stored, t.type), what_) > 0;
+        }
+        if (!is_one)
+            throw file_error(what_ + ": found numbers of another type, expected " + expected +
+                             ", least significant byte first");
         const handle space(H5Dget_space(set_), H5Sclose, what_);
         const int rank = columns == 1 ? 1 : 2;
         hsize_t size[2] = {0, 1};
@@ -73,8 +115,11 @@ class rows_on_disk {
                              ")");
         return all;
     }
+    [[noreturn]] void refuse(const std::string& said) const {
+        throw file_error(what_ + ": " + said);
+    }
     [[noreturn]] void refuse(std::uint64_t row, const std::string& said) const {
-        throw file_error(what_ + ": row " + std::to_string(row) + ": " + said);
+        refuse("row " + std::to_string(row) + ": " + said);
     }
 
   private:
@@ -145,27 +190,29 @@ class store_reader::opened {
         : name_(name),
           file_(std::move(file)),
           kind_(kind_of_store(file_, name)),
-          points_(file_, name, "points", H5T_FLOAT, {8}, 6),
-          queries_(file_, name, "queries", H5T_INTEGER, {4, 2}, 4),
-          first_point_(file_, name, "first_point", H5T_INTEGER, {8}, 1),
-          checksums_(file_, name, "checksums", H5T_INTEGER, {4}, 1) {
+          points_(file_, name, "points", {{H5T_IEEE_F64LE, "float64"}}, 6),
+          queries_(file_, name, "queries", {{H5T_STD_U16LE, "uint16"}, {H5T_STD_U32LE, "uint32"}},
+                   4),
+          first_point_(file_, name, "first_point", {{H5T_STD_U64LE, "uint64"}}, 1),
+          checksums_(file_, name, "checksums", {{H5T_STD_U32LE, "uint32"}}, 1) {
         if (checked(H5Lexists(file_, "truth", H5P_DEFAULT), name) > 0)
-            truth_.emplace(file_, name, "truth", H5T_INTEGER, std::vector<std::size_t>{1}, 1);
+            truth_.emplace(file_, name, "truth",
+                           std::initializer_list<stored_type>{{H5T_STD_U8LE, "uint8"}}, 1);
         if (size() == 0) throw file_error(name + ": dataset queries: found none");
-        if (truth_ && truth_->rows() != size())
-            throw file_error(name + ": dataset truth: found " + std::to_string(truth_->rows()) +
-                             " rows, expected " + std::to_string(size()) + ", one a query");
-        begins_ = first_point_.read<std::uint64_t>(H5T_NATIVE_UINT64, 0, first_point_.rows());
+        if (truth_) require_rows(*truth_, size());
         const std::uint64_t chunks = (size() + queries_of_a_chunk - 1) / queries_of_a_chunk;
-        if (begins_.size() != chunks + 1 || begins_.front() != 0 ||
-            begins_.back() != points_.rows() || !std::ranges::is_sorted(begins_))
-            throw file_error(name + ": dataset first_point: expected " +
-                             std::to_string(chunks + 1) + " rows that ascend from 0 to " +
-                             std::to_string(points_.rows()));
-        sums_ = checksums_.read<std::uint32_t>(H5T_NATIVE_UINT32, 0, checksums_.rows());
-        if (sums_.size() != chunks)
-            throw file_error(name + ": dataset checksums: found " + std::to_string(sums_.size()) +
-                             " rows, expected " + std::to_string(chunks));
+        require_rows(first_point_, chunks + 1);
+        require_rows(checksums_, chunks);
+        begins_ = first_point_.read<std::uint64_t>(H5T_NATIVE_UINT64, 0, chunks + 1);
+        sums_ = checksums_.read<std::uint32_t>(H5T_NATIVE_UINT32, 0, chunks);
+        const auto are_apart = [](std::uint64_t begin, std::uint64_t end) {
+            return begin < end && end - begin <= 4 * queries_of_a_chunk;
+        };
+        if (begins_.front() != 0 || begins_.back() != points_.rows() ||
+            std::ranges::adjacent_find(begins_, std::not_fn(are_apart)) != begins_.end())
+            first_point_.refuse("expected rows that ascend from 0 to " +
+                                std::to_string(points_.rows()) + ", each by at most " +
+                                std::to_string(4 * queries_of_a_chunk));
     }
 
     ccd::kind kind() const { return kind_; }
@@ -182,6 +229,12 @@ class store_reader::opened {
     }
 
   private:
+    static void require_rows(const rows_on_disk& set, std::uint64_t expected) {
+        if (set.rows() != expected)
+            set.refuse("found " + std::to_string(set.rows()) + " rows, expected " +
+                       std::to_string(expected));
+    }
+
     /// A chunk as it is stored, found to be what was written.
     struct stored_chunk {
         std::uint64_t number = 0;

@@ -1,4 +1,5 @@
 // What is said of stores where this is built without HDF5.
+#include <ccd/io/query_store.hpp>
 #include <errbound/support/error.hpp>
 #include <stdexcept>
 
@@ -41,8 +42,19 @@ query_file store_reader::read(std::uint64_t, std::uint64_t) const {
 bool has_query_stores() {
     return false;
 }
-std::string store_of(const store_parts&) {
+
+class store_writer::unfinished {};
+
+store_writer::store_writer(std::string_view, bool) {
     throw std::runtime_error("stores of queries are not made: this was built without HDF5");
+}
+store_writer::~store_writer() = default;
+store_writer::store_writer(store_writer&&) noexcept = default;
+store_writer& store_writer::operator=(store_writer&&) noexcept = default;
+void store_writer::add(const store_chunk&, bool) {}
+const std::filesystem::path& store_writer::path() const {
+    static const std::filesystem::path none;
+    return none;
 }
 
 }  // namespace ccd::io

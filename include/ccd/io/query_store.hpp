@@ -2,48 +2,40 @@
 // which read_queries (ccd/io/query_file.hpp) reads as it does CSV. Its layout: docs/program.md.
 #pragma once
 
-#include <array>
 #include <ccd/io/query_file.hpp>
-#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <unordered_map>
-#include <vector>
+#include <filesystem>
+#include <memory>
 
 namespace ccd::io {
 
 /// Whether this was built with HDF5. Without it, stores are neither made nor read.
 bool has_query_stores();
 
-/// Makes a store. Memory: 16 bytes a query, and 48 for each point that is new in its chunk; bytes()
-/// adds the file's, which it also writes to the folder for temporary files.
+/// Makes a store of any number of queries, in the folder for temporary files
+/// (std::filesystem::temp_directory_path()), where it takes up to 16 bytes a query more than in the
+/// end. Memory: some 30 megabytes.
 class query_packer {
   public:
-    query_packer(ccd::kind kind, bool with_truth) : kind_(kind), with_truth_(with_truth) {}
+    /// Throws std::runtime_error: built without HDF5.
+    query_packer(ccd::kind kind, bool with_truth);
+    ~query_packer();
+    query_packer(query_packer&&) noexcept;
+    query_packer& operator=(query_packer&&) noexcept;
 
-    /// Appends queries. Throws std::invalid_argument: another kind, truth missing or not expected,
-    /// a coordinate that is not finite.
+    /// Appends queries; before finish() alone. Throws std::invalid_argument: another kind, truth
+    /// missing or not expected, a coordinate that is not finite; errbound::support::file_error
+    /// where there is no room. What has been added before is then undefined.
     void add(const query_file& queries);
-    std::uint64_t size() const { return queries_.size(); }
+    std::uint64_t size() const;
 
-    /// The file, the same for the same queries. Throws std::runtime_error: no queries, no room for
-    /// temporary files, or built without HDF5.
-    std::string bytes() const;
+    /// The store: a file to be copied, which goes away with this; the same bytes for the same
+    /// queries. Throws std::runtime_error: no queries; errbound::support::file_error as add.
+    const std::filesystem::path& finish();
 
   private:
-    using row = std::array<std::uint64_t, 6>;  // bits of a point at t = 0 and t = 1
-    struct hash {
-        std::size_t operator()(const row& r) const;
-    };
-    void add(const row* points);
-
-    ccd::kind kind_;
-    bool with_truth_;
-    std::vector<row> points_;
-    std::vector<std::array<std::uint32_t, 4>> queries_;  // by row, from the chunk's first point on
-    std::vector<std::uint64_t> first_point_;             // of each chunk
-    std::vector<std::uint8_t> truth_;
-    std::unordered_map<row, std::uint32_t, hash> of_chunk_;
+    class chunks;
+    std::unique_ptr<chunks> chunks_;
 };
 
 }  // namespace ccd::io

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ccd/io/query_ranges.hpp"
+#include "errbound/support/output_file.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -71,7 +72,7 @@ query_file random_queries(std::size_t n, bool shared, bool with_truth, unsigned 
 std::string packed(const query_file& file) {
     query_packer packer(file.kind(), file.truth.has_value());
     packer.add(file);
-    return packer.bytes();
+    return errbound::support::read_whole(packer.finish());
 }
 
 class Store : public testing::Test {
@@ -98,6 +99,47 @@ TEST_F(Store, KeepsEveryBit) {
             expect_same<vertex_face<double>>(n, shared, n % 2 == 0);
             expect_same<edge_edge<double>>(n, shared, n % 2 == 1);
         }
+}
+
+TEST_F(Store, IsTheSameHoweverQueriesCome) {
+    // The first chunk's indices would fit in 16 bits, those of the second do not.
+    const query_file few_points = random_queries<edge_edge<double>>(70000, true, true, 5);
+    const query_file many_points = random_queries<edge_edge<double>>(65536, false, true, 6);
+    query_packer whole(kind::edge_edge, true), parts(kind::edge_edge, true);
+    std::vector<std::uint64_t> bits;
+    std::vector<bool> truth;
+    for (const query_file& file : {few_points, many_points}) {
+        whole.add(file);
+        const auto& all = std::get<1>(file.queries);
+        for (std::size_t begin = 0, n = 1; begin < all.size(); begin += n, n = 3 * n % 1001 + 1) {
+            const auto at = [begin, end = std::min(begin + n, all.size())](const auto& list) {
+                using difference = std::iter_difference_t<decltype(list.begin())>;
+                return std::vector(list.begin() + static_cast<difference>(begin),
+                                   list.begin() + static_cast<difference>(end));
+            };
+            parts.add(file_of(at(all), at(*file.truth)));
+        }
+        for (const std::uint64_t b : bits_of(file)) bits.push_back(b);
+        truth.insert(truth.end(), file.truth->begin(), file.truth->end());
+    }
+    EXPECT_EQ(parts.size(), truth.size());
+    using errbound::support::read_whole;
+    const std::string bytes = read_whole(whole.finish());
+    EXPECT_EQ(read_whole(parts.finish()), bytes);
+    const query_file again = parse_stored_queries(bytes, "s.h5", std::nullopt, false);
+    EXPECT_EQ(bits_of(again), bits);
+    EXPECT_EQ(again.truth, truth);
+}
+
+TEST_F(Store, LeavesNothingBehind) {
+    std::filesystem::path made;
+    {
+        query_packer packer(kind::edge_edge, false);
+        packer.add(random_queries<edge_edge<double>>(10, true, false, 1));
+        made = packer.finish();
+        EXPECT_TRUE(std::filesystem::exists(made));
+    }
+    EXPECT_FALSE(std::filesystem::exists(made));
 }
 
 TEST_F(Store, IsReadInRanges) {
@@ -131,7 +173,7 @@ TEST_F(Store, RefusesWhatItCannotHold) {
     query_packer of_faces(kind::vertex_face, true), without(kind::edge_edge, false);
     EXPECT_THROW(of_faces.add(one), std::invalid_argument);
     EXPECT_THROW(without.add(one), std::invalid_argument);
-    EXPECT_THROW(without.bytes(), std::runtime_error);
+    EXPECT_THROW(without.finish(), std::runtime_error);
     query_file wrong = random_queries<edge_edge<double>>(1, true, false, 1);
     std::get<1>(wrong.queries)[0].b1.t1.z = std::numeric_limits<double>::infinity();
     EXPECT_THROW(without.add(wrong), std::invalid_argument);

@@ -2,6 +2,9 @@
 import json
 import os
 import pathlib
+import resource
+import signal
+import subprocess
 import unittest
 
 from program_test import HIT, MISS, ProgramTest, with_truth
@@ -42,6 +45,34 @@ class ConvertTest(ProgramTest):
         self.good("convert", self.folder / "vf.csv", self.folder / "vf.csv", self.folder / "two.h5")
         out = self.good("query", self.folder / "two.h5", "--method", "exact")
         self.assertRegex(out, r"two\.h5 +vf +exact +4 +2 +0 +0")
+
+    def test_nothing_is_left_behind(self):
+        # Large enough to be met by a signal: 40,000 queries, read in parts.
+        many = self.write("many-vf.csv", with_truth(HIT, 1) * 40000)
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        environment = dict(os.environ, TMPDIR=str(temporary))
+        command = [os.environ["CCD_PROGRAM"], "convert", many, many, many, many]
+        for out in (self.folder / "out.h5", self.folder / "out.csv"):
+            process = subprocess.Popen([*command, out], env=environment, stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE)
+            while not list(temporary.iterdir()):
+                self.assertIsNone(process.poll(), "ended too soon")
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual((process.communicate(timeout=60), process.returncode), ((b"", b""), -signal.SIGTERM))
+            self.assertFalse(out.exists())
+            self.assertEqual(list(temporary.iterdir()), [])
+            done = subprocess.run([*command, out], env=dict(environment, TMPDIR=str(self.folder / "none")),
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("TMPDIR: found no folder for temporary files", done.stderr)
+            self.assertFalse(out.exists())
+            for size in (0, 1 << 12, 1 << 20):
+                done = subprocess.run([*command, out], env=environment, capture_output=True, text=True,
+                                      preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+                self.assertEqual(list(temporary.iterdir()), [])
+                self.assertFalse(out.exists())
 
     def test_what_is_refused(self):
         vf, out = self.folder / "vf.csv", self.folder / "out.h5"

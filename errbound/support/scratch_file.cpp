@@ -1,0 +1,54 @@
+// Temporary files: made, appended to, read, taken away.
+#include "errbound/support/scratch_file.hpp"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <errbound/support/error.hpp>
+#include <system_error>
+
+namespace errbound::support {
+
+scratch_file::scratch_file() {
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error)
+        throw file_error("TMPDIR: found no folder for temporary files (" + error.message() + ")");
+    std::string name = (folder / "errbound-XXXXXX").string();
+    descriptor_ = mkstemp(name.data());
+    if (descriptor_ < 0) throw file_error(name + ": cannot be made (" + std::strerror(errno) + ")");
+    path_ = name;
+}
+
+scratch_file::~scratch_file() {
+    ::close(descriptor_);
+    ::unlink(path_.c_str());
+}
+
+void scratch_file::append(std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0)
+            throw file_error(path_.string() + ": writing failed (" + std::strerror(errno) + ")");
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+void scratch_file::read(std::uint64_t offset, std::size_t size, void* to) const {
+    auto* next = static_cast<char*>(to);
+    while (size > 0) {
+        const ssize_t got = ::pread(descriptor_, next, size, static_cast<off_t>(offset));
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0)
+            throw file_error(path_.string() + ": cannot be read (" +
+                             (got < 0 ? std::strerror(errno) : "it was cut off") + ")");
+        next += got;
+        offset += static_cast<std::uint64_t>(got);
+        size -= static_cast<std::size_t>(got);
+    }
+}
+
+}  // namespace errbound::support
