@@ -16,7 +16,8 @@
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <vector>
+
+#include "ccd/batch/first_touch.hpp"
 
 namespace ccd::detail {
 
@@ -141,7 +142,6 @@ class box_tree {
             packs += in_level;
         } while (in_level > 1);
         level_start_[levels_] = packs;
-        packs_.clear();
         packs_.resize(packs);
 
         fill(0, count, box_of);
@@ -204,14 +204,17 @@ class box_tree {
         const std::size_t start = level_start_[level];
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, level_start_[level + 1] - start, 128),
                           [&](const tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t p = range.begin(); p < range.end(); ++p)
+                              for (std::size_t p = range.begin(); p < range.end(); ++p) {
+                                  pack boxes;
                                   for (std::size_t i = p * pack::size;
                                        i < std::min(count, (p + 1) * pack::size); ++i)
-                                      packs_[start + p].set(i % pack::size, box_of(i));
+                                      boxes.set(i % pack::size, box_of(i));
+                                  packs_[start + p] = boxes;
+                              }
                           });
     }
 
-    std::vector<pack> packs_;  ///< the leaves, the nodes above them, ..., the root
+    first_touch_vector<pack> packs_;  ///< the leaves, the nodes above them, ..., the root
     std::array<std::size_t, max_levels + 1> level_start_{};
     std::size_t levels_ = 0;
 };

@@ -1,46 +1,124 @@
-// Sorting of what has vertices: into buckets by a vertex of each, which leaves short runs to sort.
+// Sorting of what has vertices: into parts by a vertex of each, then into buckets, which leaves
+// short runs to sort.
 #pragma once
 
-#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <bit>
 #include <ccd/kind.hpp>
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include "ccd/batch/first_touch.hpp"
 
 namespace ccd::detail {
 
-/// Items in buckets, by a vertex of each.
-template <class Item>
-struct buckets {
-    std::vector<Item> items;
-    std::vector<std::size_t> end;  ///< of each bucket
+/// So many shares of `count` things as have work for each thread of the arena; one at least.
+inline std::size_t shares_of(std::size_t count) {
+    constexpr std::size_t least = 4096;
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    return std::clamp<std::size_t>(count / least, 1, threads);
+}
+/// The first of a share.
+constexpr std::size_t begin_of_share(std::size_t share, std::size_t shares, std::size_t count) {
+    return count / shares * share + std::min(share, count % shares);
+}
 
-    /// for_each(visit) calls visit(vertex, item) for all `count` items, with vertices up to `last`.
-    template <class ForEach>
-    buckets(std::size_t count, vertex_index last, const ForEach& for_each) : items(count) {
-        unsigned shift = 0;
-        while (last >> shift > count) ++shift;
-        end.resize((last >> shift) + 2);
-        for_each([&](vertex_index v, const Item&) { ++end[(v >> shift) + 1]; });
-        std::partial_sum(end.begin(), end.end(), end.begin());
-        for_each([&](vertex_index v, const Item& item) { items[end[v >> shift]++] = item; });
-        end.pop_back();
+/// Where items of each share go, so that those with a digit come one share after the other.
+class share_places {
+  public:
+    share_places(std::size_t shares, std::size_t digits)
+        : digits_(digits), next_(shares * digits) {}
+
+    void clear() { std::ranges::fill(next_, 0); }
+    /// By digit.
+    std::size_t* of(std::size_t share) { return &next_[share * digits_]; }
+    /// From how many there are to where the first is to go. Returns how many in all.
+    std::size_t from_counts() {
+        std::size_t before = 0;
+        for (std::size_t d = 0; d < digits_; ++d)
+            for (std::size_t i = d; i < next_.size(); i += digits_)
+                before += std::exchange(next_[i], before);
+        return before;
     }
 
-    /// Calls visit(items) of each bucket, on all threads of the arena.
-    template <class Visit>
-    void for_each_bucket(const Visit& visit) {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, end.size(), 1024),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                                  const std::size_t begin = b == 0 ? 0 : end[b - 1];
-                                  visit(std::span(items).subspan(begin, end[b] - begin));
-                              }
-                          });
-    }
+  private:
+    std::size_t digits_;
+    std::vector<std::size_t> next_;
 };
+
+/// Calls act(i) for all i < count, each as a task of its own.
+template <class Act>
+void for_each_task(std::size_t count, const Act& act) {
+    tbb::parallel_for(std::size_t(0), count, act, tbb::simple_partitioner());
+}
+
+/// Sorts a part's items: into buckets by their vertices, which run from `first` to `last`.
+template <class Item, class VertexOf>
+class part_sorter {
+  public:
+    explicit part_sorter(const VertexOf& vertex_of) : vertex_of_(vertex_of) {}
+
+    void sort(std::span<Item> items, vertex_index first, vertex_index last) {
+        unsigned shift = 0;
+        while ((last - first) >> shift > items.size()) ++shift;
+        const auto bucket = [&](const Item& item) { return (vertex_of_(item) - first) >> shift; };
+        end_.assign(((last - first) >> shift) + 2, 0);
+        for (const Item& item : items) ++end_[bucket(item) + 1];
+        std::partial_sum(end_.begin(), end_.end(), end_.begin());
+        in_buckets_.resize(items.size());
+        for (const Item& item : items) in_buckets_[end_[bucket(item)]++] = item;
+        std::ranges::copy(in_buckets_, items.begin());
+        for (std::size_t b = 0; b + 1 < end_.size(); ++b) {
+            const std::size_t begin = b == 0 ? 0 : end_[b - 1];
+            if (end_[b] - begin > 1) std::ranges::sort(items.subspan(begin, end_[b] - begin));
+        }
+    }
+
+  private:
+    const VertexOf& vertex_of_;
+    std::vector<std::size_t> end_;  // of each bucket
+    first_touch_vector<Item> in_buckets_;
+};
+
+/// Sorts items that come in shares, at least one: for_each(share, visit) calls visit(item) for all
+/// of a share; it is called twice for each, from several threads at once. Lesser items (by <) have
+/// no greater vertex_of(item), which is `last` at most. Cost: O(count) where few items have a
+/// vertex, on all threads of the arena. The result is the same for any shares.
+template <class Item, class ForEach, class VertexOf>
+std::vector<Item> sorted_by_vertex(std::size_t shares, vertex_index last, const ForEach& for_each,
+                                   const VertexOf& vertex_of) {
+    // Parts whose items and buckets stay in a processor's cache, and few enough to write to all.
+    constexpr vertex_index vertices_of_a_part = 4096, most_parts = 512;
+    const auto shift =
+        static_cast<unsigned>(std::bit_width(std::max(last / most_parts, vertices_of_a_part - 1)));
+    const std::size_t parts = (last >> shift) + 1;
+    share_places places(shares, parts);
+    for_each_task(shares, [&](std::size_t share) {
+        std::size_t* const count = places.of(share);
+        for_each(share, [&](const Item& item) { ++count[vertex_of(item) >> shift]; });
+    });
+    std::vector<Item> items(places.from_counts());
+    for_each_task(shares, [&](std::size_t share) {
+        std::size_t* const next = places.of(share);
+        for_each(share, [&](const Item& item) { items[next[vertex_of(item) >> shift]++] = item; });
+    });
+
+    const std::size_t* const ends = places.of(shares - 1);  // where its next ones would go
+    tbb::enumerable_thread_specific<part_sorter<Item, VertexOf>> sorters(vertex_of);
+    for_each_task(parts, [&](std::size_t part) {
+        const std::size_t begin = part == 0 ? 0 : ends[part - 1], end = ends[part];
+        const auto first = static_cast<vertex_index>(part << shift);
+        sorters.local().sort(std::span(items).subspan(begin, end - begin), first,
+                             std::min(last, first + ((vertex_index(1) << shift) - 1)));
+    });
+    return items;
+}
 
 }  // namespace ccd::detail

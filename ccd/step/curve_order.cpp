@@ -11,8 +11,9 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 
+#include "ccd/batch/first_touch.hpp"
+#include "ccd/step/buckets.hpp"
 #include "ccd/step/elements.hpp"
 
 namespace ccd::detail {
@@ -93,8 +94,7 @@ box<double> box_of_middles(std::span<const curve_key> keys, const key_layout& la
         });
 }
 
-/// By radix: serial, but beside the rest of the work hardly to be seen, which no sort by
-/// comparisons on a few cores was.
+/// By radix, each share of the keys by one thread: no sort by comparisons was as fast.
 void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
     constexpr std::size_t few = 4096;
     constexpr unsigned passes = 4;
@@ -104,16 +104,26 @@ void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
     }
     const unsigned digit_bits = (layout.curve_bits() + 2 + passes - 1) / passes;
     const curve_key digits = curve_key(1) << digit_bits;
-    std::vector<std::size_t> start(digits + 1);
-    std::vector<curve_key> buffer(keys.size());
+    const std::size_t shares = shares_of(keys.size());
+    share_places places(shares, digits);
+    first_touch_vector<curve_key> buffer(keys.size());
     std::span<curve_key> from = keys, to = buffer;
     for (unsigned shift = layout.element_bits, pass = 0; pass < passes;
          shift += digit_bits, ++pass) {
-        const auto digit = [=](curve_key key) { return (key >> shift) % digits; };
-        std::ranges::fill(start, 0);
-        for (const curve_key key : from) ++start[digit(key) + 1];
-        std::partial_sum(start.begin(), start.end(), start.begin());
-        for (const curve_key key : from) to[start[digit(key)]++] = key;
+        const auto for_each_key = [&](std::size_t share, const auto& visit) {
+            std::size_t* const of_share = places.of(share);
+            const std::size_t end = begin_of_share(share + 1, shares, from.size());
+            for (std::size_t i = begin_of_share(share, shares, from.size()); i < end; ++i)
+                visit(from[i], of_share[(from[i] >> shift) % digits]);
+        };
+        places.clear();
+        for_each_task(shares, [&](std::size_t share) {
+            for_each_key(share, [](curve_key, std::size_t& place) { ++place; });
+        });
+        places.from_counts();
+        for_each_task(shares, [&](std::size_t share) {
+            for_each_key(share, [&](curve_key key, std::size_t& place) { to[place++] = key; });
+        });
         std::swap(from, to);
     }
 }
@@ -248,15 +258,21 @@ template <class Real, std::size_t N>
 void order_along_curve(std::vector<std::array<vertex_index, N>>& elements,
                        const swept_boxes& boxes) {
     if (elements.empty()) return;
-    std::vector<curve_key> keys(elements.size());
-    std::iota(keys.begin(), keys.end(), curve_key(0));
+    first_touch_vector<curve_key> keys(elements.size());
+    const auto for_all = [&](const auto& act) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, keys.size(), 4096),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t i = range.begin(); i < range.end(); ++i) act(i);
+                          });
+    };
+    for_all([&](std::size_t i) { keys[i] = i; });
     const key_layout layout(elements.size());
     sort_along_curve(
         std::span(keys), layout, [&](vertex_index i) { return boxes.swept_box<Real>(elements[i]); },
         false);
-    std::vector<std::array<vertex_index, N>> ordered(elements.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = elements[layout.element_of(keys[i])];
-    elements = std::move(ordered);
+    first_touch_vector<std::array<vertex_index, N>> ordered(elements.size());
+    for_all([&](std::size_t i) { ordered[i] = elements[layout.element_of(keys[i])]; });
+    for_all([&](std::size_t i) { elements[i] = ordered[i]; });
 }
 
 template void order_along_curve<float>(std::vector<std::array<vertex_index, 1>>&,

@@ -9,8 +9,8 @@
 #include <ccd/kind.hpp>
 #include <cstddef>
 #include <span>
-#include <vector>
 
+#include "ccd/batch/first_touch.hpp"
 #include "ccd/step/extents_pack.hpp"
 #include "ccd/step/search_kernels.hpp"
 
@@ -84,9 +84,9 @@ class extents_tree {
                           });
     }
 
-    std::vector<extents_pack> packs_;  ///< the leaves, the nodes above them, ..., the root
-    std::vector<extents> hulls_;
-    std::vector<leaf_vertices> vertices_;
+    first_touch_vector<extents_pack> packs_;  ///< the leaves, the nodes above them, ..., the root
+    first_touch_vector<extents> hulls_;
+    first_touch_vector<leaf_vertices> vertices_;
     extents_levels levels_;
     std::array<std::size_t, extents_levels::most> starts_{}, sizes_{};
 };

@@ -1,5 +1,4 @@
-// Unique edges and faces: each goes to the bucket of its lowest vertex, which leaves only short
-// runs to sort.
+// Unique edges and faces: sorted by their lowest vertices, equal ones follow each other.
 #include <algorithm>
 #include <ccd/mesh.hpp>
 #include <compare>
@@ -43,42 +42,50 @@ struct numbered_face {
 }  // namespace
 
 std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge> edges) {
-    const auto for_each_edge = [&](const auto& visit) {
-        const auto take = [&visit](vertex_index v, vertex_index w) {
-            if (v != w) visit(std::min(v, w), edge{std::min(v, w), std::max(v, w)});
-        };
-        for (const face& f : faces)
-            for (std::size_t k = 0; k < 3; ++k) take(f[k], f[(k + 1) % 3]);
-        for (const edge& e : edges) take(e[0], e[1]);
+    const std::size_t shares = detail::shares_of(faces.size() + edges.size());
+    const auto share_of = [shares](auto elements, std::size_t share) {
+        const std::size_t begin = detail::begin_of_share(share, shares, elements.size());
+        return elements.subspan(begin,
+                                detail::begin_of_share(share + 1, shares, elements.size()) - begin);
     };
-    detail::buckets<edge> all(3 * faces.size() + edges.size(),
-                              std::max(largest(faces), largest(edges)), for_each_edge);
-    all.items.resize(all.end.back());
-    all.for_each_bucket([](std::span<edge> bucket) { std::ranges::sort(bucket); });
-    std::vector<edge> unique = std::move(all.items);
+    std::vector<edge> unique = detail::sorted_by_vertex<edge>(
+        shares, std::max(largest(faces), largest(edges)),
+        [&](std::size_t share, const auto& visit) {
+            const auto take = [&visit](vertex_index v, vertex_index w) {
+                if (v != w) visit(edge{std::min(v, w), std::max(v, w)});
+            };
+            for (const face& f : share_of(faces, share))
+                for (std::size_t k = 0; k < 3; ++k) take(f[k], f[(k + 1) % 3]);
+            for (const edge& e : share_of(edges, share)) take(e[0], e[1]);
+        },
+        [](const edge& e) { return e[0]; });
     unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
     unique.shrink_to_fit();
     return unique;
 }
 
 std::vector<face> unique_faces(std::span<const face> faces) {
-    detail::buckets<numbered_face> all(faces.size(), largest(faces), [&](const auto& visit) {
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            const numbered_face f(faces[i], i);
-            visit(f.low, f);
-        }
-    });
-    std::vector<std::uint8_t> repeated(faces.size());
-    all.for_each_bucket([&](std::span<numbered_face> bucket) {
-        if (bucket.size() < 2) return;
-        std::ranges::sort(bucket);
-        for (std::size_t i = 1; i < bucket.size(); ++i)
-            if (bucket[i].repeats(bucket[i - 1])) repeated[bucket[i].number] = 1;
-    });
+    const std::size_t shares = detail::shares_of(faces.size());
+    const std::vector<numbered_face> all = detail::sorted_by_vertex<numbered_face>(
+        shares, largest(faces),
+        [&](std::size_t share, const auto& visit) {
+            const std::size_t end = detail::begin_of_share(share + 1, shares, faces.size());
+            for (std::size_t i = detail::begin_of_share(share, shares, faces.size()); i < end; ++i)
+                visit(numbered_face(faces[i], i));
+        },
+        [](const numbered_face& f) { return f.low; });
+    std::vector<vertex_index> repeated;
+    for (std::size_t i = 1; i < all.size(); ++i)
+        if (all[i].repeats(all[i - 1])) repeated.push_back(all[i].number);
+    std::ranges::sort(repeated);
     std::vector<face> unique;
     unique.reserve(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-        if (!repeated[i]) unique.push_back(faces[i]);
+    std::size_t begin = 0;
+    for (const vertex_index i : repeated) {
+        unique.insert(unique.end(), faces.begin() + begin, faces.begin() + i);
+        begin = i + 1;
+    }
+    unique.insert(unique.end(), faces.begin() + begin, faces.end());
     return unique;
 }
 

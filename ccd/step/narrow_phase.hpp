@@ -30,19 +30,22 @@ using lists_of_threads = tbb::enumerable_thread_specific<pair_list_of_thread<K>>
 /// All pairs of the threads' lists, sorted. The lists are released.
 template <class Pair, class Parts>
 std::vector<Pair> take_sorted(Parts& parts) {
-    std::size_t count = 0;
+    const auto vertex_of = [](const Pair& pair) { return vertices_of(pair)[0]; };
+    std::vector<std::vector<Pair>*> lists;
     vertex_index last = 0;
-    for (const auto& p : parts) {
-        count += p.pairs.size();
-        for (const Pair& pair : p.pairs) last = std::max(last, vertices_of(pair)[0]);
+    for (auto& p : parts) {
+        lists.push_back(&p.pairs);
+        for (const Pair& pair : p.pairs) last = std::max(last, vertex_of(pair));
     }
-    buckets<Pair> all(count, last, [&](const auto& visit) {
-        for (const auto& p : parts)
-            for (const Pair& pair : p.pairs) visit(vertices_of(pair)[0], pair);
-    });
+    if (lists.empty()) return {};
+    std::vector<Pair> all = sorted_by_vertex<Pair>(
+        lists.size(), last,
+        [&](std::size_t list, const auto& visit) {
+            for (const Pair& pair : *lists[list]) visit(pair);
+        },
+        vertex_of);
     for (auto& p : parts) p.pairs = {};
-    all.for_each_bucket([](std::span<Pair> bucket) { std::ranges::sort(bucket); });
-    return std::move(all.items);
+    return all;
 }
 
 template <kind K>

@@ -113,9 +113,9 @@ void fill_leaves(const float* rounded, const vertex_index* elements, std::size_t
                 }
         if (count < size * (p + 1)) set_nowhere(leaves[p], count - size * p);
         hulls[p] = hull_of(leaves[p]);
-        for (std::size_t i = 0; i < lesser(count - size * p, size); ++i)
+        for (std::size_t i = 0; i < size; ++i)
             for (std::size_t v = 0; v < N; ++v)
-                vertices[p].at[v][i] = elements[N * (size * p + i) + v];
+                vertices[p].at[v][i] = elements[N * lesser(size * p + i, count - 1) + v];
     }
 }
 

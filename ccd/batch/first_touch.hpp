@@ -1,0 +1,32 @@
+// Memory whose pages are first used by the thread that fills them: the system clears a page when it
+// is first written, and that takes as long as much of a step does.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace ccd::detail {
+
+/// Leaves elements that get no value unset.
+template <class T>
+struct first_touch_allocator : std::allocator<T> {
+    static_assert(std::is_trivially_copyable_v<T>);
+    template <class U>
+    struct rebind {
+        using other = first_touch_allocator<U>;
+    };
+
+    void construct(T*) {}
+    template <class... Values>
+    void construct(T* place, Values&&... values) {
+        std::construct_at(place, std::forward<Values>(values)...);
+    }
+};
+
+/// A vector whose elements have to be set after resize().
+template <class T>
+using first_touch_vector = std::vector<T, first_touch_allocator<T>>;
+
+}  // namespace ccd::detail
