@@ -114,8 +114,11 @@ std::size_t decomposition::cut(std::size_t first, std::size_t count, std::span<s
     const auto axis = static_cast<std::size_t>(std::ranges::max_element(spreads) - spreads.begin());
     const auto place = [axis](const sample& s) { return s.box.low[axis]; };
     const std::size_t below = count / 2;
-    const double at =
-        weighted_quantile(samples, place, static_cast<double>(below) / static_cast<double>(count));
+    // Where there are no samples it may be anywhere in the part, which both halves must stay
+    // within.
+    const double at = std::clamp(
+        weighted_quantile(samples, place, static_cast<double>(below) / static_cast<double>(count)),
+        part.low[axis], part.high[axis]);
     // Samples at the cut are above it.
     const auto above = std::partition(samples.begin(), samples.end(),
                                       [&](const sample& s) { return place(s) < at; });

@@ -29,6 +29,23 @@ struct scene {
     ccd::mesh before, after;
 };
 
+/// Faces of a few vertices, whose boxes have corners in common: regions of space that are cut again
+/// though there is nothing in them, on any side of the origin.
+inline scene few_corners(std::mt19937& random, std::size_t vertices, std::size_t faces) {
+    std::uniform_real_distribution<double> move(-0.5, 0.5);
+    scene s{std::to_string(faces) + " faces of " + std::to_string(vertices), {}, {}};
+    const ccd::point<double> middle{4 * move(random), 4 * move(random), 4 * move(random)};
+    const auto vertex = [&] { return static_cast<ccd::vertex_index>(random() % vertices); };
+    for (std::size_t v = 0; v < vertices; ++v)
+        for (ccd::mesh* m : {&s.before, &s.after})
+            m->vertices.push_back(
+                {middle.x + move(random), middle.y + move(random), middle.z + move(random)});
+    for (std::size_t f = 0; f < faces; ++f)
+        s.before.faces.push_back({vertex(), vertex(), vertex()});
+    s.after.faces = s.before.faces;
+    return s;
+}
+
 /// Triangles, rods and points at random; `crowd` says how near to one another, in last places at
 /// worst.
 inline scene soup(std::mt19937& random, std::size_t vertices, double length) {

@@ -99,6 +99,18 @@ void compare_scene(const scene& s) {
     }
 }
 
+/// Many small scenes, of one question.
+void compare_few_corners() {
+    std::mt19937 random(11);
+    const question counted{"candidates", {.count_candidates = true}};
+    for (int i = 0; i < 60; ++i) {
+        const scene s = distributed::few_corners(random, 4 + random() % 6, 1 + random() % 80);
+        const auto expected = ccd::step(s.before, s.after, counted.options);
+        const auto [name, place] = placings(s).front();
+        compare(s, counted, name, place, expected);
+    }
+}
+
 /// What one rank finds wrong is thrown on all.
 void refuse(const std::string& expected, const ccd::mpi::mesh_part& mesh,
             const ccd::step_options& options = {}) {
@@ -145,6 +157,7 @@ int main(int argc, char** argv) {
         compare_scene(distributed::soup(random, 600, 0.05));
         compare_scene(distributed::soup(random, 40, 1));
         compare_scene(distributed::huge_face_and_heap());
+        compare_few_corners();
         compare_scene({"nothing", {}, {}});
         refuse_all();
     });
