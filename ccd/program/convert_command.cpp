@@ -116,15 +116,28 @@ class converted {
     std::optional<errbound::support::scratch_file> rows_;
 };
 
+/// While one lives.
+class ignored_signal {
+  public:
+    explicit ignored_signal(int signal) : signal_(signal), before_(std::signal(signal, SIG_IGN)) {}
+    ~ignored_signal() { std::signal(signal_, before_); }
+    ignored_signal(const ignored_signal&) = delete;
+    ignored_signal& operator=(const ignored_signal&) = delete;
+
+  private:
+    int signal_;
+    void (*before_)(int);
+};
+
 class convert final : public command {
   public:
     explicit convert(CLI::App& program)
         : command(program, "convert", "Stored queries from CSV to HDF5, and back") {
         line_
-            .add_option(
-                "FILE", files_,
-                "Queries, as `ccd query` reads them, then the output: OUT.h5 or OUT.hdf5, a\n"
-                "store of queries, or OUT.csv, rows of hexadecimal floats")
+            .add_option("FILE", files_,
+                        "Files of queries, as `ccd query` reads them, then the output: OUT.h5 or "
+                        "OUT.hdf5, a\n"
+                        "store of queries, or OUT.csv, rows of hexadecimal floats")
             ->required()
             ->expected(2, -1);
         line_
@@ -152,8 +165,10 @@ class convert final : public command {
         errbound::support::require_good_outputs({out, json_}, files_);
         int ended_by = 0;
         {
-            // Temporary files do not stay where they are.
+            // Temporary files do not stay where they are; writing to a pipe that nobody reads
+            // fails.
             const errbound::support::awaited_signals signals;
+            const ignored_signal pipe(SIGPIPE);
             stop_ = &signals.arrived();
             if (make(out, to_store)) return done;
             ended_by = signals.signal();

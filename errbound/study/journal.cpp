@@ -64,16 +64,31 @@ void write_all(int descriptor, std::string_view text, const std::filesystem::pat
 }  // namespace
 
 journal::journal(std::filesystem::path path, const std::string& identity) : path_(std::move(path)) {
-    const std::string first_line = std::string(title) + line_of(identity);
-    if (!std::filesystem::exists(path_)) support::write_whole(path_, first_line);
-    const std::string text = support::read_whole(path_);
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    const auto fail = [this](const std::string& what) {
+        throw file_error(path_.string() + ": " + what + " (" + std::strerror(errno) + ")");
+    };
+    // Others, streams and devices, may make one wait for ever.
+    std::error_code error;
+    const auto type = std::filesystem::status(path_, error).type();
+    if (type != std::filesystem::file_type::regular &&
+        type != std::filesystem::file_type::not_found)
+        throw file_error(path_.string() + ": found no regular file, expected a journal or no file");
+    constexpr mode_t all = 0666;  // less what the umask takes
+    descriptor_ =
+        ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, all);
     try {
-        if (descriptor_ < 0)
-            throw file_error(path_.string() + ": cannot be written (" + std::strerror(errno) + ")");
+        if (descriptor_ < 0) fail("cannot be written");
         if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             throw file_error(path_.string() + ": found the journal of a run that has not ended");
-        read(text, first_line);
+        path_ = std::filesystem::canonical(path_);  // a link is not what remove() takes away
+        const std::string first_line = std::string(title) + line_of(identity);
+        const std::string text = support::read_whole(path_);
+        if (first_line.starts_with(text)) {  // new, or ended before there was a line
+            if (ftruncate(descriptor_, 0) != 0) fail("cannot be cut off");
+            write_all(descriptor_, first_line, path_);
+        } else {
+            read(text, first_line);
+        }
     } catch (...) {
         if (descriptor_ >= 0) ::close(descriptor_);
         throw;
@@ -88,6 +103,8 @@ void journal::read(const std::string& text, const std::string& first_line) {
     if (!text.starts_with(title))
         throw file_error(path_.string() +
                          ":1: found no journal of a study, expected one or no file");
+    if (text.find('\n') == std::string::npos)
+        throw file_error(path_.string() + ":1: found a journal that is cut off in its first line");
     if (!text.starts_with(first_line)) {
         const std::size_t begin = title.size() + checksum_digits + 1;
         const std::string found = text.substr(0, text.find('\n'));

@@ -19,8 +19,8 @@ class journal {
   public:
     /// Makes the file, or reads what it has of this study. A line that is not whole, and what comes
     /// after it, counts as never written, and is cut off. `identity` says in one line all that
-    /// results depend on. Throws errbound::support::file_error: a file that is no journal, that of
-    /// another study or in use by another run, or that cannot be read or written.
+    /// results depend on. Throws errbound::support::file_error: no regular file, or one that is no
+    /// journal, that of another study or in use by another run, or that cannot be read or written.
     journal(std::filesystem::path path, const std::string& identity);
     ~journal();
     journal(const journal&) = delete;

@@ -13,8 +13,8 @@
 namespace errbound::study {
 namespace {
 
-/// Waits until all ranks are here: what one throws is thrown on all. A rank that throws alone (no
-/// memory, a fault of the program) would leave the others waiting for it for ever: then false.
+/// Waits until all ranks are here: what one throws is thrown on all. A rank that fails alone (no
+/// memory, another command line) would leave the others waiting for it for ever: then false.
 bool all_meet(MPI_Comm all, bool failed) {
     MPI_Request request{};
     MPI_Ibarrier(all, &request);
@@ -41,7 +41,7 @@ int run(const std::function<int()>& body, MPI_Comm all, bool& met) {
         failure = std::current_exception();
         status = 1;
     }
-    met = all_meet(all, failure != nullptr);
+    met = all_meet(all, status != 0);
     int rank = 0, size = 1;
     MPI_Comm_rank(all, &rank);
     MPI_Comm_size(all, &size);

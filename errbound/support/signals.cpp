@@ -35,7 +35,10 @@ awaited_signals::awaited_signals(const std::string& line) {
     struct sigaction action {};
     action.sa_handler = catch_signal;
     action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &action, &before_[i]);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        sigaction(signals[i], nullptr, &before_[i]);
+        if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &action, nullptr);
+    }
 }
 
 awaited_signals::~awaited_signals() {

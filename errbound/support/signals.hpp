@@ -10,7 +10,7 @@
 namespace errbound::support {
 
 /// While one lives, the first SIGINT or SIGTERM sets a flag and prints a line to standard error;
-/// another ends the program. At most one at a time.
+/// another ends the program. Those that the process ignores stay ignored. At most one at a time.
 class awaited_signals {
   public:
     /// `line`, if not empty, is printed at once: whoever sends the signal may not wait for long.

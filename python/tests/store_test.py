@@ -32,6 +32,15 @@ def test_a_store_has_what_the_rows_have(files):
     assert files[1].stat().st_size * 10 < files[0].stat().st_size
 
 
+def test_a_store_without_truth(files, program, tmp_path):
+    queries = io.read_queries(files[0]).queries[:100]
+    io.write_queries(tmp_path / "ee.csv", queries)
+    subprocess.run([program, "convert", tmp_path / "ee.csv", tmp_path / "ee.h5"], check=True, capture_output=True)
+    store = io.read_queries(tmp_path / "ee.h5")
+    assert store.truth is None
+    np.testing.assert_array_equal(store.queries, queries)
+
+
 def test_a_store_is_read_by_h5py_alone(files):
     with h5py.File(files[1]) as file:
         first, last = file["first_point"][1:3]

@@ -1,8 +1,13 @@
 #include "ccd/program/mpi/shared_frames.hpp"
 
 #include <algorithm>
+#include <boost/crc.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <cstddef>
+#include <cstdint>
+#include <errbound/support/error.hpp>
+#include <fstream>
+#include <string>
 #include <unordered_map>
 
 namespace ccd::program {
@@ -15,6 +20,40 @@ struct frames {
     std::size_t last() const { return first() + before.elements.vertices.size(); }
     bool has(vertex_index v) const { return first() <= v && v < last(); }
 };
+
+/// A file's size, and a checksum of its first and last bytes.
+struct file_mark {
+    std::uint64_t bytes = 0;
+    std::uint32_t checksum = 0;
+    bool operator==(const file_mark&) const = default;
+};
+file_mark mark_of(const std::filesystem::path& path) {
+    constexpr std::uint64_t looked_at = 1 << 16;
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    if (!in) return {};
+    file_mark mark{static_cast<std::uint64_t>(in.tellg())};
+    boost::crc_32_type sum;
+    std::string text(std::min(looked_at, mark.bytes), '\0');
+    for (const std::uint64_t from : {std::uint64_t{0}, mark.bytes - text.size()}) {
+        in.seekg(static_cast<std::streamoff>(from));
+        in.read(text.data(), static_cast<std::streamsize>(text.size()));
+        sum.process_bytes(text.data(), text.size());
+    }
+    mark.checksum = sum.checksum();
+    return mark;
+}
+
+/// One name may stand for other files on other machines.
+void require_same_file(mpi::detail::exchanger& ranks, const std::filesystem::path& path) {
+    const file_mark own = mark_of(path);
+    const file_mark first = ranks.gather(std::vector{own}).items.front();
+    ranks.agree([&] {
+        if (own != first)
+            throw errbound::support::file_error(
+                path.string() + ": rank " + std::to_string(ranks.rank()) +
+                " found another file there than rank 0, expected the same on all ranks");
+    });
+}
 
 frames read_frames(const std::filesystem::path& before, const std::filesystem::path& after,
                    std::size_t rank, std::size_t ranks) {
@@ -57,6 +96,7 @@ shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::files
                                  const std::filesystem::path& after) {
     frames own;
     ranks.agree([&] { own = read_frames(before, after, ranks.rank(), ranks.size()); });
+    for (const auto& path : {before, after}) require_same_file(ranks, path);
     const auto wanted = read_elsewhere(ranks, own);
     const auto asked = ranks.all_to_all(wanted);
     std::vector<std::vector<sent_positions>> answers(ranks.size());

@@ -74,6 +74,31 @@ class ConvertTest(ProgramTest):
                 self.assertEqual(list(temporary.iterdir()), [])
                 self.assertFalse(out.exists())
 
+    def test_pipe_that_nobody_reads(self):
+        many = self.write("many-vf.csv", with_truth(HIT, 1) * 2000)
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        pipe = self.folder / "out.csv"
+        os.mkfifo(pipe)
+        process = subprocess.Popen([os.environ["CCD_PROGRAM"], "convert", many, pipe], stderr=subprocess.PIPE,
+                                   text=True, env=dict(os.environ, TMPDIR=str(temporary)))
+        with open(pipe, "rb") as end:
+            end.read(10)
+        err = process.communicate(timeout=60)[1]
+        self.assertEqual((process.returncode, err.count("\n")), (1, 1), err)
+        self.assertIn("out.csv: writing failed (Broken pipe)", err)
+        self.assertEqual(list(temporary.iterdir()), [])
+
+    def test_ignored_signals_stay_ignored(self):
+        many = self.write("many-vf.csv", with_truth(HIT, 1) * 20000)
+        ignore = lambda: signal.signal(signal.SIGINT, signal.SIG_IGN)
+        process = subprocess.Popen([os.environ["CCD_PROGRAM"], "convert", many, self.folder / "out.h5"],
+                                   stdout=subprocess.DEVNULL, preexec_fn=ignore)
+        while process.poll() is None:
+            process.send_signal(signal.SIGINT)
+        self.assertEqual(process.returncode, 0)
+        self.assertTrue((self.folder / "out.h5").exists())
+
     def test_what_is_refused(self):
         vf, out = self.folder / "vf.csv", self.folder / "out.h5"
         plain = self.write("plain-vf.csv", HIT)

@@ -70,6 +70,31 @@ class DistributedStep(ProgramTest):
                 self.assertEqual(found, status, err)
                 self.assertEqual(err.count(message), 1, err)
 
+    def apart(self, *arguments_of_ranks):
+        """Status and errors of ranks each with a folder and arguments of its own."""
+        command = []
+        for folder, *arguments in arguments_of_ranks:
+            line = " ".join(map(str, (os.environ["CCD_MPI_PROGRAM"], *arguments)))
+            command += [":", os.environ["MPIEXEC_NUMPROC_FLAG"], "1", "sh", "-c", f"cd {folder} && exec {line}"]
+        found, _, err = over_ranks.run(1, *command[3:])
+        return found, err
+
+    def test_other_files_of_the_same_name(self):
+        folders = [self.directory / name for name in ("here", "there")]
+        for folder in folders:
+            folder.mkdir()
+        (folders[0] / "a.ply").write_text(ply(BEFORE, FACES))
+        for other in (ply(AFTER, FACES), ply(BEFORE[:3], [(0, 1, 2)])):
+            (folders[1] / "a.ply").write_text(other)
+            found, err = self.apart(*((folder, "step", "a.ply", "a.ply") for folder in folders))
+            self.assertEqual(found, 1, err)
+            self.assertEqual(err.count("a.ply: rank 1 found another file there than rank 0"), 1, err)
+
+    def test_other_command_lines(self):
+        a = self.write("a.ply", ply(BEFORE, FACES))
+        found, err = self.apart((self.directory, "step", a, a), (self.directory, "bogus"))
+        self.assertNotEqual(found, 0, err)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -155,6 +155,13 @@ class Query(StudyTest):
         self.bad_over(2, 1, "found no kind of query", "query", self.write("coffee.csv", HIT))
         self.bad_over(2, 2, "found the output", "query", file, "--journal", file)
         self.bad_over(2, 2, "--method: found 'none'", "query", file, "--method", "none")
+        self.bad_over(2, 1, "/dev/full: found no regular file", "query", file, "--journal", "/dev/full")
+        pipe = self.directory / "pipe"
+        os.mkfifo(pipe)
+        self.bad_over(2, 1, "pipe: found no regular file", "query", file, "--journal", pipe)
+        kept.write_text("errbound study 1 abc")
+        self.bad_over(2, 1, "kept:1: found a journal that is cut off in its first line", "query", file,
+                      "--journal", kept)
         kept.write_text("1,2,3\n")
         self.bad_over(2, 1, "kept:1: found no journal of a study", "query", file, "--journal", kept)
         self.assertEqual(kept.read_text(), "1,2,3\n")

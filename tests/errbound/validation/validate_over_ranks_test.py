@@ -69,7 +69,7 @@ class ValidateOverRanks(unittest.TestCase):
         self.assertEqual(self.results(self.over(3), *arguments), one)
 
     def test_killed_rank(self):
-        arguments = ("--expressions", 300000, "--seed", 5)
+        arguments = ("--expressions", 150000, "--seed", 5)
         process = over_ranks.start(3, os.environ["ERRBOUND_MPI_PROGRAM"], "validate", *arguments,
                                    "--json", self.directory / "none.json", "--journal", self.kept)
         while not self.kept.exists() or self.kept.read_text().count("\n") < 2:
@@ -79,7 +79,7 @@ class ValidateOverRanks(unittest.TestCase):
         out, err = process.communicate(timeout=60)
         self.assertEqual((process.returncode, out), (137, ""), err)
         self.assertFalse((self.directory / "none.json").exists())
-        self.bad(2, 1, "kept:1: found the journal of another study", "--expressions", 300001, "--seed",
+        self.bad(2, 1, "kept:1: found the journal of another study", "--expressions", 150001, "--seed",
                  5, "--journal", self.kept)
         resumed = self.results(self.over(2), *arguments, "--journal", self.kept)
         self.assertFalse(self.kept.exists())
