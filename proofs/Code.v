@@ -1,5 +1,5 @@
 (** The C++ code, line by line, over any number type: what include/errbound/rules/*.hpp, the default
-    sign_of of tracked.hpp and error_free.hpp compute with the operations of `arithmetic`.
+    sign_of of tracked.hpp, error_free.hpp and functions.hpp compute with the operations of `arithmetic`.
 
     Nothing is proved here. Ieee.v takes IEEE floats for the numbers and proves that these functions
     then are those that the theorems are about. TieProgram.v makes a program of them, against which
@@ -14,6 +14,7 @@ Record arithmetic (T : Type) := {
   times : T -> T -> T;
   over : T -> T -> T;
   fma : T -> T -> T -> T;
+  root : T -> T;
   opposite : T -> T;
   less : T -> T -> bool;
   at_most : T -> T -> bool;
@@ -316,5 +317,121 @@ Definition residual_scale (v a : T) (sa : T * T) (e : Z) : T * T :=
      (scale T A remainder (- e)%Z == snd sa)) in
   (correction,
    if lossless then remainder + (v - v) else residual_inflated (remainder + #2 * η)).
+
+(** What tracked.hpp asks of a rule, as far as functions.hpp needs it; B is a bound. *)
+Record rule (B : Type) := {
+  rule_exact : T -> B;
+  rule_within : T -> T -> B;
+  rule_error : T -> B -> T;
+  rule_subtract : T -> T -> B -> T -> B -> B;
+  rule_negate : B -> B;
+  rule_sign : T -> B -> sign_type
+}.
+Definition tight_rule : rule T := {|
+  rule_exact := tight_exact;
+  rule_within := tight_within;
+  rule_error _ b := b;
+  rule_subtract v _ sa _ sb := tight_add v sa sb;
+  rule_negate b := b;
+  rule_sign := sign_of
+|}.
+Definition sharp_rule : rule T := {|
+  rule_exact := tight_exact;
+  rule_within := tight_within;
+  rule_error _ b := b;
+  rule_subtract v _ sa _ sb := sharp_add v sa sb;
+  rule_negate b := b;
+  rule_sign := sign_of
+|}.
+Definition safe_rule : rule (T * Z) := {|
+  rule_exact := safe_exact;
+  rule_within := safe_within;
+  rule_error v b := safe_error v (fst b) (snd b);
+  rule_subtract _ _ sa _ sb := safe_add (fst sa) (snd sa) (fst sb) (snd sb);
+  rule_negate b := b;
+  rule_sign v b := sign_of v (safe_error v (fst b) (snd b))
+|}.
+Definition interval_rule : rule (T * T) := {|
+  rule_exact := interval_exact;
+  rule_within := interval_within;
+  rule_error := interval_error;
+  rule_subtract v _ sa _ sb := interval_subtract v sa sb;
+  rule_negate := interval_negate;
+  rule_sign _ b := interval_sign b
+|}.
+Definition residual_rule : rule (T * T) := {|
+  rule_exact := residual_exact;
+  rule_within := residual_within;
+  rule_error _ b := residual_error b;
+  rule_subtract := residual_subtract;
+  rule_negate := residual_negate;
+  rule_sign := residual_sign
+|}.
+
+(** functions.hpp, of tracked numbers: a value and a bound. *)
+Section Functions.
+
+Variable B : Type.
+Variable R : rule B.
+
+Definition tracked_exactly (v : T) : T * B := (v, rule_exact B R v).
+Definition tracked_within (v e : T) : T * B := (v, rule_within B R v e).
+Definition tracked_error (x : T * B) : T := rule_error B R (fst x) (snd x).
+Definition tracked_sign (x : T * B) : sign_type := rule_sign B R (fst x) (snd x).
+Definition tracked_negate (x : T * B) : T * B := (- fst x, rule_negate B R (snd x)).
+Definition tracked_subtract (a b : T * B) : T * B :=
+  let v := fst a - fst b in (v, rule_subtract B R v (fst a) (snd a) (fst b) (snd b)).
+Definition tracked_compare (a b : T * B) : sign_type := tracked_sign (tracked_subtract a b).
+
+Definition enlarged (bound : T) : T := bound * (#1 + #8 * ε).
+Definition rounding_of (v : T) : T := abs v * (ε * (#1 + ε)) + η.
+Definition larger_error (a b : T * B) : T :=
+  let x := tracked_error a in
+  let y := tracked_error b in
+  if x <= y then y else if y <= x then x else ∞.
+Definition lesser_or_either (a b : T * B) : T * B :=
+  match tracked_compare a b with
+  | negative | zero => a
+  | _ => tracked_within (fst a) (larger_error a b)
+  end.
+
+Definition tracked_sqrt (x : T * B) : T * B :=
+  let v := root T A (fst x) in
+  let e := tracked_error x in
+  if negb (e <= fst x) then tracked_within v ∞
+  else if e == #0 then
+    let square := two_product v v in
+    if product_error_is_exact v v square && (snd square == #0) && (fst square == fst x)
+    then tracked_exactly v
+    else tracked_within v (enlarged (rounding_of v))
+  else
+    let divisor := v + root T A (fst x - e) in
+    tracked_within v (enlarged (e / divisor + (rounding_of v + η))).
+Definition tracked_abs (x : T * B) : T * B :=
+  let below_0 := fst x < #0 in
+  let kept := if below_0 then tracked_negate x else x in
+  match tracked_sign x with
+  | zero => kept
+  | negative => if below_0 then kept else tracked_within (abs (fst x)) (tracked_error x)
+  | positive => if below_0 then tracked_within (abs (fst x)) (tracked_error x) else kept
+  | uncertain => tracked_within (abs (fst x)) (tracked_error x)
+  end.
+Definition tracked_min (a b : T * B) : T * B :=
+  if fst b < fst a then lesser_or_either b a else lesser_or_either a b.
+Definition tracked_max (a b : T * B) : T * B :=
+  tracked_negate (if fst a < fst b then lesser_or_either (tracked_negate b) (tracked_negate a)
+                  else lesser_or_either (tracked_negate a) (tracked_negate b)).
+Definition tracked_fma (a b c : T * B) : T * B :=
+  let v := fma T A (fst a) (fst b) (fst c) in
+  let of_a := tracked_error a in
+  let of_b := tracked_error b in
+  let of_c := tracked_error c in
+  let product_is_zero := ((fst a == #0) && (of_a == #0)) || ((fst b == #0) && (of_b == #0)) in
+  if product_is_zero && is_finite v then c
+  else
+    let products := abs (fst a) * of_b + of_a * (abs (fst b) + of_b) in
+    tracked_within v (enlarged (rounding_of v + (products + (of_c + #3 * η)))).
+
+End Functions.
 
 End Code.

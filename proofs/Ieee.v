@@ -28,6 +28,7 @@ Definition floats : arithmetic float := {|
   times := Bmult mode_NE;
   over := Bdiv mode_NE;
   fma := Bfma mode_NE;
+  root := Bsqrt mode_NE;
   opposite := Bopp;
   less := Bltb;
   at_most := Bleb;
@@ -96,6 +97,19 @@ Proof.
   destruct F as (X & Y & Z). repeat split; auto.
   generalize (Bfma_correct p emax _ _ mode_NE x y z X Y Z). cbv zeta. case Rlt_bool; [tauto |].
   intros O. exfalso. revert H O. unfold fma, floats. destruct (Bfma mode_NE x y z); discriminate.
+Qed.
+Lemma root_finite x : finite (root _ floats x) ->
+  finite x /\ 0 <= B2R x /\ B2R (root _ floats x) = fl (sqrt (B2R x)).
+Proof.
+  generalize (Bsqrt_correct p emax _ _ mode_NE x). intros (E & F & _) H. simpl in H. rewrite F in H.
+  destruct x as [s | s | | s m e b]; try discriminate; repeat split; auto; simpl; [lra |].
+  destruct s; [discriminate |]. apply F2R_ge_0. simpl. lia.
+Qed.
+Lemma root_of_nonnegative x : finite x -> 0 <= B2R x -> finite (root _ floats x).
+Proof.
+  generalize (Bsqrt_correct p emax _ _ mode_NE x). intros (_ & F & _) H P. simpl. rewrite F.
+  destruct x as [s | s | | s m e b]; try easy. destruct s; auto. exfalso. revert P. apply Rlt_not_le.
+  apply F2R_lt_0. simpl. lia.
 Qed.
 Lemma scale_finite x e : finite (scale _ floats x e) ->
   finite x /\ B2R (scale _ floats x e) = fl (B2R x * bpow radix2 e).

@@ -838,6 +838,26 @@ Proof.
     rewrite round_0, Rabs_R0 in C by auto with typeclass_instances. generalize (bpow_gt_0 radix2 emax). lra.
 Qed.
 
+Lemma interval_error_nonnegative a A x : interval_known a A x -> nonnegative p emax (interval_error _ F a A).
+Proof.
+  destruct A as [l u]. intros K. unfold interval_error. cbv zeta. cbn [fst snd].
+  assert (P : nonnegative p emax (u ⊖ a) /\ nonnegative p emax (a ⊖ l)).
+  { destruct K as [E | (L & W & FA & HA & _)].
+    - injection E as -> ->. destruct a as [| [|] | |]; easy.
+    - cbn [fst snd] in *.
+      destruct (difference_above u a W FA (proj2 HA)) as [E1 | F1], (difference_above a l FA L (proj1 HA)) as [E2 | F2];
+        rewrite ?E1, ?E2; split; try reflexivity; apply nonnegative_intro; auto;
+        match goal with H : finite (?y ⊖ ?z) |- 0 <= B2R (?y ⊖ ?z) =>
+          apply minus_finite in H; destruct H as (_ & _ & ->) end;
+        apply (Format.rnd_nonnegative p emin Format.nearest); lra. }
+  set (off := max _ F (u ⊖ a) (a ⊖ l)).
+  assert (PO : nonnegative p emax off) by (unfold off, max; destruct (less _ F _ _); tauto).
+  destruct (equal _ F off (integer _ F 0)); auto.
+  destruct (_ && _); [reflexivity |]. apply nonnegative_plus; auto. unfold step.
+  assert (nonnegative p emax (five_quarters _ F)).
+  { destruct five_quarters_value as [FF E]. apply nonnegative_intro; auto. rewrite E. lra. }
+  positive.
+Qed.
 Theorem interval_error_known a A x : interval_known a A x -> finite (interval_error _ F a A) ->
   finite a /\ Rabs (B2R a - x) <= B2R (interval_error _ F a A).
 Proof.

@@ -41,6 +41,7 @@ let tiny p exponent_bits =
     let t = Array.init (codes * codes) (fun i -> operation decoded.(i / codes) decoded.(i mod codes)) in
     fun x y -> t.((x * codes) + y) in
   let results operation = table2 (fun x y -> encode (operation x y)) in
+  let roots = Array.map (fun x -> encode (f.root x)) decoded in
   let opposites = Array.map (fun x -> encode (f.opposite x)) decoded in
   let integers = Hashtbl.create 100 in
   let integer = function
@@ -62,6 +63,7 @@ let tiny p exponent_bits =
     a = {
       plus = results f.plus; minus = results f.minus; times = results f.times; over = results f.over;
       fma = (fun x y v -> encode (f.fma decoded.(x) decoded.(y) decoded.(v)));
+      root = (fun x -> roots.(x));
       opposite = (fun x -> opposites.(x));
       less = table2 f.less; at_most = table2 f.at_most; equal = table2 f.equal;
       scale = (fun x e -> scaled.(x).(of_z e + max_scale));

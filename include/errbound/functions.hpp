@@ -56,6 +56,7 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 /// With e = x.error() and x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ + √(x̂ − e)), and
 /// the computed root of x̂ is off by a rounding of its own. The divisor is rounded up to three times
 /// on its way ((x̂ − e), its root, the sum; v itself is one), the quotient and the sum once each.
+/// Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v, sqrt_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     using traits = number_traits<T>;
@@ -75,6 +76,7 @@ constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
 }
 
 /// |x|, by the sign of its value: off by no more than x, for ||x| − |x̂|| <= |x − x̂|.
+/// Proof: proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     const bool below = x.value() < 0;
@@ -86,12 +88,12 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
 
 /// The lesser of a and b, by their values, as plain arithmetic has it. Where it is not certain that
 /// this is the lesser one, off by no more than the larger of their errors, for |min(a, b) −
-/// min(c, d)| <= max(|a − c|, |b − d|).
+/// min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> min(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
 }
-/// The greater of a and b, likewise.
+/// The greater of a and b, likewise. Proof: proofs/IeeeFunctions.v, max_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> max(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return a.value() < b.value() ? -detail::lesser_or_either(-b, -a)
@@ -101,7 +103,10 @@ constexpr tracked<T, Rule> max(const tracked<T, Rule>& a, const tracked<T, Rule>
 /// ab + c, rounded once: by number_traits<T>::fma, which is slow where the processor has none.
 ///
 /// With errors σ: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| + σb) + σc. Each product may
-/// lose η where it underflows; the longest way to the bound has six roundings.
+/// lose η where it underflows, and |b̂| + σb, rounded before, some more of it, which the third η
+/// pays where σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost; the longest way to the bound
+/// has six roundings. Proof: proofs/IeeeFunctions.v, fma_known; in any direction,
+/// proofs/Functions.v, fma_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
@@ -114,7 +119,7 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
                        detail::rounded_product(of_a, T(traits::abs(b.value()) + of_b));
     return tracked<T, Rule>::within(
         v, detail::enlarged<T>(detail::rounding_of(v) +
-                               (products + T(of_c + 2 * traits::underflow_unit()))));
+                               (products + T(of_c + 3 * traits::underflow_unit()))));
 }
 
 }  // namespace errbound

@@ -152,6 +152,48 @@ TEST(Tracked, BoundsHoldInEveryRoundingDirection) {
     }
 }
 
+/// ab + c of exact numbers at the ends of what a and b may be.
+template <class Rule>
+void check_fused(double a, double of_a, double b, double of_b, double c) {
+    using number = tracked<double, Rule>;
+    const number fused = fma(number::within(a, of_a), number::within(b, of_b), number(c));
+    for (const int i : {-1, 1})
+        for (const int j : {-1, 1}) {
+            const rational exact =
+                (exactly(a) + i * exactly(of_a)) * (exactly(b) + j * exactly(of_b)) + exactly(c);
+            check(sample<number>{fused, exact}, std::string(Rule::name) + " fma");
+            if (testing::Test::HasFatalFailure()) return;
+        }
+}
+
+TEST(Tracked, FusedProductsThatUnderflowHoldInEveryRoundingDirection) {
+    // Rounded down, the result lost an η, each product of the bound one, and σa(|b| + σb) a part
+    // of one before: more than the 3η that were added once.
+    const double a = 0x1.fffffe2956eccp-496, of_a = 0x1.fbf7f923257e1p-500;
+    const double b = 0x1.000000f3acfffp-527, of_b = 0x1.fffffffffffffp-580;
+    const double c = -0x1.0000000858757p-1022;
+    for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+        std::mt19937_64 random(1);
+        const auto between_1_and_2 = [&] {
+            return 1 + std::ldexp(static_cast<double>(random() >> 12), -52);
+        };
+        ASSERT_EQ(std::fesetround(direction), 0);
+        check_fused<errbound::tight>(a, of_a, b, of_b, c);
+        for (int i = 0; i < programs / 4; ++i) {
+            // a·σb of about η, σa·b of up to 2^50 η, and c that leaves little of ab.
+            const double x = std::ldexp(between_1_and_2(), -496 - static_cast<int>(random() % 3));
+            const double y = std::ldexp(between_1_and_2(), -527);
+            const double of_x =
+                std::ldexp(between_1_and_2(), -500 - static_cast<int>(random() % 50));
+            const double of_y = std::ldexp(between_1_and_2(), -580);
+            volatile double product = x * y;
+            check_fused<errbound::tight>(x, of_x, y, of_y, -product);
+            check_fused<errbound::safe>(x, of_x, y, of_y, -product);
+        }
+        std::fesetround(FE_TONEAREST);
+    }
+}
+
 TEST(Tracked, SafeWithinAHugeErrorTookItForASmallOneInSomeDirections) {
     for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
         ASSERT_EQ(std::fesetround(direction), 0);
