@@ -57,5 +57,7 @@ Extraction "code.ml" code_of_float float_of_code floats
   residual_exact residual_within residual_error residual_sign residual_add residual_subtract
   residual_multiply residual_divide residual_scale
   two_sum two_product product_error_is_exact remainder_of_division
+  tight_rule sharp_rule safe_rule interval_rule residual_rule
+  tracked_exactly tracked_sqrt tracked_abs tracked_min tracked_max tracked_fma
   words_sum words_difference words_product words_sparse_product words_shift words_compare
   words_bit_length words_from_bit words_shifted.

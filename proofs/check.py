@@ -35,6 +35,8 @@ root = proofs.parent
 ALL = {"exact", "within", "error", "sign", "add", "subtract", "multiply", "divide", "scale"}
 OPERATION = re.compile(r"static (?:constexpr )?(?:bound<T>|T|sign_type) "
                        r"(exact|within|error|sign|add|subtract|multiply|divide|scale)\(")
+# A function of tracked numbers, each of which must, too.
+FUNCTION = re.compile(r"^constexpr tracked<T, Rule> (\w+)\(")
 
 
 def fail(message):
@@ -90,7 +92,8 @@ def named_theorems(comment):
 
 
 def compare_with_code(found):
-    """Every theorem that the C++ code names is there; every operation of every bound rule names one."""
+    """Every theorem that the C++ code names is there; every operation of a bound rule names one, and
+    every function of tracked numbers."""
     known = set(found)
     for folder in ("include", "ccd", "errbound", "tests"):
         for path in sorted((root / folder).rglob("*.[hc]pp")):
@@ -98,18 +101,26 @@ def compare_with_code(found):
                 if name not in known:
                     fail(f"{path.relative_to(root)} names {name[1]} of {name[0]}.v, which is no theorem")
     for path in sorted((root / "include/errbound/rules").glob("*.hpp")):
-        text, comment = path.read_text(), ""
+        text = path.read_text()
         unproved = ALL if path.stem == "none" else set()  # `none` promises nothing
         if "has_division = false" in text:
             unproved = unproved | {"divide"}
-        for line in text.splitlines():
-            if line.lstrip().startswith("//"):
-                comment += line + "\n"
-            elif not line.lstrip().startswith("template"):
-                operation = OPERATION.search(line)
-                if operation and operation[1] not in unproved and not named_theorems(comment):
-                    fail(f"{path.relative_to(root)}: {operation[1]} names no theorem")
-                comment = ""
+        every_one_names(OPERATION, path, text, unproved)
+    path = root / "include/errbound/functions.hpp"
+    every_one_names(FUNCTION, path, path.read_text().split("}  // namespace detail")[1], set())
+
+
+def every_one_names(pattern, path, text, unproved):
+    """Whatever the pattern finds has a comment before it that names a theorem."""
+    comment = ""
+    for line in text.splitlines():
+        if line.lstrip().startswith("//"):
+            comment += line + "\n"
+        elif not line.lstrip().startswith("template"):
+            found = pattern.search(line)
+            if found and found[1] not in unproved and not named_theorems(comment):
+                fail(f"{path.relative_to(root)}: {found[1]} names no theorem")
+            comment = ""
 
 
 def check_tie(build):

@@ -121,6 +121,12 @@ let ieee name p exponent_bits words samples =
 let put_sign = function
   | Negative -> put_word 0 | Zero -> put_word 1 | Positive -> put_word 2 | Uncertain -> put_word 3
 
+(* At most ten thousand of them, evenly: the cases of three can be numbered. *)
+let spread states =
+  let n = Array.length states in
+  let most = min n 10007 in
+  Array.init most (fun i -> states.(i * n / most))
+
 let exponents = Array.init 25 (fun i -> i - 12)
 
 (* Every operation: its name, its number of cases, and what puts the results of one. *)
@@ -167,6 +173,25 @@ let operations f =
           put2 (multiply a fused (a.times x y) x (exact x) y (exact y)));
       of_two (named "divide") f.values f.values (fun x y ->
           put2 (divide a fused (a.over x y) x (exact x) y (exact y))) ] in
+  (* functions of tracked numbers, by a rule *)
+  let functions rule name states put_bound =
+    let put_number (v, b) = put v; put_bound b in
+    let named operation = name ^ "." ^ operation in
+    let exactly v = tracked_exactly rule v in
+    let three name states operation =
+      let n = count states in
+      (name, n * n * n,
+       fun i -> put_number (operation states.(i / (n * n)) states.(i / n mod n) states.(i mod n))) in
+    let fma = tracked_fma a rule in
+    [ of_one (named "sqrt") states (fun x -> put_number (tracked_sqrt a fused rule x));
+      of_one (named "sqrt_exact") f.values (fun v ->
+          put_number (tracked_sqrt a fused rule (exactly v));
+          put_number (tracked_sqrt a fused rule (exactly (a.times v v))));
+      of_one (named "abs") states (fun x -> put_number (tracked_abs a rule x));
+      of_two (named "min") states states (fun x y -> put_number (tracked_min a rule x y));
+      of_two (named "max") states states (fun x y -> put_number (tracked_max a rule x y));
+      three (named "fma") (spread states) fma;
+      three (named "fma_exact") (Array.map exactly f.values) fma ] in
   [ of_two "sign_of" f.values f.values (fun v e -> put_sign (sign_of a v e));
     of_two "two_sum" f.values f.values (fun x y -> put2 (two_sum a x y));
     of_two "two_product" f.values f.values (fun x y ->
@@ -185,6 +210,7 @@ let operations f =
       (fun v x s y t -> put (tight_multiply a v x s y t))
       (Some (fun v x s y t -> put (tight_divide a v x s y t)))
       (fun v x s e -> put (tight_scale a v x s e))
+  @ functions (tight_rule a) "tight" error_states put
   @ [ of_one "sharp.exact" f.values (fun v -> put (tight_exact a v));
       of_two "sharp.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
   @ arithmetic "sharp" error_states
@@ -193,6 +219,7 @@ let operations f =
       (fun v x s y t -> put (sharp_multiply a v x s y t))
       (Some (fun v x s y t -> put (sharp_divide a v x s y t)))
       (fun v x s e -> put (sharp_scale a v x s e))
+  @ functions (sharp_rule a) "sharp" error_states put
   @ [ of_one "safe.exact" f.values (fun v -> put_safe (safe_exact a v));
       of_two "safe.within" f.values f.values (fun v e -> put_safe (safe_within a v e));
       of_one "safe.error" safe_states (fun (v, (b, k)) -> put (safe_error a v b k)) ]
@@ -202,6 +229,7 @@ let operations f =
       (fun _ x (b, k) y (c, l) -> put_safe (safe_multiply a x b k y c l))
       None
       (fun v x (b, k) e -> put_safe (safe_scale a v x b k e))
+  @ functions (safe_rule a) "safe" safe_states put_safe
   @ [ of_one "interval.exact" f.values (fun v -> put2 (interval_exact a v));
       of_two "interval.within" f.values f.values (fun v e -> put2 (interval_within a v e));
       of_one "interval.error" interval_states (fun (v, b) -> put (interval_error a v b));
@@ -213,6 +241,7 @@ let operations f =
       (Some (fun v x s y t -> put2 (interval_divide a fused v x s y t)))
       (fun v _ s e -> put2 (interval_scale a v s e))
   @ of_exact "interval" (fun x -> (x, x)) interval_multiply interval_divide
+  @ functions (interval_rule a) "interval" interval_states put2
   @ [ of_one "residual.exact" f.values (fun v -> put2 (residual_exact a v));
       of_two "residual.within" f.values f.values (fun v e -> put2 (residual_within a v e));
       of_one "residual.error" residual_bounds (fun b -> put (residual_error a b));
@@ -224,6 +253,7 @@ let operations f =
       (Some (fun v x s y t -> put2 (residual_divide a fused v x s y t)))
       (fun v x s e -> put2 (residual_scale a v x s e))
   @ of_exact "residual" (fun _ -> (a.integer Z0, a.integer Z0)) residual_multiply residual_divide
+  @ functions (residual_rule a) "residual" residual_states put2
 
 (* All cases, or a selection where there are more than that. *)
 let write ?(only = fun _ -> true) f exhaustive =
@@ -243,7 +273,9 @@ let write_fused f =
     List.exists (fun rule ->
         List.exists (fun operation -> List.mem name [ rule ^ operation; rule ^ operation ^ "_exact" ])
           [ ".multiply"; ".divide" ])
-      [ "interval"; "residual" ] in
+      [ "interval"; "residual" ] ||
+    List.exists (fun rule -> List.mem name [ rule ^ ".sqrt"; rule ^ ".sqrt_exact" ])
+      [ "tight"; "sharp"; "safe"; "interval"; "residual" ] in
   write ~only:asks fused 0
 
 (* Integers of n words: words of zeros, of ones, with one bit, and random ones. Words are put as two of

@@ -10,6 +10,36 @@ int bias(int exponent_bits) {
     return (1 << (exponent_bits - 1)) - 1;
 }
 
+/// MPFR's range of exponents is a format's while it lives.
+class exponent_range {
+  public:
+    exponent_range(int precision, int exponent_bits)
+        : precision_(precision), exponent_bits_(exponent_bits) {
+        // MPFR's mantissas lie in [1/2, 1): the smallest number is 2^(emin − 1).
+        mpfr_set_emin(3 - bias(exponent_bits) - precision);
+        mpfr_set_emax(bias(exponent_bits) + 1);
+    }
+    ~exponent_range() {
+        mpfr_set_emin(emin_);
+        mpfr_set_emax(emax_);
+    }
+    exponent_range(const exponent_range&) = delete;
+    exponent_range& operator=(const exponent_range&) = delete;
+
+    /// Of a result, for which MPFR said that it is `off`; flags were cleared before.
+    std::uint16_t code(mpfr_t result, int off, mpfr_rnd_t direction) const {
+        off = mpfr_check_range(result, off, direction);
+        mpfr_subnormalize(result, off, direction);
+        const auto code = tiny_code(mpfr_get_d(result, MPFR_RNDN), precision_, exponent_bits_);
+        const bool unnoticed = mpfr_overflow_p() != 0 && mpfr_number_p(result) != 0;
+        return static_cast<std::uint16_t>(code | (unnoticed ? unnoticed_overflow : 0));
+    }
+
+  private:
+    int precision_, exponent_bits_;
+    mpfr_exp_t emin_ = mpfr_get_emin(), emax_ = mpfr_get_emax();
+};
+
 }  // namespace
 
 std::vector<double> tiny_values(int precision, int exponent_bits) {
@@ -47,22 +77,13 @@ std::uint8_t tiny_code(double value, int precision, int exponent_bits) {
     return static_cast<std::uint8_t>(sign + code);
 }
 
-tiny_tables::tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction)
-    : bits(precision + exponent_bits) {
+tiny_tables::tiny_tables(int precision, int exponent_bits, mpfr_rnd_t rounding)
+    : bits(precision + exponent_bits), direction(rounding) {
     const std::vector<double> values = tiny_values(precision, exponent_bits);
-    const mpfr_exp_t emin = mpfr_get_emin(), emax = mpfr_get_emax();
-    // MPFR's mantissas lie in [1/2, 1): the smallest number is 2^(emin − 1).
-    mpfr_set_emin(3 - bias(exponent_bits) - precision);
-    mpfr_set_emax(bias(exponent_bits) + 1);
+    const exponent_range range(precision, exponent_bits);
     mpfr_t a, b, r;
     mpfr_inits2(precision, a, b, r, static_cast<mpfr_ptr>(nullptr));
-    const auto result = [&](int off) -> std::uint16_t {
-        off = mpfr_check_range(r, off, direction);
-        mpfr_subnormalize(r, off, direction);
-        const auto code = tiny_code(mpfr_get_d(r, MPFR_RNDN), precision, exponent_bits);
-        const bool unnoticed = mpfr_overflow_p() != 0 && mpfr_number_p(r) != 0;
-        return static_cast<std::uint16_t>(code | (unnoticed ? unnoticed_overflow : 0));
-    };
+    const auto result = [&](int off) { return range.code(r, off, direction); };
     for (const double x : values) {
         mpfr_set_d(a, x, MPFR_RNDN);
         for (const double y : values) {
@@ -84,8 +105,20 @@ tiny_tables::tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction)
         }
     }
     mpfr_clears(a, b, r, static_cast<mpfr_ptr>(nullptr));
-    mpfr_set_emin(emin);
-    mpfr_set_emax(emax);
+}
+
+std::uint16_t tiny_fma(double a, double b, double c, int precision, int exponent_bits,
+                       mpfr_rnd_t direction) {
+    const exponent_range range(precision, exponent_bits);
+    mpfr_t x, y, z;
+    mpfr_inits2(precision, x, y, z, static_cast<mpfr_ptr>(nullptr));
+    mpfr_set_d(x, a, MPFR_RNDN);
+    mpfr_set_d(y, b, MPFR_RNDN);
+    mpfr_set_d(z, c, MPFR_RNDN);
+    mpfr_clear_flags();
+    const std::uint16_t code = range.code(z, mpfr_fma(z, x, y, z, direction), direction);
+    mpfr_clears(x, y, z, static_cast<mpfr_ptr>(nullptr));
+    return code;
 }
 
 }  // namespace errbound::validation

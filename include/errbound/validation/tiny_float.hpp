@@ -3,7 +3,7 @@
 // tiny_float<P, E> has P bits of precision and E of exponent, laid out as IEEE 754 does: a sign
 // bit, the exponent, P − 1 bits of fraction, with gradual underflow, infinities and NaN. Its
 // operations are MPFR's, at its precision and exponent range (mpfr_subnormalize), looked up in
-// tables. The rounding direction is the calling thread's choice (tiny_rounding).
+// tables, but for fma. The rounding direction is the calling thread's choice (tiny_rounding).
 #pragma once
 
 #include <mpfr.h>
@@ -27,15 +27,21 @@ struct tiny_tables {
     static constexpr int max_scale = 64;  ///< scaling by more has the same result
 
     int bits = 0;  ///< codes have so many
+    mpfr_rnd_t direction = MPFR_RNDN;
     std::vector<std::uint16_t> sum, difference, product, quotient, scaled, root;
 
-    tiny_tables(int precision, int exponent_bits, mpfr_rnd_t direction);
+    tiny_tables(int precision, int exponent_bits, mpfr_rnd_t rounding);
     std::size_t pair(std::uint8_t a, std::uint8_t b) const { return (std::size_t{a} << bits) | b; }
     std::size_t scale(std::uint8_t a, int e) const {
         e = e < -max_scale ? -max_scale : e > max_scale ? max_scale : e;
         return std::size_t{a} * (2 * max_scale + 1) + static_cast<std::size_t>(e + max_scale);
     }
 };
+
+/// ab + c of three values of a format, rounded once: its code, as in the tables, which would be
+/// long for three operands.
+std::uint16_t tiny_fma(double a, double b, double c, int precision, int exponent_bits,
+                       mpfr_rnd_t direction);
 
 /// Every code's value.
 std::vector<double> tiny_values(int precision, int exponent_bits);
@@ -81,6 +87,9 @@ class tiny_float {
         return looked_up(tables_->scaled[tables_->scale(code_, e)]);
     }
     tiny_float root() const { return looked_up(tables_->root[code_]); }
+    friend tiny_float fused(tiny_float a, tiny_float b, tiny_float c) {
+        return looked_up(tiny_fma(double(a), double(b), double(c), P, E, tables_->direction));
+    }
     tiny_float operator-() const { return from_code(code_ ^ (codes >> 1)); }
     friend bool operator==(tiny_float a, tiny_float b) { return double(a) == double(b); }
     friend auto operator<=>(tiny_float a, tiny_float b) { return double(a) <=> double(b); }
@@ -150,6 +159,7 @@ struct number_traits<validation::tiny_float<P, E>> {
     static number abs(const number& x) { return x < 0 ? -x : x; }
     static number max(const number& x, const number& y) { return x < y ? y : x; }
     static number sqrt(const number& x) { return x.root(); }
+    static number fma(const number& a, const number& b, const number& c) { return fused(a, b, c); }
     static bool is_finite(const number& x) { return std::isfinite(double(x)); }
     static number scale(const number& x, int e) { return x.times_power(e); }
     static int exponent(const number& x) { return std::ilogb(double(x)) + 1; }

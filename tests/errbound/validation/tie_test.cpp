@@ -1,4 +1,5 @@
-// The rules in float and double, and integers of words, against the proofs' table: tie.hpp.
+// The rules and functions by them in float and double, and integers of words, against the proofs'
+// table: tie.hpp.
 #include "tests/errbound/validation/tie.hpp"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/errbound/validation/tie_functions.hpp"
+
 namespace {
 
 using tie::hash;
@@ -19,9 +22,11 @@ using tie::table;
 
 TEST(Tie, Float) {
     tie::expect_the_proofs_results<float>();
+    tie::expect_the_proofs_functions<float>();
 }
 TEST(Tie, Double) {
     tie::expect_the_proofs_results<double>();
+    tie::expect_the_proofs_functions<double>();
 }
 
 /// Integers of words, and what their operations make of them.

@@ -1,9 +1,10 @@
-// The rules in every case of tiny formats against the proofs' table: tie.hpp.
+// The rules and functions by them in every case of tiny formats against the proofs' table: tie.hpp.
 #include <gtest/gtest.h>
 
 #include <errbound/validation/tiny_float.hpp>
 
 #include "tests/errbound/validation/tie.hpp"
+#include "tests/errbound/validation/tie_functions.hpp"
 
 namespace {
 
@@ -13,6 +14,7 @@ template <class Tiny>
 void expect_the_proofs_results_of_tiny() {
     const errbound::validation::tiny_rounding<Tiny> nearest(MPFR_RNDN);
     tie::expect_the_proofs_results<Tiny>();
+    tie::expect_the_proofs_functions<Tiny>();
 }
 
 TEST(Tie, EveryCaseOfSixBits) {
