@@ -121,14 +121,6 @@ class twofold_y {
     pack_mask usable_;
 };
 
-/// The double after t > 0, or before it.
-inline pack neighbour(const pack& t, const pack_mask& after) {
-    using integers = xsimd::batch<std::int64_t, xsimd::default_arch>;
-    const integers bits = xsimd::bitwise_cast<integers>(t);
-    return select(after, xsimd::bitwise_cast<pack>(bits + integers(1)),
-                  xsimd::bitwise_cast<pack>(bits - integers(1)));
-}
-
 /// A part of the step where Y certainly has one root: its sign before it is `before`, 1 or -1.
 struct pack_parts {
     pack from, to, before;

@@ -23,10 +23,10 @@ class six_numbers {
     }
 
     friend six_numbers min(const six_numbers& a, const six_numbers& b) {
-        return of(a, b, [](const pack& x, const pack& y) { return xsimd::min(x, y); });
+        return of(a, b, [](const pack& x, const pack& y) { return min(x, y); });
     }
     friend six_numbers max(const six_numbers& a, const six_numbers& b) {
-        return of(a, b, [](const pack& x, const pack& y) { return xsimd::max(x, y); });
+        return of(a, b, [](const pack& x, const pack& y) { return max(x, y); });
     }
     /// Those of a that exceed b's: bit k is the k-th.
     friend lanes above(const six_numbers& a, const six_numbers& b) {

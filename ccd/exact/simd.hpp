@@ -10,13 +10,26 @@
 #define ERRBOUND_INSTRUCTION_SET baseline
 #endif
 
+// Of x86 and of 64-bit ARM xsimd has doubles.
+#if !XSIMD_WITH_SSE2 && !XSIMD_WITH_NEON64
+#define ERRBOUND_VECTOR_PACKS
+#include "ccd/exact/vector_pack.hpp"
+#endif
+
 namespace ccd::detail::ERRBOUND_INSTRUCTION_SET {
 namespace {
 
+#ifdef ERRBOUND_VECTOR_PACKS
+template <class T>
+using pack_of = vector_pack<T>;
+template <class T>
+using mask_of = vector_mask<T>;
+#else
 template <class T>
 using pack_of = xsimd::batch<T, xsimd::default_arch>;
 template <class T>
 using mask_of = xsimd::batch_bool<T, xsimd::default_arch>;
+#endif
 
 using pack = pack_of<double>;
 using pack_mask = mask_of<double>;
@@ -53,12 +66,25 @@ lanes lanes_of(const mask_of<T>& m) {
         return static_cast<lanes>(_mm_movemask_pd(m));
     else
         return static_cast<lanes>(_mm_movemask_ps(m));
+#elif defined ERRBOUND_VECTOR_PACKS
+    return m.bits();
 #else
-    bool set[mask_of<T>::size];
-    m.store_unaligned(set);
-    lanes some = 0;
-    for (std::size_t i = 0; i < std::size(set); ++i) some |= lanes(set[i]) << i;
-    return some;
+    if constexpr (sizeof(T) == sizeof(double))
+        return static_cast<lanes>(vaddvq_u64(vandq_u64(m, uint64x2_t{1, 2})));
+    else
+        return vaddvq_u32(vandq_u32(m, uint32x4_t{1, 2, 4, 8}));
+#endif
+}
+
+/// The double after t > 0, or before it.
+inline pack neighbour(const pack& t, const pack_mask& after) {
+#ifdef ERRBOUND_VECTOR_PACKS
+    return select(after, pack::of_bits(bits_of(t) + 1), pack::of_bits(bits_of(t) - 1));
+#else
+    using integers = pack_of<std::int64_t>;
+    const integers bits = xsimd::bitwise_cast<integers>(t);
+    return select(after, xsimd::bitwise_cast<pack>(bits + integers(1)),
+                  xsimd::bitwise_cast<pack>(bits - integers(1)));
 #endif
 }
 

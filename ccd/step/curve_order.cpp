@@ -105,7 +105,7 @@ void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
     const unsigned digit_bits = (layout.curve_bits() + 2 + passes - 1) / passes;
     const curve_key digits = curve_key(1) << digit_bits;
     const std::size_t shares = shares_of(keys.size());
-    share_places places(shares, digits);
+    share_places places(shares, static_cast<std::size_t>(digits));
     first_touch_vector<curve_key> buffer(keys.size());
     std::span<curve_key> from = keys, to = buffer;
     for (unsigned shift = layout.element_bits, pass = 0; pass < passes;
@@ -114,7 +114,7 @@ void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
             std::size_t* const of_share = places.of(share);
             const std::size_t end = begin_of_share(share + 1, shares, from.size());
             for (std::size_t i = begin_of_share(share, shares, from.size()); i < end; ++i)
-                visit(from[i], of_share[(from[i] >> shift) % digits]);
+                visit(from[i], of_share[static_cast<std::size_t>((from[i] >> shift) % digits)]);
         };
         places.clear();
         for_each_task(shares, [&](std::size_t share) {

@@ -161,7 +161,7 @@ lanes touching(const extents_pack& pack, const Extents& other) {
     for (std::size_t lane = 0; lane < size; lane += float_width) {
         mask_of<float> apart = separated(pack, other, 0, lane);
         for (std::size_t a = 1; a < 3; ++a) apart = apart | separated(pack, other, a, lane);
-        if (xsimd::all(apart)) continue;
+        if (all(apart)) continue;
         for (std::size_t a = 3; a < extents::axes; ++a)
             apart = apart | separated(pack, other, a, lane);
         found |= (~lanes_of<float>(apart) & first_lanes(float_width)) << lane;

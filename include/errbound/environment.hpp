@@ -33,7 +33,7 @@ namespace errbound {
 /// What the calling thread's floating-point environment does, and what the compiler made of the
 /// unit that asks. Compilers do not tell of every flag, and flush-to-zero is set at start-up by
 /// code that other flags link in; so all of this is asked at run time, of float, double and, but
-/// for subnormals, long double.
+/// for subnormals, long double, where that is a binary format (on some PowerPC it is two doubles).
 struct environment_report {
     bool gradual_underflow;  ///< subnormals are neither flushed nor read as zero
     bool as_written;         ///< sums are in the written order, of the type's bits, no more
@@ -126,15 +126,17 @@ static bool rounds_to_nearest() {
 /// unit that is compiled with flags of its own. Cost: some microseconds.
 static inline environment_report floating_point_environment() {
     using namespace detail;
+    const auto of_all = [](const auto& ask) {
+        bool all = ask(float()) && ask(double());
+        if constexpr (std::numeric_limits<long double>::is_iec559) all = all && ask(0.0L);
+        return all;
+    };
     return {has_gradual_underflow<float>() && has_gradual_underflow<double>(),
-            computes_as_written<float>() && computes_as_written<double>() &&
-                computes_as_written<long double>(),
-            has_all_bits<float>() && has_all_bits<double>() && has_all_bits<long double>(),
-            divides_once<float>() && divides_once<double>() && divides_once<long double>(),
-            tells_special_values<float>() && tells_special_values<double>() &&
-                tells_special_values<long double>(),
-            rounds_to_nearest<float>() && rounds_to_nearest<double>() &&
-                rounds_to_nearest<long double>()};
+            of_all([](auto x) { return computes_as_written<decltype(x)>(); }),
+            of_all([](auto x) { return has_all_bits<decltype(x)>(); }),
+            of_all([](auto x) { return divides_once<decltype(x)>(); }),
+            of_all([](auto x) { return tells_special_values<decltype(x)>(); }),
+            of_all([](auto x) { return rounds_to_nearest<decltype(x)>(); })};
 }
 
 }  // namespace errbound

@@ -14,6 +14,8 @@ template <class T>
 struct number_traits {
     static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,
                   "errbound: specialise errbound::number_traits for this number type");
+    static_assert(!std::is_floating_point_v<T> || std::numeric_limits<T>::is_iec559,
+                  "errbound: not an IEEE 754 binary format, as long double on some PowerPC");
 
     /// Largest relative error of one rounding in any direction, the paper's ε = 2u: 2^-52 for
     /// double, 2^-23 for float.

@@ -116,7 +116,7 @@ constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run)
     if (!certain(answer)) return expression_fault::gives_up;
     // Of many signs each has its turn by some supposition.
     const std::size_t stride = (signs.size + 5) / 6, last = signs.size;
-    for (std::size_t k = hashed(supposition) % stride; k < last; k += stride) {
+    for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < last; k += stride) {
         signs.unknown = k;
         signs.asked = 0;
         const sign_type other = run(signs);

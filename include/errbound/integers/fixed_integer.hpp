@@ -8,8 +8,8 @@
 // cost of unbounded integers.
 //
 // Everything is constexpr, without exceptions, intrinsics headers or global state, and fit for
-// device code; what it asks of the compiler is a 128-bit integer type. Cost: A·B multiplications
-// of words for a product of A and B words, one addition with carry per word for a sum.
+// device code. Cost: A·B multiplications of words for a product of A and B words, one addition with
+// carry per word for a sum.
 #pragma once
 
 #include <array>
@@ -17,16 +17,13 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/integers/double_word.hpp>
 #include <errbound/sign.hpp>
 #include <type_traits>
 
 namespace errbound::integers {
 
 namespace words {
-
-using word = std::uint64_t;
-__extension__ using double_word = unsigned __int128;
-__extension__ using signed_double_word = __int128;
 
 // Clang keeps a carry in the processor's flag by itself. GCC needs to be told, by builtins that
 // device compilers lack.
@@ -99,6 +96,18 @@ constexpr word sign_word(word w) {
     for (int j = 0; j < n; ++j) r[m + j] = subtract_with_borrow(r[m + j], b[j] & if_a, borrow);
     borrow = 0;
     for (int i = 0; i < m; ++i) r[n + i] = subtract_with_borrow(r[n + i], a[i] & if_b, borrow);
+}
+
+/// The same of one word each.
+[[gnu::always_inline]] constexpr void multiply_one(word* r, word a, word b) {
+#ifdef __SIZEOF_INT128__
+    const auto product =
+        signed_double_word(static_cast<std::int64_t>(a)) * static_cast<std::int64_t>(b);
+    r[0] = static_cast<word>(product);
+    r[1] = static_cast<word>(product >> 64);
+#else
+    multiply(r, &a, 1, &b, 1);
+#endif
 }
 
 /// The same for any sizes in one piece of code.
@@ -236,9 +245,7 @@ class fixed_integer {
         const fixed_integer<B>& b) const {
         fixed_integer<Words + B> r;
         if constexpr (Words == 1 && B == 1) {
-            const auto product = words::signed_double_word(low_word()) * b.low_word();
-            r.at(0) = static_cast<word>(product);
-            r.at(1) = static_cast<word>(product >> 64);
+            words::multiply_one(r.words_.data(), words_[0], b.words_[0]);
         } else if constexpr (Words * B <= 8) {
             words::multiply(r.words_.data(), words_.data(), Words, b.words_.data(), B);
         } else if constexpr (Words * B <= 36) {

@@ -44,8 +44,10 @@ constexpr auto integer_of() {
         return long_integer<word_count>(0);
     } else if constexpr (word_count == 1) {
         return std::int64_t();
+#ifdef __SIZEOF_INT128__
     } else if constexpr (word_count == 2) {
         return words::signed_double_word();
+#endif
     } else {
         return fixed_integer<word_count>();
     }
@@ -54,10 +56,12 @@ constexpr auto integer_of() {
 constexpr fixed_integer<1> as_fixed(std::int64_t x) {
     return x;
 }
+#ifdef __SIZEOF_INT128__
 constexpr fixed_integer<2> as_fixed(words::signed_double_word x) {
     return fixed_integer<2>::from_words(
         {static_cast<words::word>(x), static_cast<words::word>(x >> 64)});
 }
+#endif
 template <int Words>
 constexpr const fixed_integer<Words>& as_fixed(const fixed_integer<Words>& x) {
     return x;
@@ -80,7 +84,7 @@ struct sized_integer {
     using storage = decltype(integer_of<Level::kind, Bits>());
     static constexpr bool is_native =
         Level::kind == integer_kind::floating ||
-        (Level::kind == integer_kind::words && sizeof(storage) <= sizeof(words::double_word));
+        (Level::kind == integer_kind::words && Bits < words::native_bits);
 
     storage value;
     int unit;  ///< the coordinates': 2^unit
@@ -131,6 +135,18 @@ template <sized_operand X, sized_operand Y>
     }
 }
 
+template <class Storage>
+constexpr Storage power_of_two(int n) {
+    if constexpr (std::is_same_v<Storage, double>)
+        return static_cast<double>(std::int64_t(1) << n);
+    else if constexpr (requires { Storage::shifted(1, n); })
+        return Storage::shifted(1, n);
+    else if constexpr (std::is_constructible_v<Storage, words::word, int, bool>)
+        return Storage(1, n, false);
+    else
+        return Storage(1) << n;
+}
+
 /// x brought to a higher degree: times a power of 1 = 2^−unit units.
 template <int Degree, class X>
 [[gnu::always_inline]] constexpr auto raised(const X& x) {
@@ -141,12 +157,7 @@ template <int Degree, class X>
         static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
         using one_type = sized_integer<level, level::coordinate_bits, 1>;
         using storage = typename one_type::storage;
-        if constexpr (level::kind == integer_kind::any_length)
-            return raised<Degree>(x * one_type{storage(1, -x.unit, false), x.unit});
-        else
-            return raised<Degree>(
-                x *
-                one_type{static_cast<storage>(words::signed_double_word(1) << -x.unit), x.unit});
+        return raised<Degree>(x * one_type{power_of_two<storage>(-x.unit), x.unit});
     }
 }
 

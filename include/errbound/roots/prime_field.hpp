@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/integers/double_word.hpp>
 #include <errbound/roots/work_meter.hpp>
 #include <utility>
 #include <vector>
@@ -21,7 +22,7 @@ inline constexpr std::uint64_t operations_of_product = 4;
 class prime_field {
   public:
     using word = std::uint64_t;
-    __extension__ using double_word = unsigned __int128;
+    using double_word = integers::words::double_word;
 
     /// p < 2^62 odd, more than 2.
     /// Proof: proofs/PrimeField.v, negative_inverse_right, constants_right.

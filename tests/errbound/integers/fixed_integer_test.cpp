@@ -112,6 +112,33 @@ void check_all(std::mt19937_64& random, std::integer_sequence<int, Widths...>) {
     (check_products<Widths + 1, Widths + 1>(random), ...);
 }
 
+#ifdef __SIZEOF_INT128__
+TEST(TwoWords, AreTheCompilersNumbersOf128Bits) {
+    using errbound::integers::words::two_words;
+    __extension__ using wide = unsigned __int128;
+    std::mt19937_64 random(5);
+    const auto word = [&random]() -> std::uint64_t {
+        const auto pick = random() % 4;
+        return pick == 0 ? 0 : pick == 1 ? ~std::uint64_t{0} : random() >> random() % 64;
+    };
+    const auto same = [](const two_words& x, wide y) {
+        return static_cast<std::uint64_t>(x) == static_cast<std::uint64_t>(y) &&
+               static_cast<std::uint64_t>(x >> 64) == static_cast<std::uint64_t>(y >> 64);
+    };
+    for (int i = 0; i < 100'000; ++i) {
+        const std::uint64_t a = word(), b = word(), c = word(), d = word(), e = word();
+        const two_words x = two_words(a) * b + c, y = two_words(d) * e;
+        const wide x_right = wide(a) * b + c, y_right = wide(d) * e;
+        ASSERT_TRUE(same(x, x_right)) << a << ' ' << b << ' ' << c;
+        ASSERT_TRUE(same(x + y, x_right + y_right));
+        ASSERT_TRUE(same(x - y, x_right - y_right));
+        ASSERT_TRUE(same(x * y, x_right * y_right));
+        const std::uint64_t p = (word() >> 1) | 1;
+        ASSERT_TRUE(same(x % p, x_right % p)) << p;
+    }
+}
+#endif
+
 TEST(FixedInteger, OperationsAreThoseOfIntegersModuloTheWidth) {
     std::mt19937_64 random(1);
     check_all(random, std::make_integer_sequence<int, 13>());
