@@ -1,0 +1,20 @@
+// The hashes of all sections (tests/everywhere/sections.hpp), on every machine. They change only
+// when what is asked does, or when an answer was wrong.
+#pragma once
+
+#include <cstdint>
+
+namespace everywhere::expected {
+
+inline constexpr std::uint64_t decisions = 0x228a7aa44e4b893c;
+inline constexpr std::uint64_t times = 0xc2508c3f74182bc4;
+inline constexpr std::uint64_t batches = 0xcffb6acc32b8e451;
+inline constexpr std::uint64_t steps = 0x0bb360f2b00feb19;
+inline constexpr std::uint64_t predicates = 0xb38eec9c973cd5f3;
+inline constexpr std::uint64_t roots = 0x2e77b39a5ec6cd3b;
+inline constexpr std::uint64_t error_free_bounds_with_fma = 0x0;
+inline constexpr std::uint64_t error_free_bounds_without_fma = 0x479e61d7fad4d9c9;
+inline constexpr std::uint64_t bounds = 0x17bd0e74cf15727b;
+inline constexpr std::uint64_t all = 0xd085b723a94aa2bb;
+
+}  // namespace everywhere::expected

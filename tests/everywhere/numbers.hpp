@@ -1,0 +1,49 @@
+// Numbers of every kind, by integer arithmetic alone.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "ccd/stress/generators/query_points.hpp"
+
+namespace everywhere {
+
+/// Small whole numbers, of all 24 bits of a float, of every size, and each with neighbours; if
+/// `of_any_size`, also any finite bits, and zeros of both signs.
+template <class T>
+T any_number(ccd::stress::source& random, bool of_any_size) {
+    using limits = std::numeric_limits<T>;
+    const auto small = static_cast<T>(random.between(-9, 9));
+    switch (random.between(0, of_any_size ? 7 : 4)) {
+        case 0:
+        case 1:
+            return small;
+        case 2:
+            return std::nextafter(small, random.one_in(2) ? limits::max() : limits::lowest());
+        case 3:
+            return static_cast<T>(random.between(-0xffffff, 0xffffff)) / 64;
+        case 4:
+            return static_cast<T>(random.symmetric());
+        case 5: {  // one draw after the other: the order of arguments is the compiler's
+            const auto factor = static_cast<T>(random.between(-15, 15));
+            return std::ldexp(factor, random.between(limits::min_exponent - limits::digits,
+                                                     limits::max_exponent - 5));
+        }
+        case 6:
+            return random.one_in(2) ? T(0) : -T(0);
+        default:
+            for (;;) {
+                const auto x = [&] {
+                    if constexpr (sizeof(T) == sizeof(double))
+                        return std::bit_cast<double>(random.bits());
+                    else
+                        return std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()));
+                }();
+                if (std::isfinite(x)) return x;
+            }
+    }
+}
+
+}  // namespace everywhere
