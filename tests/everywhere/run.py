@@ -1,0 +1,227 @@
+"""./run everywhere: the library built for other processors, systems and compilers, its unit tests, and
+errbound_everywhere, whose hashes must be the same on all. Prints one table.
+
+What a target needs beside its compiler is made in out/everywhere: oneTBB and GoogleTest by the distribution's
+source, and a folder of the headers that are the same for all targets.
+"""
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+from targets import TARGETS
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+OUT = ROOT / "out" / "everywhere"
+HEADERS = OUT / "headers"
+ROW = "{:<18}{:<40}{:>10}{:>8}{:>8}  {}"
+# Of Debian's packages: header-only libraries, and where their files for CMake are.
+INCLUDES = ["boost", "xsimd", "CLI", "nlohmann", "eigen3"]
+CMAKE_FILES = {"/usr/share/cmake/CLI11": "share/cmake/CLI11",
+               "/usr/share/cmake/nlohmann_json": "share/cmake/nlohmann_json",
+               "/usr/share/eigen3/cmake": "share/cmake/eigen3"}
+
+
+# Floating-point instructions of SIMD kernels as objdump shows them: of packs, and of single numbers.
+ARITHMETIC = {
+    "aarch64": (r"f(?:add|sub|mul|div|cm[a-z]+|min|max|sqrt|abs|neg)\s+v\d+\.(?:2d|4s)",
+                r"f(?:add|sub|mul|div|cmpe?|min|max|sqrt|abd)\s+[sd]\d+"),
+    "x86_64": (r"v?(?:add|sub|mul|div|cmp[a-z]*|min|max|sqrt)p[sd]",
+               r"v?(?:add|sub|mul|div|cmp[a-z]*|u?comi|min|max|sqrt)s[sd]"),
+}
+LEAST_PACKED = 0.95
+
+
+class Failed(Exception):
+    """A row that cannot be filled, and why."""
+
+
+def link_headers():
+    """The host's own folder of headers cannot be searched: its C library's are there, too."""
+    if HEADERS.exists():
+        return
+    (HEADERS / "include").mkdir(parents=True)
+    for name in INCLUDES:
+        (HEADERS / "include" / name).symlink_to(f"/usr/include/{name}")
+    xsimd = next(pathlib.Path("/usr/lib").glob("*/cmake/xsimd"))
+    for source, to in {**CMAKE_FILES, str(xsimd): "lib/host/cmake/xsimd"}.items():
+        shutil.copytree(source, HEADERS / to)
+
+
+class Build:
+    """One target's folder: log, libraries, build."""
+
+    def __init__(self, target, jobs):
+        self.target, self.jobs = target, jobs
+        self.folder = OUT / target.name
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.log = self.folder / "log"
+        self.log.write_text("")
+        libraries = self.folder / "libraries"
+        values = {"SYSTEM": target.system, "PROCESSOR": target.processor, "TRIPLE": target.triple,
+                  "CC": target.cc, "CXX": target.cxx, "FLAGS": target.flags, "CXX_FLAGS": target.cxx_flags,
+                  "EMULATOR": ";".join(target.emulator), "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
+        self.libraries = libraries
+        self.environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(self.folder / "wine"),
+                            **{"ERRBOUND_" + name: value for name, value in values.items()}}
+
+    def run(self, *command, why, check=True):
+        """What it printed; raises Failed unless it succeeds."""
+        with self.log.open("ab") as log:
+            log.write(f"\n== {' '.join(map(str, command))}\n".encode())
+            log.flush()
+            begin = log.tell()
+            done = subprocess.run(command, env=self.environment, stdout=log, stderr=subprocess.STDOUT)
+        text = self.log.read_bytes()[begin:].decode(errors="replace")
+        if check and done.returncode != 0:
+            raise Failed(f"{why}: {self.log.relative_to(ROOT)}")
+        return done.returncode, text
+
+    def cmake(self, source, folder, *options):
+        self.run("cmake", "-G", "Ninja", "-S", source, "-B", self.folder / folder,
+                 f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/tests/everywhere/toolchain.cmake",
+                 "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_FLAGS_RELEASE={self.target.level} -DNDEBUG",
+                 *self.target.options, *options, why="cannot be configured")
+
+    def make(self, folder, *targets):
+        self.run("cmake", "--build", self.folder / folder, "--target", *targets, "--", f"-j{self.jobs}",
+                 why="does not compile")
+
+    def make_library(self, name, source, *options):
+        done = self.libraries / f".{name}"
+        if not done.exists():
+            self.cmake(source, name, f"-DCMAKE_INSTALL_PREFIX={self.libraries}",
+                       "-DCMAKE_INSTALL_LIBDIR=lib", "-DBUILD_SHARED_LIBS=OFF", *options)
+            self.make(name, "install")
+            done.touch()
+
+    def prepare(self):
+        onetbb = next((OUT / "onetbb" / "source").glob("onetbb-*/"), None)
+        if onetbb is None:
+            raise Failed("no source of oneTBB")
+        self.make_library("onetbb", onetbb, "-DTBB_STRICT=OFF", "-DTBB_TEST=OFF", "-DTBBMALLOC_BUILD=OFF",
+                          "-DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON", "-Wno-dev")
+        self.make_library("googletest", "/usr/src/googletest", "-DBUILD_GMOCK=OFF")
+        self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR", "GMP")))
+
+    def refusal(self):
+        """What the headers say to a compiler that they must not be used with."""
+        source = self.folder / "headers.cpp"
+        source.write_text("#include <errbound/errbound.hpp>\n")
+        flags = f"{self.target.flags} {self.target.cxx_flags}".split()
+        status, text = self.run(self.target.cxx, "-std=c++20", "-fsyntax-only", *flags, f"-I{ROOT}/include",
+                                source, why="", check=False)
+        said = re.search(r'error "?errbound: ([^:;\n"]*)', text)
+        if status == 0 or not said:
+            raise Failed("not refused")
+        return "refused: " + said[1]
+
+    def hash(self):
+        """The hash of all answers, and whether it is the right one."""
+        self.make("build", "errbound_everywhere")
+        path = self.folder / "build" / "tests" / "everywhere" / "errbound_everywhere"
+        program = path if path.exists() else path.with_suffix(".exe")
+        status, text = self.run(*self.target.emulator, program, why="", check=False)
+        differing = re.findall(r"^(.*?) +\d+ .*DIFFERS$", text, re.MULTILINE)
+        found = re.search(r"^all .* ([0-9a-f]{16}) ", text, re.MULTILINE)
+        if found is None:
+            raise Failed(f"errbound_everywhere ended with {status}: {self.log.relative_to(ROOT)}")
+        if status == 0:
+            return found[1] + " equal", True
+        return found[1] + " other: " + ", ".join(differing), False
+
+    def packed(self):
+        """Which part of the baseline kernels' arithmetic is of packs, as text, and whether nearly all is."""
+        patterns = ARITHMETIC.get(self.target.processor)
+        objdump = f"{self.target.triple}-objdump".lstrip("-")
+        if patterns is None or self.target.system != "Linux" or self.target.level == "-O0":
+            return "-", True
+        folder = self.folder / "build/rooms/ccd/batch/CMakeFiles/errbound_kernels_baseline.dir"
+        code = "".join(subprocess.run([objdump, "-d", "--no-show-raw-insn", file], check=True,
+                                      stdout=subprocess.PIPE, text=True).stdout for file in folder.rglob("*.o"))
+        of_packs, single = (len(re.findall(rf"\t{p}\b", code)) for p in patterns)
+        if of_packs == 0 and "lto" in self.target.name:  # no instructions yet
+            return "-", True
+        part = of_packs / (of_packs + single) if of_packs else 0
+        return f"{part:.1%}", part >= LEAST_PACKED
+
+    def tests(self, label):
+        """How many of the tests with that label passed, as text, and whether all did."""
+        build = self.folder / "build"
+        helper = [sys.executable, ROOT / "cmake" / "test_targets.py", build, "-L", label]
+        targets = subprocess.run(helper, env=self.environment, check=True, stdout=subprocess.PIPE,
+                                 text=True).stdout.split()
+        self.make("build", *targets)
+        report = self.folder / "tests.xml"
+        self.run("ctest", "--test-dir", build, "--output-on-failure", "-L", label, "--output-junit", report,
+                 f"-j{self.jobs}", why="", check=False)
+        counts = {name: int(number) for name, number in
+                  re.findall(r'\b(tests|failures|skipped|disabled)="(\d+)"', report.read_text())}
+        run = counts["tests"] - counts["skipped"] - counts["disabled"]
+        return f"{run - counts['failures']} of {run}", counts["failures"] == 0
+
+
+def compiler_of(target):
+    if target.missing:
+        raise Failed("cannot be run: " + target.missing)
+    for tool in (target.cxx, *target.emulator[:1]):
+        if shutil.which(tool) is None:
+            raise Failed(f"cannot be run: no {tool} here (packages {', '.join(target.packages)})")
+    first = subprocess.run([target.cxx, "--version"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    version = re.search(r"\d+\.\d+\.\d+", first)
+    kind = "clang" if "clang" in first else "g++"
+    return " ".join(filter(None, [kind, version and version[0], target.flags or target.cxx_flags, target.level]))
+
+
+def print_row(target, label, jobs):
+    """True if all is as it should be."""
+    start = time.monotonic()
+    compiler, tests, packed = "", "-", "-"
+    try:
+        compiler = compiler_of(target)
+        build = Build(target, jobs)
+        passed = equal = True
+        if target.refused:
+            text = build.refusal()
+        else:
+            build.prepare()
+            text, equal = build.hash()
+            packed, vectorised = build.packed()
+            equal = equal and vectorised
+        if label and not target.refused:
+            tests, passed = build.tests(label)
+    except Failed as why:
+        text, equal, passed = str(why), False, False
+    print(ROW.format(target.name, compiler[:39], tests, packed, f"{time.monotonic() - start:.0f} s", text),
+          flush=True)
+    return equal and passed
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="./run everywhere", description=__doc__.split("\n\n")[0])
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all: " +
+                        ", ".join(t.name for t in TARGETS))
+    parser.add_argument("--tests", metavar="LABEL", default="^unit$",
+                        help="of which label, a regular expression; '' for none (%(default)s)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--packages", action="store_true", help="prints what must be installed, no more")
+    arguments = parser.parse_args()
+    unknown = set(arguments.targets) - {t.name for t in TARGETS}
+    if unknown:
+        parser.error("no target " + ", ".join(sorted(unknown)))
+    chosen = [t for t in TARGETS if t.name in arguments.targets or not arguments.targets]
+    if arguments.packages:
+        print(*sorted({p for t in chosen for p in t.packages}), sep="\n")
+        return 0
+    link_headers()
+    print(ROW.format("target", "compiler", "tests", "packed", "time", "hash"), flush=True)
+    rows = [print_row(t, arguments.tests, arguments.jobs) for t in chosen]
+    return 0 if all(rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

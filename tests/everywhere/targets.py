@@ -1,0 +1,64 @@
+"""The targets of ./run everywhere: processors, systems and compilers, and how programs for them are run."""
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Target:
+    name: str
+    cxx: str
+    cc: str
+    processor: str = "x86_64"
+    system: str = "Linux"
+    triple: str = ""  # of a cross compiler, whose C library is in /usr/TRIPLE
+    emulator: tuple = ()
+    flags: str = ""  # of all languages
+    cxx_flags: str = ""
+    level: str = "-O2"
+    packages: tuple = ()
+    options: tuple = ()  # more of CMake's
+    missing: str = ""  # why it cannot be run
+    refused: bool = False  # the headers must say that they do not compile for it, and why
+
+
+def cross(name, processor, triple, qemu, **more):
+    """By Debian's cross compiler, run by qemu's user-mode emulation."""
+    package = "g++-" + triple.replace("_", "-")
+    return Target(name, f"{triple}-g++", f"{triple}-gcc", processor, triple=triple,
+                  emulator=(qemu, "-L", f"/usr/{triple}"), packages=(package, "qemu-user"), **more)
+
+
+def gcc(name, **more):
+    return Target(name, "g++", "gcc", **more)
+
+
+def clang(name, **more):
+    return Target(name, "clang++", "clang", packages=("clang", *more.pop("packages", ())), **more)
+
+
+TARGETS = [
+    cross("aarch64", "aarch64", "aarch64-linux-gnu", "qemu-aarch64"),
+    cross("s390x", "s390x", "s390x-linux-gnu", "qemu-s390x"),
+    cross("i386-sse2", "i686", "i686-linux-gnu", "qemu-i386", flags="-msse2 -mfpmath=sse"),
+    cross("i386-x87", "i686", "i686-linux-gnu", "qemu-i386", refused=True),
+    cross("armhf", "armv7l", "arm-linux-gnueabihf", "qemu-arm"),
+    cross("riscv64", "riscv64", "riscv64-linux-gnu", "qemu-riscv64"),
+    cross("ppc64le", "ppc64le", "powerpc64le-linux-gnu", "qemu-ppc64le"),
+    gcc("x86-64"),
+    gcc("x86-64-O0", level="-O0"),
+    gcc("x86-64-O3", level="-O3"),
+    gcc("x86-64-lto", options=("-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",)),
+    gcc("x86-64-v4", flags="-march=x86-64-v4"),
+    gcc("x86-64-fast-math", flags="-ffast-math", refused=True),
+    gcc("x86-64-contract", cxx_flags="-march=x86-64-v3 -ffp-contract=fast"),
+    gcc("x86-64-no-int128", cxx_flags="-U__SIZEOF_INT128__"),
+    clang("x86-64-clang"),
+    Target("x86-64-libc++", "clang++-16", "clang-16",
+           # Of what C++17 removed, Boost 1.74 takes a class.
+           cxx_flags="-stdlib=libc++ -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION",
+           packages=("clang-16", "libc++-16-dev", "libc++abi-16-dev")),
+    Target("windows", "x86_64-w64-mingw32-g++-posix", "x86_64-w64-mingw32-gcc-posix", system="Windows",
+           triple="x86_64-w64-mingw32", emulator=("/usr/lib/wine/wine64",), cxx_flags="-static",
+           packages=("g++-mingw-w64-x86-64", "wine64")),
+    Target("musl", "musl-gcc", "musl-gcc", missing="Debian has no C++ library for musl"),
+    Target("macos", "clang++", "clang", missing="neither its headers nor a system to run it on"),
+]
