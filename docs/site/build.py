@@ -29,7 +29,7 @@ SITE = OUT / "site"
 PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "proofs/README.md", "packaging/README.md"]
 
 # Namespaces that programs do not name (docs/architecture.md), and libraries' that a header adds to.
-INTERNAL = ["detail", "errbound::filters", "errbound::integers", "errbound::roots", "Eigen", "ipc", "std"]
+INTERNAL = ["detail", "errbound::filters", "errbound::integers", "errbound::linear", "errbound::roots", "Eigen", "ipc", "std"]
 
 
 def run(what, command, **options):

@@ -1,15 +1,36 @@
-// Tracked scalars in Eigen matrices and vectors (optional header; needs Eigen 3).
+// Tracked scalars in Eigen matrices and vectors (optional header; needs Eigen 3.4).
 //
 //   Eigen::Matrix<errbound::tracked<double>, 3, 3> m;
 //   auto d = m.col(0).cross(m.col(1)).dot(m.col(2));   // d.error() bounds its rounding error
+//   auto x = m.partialPivLu().solve(b);                // every entry with the bound of its error
 //
-// Products, sums, dot, cross, determinants and inverses of small fixed-size matrices work, and so
-// do products with plain T (2.0 * m). What must compare magnitudes to choose a pivot
-// (decompositions, dynamic-size inverse) does not compile: a tracked number has no operator<.
+// Products, sums, dot, cross, determinant() and inverse() of any size work, products with plain T
+// (2.0 * m), and of the decompositions PartialPivLU, LLT and HouseholderQR, under every rule with
+// division. If a matrix is regular, entries of its solutions and of its inverse, and its
+// determinant, are within their bounds of the exact ones. That it is regular they do not say: ask
+// sign_of(m.determinant()), or LLT's info(), which is Success only if the matrix is certainly
+// positive definite. Unknown entries have infinite or NaN errors.
+//
+// Pivots go by value (by_value): a wrong choice costs tightness, never soundness. What decides a
+// rank or a sign by comparing (FullPivLU, ColPivHouseholderQR, LDLT, isInvertible, eigenvalues,
+// SVD) does not compile: it would have to guess.
 #pragma once
 
 #include <Eigen/Core>
-#include <errbound/tracked.hpp>
+#include <errbound/functions.hpp>
+#include <errbound/linear/decompositions.hpp>
+#include <limits>
+
+namespace errbound {
+
+/// Whether a and b are certainly equal. With this header alone: Eigen's kernels ask whether a
+/// factor is zero, to leave out what does nothing; "not equal" says that they may differ.
+template <class T, class Rule>
+constexpr bool operator==(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
+    return compare(a, b) == sign_type::zero;
+}
+
+}  // namespace errbound
 
 namespace Eigen {
 
@@ -31,6 +52,10 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     };
     static Scalar epsilon() { return Scalar(NumTraits<T>::epsilon()); }
     static Scalar dummy_precision() { return Scalar(NumTraits<T>::dummy_precision()); }
+    static Scalar highest() { return Scalar(NumTraits<T>::highest()); }
+    static Scalar lowest() { return Scalar(NumTraits<T>::lowest()); }
+    static Scalar infinity() { return Scalar(NumTraits<T>::infinity()); }
+    static Scalar quiet_NaN() { return Scalar(NumTraits<T>::quiet_NaN()); }
     static int digits10() { return NumTraits<T>::digits10(); }
 };
 

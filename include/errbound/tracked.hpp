@@ -108,7 +108,8 @@ class tracked {
         if (x.value_ < -e) return sign_type::negative;
         return x.value_ == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
-    /// The certain sign of a − b. There is no operator<: it would have to guess.
+    /// The certain sign of a − b. There is no operator<: it would have to guess. For choices that
+    /// may be wrong without harm there is by_value.
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }
@@ -130,6 +131,15 @@ class tracked {
     [[no_unique_address]] bound_type bound_;
 };
 
+/// Orders tracked numbers by their values alone, NaN last: for choices that may be wrong without
+/// harm, as of pivots, or for sorting. std::sort(begin, end, errbound::by_value{}).
+struct by_value {
+    template <class T, class Rule>
+    constexpr bool operator()(const tracked<T, Rule>& a, const tracked<T, Rule>& b) const {
+        return a.value() < b.value() || (a.value() == a.value() && !(b.value() == b.value()));
+    }
+};
+
 /// Whether generic code may treat it as a tracked number: it has value_type, value(), sign_of and
 /// scale. Specialise for a type that wraps one.
 template <class>
@@ -138,3 +148,23 @@ template <class T, class Rule>
 inline constexpr bool is_tracked<tracked<T, Rule>> = true;
 
 }  // namespace errbound
+
+/// Those of T; numbers are exact.
+template <class T, class Rule>
+struct std::numeric_limits<errbound::tracked<T, Rule>> : std::numeric_limits<T> {
+  private:
+    using of_value = std::numeric_limits<T>;
+    using number = errbound::tracked<T, Rule>;
+
+  public:
+    static constexpr bool is_iec559 = false;
+    static constexpr number min() noexcept { return of_value::min(); }
+    static constexpr number max() noexcept { return of_value::max(); }
+    static constexpr number lowest() noexcept { return of_value::lowest(); }
+    static constexpr number epsilon() noexcept { return of_value::epsilon(); }
+    static constexpr number round_error() noexcept { return of_value::round_error(); }
+    static constexpr number infinity() noexcept { return of_value::infinity(); }
+    static constexpr number quiet_NaN() noexcept { return of_value::quiet_NaN(); }
+    static constexpr number signaling_NaN() noexcept { return of_value::signaling_NaN(); }
+    static constexpr number denorm_min() noexcept { return of_value::denorm_min(); }
+};

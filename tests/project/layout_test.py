@@ -22,8 +22,9 @@ SOURCES = CPP | {".py"}
 LAYERS = [
     ("floating-point facts", r"include/errbound/((environment|number_traits|sign|error_free)\.hpp|detail/)"),
     ("bound rules", r"include/errbound/rules/"),
-    ("tracked scalar", r"include/errbound/tracked\.hpp"),
-    ("exact numbers", r"include/errbound/(integers/|(multiprecision|eigen)\.hpp)"),
+    ("tracked scalar", r"include/errbound/(tracked|functions)\.hpp"),
+    ("linear algebra", r"include/errbound/(linear/|(eigen|certified_solve)\.hpp)"),
+    ("exact numbers", r"include/errbound/(integers/|multiprecision\.hpp)"),
     ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),
     ("predicates", r"include/errbound/(predicate\w*\.hpp|filters/)"),
     ("all of errbound", r"include/errbound/(?!validation/)"),
@@ -44,7 +45,7 @@ LAYERS = [
     ("Python package", r"python/"),
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
-INTERNAL = r"(errbound/(study|detail|integers|filters|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
+INTERNAL = r"(errbound/(study|detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
 PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|adapters)/)?)\w+\.hpp$"
 
 

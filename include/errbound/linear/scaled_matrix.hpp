@@ -1,0 +1,72 @@
+// A square matrix whose rows and columns are scaled by powers of two, so that entries are of about
+// size one: bounds in one number for a matrix, norms, then suit matrices of any scales.
+#pragma once
+
+#include <algorithm>
+#include <errbound/linear/rounding.hpp>
+#include <limits>
+
+namespace errbound::linear {
+
+template <int N>
+using square = Eigen::Matrix<double, N, N>;
+template <int N>
+using vector = Eigen::Matrix<double, N, 1>;
+template <int N>
+using exponents = Eigen::Matrix<int, N, 1>;
+
+/// The exponent of zero: less than that of any number, and sums of a few still fit an int.
+inline constexpr int exponent_of_zero = std::numeric_limits<int>::min() / 8;
+
+/// e with |x| in [2^(e−1), 2^e), for x finite.
+inline int exponent_of(double x) {
+    return x == 0 ? exponent_of_zero : traits::exponent(x);
+}
+
+/// entries(i, j) = a(i, j)·2^−(row(i) + column(j)), rounded once: exactly, or off by at most η/2
+/// where it is subnormal. Every row and column has an entry of size 1/2 or more, and none has one
+/// of size 1 or more. Not so where a has a row or a column of zeros.
+template <int N>
+struct scaled_matrix {
+    square<N> entries;
+    exponents<N> row, column;
+    bool has_zero_row_or_column = false;
+
+    /// Cost: O(n²). Precondition: a is finite.
+    template <class Matrix>
+    explicit scaled_matrix(const Matrix& a)
+        : entries(a), row(exponents<N>::Constant(a.rows(), exponent_of_zero)), column(row) {
+        const Index n = a.rows();
+        for (Index j = 0; j < n; ++j)
+            for (Index i = 0; i < n; ++i) row(i) = std::max(row(i), exponent_of(entries(i, j)));
+        for (Index j = 0; j < n; ++j)
+            for (Index i = 0; i < n; ++i)
+                if (entries(i, j) != 0)
+                    column(j) = std::max(column(j), exponent_of(entries(i, j)) - row(i));
+        for (Index i = 0; i < n; ++i)
+            if (row(i) == exponent_of_zero || column(i) == exponent_of_zero)
+                has_zero_row_or_column = true;
+        if (has_zero_row_or_column) return;
+        for (Index j = 0; j < n; ++j)
+            for (Index i = 0; i < n; ++i)
+                entries(i, j) = times_power_of_two(entries(i, j), -(row(i) + column(j)));
+    }
+};
+
+/// b(i)·2^−(row(i) + whole), likewise: the largest is of size 1/2 or more, and less than 1.
+template <int N>
+struct scaled_vector {
+    vector<N> entries;
+    int whole = exponent_of_zero;
+
+    template <class Vector>
+    scaled_vector(const Vector& b, const exponents<N>& row) : entries(b) {
+        for (Index i = 0; i < entries.size(); ++i)
+            if (entries(i) != 0) whole = std::max(whole, exponent_of(entries(i)) - row(i));
+        for (Index i = 0; i < entries.size(); ++i)
+            if (entries(i) != 0) entries(i) = times_power_of_two(entries(i), -(row(i) + whole));
+    }
+    bool is_zero() const { return whole == exponent_of_zero; }
+};
+
+}  // namespace errbound::linear

@@ -1,0 +1,145 @@
+// Eigen's decompositions of tracked matrices, under the rule `tight`; orders and limits of numbers.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <errbound/eigen.hpp>
+#include <limits>
+#include <vector>
+
+#include "tests/errbound/linear/decomposition_check.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using namespace decomposition_check;
+using matrix_families::family;
+
+/// Whether exact elimination of 30 unknowns takes well under a second.
+bool quick_in_rationals(family f) {
+    return f == family::uniform || f == family::small_integers || f == family::unimodular ||
+           f == family::nearly_dependent || f == family::tridiagonal;
+}
+
+TEST(Decompositions, KnowOnlyWhatIsSoAtFixedSizes) {
+    matrix_families::generator make(1);
+    for (const family f : matrix_families::all) {
+        SCOPED_TRACE(matrix_families::names[int(f)]);
+        for (int k = 0; k < support::scaled(10); ++k) {
+            const exact_system s = system_of(f, 5, make);
+            check_lu<5, errbound::tight>(s);
+            check_qr<5, errbound::tight>(s);
+        }
+    }
+}
+
+TEST(Decompositions, KnowOnlyWhatIsSoAtAnySize) {
+    matrix_families::generator make(2);
+    int by_lu = 0, by_qr = 0;
+    for (const family f : matrix_families::all) {
+        SCOPED_TRACE(matrix_families::names[int(f)]);
+        for (const int n : {1, 2, 3, 4, 5, 6, 8, 12, 30})
+            for (int k = 0; k < support::scaled(n > 8 ? 1 : 6); ++k) {
+                if (n > 8 && !quick_in_rationals(f)) break;
+                const exact_system s = system_of(f, n, make);
+                by_lu += check_lu<Eigen::Dynamic, errbound::tight>(s);
+                by_qr += check_qr<Eigen::Dynamic, errbound::tight>(s);
+            }
+    }
+    EXPECT_GT(by_lu, 500);
+    EXPECT_GT(by_qr, 500);
+}
+
+/// Pivots that are exactly zero, that may be zero, and that are not numbers.
+TEST(Decompositions, DivideByNothingThatMayBeZero) {
+    using number = tracked<double>;
+    Eigen::MatrixX<number> a(2, 2);
+    const Eigen::VectorX<number> b = Eigen::VectorX<number>::Ones(2);
+    for (const number& x : {number::within(0, 1e-300), number::within(1e-20, 1e-19),
+                            number(std::numeric_limits<double>::quiet_NaN()),
+                            number::within(0, std::numeric_limits<double>::infinity())}) {
+        a << x, number(1), x, number(2);
+        EXPECT_FALSE(certain(sign_of(a.determinant())));
+        EXPECT_FALSE(std::isfinite(Eigen::VectorX<number>(a.partialPivLu().solve(b))(0).error()));
+        EXPECT_FALSE(std::isfinite(Eigen::VectorX<number>(a.householderQr().solve(b))(0).error()));
+    }
+    a << 0.0, 1.0, 0.0, 2.0;
+    EXPECT_EQ(sign_of(a.determinant()), sign_type::zero);
+}
+
+template <class Rule, int UpLo>
+void check_cholesky(const exact_system& s, bool definite, int& proved) {
+    using number = tracked<double, Rule>;
+    const Eigen::MatrixX<number> a = s.a.template cast<number>();
+    const Eigen::LLT<Eigen::MatrixX<number>, UpLo> llt(a);
+    EXPECT_TRUE(definite || llt.info() != Eigen::Success);
+    proved += llt.info() == Eigen::Success;
+    if (!s.regular()) return;
+    known(Eigen::VectorX<number>(llt.solve(s.b.template cast<number>())), s.solution, "LLT");
+}
+
+/// By leading minors.
+bool positive_definite(const Eigen::MatrixXd& a) {
+    for (Eigen::Index n = 1; n <= a.rows(); ++n) {
+        table none(n, 0);
+        if (eliminate(table(a.topLeftCorner(n, n)), none) <= 0) return false;
+    }
+    return true;
+}
+
+TEST(Decompositions, CholeskyProvesThatMatricesArePositiveDefinite) {
+    matrix_families::generator make(4);
+    int proved = 0;
+    for (const int n : {1, 2, 3, 5, 8})
+        for (int k = 0; k < support::scaled(20); ++k) {
+            const Eigen::MatrixXd factor = make.whole_numbers(n, n, 3),
+                                  whole = make.whole_numbers(n, n, 2);
+            Eigen::MatrixXd a = factor * factor.transpose();
+            if (k % 2 == 0) a += whole + whole.transpose();
+            if (k % 5 == 0) a *= std::ldexp(1.0, make.whole(-1070, 900));
+            const exact_system s(a, make.uniform(n, 1));
+            const bool definite = positive_definite(a);
+            check_cholesky<errbound::tight, Eigen::Lower>(s, definite, proved);
+            check_cholesky<errbound::tight, Eigen::Upper>(s, definite, proved);
+        }
+    EXPECT_GT(proved, 20);
+}
+
+TEST(Decompositions, FactorsAreThoseOfExactReflections) {
+    using number = tracked<double>;
+    Eigen::MatrixX<number> a(2, 2);
+    a << 3.0, 1.0, 4.0, 2.0;  // R = (-5, -2.2; 0, -0.4)
+    const Eigen::HouseholderQR<Eigen::MatrixX<number>> qr(a);
+    const Eigen::MatrixX<number> q = qr.householderQ(), r = qr.matrixQR();
+    EXPECT_TRUE(holds(r(0, 0), -5));
+    EXPECT_TRUE(holds(r(0, 1), rational(-11) / 5));
+    EXPECT_TRUE(holds(q(0, 0), rational(-3) / 5));
+    EXPECT_TRUE(holds(q(1, 0), rational(-4) / 5));
+    EXPECT_LT(q(1, 0).error(), 1e-14);
+    a *= number(0x1p-1000);  // squares underflow
+    const number tiny = Eigen::HouseholderQR<Eigen::MatrixX<number>>(a).matrixQR()(0, 0);
+    EXPECT_TRUE(holds(tiny, rational(-5) * rational(0x1p-1000)));
+    EXPECT_LT(tiny.error(), 0x1p-1040);
+}
+
+TEST(ByValue, OrdersForChoicesThatMayBeWrong) {
+    using number = tracked<double>;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<number> numbers{nan, number::within(2, 5), 3, nan, number::within(1, 9)};
+    std::sort(numbers.begin(), numbers.end(), errbound::by_value{});
+    EXPECT_EQ(numbers[0].value(), 1);
+    EXPECT_EQ(numbers[1].value(), 2);
+    EXPECT_EQ(numbers[2].value(), 3);
+}
+
+TEST(NumericLimits, AreThoseOfTheNumberType) {
+    using limits = std::numeric_limits<tracked<float>>;
+    static_assert(limits::is_specialized && limits::digits == 24 && !limits::is_iec559);
+    EXPECT_EQ(limits::max().value(), std::numeric_limits<float>::max());
+    EXPECT_EQ(limits::epsilon().error(), 0);
+    EXPECT_FALSE(certain(sign_of(limits::quiet_NaN())));
+    EXPECT_EQ(Eigen::NumTraits<tracked<double>>::highest().value(),
+              std::numeric_limits<double>::max());
+}
+
+}  // namespace
