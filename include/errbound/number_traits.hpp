@@ -26,7 +26,9 @@ struct number_traits {
     static constexpr T underflow_unit() { return std::numeric_limits<T>::denorm_min(); }
     static constexpr T smallest_normal() { return std::numeric_limits<T>::min(); }
     static constexpr T largest() { return std::numeric_limits<T>::max(); }
+    /// What overflows; NaN for a format without infinities.
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
+    static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
     /// The precision p: bits of a normal number's significand, ε = 2^(1−p).
     static constexpr int digits = std::numeric_limits<T>::digits;
@@ -58,5 +60,15 @@ struct number_traits {
         return e;
     }
 };
+
+/// Whether T has infinities; a number_traits of one's own that does not say so has them. One
+/// without has NaN for what overflows, and a `max` that passes NaN on.
+template <class T>
+inline constexpr bool has_infinity = [] {
+    if constexpr (requires { number_traits<T>::has_infinity; })
+        return number_traits<T>::has_infinity;
+    else
+        return true;
+}();
 
 }  // namespace errbound

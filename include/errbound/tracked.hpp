@@ -119,7 +119,8 @@ class tracked {
     static constexpr tracked from_int(int value) {
         using traits = number_traits<T>;
         const T converted = static_cast<T>(value);
-        // |value| <= 2^31, so that the way back fits a long long.
+        // |value| <= 2^31, so that the way back fits a long long, unless it overflowed.
+        if (!traits::is_finite(converted)) return tracked(converted);
         if (static_cast<long long>(converted) == value) return tracked(converted);
         return within(converted, 2 * traits::epsilon() * traits::abs(converted));
     }

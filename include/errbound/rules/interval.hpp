@@ -132,8 +132,9 @@ struct interval {
     template <class T>
     static constexpr bound<T> checked(const T& value, const T& lower, const T& upper) {
         const T infinity = number_traits<T>::infinity();
-        if (-infinity < lower && lower <= value && value <= upper && upper < infinity)
-            return {lower, upper};
+        // Where there is no infinity, it is NaN, and so is what overflowed.
+        const bool finite = !has_infinity<T> || (-infinity < lower && upper < infinity);
+        if (finite && lower <= value && value <= upper) return {lower, upper};
         return unknown<T>();
     }
     template <class T>
@@ -179,6 +180,8 @@ struct interval {
     static constexpr bound<T> hull(const T& v, const T& w, const T& x, const T& y, const T& z) {
         const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
         const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
+        if constexpr (!has_infinity<T>)  // NaN may be an overflow
+            if (w != w || x != x || y != y || z != z) return unknown<T>();
         return checked<T>(v, below<T>(least(least(w, x), least(y, z))),
                           above<T>(most(most(w, x), most(y, z))));
     }
