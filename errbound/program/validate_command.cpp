@@ -22,7 +22,8 @@ std::vector<ccd::io::query_file> read_files(const validate_arguments& arguments)
 std::vector<part> parts_of(const validate_arguments& arguments,
                            const std::vector<ccd::io::query_file>& files) {
     std::vector<part> parts;
-    if (arguments.tiny) parts.push_back({"tiny", evidence_of_tiny(arguments.rules)});
+    if (arguments.tiny)
+        parts.push_back({"tiny", evidence_of_tiny(arguments.rules, arguments.every_bound)});
     for (std::size_t i = 0; i < files.size(); ++i)
         std::visit(
             [&](const auto& queries) {

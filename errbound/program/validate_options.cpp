@@ -12,6 +12,9 @@ namespace {
 rule rule_named(const std::string& name) {
     return support::entry_named("--rules", name, rules(), &rule::name);
 }
+number_type number_named(const std::string& name) {
+    return support::entry_named("--numbers", name, number_types, &named_number_type::name).type;
+}
 
 }  // namespace
 
@@ -42,7 +45,14 @@ validate_options::validate_options(CLI::App& program, int threads)
         ->check(CLI::IsMember(ccd::io::kind_names()));
     line_.add_flag("--round", arguments_.round,
                    "Round rationals that no double equals, instead of refusing them");
+    line_
+        .add_option("--numbers", numbers_,
+                    "Number types N[,N...] of expressions: double, float, float16, bfloat16, "
+                    "float8_e5m2, float8_e4m3; else the first two")
+        ->type_name("N[,N...]");
     line_.add_flag("--tiny", arguments_.tiny, "Every case of number formats of 6 to 8 bits");
+    line_.add_flag("--every-bound", arguments_.every_bound,
+                   "With --tiny: in float8_e5m2 and float8_e4m3 every pair of bounds too");
     line_.add_option("--rules", rules_, "Rules R[,R...], else all")->type_name("R[,R...]");
     line_.add_option("--threads", arguments_.options.threads, "Threads; 0: one per core")
         ->check(CLI::Range(0, 4096));
@@ -57,6 +67,10 @@ validate_arguments validate_options::checked() {
         all.rules.assign(rules().begin(), rules().end());
     else
         all.rules = support::all_named(rules_, rule_named);
+    if (line_.count("--numbers") > 0)
+        all.options.numbers = support::all_named(numbers_, number_named);
+    if (all.every_bound && !all.tiny)
+        throw support::usage_error("found --every-bound without --tiny, expected both");
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 || (!all.tiny && all.queries.empty());
     return all;

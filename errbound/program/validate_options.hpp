@@ -16,6 +16,7 @@ enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2,
 struct validate_arguments {
     std::vector<rule> rules;
     bool expressions = false, tiny = false;  ///< whether to run them
+    bool every_bound = false;                ///< of tiny
     expression_options options;              ///< threads: of all parts
     std::vector<std::filesystem::path> queries;
     std::optional<ccd::kind> kind;  ///< none: from each path
@@ -36,7 +37,7 @@ class validate_options {
   private:
     CLI::App& line_;
     validate_arguments arguments_;
-    std::string rules_, kind_;
+    std::string rules_, numbers_, kind_;
 };
 
 }  // namespace errbound::validation

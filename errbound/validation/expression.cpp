@@ -59,7 +59,7 @@ class input_maker {
             case operand_scale::underflowing:
                 switch (random_.below(4)) {
                     case 0:
-                        return std::copysign(std::ldexp(random_.below(20), least), sign());
+                        return std::copysign(rounded(std::ldexp(random_.below(20), least)), sign());
                     case 1:
                         return of_exponent(least + random_.between(1, limits::digits + 4));
                     case 2:
@@ -189,10 +189,10 @@ std::string_view name_of(operation_kind kind) {
 expression random_expression(std::uint64_t seed, std::uint64_t index, number_type type,
                              int longest) {
     random_source mixed(seed);
-    random_source random(mixed.bits() ^ (2 * index + static_cast<std::uint64_t>(type)));
-    const bool may_divide = index % 4 == 3;
-    return type == number_type::float_type ? made<float>(random, may_divide, longest)
-                                           : made<double>(random, may_divide, longest);
+    const auto t = static_cast<std::uint64_t>(type);
+    random_source random(mixed.bits() ^ (2 * index + t % 2) ^ (t / 2 << 60));
+    return with_number_type(type,
+                            [&]<class T>() { return made<T>(random, index % 4 == 3, longest); });
 }
 
 void evaluate(const expression& e, ball* values) {
@@ -247,7 +247,9 @@ void evaluate(const expression& e, ball* values) {
 std::string hexadecimal(double x, number_type type) {
     char text[64];
     std::snprintf(text, sizeof text, "%a", x);
-    return std::string(text) + (type == number_type::float_type ? "F" : "");
+    if (type == number_type::double_type) return text;
+    if (type == number_type::float_type) return std::string(text) + "F";
+    return std::string(entry_of(type).cpp_name) + "(" + text + ")";
 }
 
 namespace {
@@ -281,9 +283,9 @@ std::string cpp_text(const expression_operation& o) {
 }  // namespace
 
 std::string cpp_text(const expression& e, number_type type, std::string_view rule) {
-    const std::string names(name_of(type));
+    const std::string number(entry_of(type).cpp_name);
     std::string text =
-        "using number = errbound::tracked<" + names + ", errbound::" + std::string(rule) + ">;\n";
+        "using number = errbound::tracked<" + number + ", errbound::" + std::string(rule) + ">;\n";
     for (std::size_t i = 0; i < e.input_count; ++i) {
         const expression_input& in = e.inputs[i];
         text += "const number " + name_of_value(i) + " = ";

@@ -18,7 +18,7 @@ constexpr mpfr_prec_t precision_for_errors = 3072;
 constexpr std::uint64_t least_chunk = 1000;
 
 void evaluate(const rule& r, number_type type, const expression& e, claim* claims) {
-    (type == number_type::float_type ? r.evaluate_float : r.evaluate_double)(e, claims);
+    r.evaluate[static_cast<std::size_t>(type)](e, claims);
 }
 
 /// The values of one expression: exact ones and how far the computed ones are from them.
@@ -171,11 +171,11 @@ struct study {
     report report_of(std::uint64_t chunk) const {
         examination found;
         for (auto [index, end] = expressions().of(chunk); index < end; ++index)
-            for (const number_type type : number_types)
+            for (const number_type type : options.numbers)
                 found.check(rules, at(index, type), type, index);
         report result;
         for (std::size_t k = 0; k < rules.size(); ++k)
-            for (const number_type type : number_types) {
+            for (const number_type type : options.numbers) {
                 auto& of_type = found.tallies[type];
                 of_type.resize(rules.size());
                 add(result, rules[k], name_of(type), of_type[k]);
@@ -199,8 +199,8 @@ struct study {
     void tell_all(report& found) const {
         for (violation& v : found.violations) {
             const auto by_rule = [&v](const rule& r) { return r.name == v.rule; };
-            const auto by_number = [&v](number_type t) { return name_of(t) == v.number; };
-            const number_type type = *std::ranges::find_if(number_types, by_number);
+            const number_type type =
+                std::ranges::find(number_types, v.number, &named_number_type::name)->type;
             tell(v, *std::ranges::find_if(rules, by_rule), type, at(v.index, type));
         }
     }

@@ -104,10 +104,7 @@ expression with_other(const expression& e, std::size_t n, std::size_t m) {
 std::vector<expression> smaller(const expression& e, number_type type) {
     std::vector<expression> r;
     std::array<claim, expression::max_values> plain;
-    if (type == number_type::float_type)
-        evaluate<none, float>(e, plain.data());
-    else
-        evaluate<none, double>(e, plain.data());
+    with_number_type(type, [&]<class T>() { evaluate<none, T>(e, plain.data()); });
     for (std::size_t n = e.input_count; n < e.size(); ++n) {
         expression_operation o = e.operations[n - e.input_count];
         o.for_each_operand([&](std::uint8_t& v) { r.push_back(with_other(e, n, v)); });

@@ -14,8 +14,9 @@ namespace {
 std::string text_of(const char* name, const tiny_account::operand& x) {
     const std::string value = hexadecimal(x.value);
     return "const number " + std::string(name) + " = " +
-           (x.error == 0 ? "format(" + value + ")"
-                         : "number::within(" + value + ", " + hexadecimal(x.error) + ")") +
+           (x.error == 0
+                ? "format(" + value + ")"
+                : "number::within(format(" + value + "), format(" + hexadecimal(x.error) + "))") +
            ";\n";
 }
 std::string text_of(const tiny_account& how) {
@@ -37,10 +38,46 @@ void tiny_judge::check(const claim& r, const exact_range& exact, const tiny_acco
             add(r, "certain about what has no finite value", how);
         return;
     }
+    // Exact, or infinite.
     if (!std::isnan(r.error) &&
-        !(r.value - exact.low <= r.error && exact.high - r.value <= r.error))
+        !(r.value - r.error <= exact.low && exact.high <= r.value + r.error))
         add(r, "the bound is too small", how);
     check_sign(r, exact.low, exact.high, how);
+}
+
+namespace {
+
+/// The sign of xy − z, exactly: for x and y of so few bits that xy neither overflows nor
+/// underflows, x infinite.
+int compare_product(double x, double y, double z) {
+    const double product = x * y;
+    if (product != z) return product < z ? -1 : 1;
+    const double off = std::fma(x, y, -product);
+    return off < 0 ? -1 : off > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void tiny_judge::check_product(const claim& r, const exact_range& a, const exact_range& b,
+                               const tiny_account& how) {
+    if (!a.defined() || !b.defined() || !std::isfinite(r.value)) {
+        check(r, {}, how);
+        return;
+    }
+    ++found_.values;
+    const double least = r.value - r.error, most = r.value + r.error;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double x : {a.low, a.high})
+        for (const double y : {b.low, b.high}) {
+            low = std::min(low, x * y);
+            high = std::max(high, x * y);
+            if (std::isnan(r.error) ||
+                (compare_product(x, y, least) >= 0 && compare_product(x, y, most) <= 0))
+                continue;
+            add(r, "the bound is too small", how);
+            return;
+        }
+    check_sign(r, low, high, how);
 }
 
 void tiny_judge::check_quotient(const claim& r, const exact_range& n, const exact_range& d,
@@ -50,30 +87,16 @@ void tiny_judge::check_quotient(const claim& r, const exact_range& n, const exac
         return;
     }
     ++found_.values;
-    for (const double divisor : {d.low, d.high})
-        for (const double dividend : {n.low, n.high})
-            if (!std::isnan(r.error) &&
-                !(std::abs(r.value * divisor - dividend) <= r.error * std::abs(divisor))) {
-                add(r, "the bound is too small", how);
-                return;
-            }
-    if (d.low > 0)
-        check_sign(r, n.low, n.high, how);
-    else
-        check_sign(r, -n.high, -n.low, how);
+    const double least = r.value - r.error, most = r.value + r.error;
+    const exact_range dividends = d.low > 0 ? n : exact_range{-n.high, -n.low};
+    for (const double divisor : {std::abs(d.low), std::abs(d.high)})
+        if (!std::isnan(r.error) && !(compare_product(least, divisor, dividends.low) <= 0 &&
+                                      compare_product(most, divisor, dividends.high) >= 0)) {
+            add(r, "the bound is too small", how);
+            return;
+        }
+    check_sign(r, dividends.low, dividends.high, how);
 }
-
-namespace {
-
-/// The sign of x² − y, exactly: for x of so few bits that its square neither overflows nor
-/// underflows.
-int compare_square(double x, double y) {
-    const double square = x * x, off = std::fma(x, x, -square);
-    if (square != y) return square < y ? -1 : 1;
-    return off < 0 ? -1 : off > 0 ? 1 : 0;
-}
-
-}  // namespace
 
 void tiny_judge::check_root(const claim& r, const exact_range& x, const tiny_account& how) {
     if (!x.defined() || x.low < 0 || !std::isfinite(r.value)) {
@@ -82,8 +105,8 @@ void tiny_judge::check_root(const claim& r, const exact_range& x, const tiny_acc
     }
     ++found_.values;
     const double least = r.value - r.error, most = r.value + r.error;  // exact, or infinite
-    if (!std::isnan(r.error) && !((least <= 0 || compare_square(least, x.low) <= 0) &&
-                                  (std::isinf(most) || compare_square(most, x.high) >= 0)))
+    if (!std::isnan(r.error) && !((least <= 0 || compare_product(least, least, x.low) <= 0) &&
+                                  compare_product(most, most, x.high) >= 0))
         add(r, "the bound is too small", how);
     check_sign(r, x.low, x.high, how);
 }
@@ -100,16 +123,16 @@ void tiny_judge::add(const claim& r, const char* broken, const tiny_account& how
     found_.first.push_back(
         {std::string(broken) + " (rounding " + std::string(direction_) + "): value " +
              hexadecimal(r.value) + ", bound " + hexadecimal(r.error),
-         "using format = errbound::validation::" + found_.format +
+         "using format = " + found_.cpp_name +
              ";\nusing number = errbound::tracked<format, errbound::" + std::string(rule_) +
              ">;\n" + text_of(how)});
 }
 
 namespace {
 
-report report_of(const rule& r, std::size_t format) {
+report report_of(const rule& r, std::size_t format, bool every_bound) {
     tiny_findings f;
-    r.check_tiny(format, f);
+    r.check_tiny(format, every_bound, f);
     report result;
     if (f.format.empty()) return result;
     const std::string name(r.name);
@@ -122,14 +145,15 @@ report report_of(const rule& r, std::size_t format) {
 
 }  // namespace
 
-evidence evidence_of_tiny(std::span<const rule> rules) {
-    return with_mpfr({.chunks = rules.size() * tiny_format_count,
-                      .report_of =
-                          [rules = std::vector(rules.begin(), rules.end())](std::uint64_t chunk) {
-                              return report_of(rules[chunk / tiny_format_count],
-                                               chunk % tiny_format_count);
-                          },
-                      .tell = [](report&) {}});
+evidence evidence_of_tiny(std::span<const rule> rules, bool every_bound) {
+    return with_mpfr(
+        {.chunks = rules.size() * tiny_format_count,
+         .report_of =
+             [rules = std::vector(rules.begin(), rules.end()), every_bound](std::uint64_t chunk) {
+                 return report_of(rules[chunk / tiny_format_count], chunk % tiny_format_count,
+                                  every_bound);
+             },
+         .tell = [](report&) {}});
 }
 
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show) {

@@ -60,6 +60,9 @@ std::vector<query_file> shared_files(MPI_Comm comm, const validate_arguments& ar
 std::string identity_of(const validate_arguments& arguments, const std::vector<query_file>& files) {
     ordered_json all{
         {"study", "errbound validate"}, {"version", ERRBOUND_VERSION}, {"tiny", arguments.tiny}};
+    if (arguments.every_bound) all["every bound"] = true;
+    for (const number_type number : arguments.options.numbers)
+        all["numbers"].push_back(name_of(number));
     if (arguments.expressions)
         all["expressions"] = {arguments.options.expressions, arguments.options.operations,
                               arguments.options.seed};

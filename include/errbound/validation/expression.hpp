@@ -1,18 +1,20 @@
 // Straight-line programs: expressions whose parts may be shared, for validation.
 //
 // Values are numbered: first the inputs, then the results of the operations, each of which takes
-// earlier values. Inputs are doubles, and floats where the program is run in float.
+// earlier values. Inputs are doubles that are numbers of the type that the program is run in.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <errbound/functions.hpp>
+#include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/ball.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace errbound::validation {
 
@@ -75,10 +77,53 @@ struct expression {
     }
 };
 
-enum class number_type : std::uint8_t { float_type, double_type };
-inline constexpr std::array number_types{number_type::double_type, number_type::float_type};
+enum class number_type : std::uint8_t {
+    float_type,
+    double_type,
+    float16_type,
+    bfloat16_type,
+    float8_e5m2_type,
+    float8_e4m3_type
+};
+inline constexpr std::size_t number_type_count = 6;
+/// A number type and what it is called, in tables and in C++.
+struct named_number_type {
+    number_type type;
+    std::string_view name, cpp_name;
+};
+inline constexpr std::array<named_number_type, number_type_count> number_types{
+    {{number_type::double_type, "double", "double"},
+     {number_type::float_type, "float", "float"},
+     {number_type::float16_type, "float16", "errbound::float16"},
+     {number_type::bfloat16_type, "bfloat16", "errbound::bfloat16"},
+     {number_type::float8_e5m2_type, "float8_e5m2", "errbound::float8_e5m2"},
+     {number_type::float8_e4m3_type, "float8_e4m3", "errbound::float8_e4m3"}}};
+constexpr const named_number_type& entry_of(number_type type) {
+    std::size_t i = 0;
+    while (number_types[i].type != type) ++i;
+    return number_types[i];
+}
 constexpr std::string_view name_of(number_type type) {
-    return type == number_type::float_type ? "float" : "double";
+    return entry_of(type).name;
+}
+
+/// f.operator()<T>() of the type.
+template <class F>
+constexpr decltype(auto) with_number_type(number_type type, const F& f) {
+    switch (type) {
+        case number_type::float_type:
+            return f.template operator()<float>();
+        case number_type::float16_type:
+            return f.template operator()<float16>();
+        case number_type::bfloat16_type:
+            return f.template operator()<bfloat16>();
+        case number_type::float8_e5m2_type:
+            return f.template operator()<float8_e5m2>();
+        case number_type::float8_e4m3_type:
+            return f.template operator()<float8_e4m3>();
+        default:
+            return f.template operator()<double>();
+    }
 }
 
 /// The expression of this index: the same for the same seed. Every fourth one may divide, the
@@ -150,7 +195,7 @@ void evaluate(const expression& e, ball* values);
 /// The expression in C++, a line per value, for a person to paste.
 std::string cpp_text(const expression& e, number_type type, std::string_view rule);
 
-/// "0x1.8p-3", and with the suffix of a float.
+/// "0x1.8p-3"; of another type as its constant, "0x1.8p-3F" or "errbound::float16(0x1.8p-3)".
 std::string hexadecimal(double x, number_type type = number_type::double_type);
 
 }  // namespace errbound::validation

@@ -1,7 +1,9 @@
 // A bound rule as validation sees it: its name, its promises, and its code as functions.
 #pragma once
 
+#include <array>
 #include <ccd/query.hpp>
+#include <cstddef>
 #include <errbound/validation/expression.hpp>
 #include <errbound/validation/query_check.hpp>
 #include <errbound/validation/rule_list.hpp>
@@ -16,11 +18,11 @@ struct rule {
     std::string_view name;
     bool promises = false;  ///< a bound at all
     bool has_division = false;
-    void (*evaluate_double)(const expression&, claim*) = nullptr;
-    void (*evaluate_float)(const expression&, claim*) = nullptr;
+    /// What it says of an expression, by number_type.
+    std::array<void (*)(const expression&, claim*), number_type_count> evaluate{};
     void (*check_vertex_face)(const ccd::vertex_face<double>&, shadow_session&) = nullptr;
     void (*check_edge_edge)(const ccd::edge_edge<double>&, shadow_session&) = nullptr;
-    void (*check_tiny)(std::size_t format, tiny_findings&) = nullptr;
+    void (*check_tiny)(std::size_t format, bool every_bound, tiny_findings&) = nullptr;
 };
 
 /// The rule's name and promises, and what it says of expressions.
@@ -29,8 +31,9 @@ constexpr void set_expression_checks(rule& r) {
     r.name = Rule::name;
     r.promises = promises_bound<Rule>;
     r.has_division = has_division<Rule>;
-    r.evaluate_double = evaluate<Rule, double>;
-    r.evaluate_float = evaluate<Rule, float>;
+    for (const named_number_type& number : number_types)
+        r.evaluate[static_cast<std::size_t>(number.type)] =
+            with_number_type(number.type, []<class T>() { return &evaluate<Rule, T>; });
 }
 template <class Rule>
 constexpr void set_query_checks(rule& r) {

@@ -1,10 +1,11 @@
-// A bound rule in every case of tiny formats.
+// A bound rule in every case of formats of 6 to 8 bits.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/expression.hpp>
 #include <errbound/validation/rule_list.hpp>
@@ -21,17 +22,62 @@ namespace errbound::validation {
 template <class...>
 struct tiny_format_types {};
 /// Of 6, 7 and 8 bits. Three bits of exponent at least, so that u is a number of the format.
-using tiny_formats =
-    tiny_format_types<tiny_float<3, 3>, tiny_float<2, 4>, tiny_float<4, 3>, tiny_float<3, 4>,
-                      tiny_float<5, 3>, tiny_float<4, 4>, tiny_float<3, 5>>;
-inline constexpr std::size_t tiny_format_count = 7;
+using tiny_formats = tiny_format_types<tiny_float<3, 3>, tiny_float<2, 4>, tiny_float<4, 3>,
+                                       tiny_float<3, 4>, tiny_float<5, 3>, tiny_float<4, 4>,
+                                       tiny_float<3, 5>, float8_e5m2, float8_e4m3>;
+inline constexpr std::size_t tiny_format_count = 9;
+
+/// How a format is called, and in which directions its operations round.
+template <class Tiny>
+struct tiny_format;
+
+template <int P, int E>
+struct tiny_format<tiny_float<P, E>> {
+    static constexpr bool for_users = false;
+    static std::string name() {
+        return "tiny_float<" + std::to_string(P) + ", " + std::to_string(E) + ">";
+    }
+    static std::string cpp_name() { return "errbound::validation::" + name(); }
+    /// Calls check(direction) to nearest first, and in the others if that is asked for.
+    template <class Check>
+    static void in_directions(bool all, const Check& check) {
+        constexpr std::array<std::pair<mpfr_rnd_t, std::string_view>, 4> directions{
+            {{MPFR_RNDN, "to nearest"},
+             {MPFR_RNDZ, "towards zero"},
+             {MPFR_RNDU, "upwards"},
+             {MPFR_RNDD, "downwards"}}};
+        for (const auto& [direction, name] : directions) {
+            if (direction != MPFR_RNDN && !all) continue;
+            const tiny_rounding<tiny_float<P, E>> rounding(direction);
+            check(name);
+        }
+    }
+    static bool overflowed_unnoticed() { return tiny_float<P, E>::overflowed_unnoticed(); }
+    static void clear_flag() { tiny_float<P, E>::clear_flag(); }
+};
+
+template <int P, int E, bool HasInfinity>
+struct tiny_format<small_float<P, E, HasInfinity>> {
+    static constexpr bool for_users = true;
+    static std::string name() {
+        return "float8_e" + std::to_string(E) + "m" + std::to_string(P - 1);
+    }
+    static std::string cpp_name() { return "errbound::" + name(); }
+    template <class Check>
+    static void in_directions(bool, const Check& check) {
+        check("to nearest");
+    }
+    static constexpr bool overflowed_unnoticed() { return false; }
+    static constexpr void clear_flag() {}
+};
 
 /// What a rule was found to do in one format.
 struct tiny_findings {
     struct broken {
         std::string what, code;
     };
-    std::string format;  ///< empty: below the rule's minimal_precision
+    std::string format;    ///< empty: below the rule's minimal_precision
+    std::string cpp_name;  ///< of the format
     std::uint64_t values = 0, violations = 0;
     std::vector<broken> first;  ///< the first few
 };
@@ -73,15 +119,18 @@ struct tiny_account {
     int exponent = 0;  ///< of the operation "scale"
 };
 
-/// Holds results to what they may be the results of. Exact references are doubles here: every sum,
-/// difference and product of what tiny formats and their bounds hold fits 53 bits, and quotients
-/// are compared multiplied out.
+/// Holds results to what they may be the results of. Exact references are doubles here: every sum
+/// and difference of what formats of 8 bits and their bounds hold fits 53 bits; a product is
+/// compared with such, exactly, and quotients are compared multiplied out.
 class tiny_judge {
   public:
     tiny_judge(tiny_findings& found, std::string_view rule, std::string_view direction)
         : found_(found), rule_(rule), direction_(direction) {}
 
     void check(const claim& r, const exact_range& exact, const tiny_account& how);
+    /// A product of what lies in these ranges: at the corners, among which are the extremes.
+    void check_product(const claim& r, const exact_range& a, const exact_range& b,
+                       const tiny_account& how);
     /// A quotient of what lies in these ranges: compared multiplied by the divisor, at the corners,
     /// among which are the extremes if the divisor cannot be zero.
     void check_quotient(const claim& r, const exact_range& n, const exact_range& d,
@@ -103,6 +152,7 @@ class tiny_judge {
 template <class Rule, class Tiny>
 class tiny_checker {
     using number = tracked<Tiny, Rule>;
+    using format = tiny_format<Tiny>;
 
   public:
     tiny_checker(tiny_findings& found, std::string_view direction)
@@ -114,12 +164,16 @@ class tiny_checker {
             }
     }
 
-    void check_everything() {
+    void check_everything(bool every_bound) {
         check_exact_pairs();
-        if constexpr (Tiny::precision + Tiny::exponent_bits == 6) {
+        constexpr int bits = Tiny::precision + Tiny::exponent_bits;
+        const bool all = bits == 6 || (format::for_users && every_bound);
+        if (all)
             check_bounded();
-            check_two_operations();
-        }
+        else if (format::for_users)
+            check_some_bounded();
+        // References fit 53 bits where exponents are few.
+        if (all && Tiny::exponent_bits <= 4) check_two_operations();
     }
 
   private:
@@ -141,42 +195,35 @@ class tiny_checker {
                 {value, off}};
     }
 
-    // The flag is cleared after a result was looked at, and so before each operation.
-
+    /// The flag is cleared after a result was looked at, and so before each operation.
+    template <class Judge>
+    void check_by(const Judge& judge, const number& r, tiny_account& how, const char* operation) {
+        if (!format::overflowed_unnoticed()) {  // the one thing that a rule may miss
+            how.operation = operation;
+            judge({double(r.value()), double(r.error()), sign_of(r)});
+        }
+        format::clear_flag();
+    }
     void check(const number& r, const exact_range& exact, tiny_account& how,
                const char* operation) {
-        if (!Tiny::overflowed_unnoticed()) {  // the one thing that a rule may miss
-            how.operation = operation;
-            judge_.check({double(r.value()), double(r.error()), sign_of(r)}, exact, how);
-        }
-        Tiny::clear_flag();
+        check_by([&](const claim& c) { judge_.check(c, exact, how); }, r, how, operation);
+    }
+    void check_product(const number& r, const exact_range& a, const exact_range& b,
+                       tiny_account& how, const char* operation) {
+        check_by([&](const claim& c) { judge_.check_product(c, a, b, how); }, r, how, operation);
     }
     void check_quotient(const number& r, const exact_range& n, const exact_range& d,
                         tiny_account& how, const char* operation) {
-        if (!Tiny::overflowed_unnoticed()) {
-            how.operation = operation;
-            judge_.check_quotient({double(r.value()), double(r.error()), sign_of(r)}, n, d, how);
-        }
-        Tiny::clear_flag();
-    }
-
-    void check_root(const operand_range& a, tiny_account& how) {
-        const number r = sqrt(a.x);
-        if (!Tiny::overflowed_unnoticed()) {
-            how.operation = "sqrt(a)";
-            judge_.check_root({double(r.value()), double(r.error()), sign_of(r)}, {a.low, a.high},
-                              how);
-        }
-        Tiny::clear_flag();
+        check_by([&](const claim& c) { judge_.check_quotient(c, n, d, how); }, r, how, operation);
     }
 
     /// Every operation on two operands.
     void check_pair(const operand_range& a, const operand_range& b) {
         tiny_account how{{a.as_operand, b.as_operand}, 2};
-        Tiny::clear_flag();
+        format::clear_flag();
         check(a.x + b.x, {a.low + b.low, a.high + b.high}, how, "a + b");
         check(a.x - b.x, {a.low - b.high, a.high - b.low}, how, "a - b");
-        check(a.x * b.x, product(a, b), how, "a * b");
+        check_product(a.x * b.x, {a.low, a.high}, {b.low, b.high}, how, "a * b");
         if constexpr (has_division<Rule>)
             check_quotient(a.x / b.x, {a.low, a.high}, {b.low, b.high}, how, "a / b");
         const bool both = std::isfinite(a.low) && std::isfinite(b.low);
@@ -187,16 +234,10 @@ class tiny_checker {
               both ? exact_range{std::max(a.low, b.low), std::max(a.high, b.high)} : exact_range{},
               how, "max(a, b)");
     }
-    static exact_range product(const operand_range& a, const operand_range& b) {
-        if (!std::isfinite(a.low) || !std::isfinite(b.low)) return {};
-        const double products[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-        const auto [low, high] = std::minmax_element(std::begin(products), std::end(products));
-        return {*low, *high};
-    }
     /// The operand itself, −x, |x|, √x, and x·2^e for every e that leaves something.
     void check_one(const operand_range& a) {
         tiny_account how{{a.as_operand}, 1};
-        Tiny::clear_flag();
+        format::clear_flag();
         check(a.x, {a.low, a.high}, how, "a");
         check(-a.x, {-a.high, -a.low}, how, "-a");
         const double sizes[] = {std::abs(a.low), std::abs(a.high)};
@@ -204,7 +245,11 @@ class tiny_checker {
               {a.low <= 0 && a.high >= 0 ? 0 : std::min(sizes[0], sizes[1]),
                std::max(sizes[0], sizes[1])},
               how, "abs(a)");
-        check_root(a, how);
+        check_by(
+            [&](const claim& c) {
+                judge_.check_root(c, {a.low, a.high}, how);
+            },
+            sqrt(a.x), how, "sqrt(a)");
         constexpr int reach = (1 << Tiny::exponent_bits) + Tiny::precision;
         for (int e = -reach; e <= reach; ++e) {
             how.exponent = e;
@@ -219,6 +264,21 @@ class tiny_checker {
             for (int b = 0; b < Tiny::codes; ++b)
                 check_pair(exactly(Tiny::from_code(a)), exactly(Tiny::from_code(b)));
         }
+    }
+    /// Every pair of numbers with some pairs of bounds, among which all are.
+    void check_some_bounded() {
+        constexpr std::size_t pairs_of_bounds = 8;
+        std::size_t next = 0;
+        const auto bound = [&] {
+            return bounds_[(next = next * 1103515245 + 12345) / 64 % bounds_.size()];
+        };
+        for (const Tiny x : finite_)
+            for (const Tiny e : bounds_)
+                if (e != 0) check_one(within(x, e));
+        for (const Tiny x : finite_)
+            for (const Tiny y : finite_)
+                for (std::size_t i = 0; i < pairs_of_bounds; ++i)
+                    check_pair(within(x, bound()), within(y, bound()));
     }
     /// Every pair of numbers with every pair of bounds.
     void check_bounded() {
@@ -236,7 +296,7 @@ class tiny_checker {
             for (const Tiny b : finite_) {
                 const double x = double(a), y = double(b);
                 tiny_account how{{{{x, 0}, {y, 0}}}, 3};
-                Tiny::clear_flag();
+                format::clear_flag();
                 check_with_third(number(a) + number(b), x + y, how, "a + b");
                 check_with_third(number(a) - number(b), x - y, how, "a - b");
                 check_with_third(number(a) * number(b), x * y, how, "a * b");
@@ -244,15 +304,15 @@ class tiny_checker {
     }
     void check_with_third(const number& inner, double exact, tiny_account& how,
                           const char* inner_operation) {
-        const bool usable = !Tiny::overflowed_unnoticed();
-        Tiny::clear_flag();
+        const bool usable = !format::overflowed_unnoticed();
+        format::clear_flag();
         if (!usable) return;
         how.inner = inner_operation;
         for (const Tiny c : finite_) {
             const number outer(c);
             const double z = double(c);
             how.operands[2] = {z, 0};
-            Tiny::clear_flag();
+            format::clear_flag();
             check(inner + outer, {exact + z, exact + z}, how, "d + c");
             check(inner - outer, {exact - z, exact - z}, how, "d - c");
             check(outer - inner, {z - exact, z - exact}, how, "c - d");
@@ -269,29 +329,24 @@ class tiny_checker {
 };
 
 template <class Rule, class Tiny>
-void check_tiny_format(tiny_findings& found) {
+void check_tiny_format(bool every_bound, tiny_findings& found) {
     if (!promises_bound<Rule> || Tiny::precision < minimal_precision<Rule>) return;
-    found.format = "tiny_float<" + std::to_string(Tiny::precision) + ", " +
-                   std::to_string(Tiny::exponent_bits) + ">";
-    constexpr std::array<std::pair<mpfr_rnd_t, std::string_view>, 4> directions{
-        {{MPFR_RNDN, "to nearest"},
-         {MPFR_RNDZ, "towards zero"},
-         {MPFR_RNDU, "upwards"},
-         {MPFR_RNDD, "downwards"}}};
-    for (const auto& [direction, name] : directions) {
-        if (direction != MPFR_RNDN && !holds_in_directed_rounding<Rule>) continue;
-        const tiny_rounding<Tiny> rounding(direction);
-        tiny_checker<Rule, Tiny>(found, name).check_everything();
-    }
+    using format = tiny_format<Tiny>;
+    found.format = format::name();
+    found.cpp_name = format::cpp_name();
+    format::in_directions(holds_in_directed_rounding<Rule>, [&](std::string_view direction) {
+        tiny_checker<Rule, Tiny>(found, direction).check_everything(every_bound);
+    });
 }
 
-/// The rule in the format of this index, 0 <= format < tiny_format_count.
+/// The rule in the format of this index, 0 <= format < tiny_format_count. Of the types of 8 bits
+/// that users have, with every pair of bounds if asked for: minutes.
 template <class Rule>
-void check_tiny(std::size_t format, tiny_findings& found) {
+void check_tiny(std::size_t format, bool every_bound, tiny_findings& found) {
     [&]<class... Tiny>(tiny_format_types<Tiny...>) {
         static_assert(sizeof...(Tiny) == tiny_format_count);
         std::size_t i = 0;
-        ((i++ == format ? check_tiny_format<Rule, Tiny>(found) : void()), ...);
+        ((i++ == format ? check_tiny_format<Rule, Tiny>(every_bound, found) : void()), ...);
     }(tiny_formats());
 }
 

@@ -39,6 +39,27 @@ TEST(Validate, EveryRuleKeepsItsPromisesInRandomExpressions) {
         {.expressions = expression_count() / 10, .seed = 8, .operations = 48}));
 }
 
+TEST(Validate, EveryRuleKeepsItsPromisesInSmallFormats) {
+    validation::expression_options options{.expressions = expression_count() / 2, .seed = 9};
+    options.numbers.clear();
+    for (const auto& number : validation::number_types)
+        if (number.cpp_name != number.name) options.numbers.push_back(number.type);
+    ASSERT_EQ(options.numbers.size(), 4U);
+    const validation::report r = validation::validate_expressions(validation::rules(), options);
+    EXPECT_EQ(r.violation_count(), 0U) << all_violations(r);
+    EXPECT_EQ(r.counts.size(), 4 * validation::rules().size());
+    for (const auto& c : r.counts) {
+        EXPECT_GE(c.cases, options.expressions) << c.rule << " " << c.number;
+        EXPECT_LE(c.undetermined, c.values / 100000) << c.rule << " " << c.number;
+    }
+    const rule broken[] = {validation::rule_of<as_printed>()};
+    const validation::report caught = validation::validate_expressions(broken, options);
+    for (const auto& c : caught.counts) EXPECT_GT(c.violations, 0U) << c.number;
+    ASSERT_FALSE(caught.violations.empty());
+    EXPECT_NE(caught.violations.front().code.find("errbound::float16(0x"), std::string::npos)
+        << caught.violations.front().code;
+}
+
 TEST(Validate, SameResultForEveryNumberOfThreads) {
     validation::expression_options options{.expressions = 5000, .seed = 3, .threads = 1};
     const rule rules[] = {validation::rule_of<errbound::tight>(),
