@@ -1,8 +1,10 @@
-// Everything of errbound that needs nothing but the standard library.
+// Everything of errbound that needs nothing but the standard library; printing.hpp, which brings
+// streams along, is by itself.
 #pragma once
 
 #include <errbound/bernstein.hpp>
 #include <errbound/bsc.hpp>
+#include <errbound/conversion.hpp>
 #include <errbound/environment.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/polynomial.hpp>

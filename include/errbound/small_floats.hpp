@@ -73,6 +73,9 @@ class small_float {
     template <std::floating_point Source>
     requires(sizeof(Source) <= sizeof(double)) constexpr explicit small_float(Source value)
         : code_(nearest_code(value)) {}
+    template <int OtherPrecision, int OtherBits, bool OtherInfinity>
+    constexpr explicit small_float(small_float<OtherPrecision, OtherBits, OtherInfinity> value)
+        : small_float(static_cast<float>(value)) {}
     /// Implicit, for constants; likewise the nearest.
     template <std::integral Source>
     requires(sizeof(Source) <= sizeof(int)) constexpr small_float(Source value)

@@ -1,0 +1,155 @@
+// Tracked numbers as decimals: digits that are certain, or all with the radius.
+//
+//   std::cout << x;                         // 0.3000000000000000
+//   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 5.6e-17
+//
+// A decimal that `<<` prints is within one unit of its last digit of the exact number: its digits
+// are right, or the last one is off by one. Trailing zeros are digits like others: 0.30 says more
+// than 0.3. Where no digit is certain it is a zero, 0.00 or 0e+05, which says how large the number
+// can be. An exact number is printed by the shortest decimal that reads back as its value. `?`
+// stands for a number of which nothing is known. Streams' precision has no influence, their width
+// has.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstdlib>
+#include <errbound/small_floats.hpp>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace errbound {
+
+namespace detail {
+
+template <class>
+inline constexpr bool is_small_float = false;
+template <int P, int E, bool HasInfinity>
+inline constexpr bool is_small_float<small_float<P, E, HasInfinity>> = true;
+
+}  // namespace detail
+
+/// float, double, long double and those of 8 and 16 bits.
+template <class T>
+concept printable_number = std::floating_point<T> || detail::is_small_float<T>;
+
+namespace detail {
+
+/// A type of the language that holds the number.
+template <class T>
+using printed_type = std::conditional_t<std::floating_point<T>, T, float>;
+
+/// By std::to_chars, which rounds exactly; `how` is its format and precision, or nothing: the
+/// shortest that reads back.
+template <std::floating_point T, class... How>
+std::string decimal(T x, How... how) {
+    std::string text(64, '\0');
+    for (;;) {
+        const auto [end, status] = std::to_chars(text.data(), text.data() + text.size(), x, how...);
+        if (status == std::errc()) {
+            text.resize(static_cast<std::size_t>(end - text.data()));
+            return text;
+        }
+        text.resize(2 * text.size());
+    }
+}
+/// Of a decimal d.ddde±dd.
+inline int decimal_exponent(const std::string& scientific) {
+    return std::atoi(scientific.c_str() + scientific.find('e') + 1);
+}
+inline std::string with_exponent(std::string_view digits, int exponent) {
+    const int size = std::abs(exponent);
+    return std::string(digits) + (exponent < 0 ? "e-" : "e+") + (size < 10 ? "0" : "") +
+           std::to_string(size);
+}
+
+/// With 10^(k−1) <= 2·error < 10^k, a decimal rounded to the place 10^k is off by at most half a
+/// unit, and the number by another half.
+template <std::floating_point T>
+std::string certain_digits(T value, T error) {
+    if (!std::isfinite(value) || !std::isfinite(error)) return "?";
+    if (error == 0) return decimal(value == 0 ? T(0) : value);
+    // 18 digits may round up to the next power of ten, never to one below.
+    constexpr int digits = 17;
+    const bool doubles = error <= std::numeric_limits<T>::max() / 2;
+    const T scaled = doubles ? 2 * error : error;
+    const int k = decimal_exponent(decimal(scaled, std::chars_format::scientific, digits)) +
+                  (doubles ? 1 : 2);
+    if (value == 0) return with_exponent("0", k);
+    const std::string size = decimal(std::abs(value), std::chars_format::scientific, digits);
+    const int leading = decimal_exponent(size);
+    if (k <= 0 && leading >= -5) {
+        const std::string fixed = decimal(value, std::chars_format::fixed, -k);
+        const bool is_zero = fixed.find_first_not_of("-0.") == std::string::npos;
+        return is_zero && fixed[0] == '-' ? fixed.substr(1) : fixed;
+    }
+    if (leading >= k) return decimal(value, std::chars_format::scientific, leading - k);
+    if (leading + 1 < k) return with_exponent("0", k);
+    // |value| < 10^k: half of that is told from it by the digits, unless they are just these.
+    const std::string_view half = "5.00000000000000000";
+    const std::string_view mantissa = std::string_view(size).substr(0, half.size());
+    if (mantissa > half) return with_exponent(value < 0 ? "-1" : "1", k);
+    return with_exponent("0", mantissa < half ? k : k + 1);
+}
+
+/// At least x > 0 when read back, of two digits.
+template <std::floating_point T>
+std::string decimal_not_below(T x) {
+    std::string text = decimal(x, std::chars_format::scientific, 1);
+    T read = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), read);
+    // Out of range: too large, or (GCC's long double) a subnormal number, which is not read at all.
+    if (status == std::errc() ? read >= x : x > 1) return text;
+    int exponent = decimal_exponent(text);
+    std::string digits = text.substr(0, 3);
+    if (digits[2] != '9') {
+        ++digits[2];
+    } else if (digits[0] != '9') {
+        ++digits[0];
+        digits[2] = '0';
+    } else {
+        digits = "1.0";
+        ++exponent;
+    }
+    return with_exponent(digits, exponent);
+}
+
+template <std::floating_point T>
+std::string value_and_radius(T value, T error) {
+    const std::string radius = !std::isfinite(value) || !std::isfinite(error) ? "?"
+                               : error == 0                                   ? "0"
+                                            : decimal_not_below(error);
+    return decimal(value) + " ± " + radius;
+}
+
+}  // namespace detail
+
+/// Digits that are certain, as the head of this file says.
+template <printable_number T, class Rule>
+std::string certain_digits(const tracked<T, Rule>& x) {
+    using printed = detail::printed_type<T>;
+    return detail::certain_digits(static_cast<printed>(x.value()), static_cast<printed>(x.error()));
+}
+
+template <printable_number T, class Rule>
+std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
+    return to << certain_digits(x);
+}
+
+/// What streams print as value ± radius: the shortest decimal that reads back as the value, and one
+/// of two digits that reads back as at least the error (`?` where nothing is known). Read back into
+/// tracked::within, they hold the exact number.
+template <printable_number T, class Rule>
+std::string with_radius(const tracked<T, Rule>& x) {
+    using printed = detail::printed_type<T>;
+    return detail::value_and_radius(static_cast<printed>(x.value()),
+                                    static_cast<printed>(x.error()));
+}
+
+}  // namespace errbound

@@ -1,0 +1,150 @@
+// Tracked numbers in another number type, against rationals: the exact number stays within the
+// bound, and what the type holds stays exact.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <errbound/conversion.hpp>
+#include <errbound/small_floats.hpp>
+#include <limits>
+#include <random>
+#include <type_traits>
+
+#include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
+
+namespace {
+
+using errbound::convert;
+using errbound::number_traits;
+using errbound::tracked;
+
+template <class T>
+rational exactly_of(T x) {
+    if constexpr (std::floating_point<T>)
+        return exactly(x);
+    else
+        return exactly(static_cast<double>(x));
+}
+
+template <class Rule, class To, class From>
+void check(From value, From error) {
+    const auto x = tracked<From, Rule>::within(value, error);
+    const auto y = convert<To>(x);
+    static_assert(std::is_same_v<decltype(y), const tracked<To, Rule>>);
+    using traits = number_traits<To>;
+    const std::string what = std::string(Rule::name) + " " +
+                             std::to_string(static_cast<double>(value)) + " +- " +
+                             std::to_string(static_cast<double>(error));
+    if (!number_traits<From>::is_finite(value) || !number_traits<From>::is_finite(x.error())) {
+        ASSERT_FALSE(traits::is_finite(y.error())) << what;
+        ASSERT_EQ(sign_of(y), errbound::sign_type::uncertain) << what;
+        return;
+    }
+    const To plain = static_cast<To>(value);
+    if (!traits::is_finite(plain) || !traits::is_finite(y.error())) {
+        ASSERT_EQ(sign_of(y), errbound::sign_type::uncertain) << what;
+        // Only what is too large for the type is unknown.
+        ASSERT_TRUE(!traits::is_finite(plain) ||
+                    exactly_of(x.error()) * 4 + exactly_of(traits::abs(plain)) * 4 >
+                        exactly_of(traits::largest() * traits::unit_roundoff()))
+            << what;
+        return;
+    }
+    ASSERT_EQ(y.value(), plain) << what;
+    const rational off = exactly_of(plain) - exactly_of(value);
+    const rational away = boost::multiprecision::abs(off);
+    const rational needed = away + exactly_of(error), bound = exactly_of(y.error());
+    ASSERT_GE(bound, needed) << what;
+    if (away == 0 && error == From(0)) {
+        ASSERT_EQ(bound, 0) << what;
+    }
+}
+
+template <class From>
+From any_number(std::mt19937_64& random) {
+    if constexpr (std::floating_point<From>)
+        return special_value<From>(random);
+    else
+        return From::from_code(static_cast<int>(random() % static_cast<unsigned>(From::codes)));
+}
+
+template <class From, class To>
+struct pair_of_types {
+    using from = From;
+    using to = To;
+};
+using errbound::bfloat16;
+using errbound::float16;
+using errbound::float8_e4m3;
+using errbound::float8_e5m2;
+template <class Pair>
+class Conversion : public testing::Test {};
+using pairs =
+    testing::Types<pair_of_types<double, float>, pair_of_types<float, double>,
+                   pair_of_types<double, double>, pair_of_types<long double, double>,
+                   pair_of_types<long double, float>, pair_of_types<double, long double>,
+                   pair_of_types<double, float16>, pair_of_types<float, bfloat16>,
+                   pair_of_types<double, bfloat16>, pair_of_types<float16, bfloat16>,
+                   pair_of_types<bfloat16, float16>, pair_of_types<float16, float8_e4m3>,
+                   pair_of_types<bfloat16, float8_e5m2>, pair_of_types<float8_e5m2, float8_e4m3>,
+                   pair_of_types<float8_e4m3, float8_e5m2>, pair_of_types<float8_e4m3, double>>;
+TYPED_TEST_SUITE(Conversion, pairs);
+
+TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {
+    using From = typename TypeParam::from;
+    using To = typename TypeParam::to;
+    using traits = number_traits<From>;
+    std::mt19937_64 random(4);
+    for (int k = 0; k < support::scaled(5000) && !testing::Test::HasFatalFailure(); ++k) {
+        const From value = any_number<From>(random);
+        From error = traits::abs(any_number<From>(random));
+        if (random() % 4 == 0) error = From(0);
+        if (random() % 2 == 0)
+            error = traits::scale(traits::abs(value), -static_cast<int>(random() % 60)) *
+                    From(static_cast<int>(random() % 4));
+        check<errbound::tight, To>(value, error);
+        check<errbound::sharp, To>(value, error);
+        // The others enlarge a bound themselves, and may overflow in doing so.
+        if (error == From(0)) {
+            check<errbound::residual, To>(value, error);
+            check<errbound::interval, To>(value, error);
+        }
+    }
+}
+
+/// Every number with every bound.
+template <class From, class To>
+void check_all() {
+    for (int i = 0; i < From::codes; ++i)
+        for (int j = 0; j < From::codes / 2; ++j) {
+            check<errbound::tight, To>(From::from_code(i), From::from_code(j));
+            if (testing::Test::HasFatalFailure()) return;
+        }
+}
+TEST(Conversions, OfEvery8BitNumberWithEveryBound) {
+    check_all<float8_e5m2, float8_e4m3>();
+    check_all<float8_e4m3, float8_e5m2>();
+    check_all<float8_e5m2, float16>();
+}
+
+TEST(Conversions, ToAnotherRuleAndInConstantExpressions) {
+    constexpr auto third = tracked<double>(1) / tracked<double>(3);
+    constexpr auto y = convert<float, errbound::interval>(third);
+    static_assert(sign_of(y) == errbound::sign_type::positive);
+    EXPECT_LE(y.error(), 0x1.01p-25F);
+    EXPECT_EQ(convert<float>(tracked<double>(0.5)).error(), 0);
+    EXPECT_EQ(convert<double>(tracked<float>::within(1, 0x1p-30F)).error(), 0x1p-30);
+}
+
+TEST(Conversions, WhatOverflowsOrUnderflowsIsNotCertain) {
+    using errbound::sign_type;
+    EXPECT_EQ(sign_of(convert<float>(tracked<double>(1e39))), sign_type::uncertain);
+    EXPECT_EQ(sign_of(convert<float8_e4m3>(tracked<float>(465))), sign_type::uncertain);
+    EXPECT_EQ(sign_of(convert<float>(tracked<double>::within(1, 1e39))), sign_type::uncertain);
+    const auto tiny = convert<float>(tracked<double>(1e-60));
+    EXPECT_EQ(tiny.value(), 0);
+    EXPECT_EQ(tiny.error(), 0x1p-149F);
+    EXPECT_EQ(convert<float>(tracked<double>::within(1, 1e-60)).error(), 0x1p-149F);
+}
+
+}  // namespace

@@ -1,0 +1,181 @@
+// Tracked numbers as decimals, read back as rationals: every digit that is printed is certain, and
+// value and radius hold the number.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <errbound/printing.hpp>
+#include <iomanip>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include "tests/support/scaled.hpp"
+#include "tests/support/special_values.hpp"
+
+namespace {
+
+using errbound::tracked;
+
+rational power_of_ten(int e) {
+    boost::multiprecision::mpz_int power = 1;
+    for (int i = 0; i < std::abs(e); ++i) power *= 10;
+    return e < 0 ? rational(1, rational(power)) : rational(power);
+}
+
+/// What a decimal stands for, and the place of its last digit.
+struct read_decimal {
+    rational value;
+    int last_place = 0;
+
+    explicit read_decimal(const std::string& text) {
+        const std::size_t e = text.find('e'), point = text.find('.');
+        std::string digits = text.substr(0, e);
+        if (e != std::string::npos) last_place = std::stoi(text.substr(e + 1));
+        if (point != std::string::npos) {
+            last_place -= static_cast<int>(digits.size() - point) - 1;
+            digits.erase(point, 1);
+        }
+        const bool negative = digits[0] == '-';
+        if (negative) digits.erase(0, 1);
+        EXPECT_EQ(digits.find_first_not_of("0123456789"), std::string::npos) << text;
+        digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+        value = rational(boost::multiprecision::mpz_int(digits)) * power_of_ten(last_place);
+        if (negative) value = -value;
+    }
+};
+
+template <class T>
+rational exactly_of(T x) {
+    if constexpr (std::floating_point<T>)
+        return exactly(x);
+    else
+        return exactly(static_cast<double>(x));
+}
+
+template <class T>
+T read_back(const std::string& text) {
+    if constexpr (std::same_as<T, float>)
+        return std::strtof(text.c_str(), nullptr);
+    else if constexpr (std::same_as<T, double>)
+        return std::strtod(text.c_str(), nullptr);
+    else
+        return std::strtold(text.c_str(), nullptr);
+}
+
+template <class T>
+void check(T value, T error) {
+    const auto x = tracked<T>::within(value, error);
+    const std::string text = certain_digits(x);
+    if (!std::isfinite(static_cast<long double>(x.error()))) {
+        ASSERT_EQ(text, "?");
+        return;
+    }
+    const read_decimal read(text);
+    const rational off = boost::multiprecision::abs(rational(read.value - exactly_of(value)));
+    const std::string what = text + " for " + with_radius(x);
+    if (error == T(0)) {
+        ASSERT_LE(off, power_of_ten(read.last_place)) << what;
+        using printed = errbound::detail::printed_type<T>;
+        ASSERT_EQ(read_back<printed>(text), static_cast<printed>(value)) << what;
+    } else {
+        ASSERT_LE(off + exactly_of(error), power_of_ten(read.last_place)) << what;
+        // Not many digits fewer than there are: two more would not be.
+        ASSERT_GT(exactly_of(error) * 220, power_of_ten(read.last_place)) << what;
+    }
+}
+
+template <class T>
+T any_number(std::mt19937_64& random) {
+    if constexpr (std::floating_point<T>)
+        return special_value<T>(random);
+    else
+        return T::from_code(static_cast<int>(random() % static_cast<unsigned>(T::codes)));
+}
+
+template <class T>
+class Printing : public testing::Test {};
+using numbers = testing::Types<float, double, long double, errbound::float16, errbound::bfloat16,
+                               errbound::float8_e5m2, errbound::float8_e4m3>;
+TYPED_TEST_SUITE(Printing, numbers);
+
+TYPED_TEST(Printing, EveryDigitIsCertain) {
+    using T = TypeParam;
+    using traits = errbound::number_traits<T>;
+    std::mt19937_64 random(1);
+    const int count = support::scaled(std::numeric_limits<T>::max_exponent > 2000 ? 300 : 20000);
+    for (int k = 0; k < count && !testing::Test::HasFatalFailure(); ++k) {
+        const T value = any_number<T>(random);
+        T error = traits::abs(any_number<T>(random));
+        if (random() % 4 != 0)
+            error = traits::scale(traits::abs(value), -static_cast<int>(random() % 70)) *
+                    T(1 + static_cast<int>(random() % 5));
+        check(value, error);
+    }
+}
+
+TYPED_TEST(Printing, ValueAndRadiusHoldTheNumber) {
+    using T = TypeParam;
+    using printed = errbound::detail::printed_type<T>;
+    using traits = errbound::number_traits<T>;
+    std::mt19937_64 random(2);
+    for (int k = 0; k < support::scaled(3000); ++k) {
+        const T value = any_number<T>(random), error = traits::abs(any_number<T>(random));
+        const auto x = tracked<T>::within(value, error);
+        const std::string text = with_radius(x);
+        const std::size_t between = text.find(" ± ");
+        ASSERT_NE(between, std::string::npos);
+        const std::string radius = text.substr(between + std::string(" ± ").size());
+        if (!traits::is_finite(x.error())) {
+            ASSERT_EQ(radius, "?");
+            continue;
+        }
+        ASSERT_EQ(read_back<printed>(text.substr(0, between)), static_cast<printed>(value)) << text;
+        const printed off = read_back<printed>(radius), exact = static_cast<printed>(error);
+        ASSERT_GE(off, exact) << text;
+        ASSERT_LE(off, exact * printed(1.11) + std::numeric_limits<printed>::denorm_min() * 4)
+            << text;
+    }
+}
+
+std::string text_of(const tracked<double>& x) {
+    std::ostringstream to;
+    to << x;
+    return to.str();
+}
+tracked<double> within(double value, double error) {
+    return tracked<double>::within(value, error);
+}
+
+TEST(PrintingText, IsAsOneWouldWriteIt) {
+    EXPECT_EQ(text_of(tracked<double>(0.1) + tracked<double>(0.2)), "0.300000000000000");
+    EXPECT_EQ(with_radius(within(0.3, 0.25)), "0.3 ± 2.5e-01");
+    EXPECT_EQ(text_of(0.1), "0.1");
+    EXPECT_EQ(text_of(-3.0), "-3");
+    EXPECT_EQ(text_of(-0.0), "0");
+    EXPECT_EQ(text_of(within(123456, 1000)), "1.2e+05");
+    EXPECT_EQ(text_of(within(-123456, 0.01)), "-123456.0");
+    EXPECT_EQ(text_of(within(9.96, 0.04)), "10.0");
+    EXPECT_EQ(text_of(within(1e-30, 1e-34)), "1.000e-30");
+    // No digit is certain: how large it can be.
+    EXPECT_EQ(text_of(within(7, 3)), "1e+01");
+    EXPECT_EQ(text_of(within(-7, 3)), "-1e+01");
+    EXPECT_EQ(text_of(within(1, 4)), "0e+01");
+    EXPECT_EQ(text_of(within(5, 1)), "0e+02");
+    EXPECT_EQ(text_of(within(-0.001, 0.01)), "0.0");
+    EXPECT_EQ(text_of(within(0, 1e-10)), "0e-09");
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(text_of(within(1, infinity)), "?");
+    EXPECT_EQ(text_of(tracked<double>(1) / tracked<double>(0)), "?");
+    EXPECT_EQ(with_radius(within(1, infinity)), "1 ± ?");
+    EXPECT_EQ(with_radius(tracked<double>(0.1)), "0.1 ± 0");
+}
+
+TEST(PrintingText, LeavesTheStreamAsItIs) {
+    std::ostringstream to;
+    to << std::setprecision(2) << std::setw(8) << tracked<double>(3.25) << ' ' << 0.125 << ' '
+       << tracked<errbound::float16, errbound::residual>(2);
+    EXPECT_EQ(to.str(), "    3.25 0.12 2");
+}
+
+}  // namespace
