@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <string>
 #include <unordered_set>
 
 #include "ccd/step/checks.hpp"
@@ -58,9 +59,11 @@ void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filt
             throw std::invalid_argument(
                 caller + ": found " + std::to_string(mesh.positions.vertices) +
                 " positions, expected " + std::to_string(vertices) + ", one a number");
-        const std::unordered_set<vertex_number> unique(mesh.numbers.begin(), mesh.numbers.end());
-        if (unique.size() != vertices)
-            throw std::invalid_argument(caller + ": found a vertex's number given twice");
+        std::unordered_set<vertex_number> unique;
+        for (const vertex_number number : mesh.numbers)
+            if (!unique.insert(number).second)
+                throw std::invalid_argument(caller + ": found a vertex's number given twice, " +
+                                            std::to_string(number));
         if (filter.can_collide || filter.part)
             throw std::invalid_argument(caller +
                                         ": found can_collide or a part of space, expected groups "

@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "errbound/support/output_file.hpp"
 
@@ -47,6 +48,18 @@ std::optional<chunk_result> entry_of(std::string_view line) {
     if (number.ec != std::errc{} || number.ptr == end || *number.ptr != ' ') return std::nullopt;
     entry.second.assign(number.ptr + 1, end);
     return entry;
+}
+
+/// Where two identities differ first: from the comma before to the comma after.
+std::pair<std::string_view, std::string_view> differing_parts(std::string_view a,
+                                                              std::string_view b) {
+    const auto same = static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+    const std::size_t comma = a.substr(0, same).rfind(',');
+    const std::size_t begin = comma == std::string_view::npos ? 0 : comma + 1;
+    const auto part = [&](std::string_view of) {
+        return of.substr(begin, std::min(of.find_first_of(",\n", same), of.size()) - begin);
+    };
+    return {part(a), part(b)};
 }
 
 void write_all(int descriptor, std::string_view text, const std::filesystem::path& path) {
@@ -103,14 +116,16 @@ void journal::read(const std::string& text, const std::string& first_line) {
     if (!text.starts_with(title))
         throw file_error(path_.string() +
                          ":1: found no journal of a study, expected one or no file");
-    if (text.find('\n') == std::string::npos)
+    if (text.find('\n') == std::string::npos ||
+        text.find('\n') < title.size() + checksum_digits + 1)
         throw file_error(path_.string() + ":1: found a journal that is cut off in its first line");
     if (!text.starts_with(first_line)) {
         const std::size_t begin = title.size() + checksum_digits + 1;
-        const std::string found = text.substr(0, text.find('\n'));
+        const auto [found, expected] =
+            differing_parts(std::string_view(text).substr(0, text.find('\n')).substr(begin),
+                            std::string_view(first_line).substr(begin));
         throw file_error(path_.string() + ":1: found the journal of another study, " +
-                         found.substr(std::min(begin, found.size())) + ", expected " +
-                         first_line.substr(begin, first_line.size() - begin - 1) +
+                         std::string(found) + ", expected " + std::string(expected) +
                          "; remove it or name another");
     }
     std::size_t good = first_line.size();

@@ -1,0 +1,193 @@
+"""Reads, builds and checks a folder of Coq files, so that nothing is believed that Coq does not say.
+
+A folder has _CoqProject, which names its files and nothing else, and those files. What a text search
+can miss, Coq is asked twice: Print Assumptions of each theorem, whose every line has to be understood,
+and coqchk, which checks the compiled files anew and says by full names what they rest on. What a
+theorem states is printed, to be held against a text that people read.
+"""
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+# Coq's standard library has its real numbers and classical logic from these; Flocq adds none. By
+# name and type: another file may have an axiom of the same name.
+ALLOWED = {
+    "ClassicalDedekindReals.sig_not_dec": "forall P : Prop, {~ ~ P} + {~ P}",
+    "ClassicalDedekindReals.sig_forall_dec":
+        "forall P : nat -> Prop, (forall n : nat, {P n} + {~ P n}) -> {n : nat | ~ P n} + {forall n : nat, P n}",
+    "FunctionalExtensionality.functional_extensionality_dep":
+        "forall (A : Type) (B : A -> Type) (f g : forall x : A, B x), (forall x : A, f x = g x) -> f = g",
+    "Classical_Prop.classic": "forall P : Prop, P \\/ ~ P",
+}
+# coqchk counts what modules of the standard library hide as axioms, too: only Coq's own may be there.
+ALLOWED_FULL = re.compile(
+    r"Coq\.(Reals\.ClassicalDedekindReals\.(sig_not_dec|sig_forall_dec)"
+    r"|Logic\.(FunctionalExtensionality\.functional_extensionality_dep|Classical_Prop\.classic)"
+    r"|Reals\.Rdefinitions\.R\w+Impl\.\w+|ssr\.ssrunder\.Under_rel\.\w+)")
+# What leaves a statement without proof, or switches a check of Coq's off.
+UNPROVED = re.compile(
+    r"\b(Admitted|admit|Abort|Axioms?|Parameters?|Conjecture|Admit\s+Obligations|bypass_check)\b"
+    r"|\b(Unset|Set)\s+(Guard|Positivity|Universe)\s+Checking"
+    r"|\b(Load|Declare\s+ML\s+Module|Add\s+(Rec\s+)?(LoadPath|ML\s+Path))\b")
+
+
+class Refused(Exception):
+    """What is wrong, in a line or more."""
+
+
+def code_of(text):
+    """Coq's code without comments, which nest, and what strings hold, which comments may have, too."""
+    out, depth, i = [], 0, 0
+    while i < len(text):
+        pair = text[i:i + 2]
+        if text[i] == '"':
+            end = i + 1  # two quotes in a string are one that it holds
+            while text[end:end + 1] != '"' or text[end:end + 2] == '""':
+                end += 2 if text[end:end + 2] == '""' else 1
+                if end >= len(text):
+                    raise Refused("found a string that does not end")
+            if not depth:
+                out.append('""')
+            i = end + 1
+        elif pair == "(*":
+            depth, i = depth + 1, i + 2
+        elif pair == "*)" and depth:
+            depth, i = depth - 1, i + 2
+        else:
+            if not depth:
+                out.append(text[i])
+            i += 1
+    if depth:
+        raise Refused("found a comment that does not end")
+    return "".join(out)
+
+
+def files_of(folder, library):
+    """Names of the folder's files without .v, in _CoqProject's order. It has no other words, such as
+    options that would weaken the kernel."""
+    lines = [line.strip() for line in (folder / "_CoqProject").read_text().splitlines() if line.strip()]
+    if not lines or lines[0] != f"-Q . {library}":
+        raise Refused(f"_CoqProject: found '{lines[0] if lines else ''}', expected -Q . {library}")
+    for line in lines[1:]:
+        if not re.fullmatch(r"[A-Z]\w*\.v", line):
+            raise Refused(f"_CoqProject: found '{line}', expected a file's name")
+    listed = [line[:-2] for line in lines[1:]]
+    there = sorted(path.stem for path in folder.glob("*.v"))
+    if sorted(listed) != there:
+        raise Refused(f"_CoqProject lists {sorted(listed)}, the folder holds {there}")
+    return listed
+
+
+def theorems(folder, library):
+    """File and name of what is called a theorem, in order."""
+    found = []
+    for name in files_of(folder, library):
+        try:
+            text = code_of((folder / f"{name}.v").read_text())
+        except Refused as why:
+            raise Refused(f"{name}.v: {why}") from None
+        if hole := UNPROVED.search(text):
+            raise Refused(f"{name}.v: found {hole.group()}")
+        found += [(name, theorem) for theorem in re.findall(r"^Theorem (\w+)", text, re.MULTILINE)]
+    return found
+
+
+def run(folder, *command):
+    """What it prints, errors among it."""
+    result = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if result.returncode:
+        raise Refused(f"{' '.join(command[:4])}\n{result.stdout}")
+    return result.stdout
+
+
+def compile_all(folder, build, more=()):
+    """Compiles a copy of the folder's files, and puts `more` beside them."""
+    shutil.rmtree(build, ignore_errors=True)
+    build.mkdir(parents=True)
+    for path in [*folder.glob("*.v"), folder / "_CoqProject", *more]:
+        shutil.copy(path, build)
+    run(build, "coq_makefile", "-f", "_CoqProject", "-o", "Makefile")
+    run(build, "make", f"-j{os.cpu_count()}")
+
+
+def asked_of_each(build, library, found, question):
+    """Coq's answer to a question about each theorem."""
+    script = ["Set Printing Width 100.",
+              f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}."]
+    for name, theorem in found:
+        script += [f'Goal True. idtac "theorem {name}.{theorem}". exact I. Qed.', f"{question} {name}.{theorem}."]
+    (build / "asked.v").write_text("\n".join(script) + "\n")
+    printed = run(build, "coqc", "-Q", ".", library, "asked.v")
+    blocks = re.split(r"^theorem (\S+)\n", printed, flags=re.MULTILINE)
+    answers = dict(zip(blocks[1::2], blocks[2::2]))
+    for name, theorem in found:
+        if f"{name}.{theorem}" not in answers:
+            raise Refused(f"Coq said nothing of {name}.{theorem}")
+        yield name, theorem, answers[f"{name}.{theorem}"]
+
+
+def axioms_of(text):
+    """Name and type of each axiom that Print Assumptions names. Every line has to be understood."""
+    lines = text.rstrip("\n").split("\n")
+    if lines == ["Closed under the global context"]:
+        return {}
+    if lines[0] != "Axioms:":
+        raise Refused(f"found '{lines[0]}', expected axioms")
+    found, name = {}, None
+    for line in lines[1:]:
+        if entry := re.fullmatch(r"([\w.']+)( : .*)?", line):
+            name = entry[1]
+            found[name] = entry[2] or ""
+        elif name and line.startswith(" "):
+            found[name] += " " + line
+        else:
+            raise Refused(f"found '{line}', expected an axiom and its type")
+    return {name: " ".join(type_.split()).removeprefix(":").strip() for name, type_ in found.items()}
+
+
+def assumptions(build, library, found):
+    """File, theorem, names of its axioms, which are allowed."""
+    for name, theorem, text in asked_of_each(build, library, found, "Print Assumptions"):
+        try:
+            used = axioms_of(text)
+        except Refused as why:
+            raise Refused(f"{name}.{theorem}: {why}") from None
+        for axiom, type_ in used.items():
+            if ALLOWED.get(axiom) != type_:
+                raise Refused(f"{name}.{theorem} rests on {axiom} : {type_}")
+        yield name, theorem, sorted(used)
+
+
+def statements(build, library, found):
+    """What the theorems state, with what sections supposed."""
+    return "".join(re.sub(r"^\S+\n", f"{name}.{theorem}\n", text.rstrip("\n")) + "\n\n"
+                   for name, theorem, text in asked_of_each(build, library, found, "Check"))
+
+
+def compare(text, path, build):
+    """Of what is kept in `path`, and made anew."""
+    if not path.exists() or path.read_text() != text:
+        (build / path.name).write_text(text)
+        raise Refused(f"{path.name} is not what Coq says, {build / path.name} is: if that is meant, copy it")
+
+
+def check_compiled(build, library, names):
+    """By coqchk, of what was compiled; of the libraries it believes what their packages hold."""
+    printed = run(build, "coqchk", "-o", "-silent", "-Q", ".", library,
+                  *(word for name in names for word in ("-norec", f"{library}.{name}")))
+    parts = dict(re.findall(r"^\* ([^:\n]+):(.*?)(?=^\* |\Z)", printed, re.MULTILINE | re.DOTALL))
+    expected = {"Theory", "Axioms", "Constants/Inductives relying on type-in-type",
+                "Constants/Inductives relying on unsafe (co)fixpoints", "Inductives whose positivity is assumed"}
+    if set(parts) != expected:
+        raise Refused(f"coqchk: found {sorted(parts)}, expected {sorted(expected)}")
+    for part, text in parts.items():
+        if part == "Theory":
+            wrong = text.split() != "Set is predicative".split() and text.strip()
+        elif part == "Axioms":
+            wrong = [name for name in text.split() if name != "<none>" and not ALLOWED_FULL.fullmatch(name)]
+        else:
+            wrong = text.strip() != "<none>" and text.strip()
+        if wrong:
+            raise Refused(f"coqchk: {part}: {wrong}")

@@ -1,0 +1,111 @@
+"""Attacks on checker.py: folders of proofs that prove nothing, each of which has to be refused.
+
+usage: checker_test.py BUILD_FOLDER
+"""
+import re
+import sys
+import unittest
+from pathlib import Path
+
+import checker
+
+GOOD = "Theorem good : 1 + 1 = 2.\nProof. reflexivity. Qed.\n"
+GUARD = """
+Unset Guard Checking.
+Fixpoint loop (n : nat) : False := loop n.
+Set Guard Checking.
+Theorem wrong : False.
+Proof. exact (loop 0). Qed.
+"""
+
+
+class Attack(unittest.TestCase):
+    def check(self, files, project=None, statements=None, scanned=True):
+        """As check.py does. `scanned`: the files' text is looked at, too."""
+        folder = BUILD / "attack" / self.id().rsplit(".", 1)[-1]
+        folder.mkdir(parents=True, exist_ok=True)
+        for path in folder.glob("*.v"):
+            path.unlink()
+        for name, text in files.items():
+            (folder / name).write_text(text)
+        (folder / "_CoqProject").write_text(project or "\n".join(["-Q . Attack", *files]))
+        (folder / "statements.txt").write_text(statements or "")
+        found = [(name[:-2], word) for name, text in files.items() for word in re.findall(r"Theorem (\w+)", text)]
+        if scanned:
+            found = checker.theorems(folder, "Attack")
+        build = folder / "build"
+        checker.compile_all(folder, build)
+        list(checker.assumptions(build, "Attack", found))
+        checker.check_compiled(build, "Attack", [name[:-2] for name in files])
+        checker.compare(checker.statements(build, "Attack", found), folder / "statements.txt", build)
+
+    def refused(self, expected, *arguments, **options):
+        """Whether these files are refused so."""
+        with self.assertRaisesRegex(checker.Refused, expected):
+            self.check(*arguments, **options)
+
+    def test_good_ones_pass(self):
+        self.check({"A.v": GOOD}, statements="A.good\n     : 1 + 1 = 2\n\n")
+        self.refused("statements.txt is not what Coq says", {"A.v": GOOD})
+
+    def test_strings_that_look_like_comments(self):
+        text = 'Require Import String.\nDefinition s := "(*"%string.\n' + GUARD + 'Definition e := "*)"%string.\n'
+        self.refused("A.v: found Unset Guard Checking", {"A.v": text})
+        self.refused("assumed to be guarded", {"A.v": text}, scanned=False)
+
+    def test_comments_that_hold_strings(self):
+        self.refused("A.v: found Unset Guard Checking", {"A.v": '(* "*)" *)' + GUARD + '(* "(*" *)'})
+        self.refused("a comment that does not end", {"A.v": GOOD + '(* "*)"'})
+        self.refused("a string that does not end", {"A.v": GOOD + '"'})
+
+    def test_options_that_weaken_the_kernel(self):
+        text = "Theorem wrong : Type.\nProof. exact (Type : Type). Qed.\n"
+        project = "-Q . Attack\n-arg -type-in-type\nA.v"
+        self.refused("_CoqProject: found '-arg -type-in-type'", {"A.v": text}, project)
+        self.refused("_CoqProject: found '-R . Attack'", {"A.v": text}, "-R . Attack\nA.v")
+
+    def test_checks_that_are_switched_off(self):
+        text = "Unset Universe Checking.\nDefinition t : Type := Type.\nTheorem wrong : True.\nProof. exact I. Qed.\n"
+        self.refused("A.v: found Unset Universe Checking", {"A.v": text})
+        positivity = """Unset Positivity Checking.
+Inductive bad := make (f : bad -> False).
+Theorem wrong : False.
+Proof. exact ((fun b => match b with make f => f b end) (make (fun b => match b with make f => f b end))). Qed.
+"""
+        self.refused("A.v: found Unset Positivity Checking", {"A.v": positivity})
+        self.refused("assumed to be positive", {"A.v": positivity}, scanned=False)
+
+    def test_axioms_of_allowed_names(self):
+        name = "Classical_Prop.v"
+        text = "Hypothesis classic : False.\nTheorem wrong : 1 = 2.\nProof. destruct classic. Qed.\n"
+        self.refused("rests on .*classic : False", {name: text})
+        same = "Hypothesis classic : forall P : Prop, P \\/ ~ P.\nTheorem t : True \\/ ~ True.\nProof. apply classic. Qed.\n"
+        self.refused("coqchk: Axioms: .*Attack.Classical_Prop.classic", {name: same})
+
+    def test_hypotheses_of_sections_are_in_statements(self):
+        def text(more):
+            return f"Section s.\n{more}Theorem t : 1 = 1.\nProof. {'destruct h.' if more else 'reflexivity.'} Qed.\nEnd s.\n"
+        self.refused("statements.txt is not what Coq says", {"A.v": text("Hypothesis h : False.\n")},
+                     statements="A.t\n     : 1 = 1\n\n")
+
+    def test_weakened_statements(self):
+        self.refused("statements.txt is not what Coq says", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
+                     statements="A.good\n     : 1 + 1 = 2\n\n")
+
+    def test_unproved(self):
+        for hole in ("Theorem t : False.\nAdmitted.\n", "Axiom a : False.\n", "Parameter p : False.\n",
+                     "#[bypass_check(guard)] Fixpoint f (n : nat) : False := f n.\n", "Load other.\n"):
+            self.refused("A.v: found ", {"A.v": GOOD + hole})
+
+    def test_lines_that_are_not_understood(self):
+        with self.assertRaisesRegex(checker.Refused, "found 't relies on an unsafe hierarchy.'"):
+            checker.axioms_of("Axioms:\nt relies on an unsafe hierarchy.\n")
+        with self.assertRaisesRegex(checker.Refused, "expected axioms"):
+            checker.axioms_of("Section Variables:\nh : False\n")
+        self.assertEqual(checker.axioms_of("Axioms:\na : A\nb\n  : forall x,\n    B\n"), {"a": "A", "b": "forall x, B"})
+        self.assertEqual(checker.axioms_of("Closed under the global context\n"), {})
+
+
+if __name__ == "__main__":
+    BUILD = Path(sys.argv.pop(1)).resolve()
+    unittest.main()
