@@ -58,8 +58,9 @@ int main(int argc, char** argv) try {
     CLI::App app{"Times exact and the other methods; prints tables."};
     app.name("./run bench");
     app.footer(
-        "./run bench also takes, as its first argument, --predicates or --roots: those beside "
-        "other\nlibraries; --worst: worst cases; and --native: these by a build for this processor "
+        "./run bench also takes, as its first argument, --linear, --predicates or --roots: those "
+        "beside\nother libraries; --worst: worst cases; and --native: these by a build for this "
+        "processor "
         "beside these.");
     bench::options o;
     std::string json, commit = "unknown";

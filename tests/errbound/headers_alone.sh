@@ -12,8 +12,8 @@ cd "$work/include"
 count=0
 for header in errbound/*.hpp errbound/*/*.hpp; do
     case $header in
-        errbound/eigen.hpp | errbound/certified_solve.hpp | errbound/linear/* | errbound/multiprecision.hpp |
-            errbound/validation/*) continue ;;
+        errbound/eigen.hpp | errbound/certified_solve.hpp | errbound/linear/* | \
+            errbound/multiprecision.hpp | errbound/validation/*) continue ;;
     esac
     echo "#include <$header>" >"$work/use.cpp"
     "$compiler" -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I. \

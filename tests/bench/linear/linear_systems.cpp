@@ -1,0 +1,139 @@
+// certified_solve beside Eigen's plain solution by LU decomposition: time, and certified errors
+// beside true ones, of systems whose exact solutions are known.
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <errbound/certified_solve.hpp>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ccd/report/measuring/machine.hpp"
+#include "tests/bench/harness.hpp"
+#include "tests/errbound/linear/matrix_families.hpp"
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// 3a·x = ay: for whole numbers it is exact, and its solution, y/3, is mostly no double.
+struct linear_system {
+    std::string name;
+    MatrixXd a;
+    VectorXd y;
+};
+
+std::vector<linear_system> systems(bool quick) {
+    matrix_families::generator make(1);
+    std::vector<linear_system> all;
+    const auto add = [&](const char* name, const MatrixXd& a) {
+        all.push_back({name, a, make.whole_numbers(a.rows(), 1, 1000)});
+    };
+    const Index largest = quick ? 100 : 2000;
+    for (const Index n : {3, 10, 30, 100, 300, 1000, 2000})
+        if (n <= largest) add("uniform", make.whole_numbers(n, n, 1000));
+    const auto of_diagonals = [&](Index n) {
+        const MatrixXd diagonals = make.whole_numbers(2 * n, 1, 1000);
+        return MatrixXd::NullaryExpr(n, n, [=](Index i, Index j) { return diagonals(n + i - j); });
+    };
+    const auto second_difference = [](Index i, Index j) {
+        return i == j ? 2.0 : std::abs(i - j) == 1 ? -1.0 : 0.0;
+    };
+    add("Toeplitz", of_diagonals(largest));
+    add("second difference", MatrixXd::NullaryExpr(largest, largest, second_difference));
+    for (const Index n : {20, 40, 60, 80}) add("unimodular", make.unimodular(n, 1));
+    for (const Index n : {4, 8, 10, 11, 12}) {
+        std::int64_t multiple = 1;
+        for (std::int64_t k = 2; k < 2 * n; ++k) multiple = std::lcm(multiple, k);
+        add("Hilbert", MatrixXd::NullaryExpr(
+                           n, n, [=](Index i, Index j) { return double(multiple / (i + j + 1)); }));
+    }
+    return all;
+}
+
+/// |x − y/3|, of which 3x − y is exact in 64 bits.
+double true_error(double x, double y) {
+    return double(std::abs(3.0L * x - y) / 3);
+}
+
+/// The greatest, of those that there are.
+double greatest(const std::vector<double>& numbers) {
+    return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
+}
+
+std::vector<bench::cell> row(const linear_system& s, bool quick) {
+    const MatrixXd a = 3 * s.a;
+    const VectorXd b = s.a * s.y;
+    VectorXd plain;
+    auto certified = errbound::certified_solve(a, b);
+    const auto timings = bench::race({[&] { plain = a.partialPivLu().solve(b); },
+                                      [&] { certified = errbound::certified_solve(a, b); }},
+                                     quick            ? 1
+                                     : a.rows() > 500 ? 3
+                                                      : 25);
+    std::vector<double> of_plain, bounds, ratios;
+    for (Index i = 0; i < a.rows(); ++i) {
+        const double size = std::abs(s.y(i)) / 3 * 0x1p-53;
+        if (size == 0) continue;
+        of_plain.push_back(true_error(plain(i), s.y(i)) / size);
+        if (!certified.certified()) continue;
+        const double error = true_error(certified.values(i), s.y(i));
+        if (!(error <= certified.errors(i)))
+            throw std::runtime_error(s.name + ": an error is beyond its certified bound");
+        bounds.push_back(certified.errors(i) / size);
+        if (error > 0) ratios.push_back(certified.errors(i) / error);
+    }
+    std::vector<bench::cell> cells{bench::word(s.name),
+                                   bench::count(std::uint64_t(a.rows())),
+                                   bench::number(1e3 * timings[0].minimum, 4),
+                                   bench::number(1e3 * timings[1].minimum, 4),
+                                   bench::number(timings[1].minimum / timings[0].minimum, 1),
+                                   bench::number(greatest(of_plain), 0)};
+    if (!certified.certified()) {
+        for (int k = 0; k < 3; ++k) cells.push_back(bench::none());
+        return cells;
+    }
+    std::sort(ratios.begin(), ratios.end());
+    cells.push_back(bench::number(greatest(bounds), 3));
+    cells.push_back(ratios.empty() ? bench::none() : bench::number(ratios[ratios.size() / 2], 6));
+    cells.push_back(ratios.empty() ? bench::none() : bench::number(ratios.back(), 6));
+    return cells;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
+    if (argc > 1 && !quick) {
+        std::fprintf(stderr, "usage: ./run bench --linear [--quick]\n");
+        return 2;
+    }
+    const ccd::report::machine here = ccd::report::this_machine();
+    std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
+                here.load, here.compiler.c_str(), here.flags.c_str());
+    std::vector<std::vector<bench::cell>> rows;
+    for (const linear_system& s : systems(quick)) rows.push_back(row(s, quick));
+    bench::report out;
+    out.table("linear", {},
+              "certified_solve beside partialPivLu().solve, ms (least of some passes); errors in "
+              "units of 2^-53 of the solution; overestimate: certified over true error",
+              {{"system", "system", true},
+               {"n", "n"},
+               {"plain_ms", "plain, ms"},
+               {"certified_ms", "certified, ms"},
+               {"ratio", "ratio"},
+               {"plain_error", "plain: greatest error"},
+               {"certified_error", "certified: greatest error"},
+               {"overestimate_median", "overestimate, median"},
+               {"overestimate_max", "greatest"}},
+              rows);
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench: %s\n", error.what());
+    return 1;
+}
