@@ -9,7 +9,7 @@
 #pragma once
 
 #include <errbound/tracked.hpp>
-#include <limits>
+#include <type_traits>
 
 namespace errbound {
 
@@ -18,9 +18,10 @@ namespace detail {
 /// Whether every number of type Narrow is one of type Wide.
 template <class Wide, class Narrow>
 inline constexpr bool holds_numbers_of = [] {
-    using wide = std::numeric_limits<Wide>;
-    using narrow = std::numeric_limits<Narrow>;
-    return wide::digits >= narrow::digits && wide::max_exponent >= narrow::max_exponent &&
+    using wide = number_traits<Wide>;
+    using narrow = number_traits<Narrow>;
+    return has_subnormals<Wide> && has_subnormals<Narrow> && wide::digits >= narrow::digits &&
+           wide::max_exponent >= narrow::max_exponent &&
            wide::min_exponent - wide::digits <= narrow::min_exponent - narrow::digits;
 }();
 

@@ -59,6 +59,7 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 /// Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v, sqrt_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
+    static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
     using traits = number_traits<T>;
     using number = tracked<T, Rule>;
     const T v = traits::sqrt(x.value()), e = x.error();
@@ -110,6 +111,7 @@ constexpr tracked<T, Rule> max(const tracked<T, Rule>& a, const tracked<T, Rule>
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
+    static_assert(has_subnormals<T>, "errbound: fma needs a number type with subnormal numbers");
     using traits = number_traits<T>;
     const T v = traits::fma(a.value(), b.value(), c.value());
     const T of_a = a.error(), of_b = b.error(), of_c = c.error();

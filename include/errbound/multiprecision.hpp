@@ -1,4 +1,10 @@
-// Boost.Multiprecision's exact numbers as errbound scalars (optional header; needs Boost).
+// Boost.Multiprecision's numbers as errbound scalars (optional header; needs Boost): which are
+// exact.
+//
+// Its floating-point numbers of a fixed precision that round to nearest, cpp_bin_float and
+// mpfr_float with a number of digits, are number types as they are, tracked<cpp_bin_float_100>,
+// without this header. They have no subnormal numbers: the rule is `tight`, and sqrt and fma do not
+// compile. MPFR's range of exponents must be the one that it starts with.
 #pragma once
 
 #include <boost/multiprecision/number.hpp>

@@ -16,6 +16,13 @@ struct number_traits {
                   "errbound: specialise errbound::number_traits for this number type");
     static_assert(!std::is_floating_point_v<T> || std::numeric_limits<T>::is_iec559,
                   "errbound: not an IEEE 754 binary format, as long double on some PowerPC");
+    static_assert(
+        std::numeric_limits<T>::radix == 2 &&
+            std::numeric_limits<T>::digits < std::numeric_limits<int>::max() &&
+            std::numeric_limits<T>::round_style == std::round_to_nearest &&
+            (!std::is_floating_point_v<T> || std::numeric_limits<T>::is_iec559),
+        "errbound: numbers must be binary, of a precision that the type says, and rounded "
+        "to nearest");
 
     /// Largest relative error of one rounding in any direction, the paper's ε = 2u: 2^-52 for
     /// double, 2^-23 for float.
@@ -23,13 +30,30 @@ struct number_traits {
     /// Largest relative error of one rounding to nearest: u = ε/2.
     static constexpr T unit_roundoff() { return epsilon() / 2; }
     /// Smallest positive number: an operation that underflows is off by less than this.
-    static constexpr T underflow_unit() { return std::numeric_limits<T>::denorm_min(); }
+    static constexpr T underflow_unit() {
+        // (Boost.Multiprecision's denorm_min is 0 where there are no subnormal numbers.)
+        if constexpr (has_subnormals)
+            return std::numeric_limits<T>::denorm_min();
+        else
+            return smallest_normal();
+    }
     static constexpr T smallest_normal() { return std::numeric_limits<T>::min(); }
     static constexpr T largest() { return std::numeric_limits<T>::max(); }
     /// What overflows; NaN for a format without infinities.
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
     static constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
+    /// 2^(min_exponent − 1) is the smallest normal number, 2^max_exponent just too large
+    /// (the limits of Boost's cpp_bin_float say one less of both).
+    static constexpr int min_exponent = std::numeric_limits<T>::min_exponent;
+    /// Whether there are subnormal numbers; else an operation that underflows, a sum too, is off by
+    /// less than the smallest normal one, which the underflow unit then is.
+    static constexpr bool has_subnormals = [] {
+        if constexpr (std::is_floating_point_v<T>)
+            return true;
+        else
+            return std::numeric_limits<T>::has_denorm == std::denorm_present;
+    }();
     /// The precision p: bits of a normal number's significand, ε = 2^(1−p).
     static constexpr int digits = std::numeric_limits<T>::digits;
 
@@ -48,15 +72,21 @@ struct number_traits {
     }
     /// ab + c, rounded once.
     static constexpr T fma(const T& a, const T& b, const T& c) {
-        using std::fma;
-        return fma(a, b, c);
+        // (Boost.Multiprecision's rounds twice.)
+        static_assert(std::is_floating_point_v<T>,
+                      "errbound: specialise errbound::number_traits for an fma that rounds once");
+        return std::fma(a, b, c);
     }
     /// x·2^e, rounded once.
-    static constexpr T scale(const T& x, int e) { return std::ldexp(x, e); }
+    static constexpr T scale(const T& x, int e) {
+        using std::ldexp;
+        return ldexp(x, e);
+    }
     /// e with 2^(e−1) <= |x| < 2^e, for x finite and not zero.
     static constexpr int exponent(const T& x) {
+        using std::frexp;
         int e = 0;
-        (void)std::frexp(x, &e);
+        (void)T(frexp(x, &e));
         return e;
     }
 };
@@ -67,6 +97,15 @@ template <class T>
 inline constexpr bool has_infinity = [] {
     if constexpr (requires { number_traits<T>::has_infinity; })
         return number_traits<T>::has_infinity;
+    else
+        return true;
+}();
+
+/// Whether T has subnormal numbers; a number_traits of one's own that does not say so has them.
+template <class T>
+inline constexpr bool has_subnormals = [] {
+    if constexpr (requires { number_traits<T>::has_subnormals; })
+        return number_traits<T>::has_subnormals;
     else
         return true;
 }();

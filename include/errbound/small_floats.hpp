@@ -187,6 +187,7 @@ struct number_traits<small_float<P, E, HasInfinity>> {
     static constexpr int digits = P;
     static constexpr bool has_infinity = HasInfinity;
     static constexpr int max_exponent = (1 << (E - 1)) + (HasInfinity ? 0 : 1);
+    static constexpr int min_exponent = number::least_exponent + 1;
 
     static constexpr number epsilon() { return number(detail::power_of_two(1 - P)); }
     static constexpr number unit_roundoff() { return number(detail::power_of_two(-P)); }

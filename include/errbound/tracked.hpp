@@ -35,6 +35,10 @@ class tracked {
                   "double, or one of your own with a number_traits");
     static_assert(bound_rule<Rule, T> || sizeof(detail::rule_check<Rule, T>) == 0,
                   "errbound: the second argument of tracked is a bound rule");
+    static_assert(
+        has_subnormals<T> || detail::holds_without_subnormals<Rule>,
+        "errbound: this number type has no subnormal numbers, so that sums may underflow, "
+        "which this bound rule does not count; use the rule `tight`");
 
   public:
     using value_type = T;

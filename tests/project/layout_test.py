@@ -20,7 +20,7 @@ SOURCES = CPP | {".py"}
 # Lowest first; a file belongs to the first layer with a pattern that it matches, and includes files
 # of its own and of lower layers. Within a layer, no cycle between folders.
 LAYERS = [
-    ("floating-point facts", r"include/errbound/((environment|number_traits|small_floats|sign|error_free)\.hpp|detail/)"),
+    ("floating-point facts", r"include/errbound/((environment|number_traits|small_floats|binary128|sign|error_free)\.hpp|detail/)"),
     ("bound rules", r"include/errbound/rules/"),
     ("tracked scalar", r"include/errbound/(tracked|functions)\.hpp"),
     ("linear algebra", r"include/errbound/(linear/|(eigen|certified_solve)\.hpp)"),

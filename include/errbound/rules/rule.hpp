@@ -20,6 +20,8 @@
 //   has_division                                 false where `divide` only says why there is none
 //   holds_in_directed_rounding                   true where the proof does not need rounding to
 //                                                nearest: validation then tries every direction
+//   holds_without_subnormals                     true where sums may underflow: T then is a type
+//                                                without gradual underflow
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
 #pragma once
 
@@ -90,6 +92,14 @@ concept rule_sign_is_one = !rule_has_sign<Rule, T> ||
                            requires(const T& value, const typename Rule::template bound<T>& bound) {
     { Rule::sign(value, bound) } -> std::same_as<sign_type>;
 };
+
+template <class Rule>
+inline constexpr bool holds_without_subnormals = [] {
+    if constexpr (requires { Rule::holds_without_subnormals; })
+        return Rule::holds_without_subnormals;
+    else
+        return false;
+}();
 
 /// Says in words what a type lacks that is taken for a rule.
 template <class Rule, class T>

@@ -9,6 +9,9 @@
 //  * underflow: a product's value and the three products inside its bound are each off by less
 //    than η where they underflow, so 4η is added. Sums need none: a sum that is not exact is at
 //    least 2^p·η in size, and |v|ε is then at least its last place;
+//    Where there are no subnormal numbers (Boost.Multiprecision's), η is the smallest normal one:
+//    sums that underflow are off by less than it, and |v|ε is where it underflows, so 2η is added,
+//    but where x and −x were added; and a distance of two numbers is more than η, or not known;
 //  * exact zero: a product with an exact zero is an exact zero, without the 4η;
 //  * overflow: an infinite or NaN value has an infinite or NaN bound, which no sign passes. (Under
 //    directed rounding an operation on values or bounds may overflow to the largest finite number
@@ -27,6 +30,7 @@ struct tight {
     static constexpr const char* name = "tight";
     /// But for the overflow that is named above.
     static constexpr bool holds_in_directed_rounding = true;
+    static constexpr bool holds_without_subnormals = true;
 
     /// |value − true value| <= error.
     template <class T>
@@ -55,6 +59,11 @@ struct tight {
     /// tight_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, tight> a, rule_operand<T, tight> b) {
+        using traits = number_traits<T>;
+        if constexpr (!has_subnormals<T>)
+            if (v != 0 || traits::abs(a.value) != traits::abs(b.value))
+                return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error) +
+                                    2 * traits::underflow_unit())};
         return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error))};
     }
     /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
@@ -87,6 +96,8 @@ struct tight {
         using traits = number_traits<T>;
         const T distance = traits::abs(b.value) - b.bound.error;  // of b from zero
         if (!(distance > 0)) return {traits::infinity()};
+        if constexpr (!has_subnormals<T>)
+            if (!(distance > traits::underflow_unit())) return {traits::infinity()};
         if (is_zero(a)) return {rounding(v)};
         // |â/b̂| itself may have been rounded down; inflated() is applied to it alone too. Where b
         // is not exact, 4η covers underflow in the numerator before the division enlarges it.

@@ -1,0 +1,76 @@
+// binary128 as a number type, errbound::float128, where the compiler has it: __float128 of GCC and
+// clang on x86-64, long double on AArch64. Elsewhere this header has nothing.
+//
+//   errbound::tracked<errbound::float128> x = 0.1;   // the double, exactly
+//
+// Needs a C library with sqrtf128 and fmaf128, which round once (glibc 2.26).
+#pragma once
+
+#include <bit>
+#include <cfloat>
+#include <errbound/number_traits.hpp>
+
+#if LDBL_MANT_DIG == 113
+
+namespace errbound {
+using float128 = long double;
+}
+
+#elif defined(__SIZEOF_FLOAT128__)
+
+namespace errbound {
+
+using float128 = __float128;
+
+template <>
+struct number_traits<float128> {
+    static constexpr int digits = 113, max_exponent = 16384, min_exponent = -16381;
+    static constexpr bool has_infinity = true, has_subnormals = true;
+
+    static constexpr float128 epsilon() { return power_of_two(1 - digits); }
+    static constexpr float128 unit_roundoff() { return power_of_two(-digits); }
+    static constexpr float128 underflow_unit() { return from_bits(1); }
+    static constexpr float128 smallest_normal() { return power_of_two(min_exponent - 1); }
+    static constexpr float128 largest() { return from_bits(infinite - 1); }
+    static constexpr float128 infinity() { return from_bits(infinite); }
+
+    static constexpr float128 abs(const float128& x) { return from_bits(size_of(x)); }
+    static constexpr float128 max(const float128& x, const float128& y) { return x < y ? y : x; }
+    static constexpr bool is_finite(const float128& x) { return size_of(x) < infinite; }
+    static float128 sqrt(const float128& x) { return __builtin_sqrtf128(x); }
+    static float128 fma(const float128& a, const float128& b, const float128& c) {
+        return __builtin_fmaf128(a, b, c);
+    }
+    /// By steps of which one rounds at most: the last that does not make it 0.
+    static constexpr float128 scale(const float128& x, int e) {
+        constexpr int step = 11000, reach = 4 * step;
+        int rest = e < -reach ? -reach : e > reach ? reach : e;
+        const int first = rest % step;
+        float128 y = x * power_of_two(first);
+        for (rest -= first; rest != 0; rest += rest < 0 ? step : -step)
+            y *= power_of_two(rest < 0 ? -step : step);
+        return y;
+    }
+    static constexpr int exponent(const float128& x) {
+        const bits size = size_of(x);
+        if (size >> (digits - 1) == 0) return exponent(x * power_of_two(digits)) - digits;
+        return static_cast<int>(size >> (digits - 1)) - (max_exponent - 2);
+    }
+
+  private:
+    using bits = unsigned __int128;
+    static constexpr bits infinite = bits{2 * max_exponent - 1} << (digits - 1);
+
+    static constexpr float128 from_bits(bits x) { return std::bit_cast<float128>(x); }
+    static constexpr bits size_of(const float128& x) {
+        return std::bit_cast<bits>(x) & ~(bits{1} << 127);
+    }
+    /// 2^e of normal numbers.
+    static constexpr float128 power_of_two(int e) {
+        return from_bits(static_cast<bits>(e + max_exponent - 1) << (digits - 1));
+    }
+};
+
+}  // namespace errbound
+
+#endif
