@@ -9,22 +9,14 @@
 #include <random>
 #include <type_traits>
 
+#include "tests/support/any_format.hpp"
 #include "tests/support/scaled.hpp"
-#include "tests/support/special_values.hpp"
 
 namespace {
 
 using errbound::convert;
 using errbound::number_traits;
 using errbound::tracked;
-
-template <class T>
-rational exactly_of(T x) {
-    if constexpr (std::floating_point<T>)
-        return exactly(x);
-    else
-        return exactly(static_cast<double>(x));
-}
 
 template <class Rule, class To, class From>
 void check(From value, From error) {
@@ -58,14 +50,6 @@ void check(From value, From error) {
     if (away == 0 && error == From(0)) {
         ASSERT_EQ(bound, 0) << what;
     }
-}
-
-template <class From>
-From any_number(std::mt19937_64& random) {
-    if constexpr (std::floating_point<From>)
-        return special_value<From>(random);
-    else
-        return From::from_code(static_cast<int>(random() % static_cast<unsigned>(From::codes)));
 }
 
 template <class From, class To>

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/any_format.hpp"
 #include "tests/support/scaled.hpp"
-#include "tests/support/special_values.hpp"
 
 namespace {
 
@@ -46,14 +46,6 @@ struct read_decimal {
 };
 
 template <class T>
-rational exactly_of(T x) {
-    if constexpr (std::floating_point<T>)
-        return exactly(x);
-    else
-        return exactly(static_cast<double>(x));
-}
-
-template <class T>
 T read_back(const std::string& text) {
     if constexpr (std::same_as<T, float>)
         return std::strtof(text.c_str(), nullptr);
@@ -83,14 +75,6 @@ void check(T value, T error) {
         // Not many digits fewer than there are: two more would not be.
         ASSERT_GT(exactly_of(error) * 220, power_of_ten(read.last_place)) << what;
     }
-}
-
-template <class T>
-T any_number(std::mt19937_64& random) {
-    if constexpr (std::floating_point<T>)
-        return special_value<T>(random);
-    else
-        return T::from_code(static_cast<int>(random() % static_cast<unsigned>(T::codes)));
 }
 
 template <class T>
