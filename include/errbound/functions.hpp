@@ -1,5 +1,5 @@
 // Functions of tracked numbers: square root, fused multiply and add, absolute value, lesser and
-// greater.
+// greater, midpoint and linear interpolation, length, sign of another number, whole powers.
 //
 //   errbound::tracked<double> x = ...;
 //   sqrt(x * x + y * y);            // found by its argument: no errbound:: is needed
@@ -33,6 +33,15 @@ constexpr T rounding_of(const T& v) {
     return rounded_product(traits::abs(v), T(traits::epsilon() * (1 + traits::epsilon()))) +
            traits::underflow_unit();
 }
+
+/// Whether the rule bounds quotients, and does not only say why it has none.
+template <class Rule, class T>
+inline constexpr bool rule_divides = [] {
+    if constexpr (requires { Rule::has_division; })
+        return Rule::has_division;
+    else
+        return rule_has_divide<Rule, T>;
+}();
 
 /// NaN and infinity, which say that nothing is known, are passed on.
 template <class T, class Rule>
@@ -122,6 +131,98 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
     return tracked<T, Rule>::within(
         v, detail::enlarged<T>(detail::rounding_of(v) +
                                (products + T(of_c + 3 * traits::underflow_unit()))));
+}
+
+/// (a + b)/2, as the rule has sum and scaling; where the sum overflows, the sum of halves.
+template <class T, class Rule>
+constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
+    const tracked<T, Rule> sum = a + b;
+    if (number_traits<T>::is_finite(sum.value()) && number_traits<T>::is_finite(sum.error()))
+        return scale(sum, -1);
+    return scale(a, -1) + scale(b, -1);
+}
+
+/// a + t(b − a); a where t is certainly 0, b where it is certainly 1. Unknown where b − a
+/// overflows.
+///
+/// With d = fl(b̂ − â) and v = fl(t̂d + â), errors σ: (1 − t)a + tb − (1 − t̂)â − t̂b̂ = (1 − t)(a − â)
+/// + t(b − b̂) + (t − t̂)(b̂ − â), so that σa counts |1 − t| times, not once and |t| times as in
+/// a + t(b − a). Each of two partial sums has up to six roundings with that of its enlarging; four
+/// products, and three that enlarge, may lose η each.
+template <class T, class Rule>
+constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
+                                const tracked<T, Rule>& t) {
+    static_assert(has_subnormals<T>, "errbound: lerp needs a number type with subnormal numbers");
+    using traits = number_traits<T>;
+    const T of_a = a.error(), of_b = b.error(), of_t = t.error();
+    if (of_t == 0 && t.value() == 0) return a;
+    if (of_t == 0 && t.value() == 1) return b;
+    const T d = b.value() - a.value(), v = traits::fma(t.value(), d, a.value());
+    const T of_d = detail::rounding_of(d), size = traits::abs(t.value());
+    const T from_ends =
+        detail::enlarged<T>(detail::rounded_product(T(traits::abs(T(1 - t.value())) + of_t), of_a) +
+                            detail::rounded_product(T(size + of_t), of_b));
+    const T from_t = detail::enlarged<T>(detail::rounded_product(T(traits::abs(d) + of_d), of_t) +
+                                         detail::rounded_product(size, of_d));
+    return tracked<T, Rule>::within(
+        v, detail::enlarged<T>(detail::rounding_of(v) +
+                               (from_ends + T(from_t + 8 * traits::underflow_unit()))));
+}
+
+/// √(x² + y²), without overflow or underflow on the way; from 8 bits of precision on.
+///
+/// It changes by no more than its arguments do. With the larger argument scaled to at least 1/2,
+/// two squares, their sum s >= 1/4 and its root are each rounded once, and what underflows is off
+/// by less than 3η of s: relatively 2ε + ε² + 7η, or of the result (ε <= 2^-7) less than 3ε + 8η.
+template <class T, class Rule>
+constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
+    using traits = number_traits<T>;
+    using number = tracked<T, Rule>;
+    static_assert(has_subnormals<T> && traits::digits >= 8,
+                  "errbound: hypot needs a number type of at least 8 bits of precision, with "
+                  "subnormal numbers");
+    const T larger = traits::max(traits::abs(x.value()), traits::abs(y.value()));
+    const T inherited = x.error() + y.error();
+    // A number that is not finite is among the errors, too.
+    if (!traits::is_finite(inherited)) return number::within(larger, traits::infinity());
+    if (larger == 0) return number::within(T(0), detail::enlarged<T>(inherited));
+    const int e = traits::exponent(larger);
+    const T a = traits::scale(x.value(), -e), b = traits::scale(y.value(), -e);
+    const T root = traits::sqrt(T(detail::rounded_product(a, a) + detail::rounded_product(b, b)));
+    const T v = traits::scale(root, e);
+    const T relative = 3 * traits::epsilon() + 8 * traits::underflow_unit();
+    return number::within(v, detail::enlarged<T>(detail::rounded_product(v, relative) +
+                                                 T(inherited + 2 * traits::underflow_unit())));
+}
+
+/// |x| with the sign of the exact y, zero's taken for positive; of unknown sign where y's is.
+template <class T, class Rule>
+constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
+    const tracked<T, Rule> size = abs(x);
+    const sign_type sign = sign_of(y);
+    if (certain(sign)) return sign == sign_type::negative ? -size : size;
+    const T v = y.value() < 0 ? T(-size.value()) : size.value();
+    return tracked<T, Rule>::within(v, detail::enlarged<T>(2 * size.value() + size.error()));
+}
+
+/// x^n by repeated squaring, as the rule has products; x^0 is 1. For n < 0, 1/x^|n|, unknown by a
+/// rule without quotients.
+template <class T, class Rule>
+constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, int n) {
+    using number = tracked<T, Rule>;
+    number result(1), power = x;
+    bool first = true;
+    for (unsigned left = n < 0 ? 0U - static_cast<unsigned>(n) : static_cast<unsigned>(n);
+         left != 0; left /= 2) {
+        if (left % 2 == 1) result = first ? power : result * power;
+        if (left % 2 == 1) first = false;
+        if (left > 1) power *= power;
+    }
+    if (n >= 0) return result;
+    if constexpr (detail::rule_divides<Rule, T>)
+        return number(1) / result;
+    else
+        return number::within(result.value(), number_traits<T>::infinity());
 }
 
 }  // namespace errbound
