@@ -5,6 +5,7 @@
 #include <errbound/bernstein.hpp>
 #include <errbound/bsc.hpp>
 #include <errbound/conversion.hpp>
+#include <errbound/decimal.hpp>
 #include <errbound/environment.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/polynomial.hpp>
