@@ -27,6 +27,8 @@ OPERATION = re.compile(r"static (?:constexpr )?(?:bound<T>|T|sign_type) "
                        r"(exact|within|error|sign|add|subtract|multiply|divide|scale)\(")
 # A function of tracked numbers, each of which must, too.
 FUNCTION = re.compile(r"^constexpr tracked<T, Rule> (\w+)\(")
+# Of README.md's "Not proved yet".
+UNPROVED_FUNCTIONS = {"midpoint", "lerp", "hypot", "copysign", "pow"}
 
 
 def fail(message):
@@ -66,7 +68,8 @@ def compare_with_code(found):
             unproved = unproved | {"divide"}
         every_one_names(OPERATION, path, text, unproved)
     path = root / "include/errbound/functions.hpp"
-    every_one_names(FUNCTION, path, path.read_text().split("}  // namespace detail")[1], set())
+    every_one_names(FUNCTION, path, path.read_text().split("}  // namespace detail")[1],
+                    UNPROVED_FUNCTIONS)
 
 
 def every_one_names(pattern, path, text, unproved):
