@@ -14,10 +14,18 @@
 
 #include <errbound/error_free.hpp>
 #include <errbound/tracked.hpp>
+#include <type_traits>
 
 namespace errbound {
 
 namespace detail {
+
+/// That of MinGW-w64 computes in long double, rounds that, and then once more.
+#if defined(__MINGW32__) && !defined(__FMA__)
+inline constexpr bool fma_rounds_once = false;
+#else
+inline constexpr bool fma_rounds_once = true;
+#endif
 
 /// Pays for up to six roundings on the way to a bound, as in the rule `tight`: (1 + 8ε)(1 − ε)^6
 /// > 1.
@@ -110,7 +118,8 @@ constexpr tracked<T, Rule> max(const tracked<T, Rule>& a, const tracked<T, Rule>
                                  : -detail::lesser_or_either(-a, -b);
 }
 
-/// ab + c, rounded once: by number_traits<T>::fma, which is slow where the processor has none.
+/// ab + c, rounded once: by number_traits<T>::fma, which is slow where the processor has none. Does
+/// not compile where the C library's rounds twice.
 ///
 /// With errors σ: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| + σb) + σc. Each product may
 /// lose η where it underflows, and |b̂| + σb, rounded before, some more of it, which the third η
@@ -121,6 +130,8 @@ template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
     static_assert(has_subnormals<T>, "errbound: fma needs a number type with subnormal numbers");
+    static_assert(!std::is_floating_point_v<T> || detail::fma_rounds_once,
+                  "errbound: this C library's fma rounds twice; compile with -mfma");
     using traits = number_traits<T>;
     const T v = traits::fma(a.value(), b.value(), c.value());
     const T of_a = a.error(), of_b = b.error(), of_c = c.error();
@@ -153,6 +164,8 @@ template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {
     static_assert(has_subnormals<T>, "errbound: lerp needs a number type with subnormal numbers");
+    static_assert(!std::is_floating_point_v<T> || detail::fma_rounds_once,
+                  "errbound: this C library's fma rounds twice; compile with -mfma");
     using traits = number_traits<T>;
     const T of_a = a.error(), of_b = b.error(), of_t = t.error();
     if (of_t == 0 && t.value() == 0) return a;

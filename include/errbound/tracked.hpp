@@ -139,6 +139,7 @@ class tracked {
 /// Orders tracked numbers by their values alone, NaN last: for choices that may be wrong without
 /// harm, as of pivots, or for sorting. std::sort(begin, end, errbound::by_value{}).
 struct by_value {
+    /// Whether a comes before b.
     template <class T, class Rule>
     constexpr bool operator()(const tracked<T, Rule>& a, const tracked<T, Rule>& b) const {
         return a.value() < b.value() || (a.value() == a.value() && !(b.value() == b.value()));

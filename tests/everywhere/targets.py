@@ -57,7 +57,9 @@ TARGETS = [
            cxx_flags="-stdlib=libc++ -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION",
            packages=("clang-16", "libc++-16-dev", "libc++abi-16-dev")),
     Target("windows", "x86_64-w64-mingw32-g++-posix", "x86_64-w64-mingw32-gcc-posix", system="Windows",
-           triple="x86_64-w64-mingw32", emulator=("/usr/lib/wine/wine64",), cxx_flags="-static",
+           triple="x86_64-w64-mingw32", emulator=("/usr/lib/wine/wine64",),
+           # Without -mfma the C library's fma is asked, which rounds twice: the headers refuse it.
+           flags="-mfma", cxx_flags="-static",
            packages=("g++-mingw-w64-x86-64", "wine64")),
     Target("musl", "musl-gcc", "musl-gcc", missing="Debian has no C++ library for musl"),
     Target("macos", "clang++", "clang", missing="neither its headers nor a system to run it on"),

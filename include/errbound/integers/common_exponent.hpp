@@ -127,8 +127,7 @@ struct common_unit {
         if constexpr (Level::kind == integer_kind::any_length) {
             return {storage(magnitude, std::max(shift, 0), d.negative), unit};
         } else {
-            const auto size =
-                static_cast<storage>(static_cast<storage>(magnitude) << std::max(shift, 0));
+            const auto size = shifted_word<storage>(magnitude, std::max(shift, 0));
             return {d.negative ? -size : size, unit};
         }
     }

@@ -135,16 +135,17 @@ template <sized_operand X, sized_operand Y>
     }
 }
 
+/// magnitude·2^n, for n >= 0, which fits.
 template <class Storage>
-constexpr Storage power_of_two(int n) {
+constexpr Storage shifted_word(words::word magnitude, int n) {
     if constexpr (std::is_same_v<Storage, double>)
-        return static_cast<double>(std::int64_t(1) << n);
-    else if constexpr (requires { Storage::shifted(1, n); })
-        return Storage::shifted(1, n);
+        return static_cast<double>(magnitude << n);
+    else if constexpr (requires { Storage::shifted(magnitude, n); })
+        return Storage::shifted(magnitude, n);
     else if constexpr (std::is_constructible_v<Storage, words::word, int, bool>)
-        return Storage(1, n, false);
+        return Storage(magnitude, n, false);
     else
-        return Storage(1) << n;
+        return static_cast<Storage>(static_cast<Storage>(magnitude) << n);
 }
 
 /// x brought to a higher degree: times a power of 1 = 2^−unit units.
@@ -157,7 +158,7 @@ template <int Degree, class X>
         static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
         using one_type = sized_integer<level, level::coordinate_bits, 1>;
         using storage = typename one_type::storage;
-        return raised<Degree>(x * one_type{power_of_two<storage>(-x.unit), x.unit});
+        return raised<Degree>(x * one_type{shifted_word<storage>(1, -x.unit), x.unit});
     }
 }
 

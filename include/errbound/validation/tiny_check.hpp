@@ -340,7 +340,7 @@ void check_tiny_format(bool every_bound, tiny_findings& found) {
 }
 
 /// The rule in the format of this index, 0 <= format < tiny_format_count. Of the types of 8 bits
-/// that users have, with every pair of bounds if asked for: minutes.
+/// that users have, with every pair of bounds if asked for.
 template <class Rule>
 void check_tiny(std::size_t format, bool every_bound, tiny_findings& found) {
     [&]<class... Tiny>(tiny_format_types<Tiny...>) {

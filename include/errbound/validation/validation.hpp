@@ -109,7 +109,7 @@ report validate_queries(std::span<const rule> rules,
 /// Every operation on every pair of numbers of formats of 6 to 8 bits, in every rounding direction
 /// that a rule promises; in 6 bits also with every pair of bounds that operands can have. Of
 /// float8_e5m2 and float8_e4m3 with some of these pairs, or, if so asked, with every one, and for
-/// float8_e4m3 every two operations in a row: half an hour for all rules.
+/// float8_e4m3 every two operations in a row: long.
 evidence evidence_of_tiny(std::span<const rule> rules, bool every_bound = false);
 report validate_tiny(std::span<const rule> rules, int threads, const progress& show = {});
 

@@ -3,11 +3,14 @@
 
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
+#include <cmath>
 #include <compare>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
+#include <errbound/integers/common_exponent.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <errbound/integers/long_integer.hpp>
+#include <errbound/integers/sized_integer.hpp>
 #include <errbound/multiprecision.hpp>
 #include <random>
 #include <utility>
@@ -208,6 +211,29 @@ integer big(const errbound::integers::long_integer<Words>& x) {
     integer sum = 0;
     for (int i = x.size() - 1; i >= 0; --i) sum = (sum << 64) + integer(x[i]);
     return x.negative() ? integer(sum - (integer(1) << (64 * x.size()))) : sum;
+}
+
+/// Coordinates of up to 127 bits: two words, or the compiler's integers of 128.
+TEST(SizedIntegers, CoordinatesOfTwoWordsAreConverted) {
+    using namespace errbound::integers;
+    using level = integer_level<integer_kind::words, 127, false>;
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 10'000; ++i) {
+        std::array<double, 2> x;
+        for (double& c : x)
+            c = std::ldexp(static_cast<double>(static_cast<std::int64_t>(random()) >> 11),
+                           static_cast<int>(random() % 75));
+        const common_unit unit(x);
+        for (const double c : x) {
+            const binary_double parts(c);
+            integer right = integer(parts.magnitude);
+            const int shift = parts.exponent - unit.unit;
+            right = shift < 0 ? integer(right >> -shift) : integer(right << shift);
+            EXPECT_EQ(big(as_fixed(unit.converted<level>(c).value)),
+                      parts.negative ? -right : right)
+                << c;
+        }
+    }
 }
 
 TEST(LongIntegers, AgreeWithGmp) {
