@@ -100,6 +100,7 @@ constexpr Number from_decimal(std::string_view text) {
     return Number::within(x.value(), x.error());
 }
 
+/// Suffixes of numbers: using namespace errbound::literals.
 namespace literals {
 
 /// A tenth as 0.1_tracked; whole numbers too, 3_tracked.

@@ -107,7 +107,7 @@ constexpr std::string_view name_of(number_type type) {
     return entry_of(type).name;
 }
 
-/// f.operator()<T>() of the type.
+/// `f.operator()<T>()` of the type.
 template <class F>
 constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     switch (type) {
