@@ -13,6 +13,7 @@
 #if LDBL_MANT_DIG == 113
 
 namespace errbound {
+/// IEEE 754 binary128: 113 bits of precision, by the compiler in software on most processors.
 using float128 = long double;
 }
 
@@ -20,6 +21,7 @@ using float128 = long double;
 
 namespace errbound {
 
+/// IEEE 754 binary128: 113 bits of precision, by the compiler in software on most processors.
 using float128 = __float128;
 
 template <>
