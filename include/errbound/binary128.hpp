@@ -15,7 +15,7 @@
 namespace errbound {
 /// IEEE 754 binary128: 113 bits of precision, by the compiler in software on most processors.
 using float128 = long double;
-}
+}  // namespace errbound
 
 #elif defined(__SIZEOF_FLOAT128__)
 
