@@ -112,9 +112,9 @@ def compile_all(folder, build, more=()):
     run(build, "make", f"-j{os.cpu_count()}")
 
 
-def asked_of_each(build, library, found, question):
-    """Coq's answer to a question about each theorem."""
-    script = ["Set Printing Width 100.",
+def asked_of_each(build, library, found, question, *before):
+    """Coq's answer to a question about each theorem, after other commands."""
+    script = ["Set Printing Width 100.", *before,
               f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}."]
     for name, theorem in found:
         script += [f'Goal True. idtac "theorem {name}.{theorem}". exact I. Qed.', f"{question} {name}.{theorem}."]
@@ -161,9 +161,10 @@ def assumptions(build, library, found):
 
 
 def statements(build, library, found):
-    """What the theorems state, with what sections supposed."""
+    """What the theorems state, with what sections supposed, in the real numbers' notations and no others."""
+    notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
     return "".join(re.sub(r"^\S+\n", f"{name}.{theorem}\n", text.rstrip("\n")) + "\n\n"
-                   for name, theorem, text in asked_of_each(build, library, found, "Check"))
+                   for name, theorem, text in asked_of_each(build, library, found, "Check", *notations))
 
 
 def compare(text, path, build):

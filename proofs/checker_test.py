@@ -45,7 +45,7 @@ class Attack(unittest.TestCase):
             self.check(*arguments, **options)
 
     def test_good_ones_pass(self):
-        self.check({"A.v": GOOD}, statements="A.good\n     : 1 + 1 = 2\n\n")
+        self.check({"A.v": GOOD}, statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
         self.refused("statements.txt is not what Coq says", {"A.v": GOOD})
 
     def test_strings_that_look_like_comments(self):
@@ -90,7 +90,7 @@ Proof. exact ((fun b => match b with make f => f b end) (make (fun b => match b 
 
     def test_weakened_statements(self):
         self.refused("statements.txt is not what Coq says", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
-                     statements="A.good\n     : 1 + 1 = 2\n\n")
+                     statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
 
     def test_unproved(self):
         for hole in ("Theorem t : False.\nAdmitted.\n", "Axiom a : False.\n", "Parameter p : False.\n",
