@@ -97,15 +97,17 @@ box<double> box_of_middles(std::span<const curve_key> keys, const key_layout& la
 /// By radix, each share of the keys by one thread: no sort by comparisons was as fast.
 void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
     constexpr std::size_t few = 4096;
-    constexpr unsigned passes = 4;
+    constexpr unsigned most_digit_bits = 11;  // whose counts stay in the first cache
     if (keys.size() < few) {
         std::ranges::sort(keys);
         return;
     }
-    const unsigned digit_bits = (layout.curve_bits() + 2 + passes - 1) / passes;
-    const curve_key digits = curve_key(1) << digit_bits;
+    const unsigned bits = layout.curve_bits() + 2;
+    const unsigned passes = (bits + most_digit_bits - 1) / most_digit_bits;
+    const unsigned digit_bits = (bits + passes - 1) / passes;
+    const std::size_t digits = std::size_t(1) << digit_bits;
     const std::size_t shares = shares_of(keys.size());
-    share_places places(shares, static_cast<std::size_t>(digits));
+    share_places places(shares, digits);
     first_touch_vector<curve_key> buffer(keys.size());
     std::span<curve_key> from = keys, to = buffer;
     for (unsigned shift = layout.element_bits, pass = 0; pass < passes;
@@ -114,7 +116,7 @@ void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
             std::size_t* const of_share = places.of(share);
             const std::size_t end = begin_of_share(share + 1, shares, from.size());
             for (std::size_t i = begin_of_share(share, shares, from.size()); i < end; ++i)
-                visit(from[i], of_share[static_cast<std::size_t>((from[i] >> shift) % digits)]);
+                visit(from[i], of_share[(from[i] >> shift) & (digits - 1)]);
         };
         places.clear();
         for_each_task(shares, [&](std::size_t share) {
@@ -126,6 +128,7 @@ void sort_keys(std::span<curve_key> keys, const key_layout& layout) {
         });
         std::swap(from, to);
     }
+    if (passes % 2 == 1) std::ranges::copy(from, keys.begin());
 }
 
 /// Calls visit(run) for all runs of keys whose positions have the same upper bits.
