@@ -69,7 +69,7 @@ void check_mesh(exchanger& ranks, const mesh_part& mesh, const pair_filter& filt
                                         ": found can_collide or a part of space, expected groups "
                                         "and pinned flags alone");
         ccd::detail::check_elements(mesh.faces, mesh.edges, vertices, caller);
-        ccd::detail::check_positions(mesh.positions, vertices);
+        ccd::detail::check_positions(mesh.positions, vertices, mesh.numbers);
         check_lengths(lists, vertices, caller);
     });
     check_given_alike(ranks, lists, vertices, caller);

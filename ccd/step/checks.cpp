@@ -23,14 +23,16 @@ void check_indices(std::span<const std::array<vertex_index, N>> elements, const 
                                             std::to_string(v) + " of " + std::to_string(vertices));
 }
 
-void check_finite(const double* frame, std::size_t vertices, const char* time) {
+void check_finite(const double* frame, std::size_t vertices, const char* time,
+                  std::span<const std::uint64_t> numbers) {
     if (all_finite(frame, 3 * vertices)) return;
     const double* bad =
         std::find_if_not(frame, frame + 3 * vertices, [](double x) { return std::isfinite(x); });
     const auto at = static_cast<std::size_t>(bad - frame);
     throw std::invalid_argument("ccd::step: the " + std::string(1, "xyz"[at % 3]) + " of vertex " +
-                                std::to_string(at / 3) + " at t = " + time + " is not finite (" +
-                                std::to_string(*bad) + ")");
+                                std::to_string(numbers.empty() ? at / 3 : numbers[at / 3]) +
+                                " at t = " + time + " is not finite (" + std::to_string(*bad) +
+                                ")");
 }
 
 void check_length(const char* of, std::size_t found, std::size_t vertices) {
@@ -76,7 +78,8 @@ void check_elements(std::span<const face> faces, std::span<const edge> edges, st
     check_indices(edges, caller + ": edge ", vertices);
 }
 
-void check_positions(const vertex_rows& positions, std::size_t vertices) {
+void check_positions(const vertex_rows& positions, std::size_t vertices,
+                     std::span<const std::uint64_t> numbers) {
     if (positions.vertices != vertices)
         throw std::invalid_argument("ccd::step: positions of " +
                                     std::to_string(positions.vertices) +
@@ -84,8 +87,8 @@ void check_positions(const vertex_rows& positions, std::size_t vertices) {
     if (vertices == 0) return;
     if (positions.before == nullptr || positions.after == nullptr)
         throw std::invalid_argument("ccd::step: found a null pointer, expected positions");
-    check_finite(positions.before, vertices, "0");
-    check_finite(positions.after, vertices, "1");
+    check_finite(positions.before, vertices, "0", numbers);
+    check_finite(positions.after, vertices, "1", numbers);
 }
 
 bool ask_for_times_or_distances(const step_options& options) {

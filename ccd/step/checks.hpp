@@ -4,6 +4,7 @@
 #include <ccd/mesh.hpp>
 #include <ccd/step.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -17,8 +18,10 @@ void check_frames(const mesh& before, const mesh& after);
 void check_elements(std::span<const face> faces, std::span<const edge> edges, std::size_t vertices,
                     const std::string& caller);
 
-/// That there are positions of so many vertices, all finite.
-void check_positions(const vertex_rows& positions, std::size_t vertices);
+/// That there are positions of so many vertices, all finite. A message names a vertex by its
+/// number, or by its place where vertices have none.
+void check_positions(const vertex_rows& positions, std::size_t vertices,
+                     std::span<const std::uint64_t> numbers = {});
 
 /// Whether something beyond contact in the whole step is asked for, which `exact` alone answers.
 bool ask_for_times_or_distances(const step_options& options);

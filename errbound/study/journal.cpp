@@ -17,6 +17,7 @@
 #include <string_view>
 #include <utility>
 
+#include "errbound/support/descriptor.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace errbound::study {
@@ -62,14 +63,8 @@ std::pair<std::string_view, std::string_view> differing_parts(std::string_view a
     return {part(a), part(b)};
 }
 
-void write_all(int descriptor, std::string_view text, const std::filesystem::path& path) {
-    while (!text.empty()) {
-        const ssize_t written = ::write(descriptor, text.data(), text.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0)
-            throw file_error(path.string() + ": writing failed (" + std::strerror(errno) + ")");
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
+void write_to_disk(int descriptor, std::string_view text, const std::filesystem::path& path) {
+    support::write_all(descriptor, text, path);
     if (fsync(descriptor) != 0)
         throw file_error(path.string() + ": writing failed (" + std::strerror(errno) + ")");
 }
@@ -98,7 +93,7 @@ journal::journal(std::filesystem::path path, const std::string& identity) : path
         const std::string text = support::read_whole(path_);
         if (first_line.starts_with(text)) {  // new, or ended before there was a line
             if (ftruncate(descriptor_, 0) != 0) fail("cannot be cut off");
-            write_all(descriptor_, first_line, path_);
+            write_to_disk(descriptor_, first_line, path_);
         } else {
             read(text, first_line);
         }
@@ -145,7 +140,7 @@ void journal::append(const std::vector<chunk_result>& results) {
     std::string lines;
     for (const auto& [chunk, result] : results)
         lines += line_of(std::to_string(chunk) + ' ' + result);
-    write_all(descriptor_, lines, path_);
+    write_to_disk(descriptor_, lines, path_);
 }
 
 void journal::remove() {

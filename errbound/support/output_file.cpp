@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -19,6 +18,8 @@
 #include <memory>
 #include <system_error>
 #include <utility>
+
+#include "errbound/support/descriptor.hpp"
 
 namespace errbound::support {
 namespace fs = std::filesystem;
@@ -77,22 +78,15 @@ class deferred_signals {
     std::array<struct sigaction, signals.size()> before_;
 };
 
-/// Writes all to an open descriptor. `shown` is for messages.
-void write_to(int descriptor, std::string_view text, const fs::path& shown) {
-    constexpr std::size_t block = 1 << 20;
-    while (!text.empty()) {
-        const ssize_t written = ::write(descriptor, text.data(), std::min(text.size(), block));
-        if (deferred_signals::any()) throw file_error(shown.string() + ": writing was interrupted");
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw file_error(shown.string() + ": writing failed" + reason());
-        text.remove_prefix(static_cast<std::size_t>(written));
-    }
-}
-
+/// Writes all to an open descriptor.
 void write_to(int descriptor, const output& out) {
-    if (out.from.empty()) return write_to(descriptor, out.text, out.path);
-    for_each_block(out.from,
-                   [&](std::string_view block) { write_to(descriptor, block, out.path); });
+    const auto write = [&](std::string_view text) {
+        write_all(descriptor, text, out.path, deferred_signals::any);
+    };
+    if (out.from.empty())
+        write(out.text);
+    else
+        for_each_block(out.from, write);
 }
 
 /// The same, and closes it.

@@ -9,6 +9,8 @@
 #include <errbound/support/error.hpp>
 #include <system_error>
 
+#include "errbound/support/descriptor.hpp"
+
 namespace errbound::support {
 
 scratch_file::scratch_file() {
@@ -28,13 +30,7 @@ scratch_file::~scratch_file() {
 }
 
 void scratch_file::append(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0)
-            throw file_error(path_.string() + ": writing failed (" + std::strerror(errno) + ")");
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
+    write_all(descriptor_, bytes, path_);
 }
 
 void scratch_file::read(std::uint64_t offset, std::size_t size, void* to) const {

@@ -2,6 +2,7 @@
 #include "errbound/program/mpi/report_line.hpp"
 
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <utility>
 
 namespace errbound::validation {
@@ -9,46 +10,45 @@ namespace {
 
 using nlohmann::json;
 
-json packed(const rule_counts& c) {
-    return {c.rule, c.number, c.cases, c.values, c.violations, c.undetermined};
+// What is written of an entry, in order: for both ways.
+auto members(rule_counts& c) {
+    return std::tie(c.rule, c.number, c.cases, c.values, c.violations, c.undetermined);
 }
-json packed(const violation& v) {
-    return {v.rule, v.number, v.index, v.what, v.code};
+auto members(violation& v) {
+    return std::tie(v.rule, v.number, v.index, v.what, v.code);
 }
-json packed(const tightness& t) {
-    const distribution::counts& c = t.log10.stored();
-    return {t.rule,    t.number,    t.quantity, t.measure, c.exact,
-            c.unknown, c.first_bin, c.bins,     c.least,   c.most};
+auto members(tightness& t, distribution::counts& c) {
+    return std::tie(t.rule, t.number, t.quantity, t.measure, c.exact, c.unknown, c.first_bin,
+                    c.bins, c.least, c.most);
 }
 
-void unpack(const json& from, rule_counts& c) {
-    from.at(0).get_to(c.rule);
-    from.at(1).get_to(c.number);
-    from.at(2).get_to(c.cases);
-    from.at(3).get_to(c.values);
-    from.at(4).get_to(c.violations);
-    from.at(5).get_to(c.undetermined);
+template <class... Members>
+json array_of(const std::tuple<Members&...>& members) {
+    return std::apply([](const auto&... m) { return json::array({m...}); }, members);
 }
-void unpack(const json& from, violation& v) {
-    from.at(0).get_to(v.rule);
-    from.at(1).get_to(v.number);
-    from.at(2).get_to(v.index);
-    from.at(3).get_to(v.what);
-    from.at(4).get_to(v.code);
+template <class... Members>
+void read_array(const json& from, const std::tuple<Members&...>& members) {
+    std::size_t i = 0;
+    std::apply([&](auto&... m) { (from.at(i++).get_to(m), ...); }, members);
 }
-void unpack(const json& from, tightness& t) {
-    from.at(0).get_to(t.rule);
-    from.at(1).get_to(t.number);
-    from.at(2).get_to(t.quantity);
-    from.at(3).get_to(t.measure);
-    distribution::counts c;
-    from.at(4).get_to(c.exact);
-    from.at(5).get_to(c.unknown);
-    from.at(6).get_to(c.first_bin);
-    from.at(7).get_to(c.bins);
-    from.at(8).get_to(c.least);
-    from.at(9).get_to(c.most);
-    t.log10 = distribution(std::move(c));
+
+template <class Entry>
+json packed(Entry entry) {
+    return array_of(members(entry));
+}
+json packed(tightness entry) {
+    distribution::counts counts = entry.log10.stored();
+    return array_of(members(entry, counts));
+}
+
+template <class Entry>
+void unpack(const json& from, Entry& entry) {
+    read_array(from, members(entry));
+}
+void unpack(const json& from, tightness& entry) {
+    distribution::counts counts;
+    read_array(from, members(entry, counts));
+    entry.log10 = distribution(std::move(counts));
 }
 
 template <class Entry>

@@ -133,7 +133,8 @@ void refuse_all() {
            {is_last ? twice : numbers, {points, points}, faces});
     refuse(who + "ccd::mpi::step: ", {numbers, {points, points}, is_last ? beyond : faces});
     if (is_last) others[2].x = std::numeric_limits<double>::quiet_NaN();
-    refuse(who + "ccd::step: ", {numbers, {points, others}, faces});
+    refuse(who + "ccd::step: the x of vertex 9 at t = 1 is not finite",
+           {numbers, {points, others}, faces});
     refuse("expected groups and pinned flags alone", {numbers, {points, points}, faces},
            {.filter = {.can_collide = [](auto, auto) { return true; }}});
     if (size > 1) {

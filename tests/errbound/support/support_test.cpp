@@ -1,10 +1,12 @@
-// Output files are written whole or not at all.
+// Output files are written whole or not at all; scratch files go away.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/scratch_file.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -60,6 +62,45 @@ TEST(Output, LinksAndDevicesStayWhatTheyAre) {
     EXPECT_EQ(read_whole(file), "two");
     write_whole("/dev/null", "x");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(Scratch, GivesBackWhatWasAppendedAndGoesAway) {
+    fs::path path;
+    {
+        scratch_file file, other;
+        path = file.path();
+        EXPECT_NE(path, other.path());
+        EXPECT_TRUE(fs::exists(path));
+        const std::string large(3'000'000, 'x');
+        file.append("abc");
+        file.append({});
+        file.append(large);
+        file.append("end");
+        std::string read(large.size() + 6, '?');
+        file.read(0, read.size(), read.data());
+        EXPECT_EQ(read, "abc" + large + "end");
+        file.read(1, 2, read.data());
+        EXPECT_EQ(read.substr(0, 3), "bcc");
+        file.read(read.size(), 0, read.data());
+        EXPECT_NE(message_of([&] {
+                      file.read(read.size() - 2, 3, read.data());
+                  }).find(path.string() + ": cannot be read (it was cut off)"),
+                  std::string::npos);
+    }
+    EXPECT_FALSE(fs::exists(path));
+}
+
+TEST(Scratch, NeedsAFolder) {
+    const temporary_directory directory;
+    const char* const before = std::getenv("TMPDIR");
+    const std::string kept = before ? before : "";
+    setenv("TMPDIR", (directory.path / "no").c_str(), 1);
+    EXPECT_NE(message_of([] { const scratch_file file; }).find("TMPDIR: found no folder"),
+              std::string::npos);
+    if (before)
+        setenv("TMPDIR", kept.c_str(), 1);
+    else
+        unsetenv("TMPDIR");
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+// Writing goes on where the system took a part, or a signal came between.
+#include "errbound/support/descriptor.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <errbound/support/error.hpp>
+#include <string>
+
+namespace errbound::support {
+
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown,
+               bool (*interrupted)()) {
+    constexpr std::size_t block = 1 << 20;
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), std::min(bytes.size(), block));
+        const int error = errno;
+        if (interrupted && interrupted())
+            throw file_error(shown.string() + ": writing was interrupted");
+        if (written < 0 && error == EINTR) continue;
+        if (written < 0)
+            throw file_error(shown.string() + ": writing failed (" + std::strerror(error) + ")");
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+}  // namespace errbound::support
