@@ -5,6 +5,7 @@
 // positive number, u = 2^-p, ulp(x) the unit in the last place of x (at least η).
 #pragma once
 
+#include <errbound/detail/power_of_two.hpp>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/number_traits.hpp>
 #include <type_traits>
@@ -66,12 +67,7 @@ inline constexpr int least_precision_for_split = 4;
 template <class T>
 constexpr with_error<T> split(const T& x) {
     constexpr int s = (number_traits<T>::digits + 1) / 2;
-    constexpr double power = [] {
-        double two_to_s = 1;
-        for (int i = 0; i < s; ++i) two_to_s *= 2;
-        return two_to_s;
-    }();
-    const T c = detail::rounded_product(T(T(power) + 1), x);
+    const T c = detail::rounded_product(T(T(detail::power_of_two(s)) + 1), x);
     const T high = c - (c - x);
     return {high, x - high};
 }
@@ -100,18 +96,26 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
 }
 
 /// Whether two_product(a, b)'s result is known to be exact: an operand is zero, or the product is
-/// far enough from underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and
-/// nothing overflowed. Derivation: the error, and each number on Dekker's way to it, is a multiple
-/// of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since |a| < 2^p·ulp(a),
-/// |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and |ab| >= |value|/(1 + u), so it is
-/// larger than η/2. With fused multiply-add there is nothing on the way that could overflow.
-/// Proof: proofs/IeeeInterval.v, product_known.
+/// far enough from underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and from
+/// overflow: |a|, |b| <= largest()/2^(s+2) (2^995 for double, 2^114 for float), s = ⌈p/2⌉, and
+/// |value| <= largest()/4. Derivation: the error, and each number on Dekker's way to it, is a
+/// multiple of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since
+/// |a| < 2^p·ulp(a), |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and
+/// |ab| >= |value|/(1 + u), so it is larger than η/2. Of large numbers fused multiply-add would
+/// find the error and Dekker's product would not; they are left out of both, so that bounds are the
+/// same on all processors: what is multiplied in split() is below 2^(s+1)·|x|, and higher parts are
+/// at most 1.25|x|, so that nothing on Dekker's way is above half of largest(). Proof:
+/// proofs/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;
     if (!traits::is_finite(product.value) || !traits::is_finite(product.error)) return false;
     if (a == 0 || b == 0) return true;
     if (!has_fast_fma<T> && traits::digits < least_precision_for_split) return false;
+    constexpr int s = (traits::digits + 1) / 2;
+    const T most = traits::largest() / T(detail::power_of_two(s + 2));
+    if (traits::abs(a) > most || traits::abs(b) > most) return false;
+    if (traits::abs(product.value) > traits::largest() / T(4)) return false;
     return traits::abs(product.value) >=
            traits::underflow_unit() / traits::unit_roundoff() / traits::unit_roundoff();
 }

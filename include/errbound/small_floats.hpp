@@ -26,21 +26,13 @@
 #include <compare>
 #include <concepts>
 #include <cstdint>
+#include <errbound/detail/power_of_two.hpp>
 #include <errbound/error_free.hpp>
 #include <errbound/number_traits.hpp>
 #include <limits>
 #include <type_traits>
 
 namespace errbound {
-
-namespace detail {
-
-/// 2^e, −1022 <= e <= 1023.
-constexpr double power_of_two(int e) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
-}
-
-}  // namespace detail
 
 /// A format of that many bits of precision and of exponent, laid out as IEEE 754 does: a sign bit,
 /// the exponent, Precision − 1 bits of fraction, with gradual underflow. Without infinities, the

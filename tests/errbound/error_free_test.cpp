@@ -92,6 +92,10 @@ TYPED_TEST(ErrorFree, WhatCannotBeExactIsNotTakenForIt) {
     EXPECT_FALSE(known(tiny * odd, odd));  // the error is below the smallest number
     EXPECT_FALSE(known(tiny, tiny));
     EXPECT_FALSE(known(huge, huge));
+    // Where two_product without fused multiply-add overflows nobody finds the error.
+    EXPECT_FALSE(known(huge / 2, tiny * 4 * odd));
+    EXPECT_FALSE(known(std::sqrt(huge) * odd, std::sqrt(huge) * odd / 2));
+    EXPECT_TRUE(known(std::sqrt(huge) * odd, std::sqrt(huge) * odd / 8));
     EXPECT_FALSE(errbound::remainder_of_division(tiny, huge, T(tiny / huge)).exact);
 }
 

@@ -76,14 +76,8 @@ void record_rules(recorder& to, errbound::rule_types<Rules...> rules) {
 }  // namespace
 
 void record_bounds(recorder& to) {
-    using rules =
-        errbound::rule_types<errbound::none, errbound::safe, errbound::tight, errbound::sharp>;
-    record_rules<double>(to, rules());
-    record_rules<float>(to, rules());
-}
-
-void record_error_free_bounds(recorder& to) {
-    using rules = errbound::rule_types<errbound::interval, errbound::residual>;
+    using namespace errbound;
+    using rules = rule_types<none, safe, tight, sharp, interval, residual>;
     record_rules<double>(to, rules());
     record_rules<float>(to, rules());
 }

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 #include <errbound/environment.hpp>
-#include <errbound/error_free.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,14 +26,9 @@ struct section {
     bool in_all = true;  ///< whether the hash of all has its hash
 };
 
-constexpr std::uint64_t error_free_bounds = errbound::has_fast_fma<double>
-                                                ? expected::error_free_bounds_with_fma
-                                                : expected::error_free_bounds_without_fma;
-
 std::vector<section> all_sections() {
     std::vector<section> all{
         {"bounds", record_bounds, expected::bounds},
-        {"error-free bounds", record_error_free_bounds, error_free_bounds, false},
         {"predicates", record_predicates, expected::predicates},
         {"roots", record_roots, expected::roots},
         {"decisions", record_decisions, expected::decisions},

@@ -24,12 +24,8 @@ void record_steps(recorder& to, ccd::instruction_set set);
 void record_predicates(recorder& to);
 /// Real roots of polynomials: how many, of which multiplicity, and between which doubles.
 void record_roots(recorder& to);
-/// Values and bounds of the rules none, safe, tight and sharp, in doubles and floats.
+/// Values and bounds of all rules, in doubles and floats.
 void record_bounds(recorder& to);
-/// Of interval and residual, which ask for the error of products. Where there is no fused
-/// multiply-add, that of the largest numbers is not found, and bounds are wider: as right, but
-/// others.
-void record_error_free_bounds(recorder& to);
 
 /// visit(query, name) for so many queries of each family and kind.
 template <class Visit>

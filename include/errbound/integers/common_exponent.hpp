@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/detail/power_of_two.hpp>
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/sized_integer.hpp>
 #include <limits>
@@ -24,10 +25,7 @@ constexpr bool is_finite_size(std::uint64_t size) {
     return size >> 52 < 2047;
 }
 
-/// 2^e for a normal number.
-constexpr double power_of_two(int e) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
-}
+using detail::power_of_two;
 
 /// Coordinates that are whole numbers of few bits: x = value·2^unit, |value| < 2^Bits, Bits <= 50.
 template <std::size_t N, int Bits>
