@@ -141,31 +141,34 @@ struct member_reader {
     float operator()(std::size_t column) const { return pack.at[column][member]; }
 };
 
-/// Lanes, `lane` being the first, that axis a separates from those extents.
-template <class Extents>
-mask_of<float> separated(const extents_pack& pack, const Extents& other, std::size_t a,
-                         std::size_t lane) {
-    const auto column = [&](std::size_t c) {
-        return float_pack::load_aligned(&pack.at[4 * a + c][lane]);
-    };
-    const auto all = [&](std::size_t c) { return float_pack(other(4 * a + c)); };
-    return ((column(0) > all(2)) & (column(1) > all(3))) |
-           ((column(2) < all(0)) & (column(3) < all(1)));
-}
-
 /// Those of a pack that no axis separates from other extents. Most that one does, a coordinate axis
-/// does.
+/// does: the others are asked only where those leave lanes.
 template <class Extents>
 lanes touching(const extents_pack& pack, const Extents& other) {
+    constexpr std::size_t parts = size / float_width;
+    mask_of<float> apart[parts] = {};
+    const auto separate = [&](std::size_t a) {
+        float_pack all[4];
+        for (std::size_t c = 0; c < 4; ++c) all[c] = float_pack(other(4 * a + c));
+        for (std::size_t part = 0; part < parts; ++part) {
+            const auto column = [&](std::size_t c) {
+                return float_pack::load_aligned(&pack.at[4 * a + c][float_width * part]);
+            };
+            apart[part] = apart[part] | ((column(0) > all[2]) & (column(1) > all[3])) |
+                          ((column(2) < all[0]) & (column(3) < all[1]));
+        }
+    };
+    const auto all_apart = [&] {
+        mask_of<float> both = apart[0];
+        for (std::size_t part = 1; part < parts; ++part) both = both & apart[part];
+        return all(both);
+    };
+    for (std::size_t a = 0; a < 3; ++a) separate(a);
+    if (all_apart()) return 0;
+    for (std::size_t a = 3; a < extents::axes; ++a) separate(a);
     lanes found = 0;
-    for (std::size_t lane = 0; lane < size; lane += float_width) {
-        mask_of<float> apart = separated(pack, other, 0, lane);
-        for (std::size_t a = 1; a < 3; ++a) apart = apart | separated(pack, other, a, lane);
-        if (all(apart)) continue;
-        for (std::size_t a = 3; a < extents::axes; ++a)
-            apart = apart | separated(pack, other, a, lane);
-        found |= (~lanes_of<float>(apart) & first_lanes(float_width)) << lane;
-    }
+    for (std::size_t part = 0; part < parts; ++part)
+        found |= (~lanes_of<float>(apart[part]) & first_lanes(float_width)) << float_width * part;
     return found;
 }
 
