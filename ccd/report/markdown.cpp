@@ -242,7 +242,7 @@ std::string tightness(const summary& report) {
         return r.contains(q) ? digits(std::pow(10, r[q].get<double>())) : std::string("-");
     };
     for (const row& r : report.tightness) {
-        if (r["number"] != "double" || r["measure"] != "bound/error") continue;
+        if (r["number"] != "double" || r["measure"] == "error/value") continue;
         const std::string part = r["part"], quantity = r["quantity"], rule = r["rule"];
         auto column = std::ranges::find(heading, rule);
         if (column == heading.end()) column = heading.insert(column, rule);
@@ -255,7 +255,8 @@ std::string tightness(const summary& report) {
     }
     if (lines.empty()) return "";
     for (auto& line : lines) line.resize(heading.size(), "-");
-    return "## Tightness\n\nBound over true error, by MPFR: median (and 99 %), in double. The "
+    return "## Tightness\n\nBound over true error, by MPFR: median (and 99 %), in double; of rules "
+           "that estimate errors, the estimate. The "
            "true error is zero or the bound unknown in further cases; tightness.csv counts them."
            "\n\n" +
            table(heading, 2, lines);

@@ -307,7 +307,7 @@ def bounds():
 
 def tightness():
     rows = [r for r in table("tightness.csv")
-            if r["number"] == "double" and r["measure"] == "bound/error"]
+            if r["number"] == "double" and r["measure"] != "error/value"]
     if not rows:
         return
     for r in rows:
@@ -333,7 +333,8 @@ def tightness():
                      if axes.get_xlim()[0] <= e <= axes.get_xlim()[1]])
     axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
     axes.axvline(0, color=INK, lw=0.7)
-    axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails)")
+    axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails, "
+                    "or an estimate is too small)")
     figure.tight_layout()
     rule_legend(figure, colour, SPREAD_NOTE)
     save(figure, "tightness")

@@ -195,7 +195,70 @@ expression random_expression(std::uint64_t seed, std::uint64_t index, number_typ
                             [&]<class T>() { return made<T>(random, index % 4 == 3, longest); });
 }
 
+namespace {
+
+/// Which values are ±2^k times others. A rule may know that two such cancel, as `affine` does,
+/// where the enclosure of a rounded quotient or root never tells.
+class multiples {
+  public:
+    multiples() {
+        for (std::size_t n = 0; n < known_.size(); ++n) known_[n].of = n;
+    }
+    /// To be called when the operation has set value n, which is set to zero if it is that.
+    void note(const expression_operation& o, std::size_t n, ball* values) {
+        const multiple left = known_[o.left], right = known_[o.right];
+        switch (o.kind) {
+            case operation_kind::add:
+            case operation_kind::subtract: {
+                if (left.of != right.of || left.power != right.power) return;
+                const bool cancel =
+                    (left.negative != right.negative) == (o.kind == operation_kind::add);
+                known_[n] = {left.of, left.negative, left.power + 1};
+                if (!cancel) return;
+                known_[n] = {n, false, 0};
+                if (values[n].is_defined() && !values[n].is_unknown()) values[n].set(0);
+                return;
+            }
+            case operation_kind::negate:
+                known_[n] = {left.of, !left.negative, left.power};
+                return;
+            case operation_kind::scale:
+                known_[n] = {left.of, left.negative, left.power + o.exponent};
+                return;
+            case operation_kind::absolute:
+                if (const sign_type sign = values[o.left].sign(); certain(sign))
+                    known_[n] = {left.of, left.negative != (sign == sign_type::negative),
+                                 left.power};
+                return;
+            case operation_kind::lesser:
+            case operation_kind::greater: {
+                ball apart(mpfr_get_prec(values[n].middle()));
+                apart.set_difference(values[o.left], values[o.right]);
+                const sign_type order = apart.sign();
+                if (!certain(order)) return;
+                known_[n] = (order == sign_type::negative) == (o.kind == operation_kind::lesser)
+                                ? left
+                                : right;
+                return;
+            }
+            default:
+                return;
+        }
+    }
+
+  private:
+    struct multiple {
+        std::size_t of = 0;
+        bool negative = false;
+        int power = 0;
+    };
+    std::array<multiple, expression::max_values> known_;
+};
+
+}  // namespace
+
 void evaluate(const expression& e, ball* values) {
+    multiples cancelling;
     std::size_t n = 0;
     for (; n < e.input_count; ++n) {
         const expression_input& in = e.inputs[n];
@@ -241,6 +304,7 @@ void evaluate(const expression& e, ball* values) {
                 values[n].set_fused(values[o.left], values[o.right], values[o.third]);
                 break;
         }
+        cancelling.note(o, n, values);
     }
 }
 

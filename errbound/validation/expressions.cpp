@@ -90,7 +90,7 @@ struct examination {
         for (const mpfr_prec_t precision : precisions) {
             exact.compute(e, precision, computed);
             const auto undetermined = [&](std::size_t k) {
-                if (left_out(rules[k]) || !rules[k].promises) return false;
+                if (left_out(rules[k]) || !rules[k].promises()) return false;
                 for (std::size_t n = 0; n < e.size(); ++n)
                     if (exact.finding_at(e, n, claims[k][n]) == finding::undetermined) return true;
                 return false;
@@ -112,7 +112,7 @@ struct examination {
         for (std::size_t n = 0; n < e.size(); ++n) {
             if (!exact.operands_defined(e, n)) continue;
             ++to.values;
-            const finding f = r.promises ? exact.finding_at(e, n, c[n]) : finding::holds;
+            const finding f = r.promises() ? exact.finding_at(e, n, c[n]) : finding::holds;
             if (is_violation(f)) {
                 ++to.violations;
                 violated = true;
@@ -120,7 +120,7 @@ struct examination {
                 ++to.undetermined;
             } else if (n >= e.input_count) {
                 const auto kind = e.operations[n - e.input_count].kind;
-                add_ratio(to.log10[static_cast<std::size_t>(kind)], r.promises, c[n],
+                add_ratio(to.log10[static_cast<std::size_t>(kind)], r.error_is, c[n],
                           exact.value(n), exact.off(n));
             }
         }
@@ -189,9 +189,9 @@ struct study {
             {name, number, found.expressions, found.values, found.violations, found.undetermined});
         for (std::size_t i = 0; i < operation_kinds; ++i)
             if (found.log10[i].count() > 0)
-                to.distributions.push_back(
-                    {name, number, std::string(name_of(static_cast<operation_kind>(i))),
-                     r.promises ? "bound/error" : "error/value", found.log10[i]});
+                to.distributions.push_back({name, number,
+                                            std::string(name_of(static_cast<operation_kind>(i))),
+                                            std::string(measure_of(r.error_is)), found.log10[i]});
         for (const std::uint64_t index : found.violating)
             to.violations.push_back({name, number, index, {}, {}});
     }

@@ -35,15 +35,29 @@ double deviation::log10_of(mpfr_srcptr x) {
     return std::log10(std::abs(mantissa)) + static_cast<double>(exponent) * std::log10(2.0);
 }
 
-void add_ratio(distribution& to, bool promises, const claim& c, const ball& x,
+std::string_view measure_of(error_meaning meaning) {
+    switch (meaning) {
+        case error_meaning::bound:
+            return "bound/error";
+        case error_meaning::estimate:
+            return "estimate/error";
+        default:
+            return "error/value";
+    }
+}
+
+void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ball& x,
                const deviation& off) {
-    if (!std::isfinite(c.value) || !x.is_defined() || (promises && !std::isfinite(c.error))) {
+    const bool claims = meaning != error_meaning::nothing;
+    if (!std::isfinite(c.value) || !x.is_defined() || (claims && !std::isfinite(c.error))) {
         to.add_unknown();
     } else if (off.is_negligible()) {
         to.add_exact();
-    } else if (promises) {
+    } else if (meaning == error_meaning::bound) {
         // A bound that holds is no less than the error: logarithms are rounded.
         to.add(std::max(0.0, std::log10(c.error) - off.log10()));
+    } else if (claims) {
+        to.add(c.error > 0 ? std::log10(c.error) - off.log10() : distribution::least_log);
     } else if (mpfr_regular_p(x.middle())) {
         to.add(off.log10() - deviation::log10_of(x.middle()));
     } else {

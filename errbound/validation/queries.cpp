@@ -12,12 +12,13 @@
 
 namespace errbound::validation {
 
-void shadow_session::note(std::string_view quantity, const claim& c, const ball& x, bool promises) {
+void shadow_session::note(std::string_view quantity, const claim& c, const ball& x,
+                          error_meaning meaning) {
     auto found = quantities_.find(quantity);
     if (found == quantities_.end())
         found = quantities_.emplace(std::string(quantity), distribution()).first;
     if (std::isfinite(c.value) && x.is_defined()) off_.compute(c.value, x);
-    add_ratio(found->second, promises, c, x, off_);
+    add_ratio(found->second, meaning, c, x, off_);
 }
 
 namespace {
@@ -86,8 +87,7 @@ report report_of(std::span<const rule> rules, std::span<const Query> queries,
         result.counts.push_back(found.counts);
         for (auto& [name, log10] : found.quantities)
             result.distributions.push_back({std::string(r.name), "double", name,
-                                            r.promises ? "bound/error" : "error/value",
-                                            std::move(log10)});
+                                            std::string(measure_of(r.error_is)), std::move(log10)});
         std::ranges::move(found.violations, std::back_inserter(result.violations));
     }
     return result;

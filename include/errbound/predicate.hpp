@@ -98,6 +98,10 @@ class predicate_type {
                   "varies is an argument, a plain number 0 in the shape");
     static_assert(std::derived_from<Options, predicate_options>,
                   "errbound: a predicate's options derive from errbound::predicate_options");
+    static_assert(std::is_void_v<typename Options::tracked_rule> ||
+                      promises_bound<typename Options::tracked_rule>,
+                  "errbound: a predicate's tracked_rule promises bounds, which `none` and "
+                  "`stochastic` do not: its signs would be guesses");
     static_assert(std::is_void_v<typename Options::exact_type> ||
                       filters::exact_stage_number<typename Options::exact_type>,
                   "errbound: exact_type is constructible from double and has a sign_of; for "

@@ -5,9 +5,10 @@
 //   sign_of(x * y - x);                                  // never a guess
 //
 // A literal is the double nearest to it: 0.1 above means that double, not a tenth. No exceptions,
-// no allocation, no global state, no virtual calls. For x of any rule but `none`, in a sound
-// environment (environment.hpp): the number that exact arithmetic would have given lies within
-// x.error() of x.value().
+// no allocation, no global state, no virtual calls. For x of any rule that promises a bound
+// (promises_bound in rules/rule.hpp: all of these but `none`), in a sound environment
+// (environment.hpp): the number that exact arithmetic would have given lies within x.error() of
+// x.value().
 #pragma once
 
 #include <algorithm>

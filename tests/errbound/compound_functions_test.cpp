@@ -5,6 +5,8 @@
 #include <cmath>
 #include <errbound/functions.hpp>
 #include <errbound/multiprecision.hpp>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 #include <errbound/small_floats.hpp>
 #include <limits>
 #include <random>
@@ -119,6 +121,8 @@ TYPED_TEST(CompoundFunctions, HoldTheExactResult) {
     checker<TypeParam, errbound::safe>().run(count);
     checker<TypeParam, errbound::interval>().run(count);
     checker<TypeParam, errbound::residual>().run(count);
+    checker<TypeParam, errbound::affine>().run(count);
+    checker<TypeParam, errbound::relative>().run(count);
 }
 
 // From the other side: bounds are not much larger than they have to be.

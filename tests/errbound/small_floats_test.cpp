@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
@@ -338,6 +340,8 @@ TYPED_TEST(SmallFloats, OverflowIsUncertain) {
     of_rule(errbound::safe());
     of_rule(errbound::interval());
     of_rule(errbound::residual());
+    of_rule(errbound::affine());
+    of_rule(errbound::relative());
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <errbound/errbound.hpp>
 #include <errbound/multiprecision.hpp>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 #include <limits>
 #include <optional>
 #include <random>
@@ -133,7 +135,8 @@ const int programs = support::scaled(20000);
 template <class Rule>
 class TrackedBy : public testing::Test {};
 using rules = testing::Types<errbound::tight, errbound::safe, errbound::sharp, errbound::interval,
-                             errbound::residual>;
+                             errbound::residual, errbound::affine, errbound::affine_of<2>,
+                             errbound::relative>;
 TYPED_TEST_SUITE(TrackedBy, rules);
 
 TYPED_TEST(TrackedBy, BoundsHoldInRandomPrograms) {
@@ -303,6 +306,8 @@ TEST(Tracked, OverflowAndUnderflowEndUncertain) {
     check_range<errbound::sharp>();
     check_range<errbound::interval>();
     check_range<errbound::residual>();
+    check_range<errbound::affine>();
+    check_range<errbound::relative>();
     check_range<errbound::none>();
 }
 

@@ -10,6 +10,8 @@
 #include <errbound/conversion.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/multiprecision.hpp>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 #include <optional>
 #include <random>
 #include <string>
@@ -173,11 +175,11 @@ void check_rules(int count) {
 
 TEST(WideNumbers, LongDoubleUnderEveryRule) {
     using namespace errbound;
-    check_rules<long double, 0, tight, sharp, safe, interval, residual>(300);
+    check_rules<long double, 0, tight, sharp, safe, interval, residual, affine, relative>(300);
 }
 TEST(WideNumbers, Binary128UnderEveryRule) {
     using namespace errbound;
-    check_rules<float128, 0, tight, sharp, safe, interval, residual>(300);
+    check_rules<float128, 0, tight, sharp, safe, interval, residual, affine, relative>(300);
 }
 
 // Of double's bits and exponents, so that underflow is met as it is of double, but without

@@ -9,6 +9,7 @@ namespace errbound {
 /// (proofs/IeeeRules.v, none_guesses). Results that are not finite are still uncertain.
 struct none {
     static constexpr const char* name = "none";
+    static constexpr error_meaning error_is = error_meaning::nothing;
     static constexpr bool holds_without_subnormals = true;  // it promises nothing
 
     template <class T>

@@ -22,10 +22,16 @@
 //                                                nearest: validation then tries every direction
 //   holds_without_subnormals                     true where sums may underflow: T then is a type
 //                                                without gradual underflow
-// All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp.
+//   error_is                                     error_meaning::estimate or nothing, for a rule
+//   that
+//                                                promises no bound
+// All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp. A
+// rule that differs from another in a part is derived from it: rules/derived.hpp. The state may be
+// of any size, terms by source for instance: rules/affine.hpp.
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <errbound/number_traits.hpp>
 #include <errbound/sign.hpp>
 
@@ -38,6 +44,25 @@ struct rule_operand {
     const T& value;
     const typename Rule::template bound<T>& bound;
 };
+
+/// What a rule means by its error().
+enum class error_meaning : std::uint8_t {
+    bound,     ///< |value − true value| is no more; a certain sign is the true one
+    estimate,  ///< about as large as |value − true value|; signs go by it, and may be wrong
+    nothing,   ///< zero whatever the true error: signs are guesses
+};
+
+template <class Rule>
+inline constexpr error_meaning meaning_of_error = [] {
+    if constexpr (requires { Rule::error_is; })
+        return Rule::error_is;
+    else
+        return error_meaning::bound;
+}();
+
+/// Whether the rule promises a bound at all.
+template <class Rule>
+inline constexpr bool promises_bound = meaning_of_error<Rule> == error_meaning::bound;
 
 namespace detail {
 

@@ -6,6 +6,7 @@
 #include <errbound/validation/distribution.hpp>
 #include <errbound/validation/expression.hpp>
 #include <string>
+#include <string_view>
 
 namespace errbound::validation {
 
@@ -43,9 +44,10 @@ inline finding compare(const claim& c, const ball& x, const deviation& off) {
     }
 }
 
-/// Adds log10 of bound/error; under a rule that promises no bound, of error/|value|. `off` is as
-/// for compare.
-void add_ratio(distribution& to, bool promises, const claim& c, const ball& x,
+/// What is measured under a rule: "bound/error", "estimate/error" or "error/value".
+std::string_view measure_of(error_meaning meaning);
+/// Adds log10 of that. `off` is as for compare.
+void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ball& x,
                const deviation& off);
 
 /// One sentence for a person. Precondition: is_violation(f).

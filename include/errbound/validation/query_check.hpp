@@ -10,7 +10,7 @@ namespace errbound::validation {
 
 template <class Rule>
 void note(shadow_session& session, std::string_view quantity, const shadowed<Rule>& x) {
-    session.note(quantity, x.claimed(), x.exact(), promises_bound<Rule>);
+    session.note(quantity, x.claimed(), x.exact(), meaning_of_error<Rule>);
 }
 
 /// The form's value at the root of l, if it has one inside: where BSC asks for it.

@@ -16,20 +16,22 @@ namespace errbound::validation {
 /// well.
 struct rule {
     std::string_view name;
-    bool promises = false;  ///< a bound at all
+    error_meaning error_is = error_meaning::nothing;
     bool has_division = false;
     /// What it says of an expression, by number_type.
     std::array<void (*)(const expression&, claim*), number_type_count> evaluate{};
     void (*check_vertex_face)(const ccd::vertex_face<double>&, shadow_session&) = nullptr;
     void (*check_edge_edge)(const ccd::edge_edge<double>&, shadow_session&) = nullptr;
     void (*check_tiny)(std::size_t format, bool every_bound, tiny_findings&) = nullptr;
+
+    bool promises() const { return error_is == error_meaning::bound; }
 };
 
 /// The rule's name and promises, and what it says of expressions.
 template <class Rule>
 constexpr void set_expression_checks(rule& r) {
     r.name = Rule::name;
-    r.promises = promises_bound<Rule>;
+    r.error_is = meaning_of_error<Rule>;
     r.has_division = has_division<Rule>;
     for (const named_number_type& number : number_types)
         r.evaluate[static_cast<std::size_t>(number.type)] =

@@ -2,6 +2,9 @@
 // one line here.
 #pragma once
 
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
+#include <errbound/rules/stochastic.hpp>
 #include <errbound/tracked.hpp>
 
 namespace errbound {
@@ -10,7 +13,8 @@ namespace errbound {
 template <class... Rules>
 struct rule_types {};
 
-using all_rules = rule_types<none, safe, tight, sharp, interval, residual>;
+using all_rules =
+    rule_types<none, safe, tight, sharp, interval, residual, affine, relative, stochastic>;
 
 template <class... Rules, class F>
 constexpr void for_each_rule(rule_types<Rules...>, const F& f) {
@@ -28,9 +32,5 @@ inline constexpr bool has_division = [] {
             &Rule::template divide<double>;
         };
 }();
-
-/// Whether the rule promises a bound at all; `none` says that it does not.
-template <class Rule>
-inline constexpr bool promises_bound = !std::same_as<Rule, none>;
 
 }  // namespace errbound

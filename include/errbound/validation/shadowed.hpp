@@ -40,7 +40,7 @@ class shadow_session {
         if (violations_++ == 0) first_ = {sentence(f, c, x, off_), how()};
     }
     /// A named quantity, for its tightness.
-    void note(std::string_view quantity, const claim& c, const ball& x, bool promises);
+    void note(std::string_view quantity, const claim& c, const ball& x, error_meaning meaning);
 
     struct described {
         std::string what, operation;

@@ -33,7 +33,7 @@ struct violation {
 /// How tight bounds are, or how large errors, of one quantity under one rule.
 struct tightness {
     std::string rule, number, quantity;
-    /// "bound/error", or "error/value" under a rule that promises no bound.
+    /// "bound/error"; under a rule that promises no bound "estimate/error" or "error/value".
     std::string measure;
     distribution log10;
 };

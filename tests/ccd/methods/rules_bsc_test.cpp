@@ -6,6 +6,8 @@
 #include <ccd/reference.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 
 #include "tests/support/query_families.hpp"
 
@@ -16,7 +18,7 @@ using ccd::outcome;
 template <class Rule>
 class BscBy : public testing::Test {};
 using rules = testing::Types<errbound::safe, errbound::tight, errbound::sharp, errbound::interval,
-                             errbound::residual>;
+                             errbound::residual, errbound::affine, errbound::relative>;
 TYPED_TEST_SUITE(BscBy, rules);
 
 TYPED_TEST(BscBy, CertainAnswersAreRight) {

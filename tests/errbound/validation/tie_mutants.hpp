@@ -2,6 +2,7 @@
 // must find each. Number 0 leaves out nothing.
 #pragma once
 
+#include <errbound/rules/derived.hpp>
 #include <errbound/rules/interval.hpp>
 #include <errbound/rules/residual.hpp>
 #include <errbound/rules/safe.hpp>
@@ -13,56 +14,6 @@ namespace tie_mutants {
 using errbound::number_traits;
 using errbound::rule_operand;
 
-/// Everything as in Rule; Self hides what it changes.
-template <class Rule, class Self>
-struct copy_of {
-    static constexpr const char* name = Rule::name;
-    template <class T>
-    using bound = typename Rule::template bound<T>;
-
-    template <class T>
-    static bound<T> exact(const T& v) {
-        return Rule::exact(v);
-    }
-    template <class T>
-    static bound<T> within(const T& v, const T& e) {
-        return Rule::within(v, e);
-    }
-    template <class T>
-    static T error(const T& v, const bound<T>& b) {
-        return Rule::error(v, b);
-    }
-    template <class T>
-    static errbound::sign_type sign(const T& v, const bound<T>& b) {
-        return Rule::template sign<T>(v, b);
-    }
-    template <class T>
-    static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
-        return Rule::template add<T>(v, original(a), original(b));
-    }
-    template <class T>
-    static bound<T> subtract(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
-        return Rule::template subtract<T>(v, original(a), original(b));
-    }
-    template <class T>
-    static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
-        return Rule::template multiply<T>(v, original(a), original(b));
-    }
-    template <class T>
-    static bound<T> divide(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
-        return Rule::template divide<T>(v, original(a), original(b));
-    }
-    template <class T>
-    static bound<T> scale(const T& v, rule_operand<T, Self> a, int e) {
-        return Rule::template scale<T>(v, original(a), e);
-    }
-
-    template <class T>
-    static rule_operand<T, Rule> original(rule_operand<T, Self> a) {
-        return {a.value, a.bound};
-    }
-};
-
 /// Of a rule whose bound is an error.
 template <class T, class Rule>
 bool is_zero(const rule_operand<T, Rule>& a) {
@@ -70,7 +21,7 @@ bool is_zero(const rule_operand<T, Rule>& a) {
 }
 
 template <int Without>
-struct tight : copy_of<errbound::tight, tight<Without>> {
+struct tight : errbound::derived_rule<tight<Without>, errbound::tight> {
     using Self = tight;
     static constexpr int mutants = 15;
     template <class T>
@@ -131,7 +82,7 @@ struct tight : copy_of<errbound::tight, tight<Without>> {
 };
 
 template <int Without>
-struct sharp : copy_of<errbound::sharp, sharp<Without>> {
+struct sharp : errbound::derived_rule<sharp<Without>, errbound::sharp> {
     using Self = sharp;
     static constexpr int mutants = 5;
     template <class T>
@@ -178,7 +129,7 @@ struct sharp : copy_of<errbound::sharp, sharp<Without>> {
 };
 
 template <int Without>
-struct safe : copy_of<errbound::safe, safe<Without>> {
+struct safe : errbound::derived_rule<safe<Without>, errbound::safe> {
     using Self = safe;
     static constexpr int mutants = 5;
     template <class T>
@@ -213,7 +164,7 @@ struct safe : copy_of<errbound::safe, safe<Without>> {
 };
 
 template <int Without>
-struct interval : copy_of<errbound::interval, interval<Without>> {
+struct interval : errbound::derived_rule<interval<Without>, errbound::interval> {
     using Self = interval;
     static constexpr int mutants = 4;
     template <class T>
@@ -247,7 +198,7 @@ struct interval : copy_of<errbound::interval, interval<Without>> {
 };
 
 template <int Without>
-struct residual : copy_of<errbound::residual, residual<Without>> {
+struct residual : errbound::derived_rule<residual<Without>, errbound::residual> {
     using Self = residual;
     static constexpr int mutants = 9;
     template <class T>

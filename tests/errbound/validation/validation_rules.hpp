@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <errbound/rules/derived.hpp>
 #include <errbound/validation/validation.hpp>
 #include <string>
 
@@ -63,48 +65,18 @@ struct as_printed {
 };
 
 /// `tight` with an eighth of ε for a sum's rounding: too small a factor.
-struct too_small {
+struct too_small : errbound::derived_rule<too_small, errbound::tight> {
     static constexpr const char* name = "too_small";
     template <class T>
-    using bound = errbound::tight::bound<T>;
-    template <class T>
-    static rule_operand<T, errbound::tight> as_tight(rule_operand<T, too_small> a) {
-        return {a.value, a.bound};
-    }
-    template <class T>
-    static constexpr bound<T> exact(const T& value) {
-        return errbound::tight::exact(value);
-    }
-    template <class T>
-    static constexpr bound<T> within(const T& value, const T& error) {
-        return errbound::tight::within(value, error);
-    }
-    template <class T>
-    static constexpr T error(const T&, const bound<T>& b) {
-        return b.error;
-    }
-    template <class T>
-    static bound<T> add(const T& v, rule_operand<T, too_small> a, rule_operand<T, too_small> b) {
+    static constexpr bound<T> add(const T& v, rule_operand<T, too_small> a,
+                                  rule_operand<T, too_small> b) {
         using traits = number_traits<T>;
         return {traits::abs(v) * (traits::epsilon() / 8) + a.bound.error + b.bound.error};
     }
     template <class T>
-    static bound<T> subtract(const T& v, rule_operand<T, too_small> a,
-                             rule_operand<T, too_small> b) {
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, too_small> a,
+                                       rule_operand<T, too_small> b) {
         return add(v, a, b);
-    }
-    template <class T>
-    static bound<T> multiply(const T& v, rule_operand<T, too_small> a,
-                             rule_operand<T, too_small> b) {
-        return errbound::tight::multiply<T>(v, as_tight<T>(a), as_tight<T>(b));
-    }
-    template <class T>
-    static bound<T> divide(const T& v, rule_operand<T, too_small> a, rule_operand<T, too_small> b) {
-        return errbound::tight::divide<T>(v, as_tight<T>(a), as_tight<T>(b));
-    }
-    template <class T>
-    static bound<T> scale(const T& v, rule_operand<T, too_small> a, int e) {
-        return errbound::tight::scale<T>(v, as_tight<T>(a), e);
     }
 };
 
@@ -115,11 +87,17 @@ inline std::string all_violations(const validation::report& r) {
     return text;
 }
 
+/// How many values the reference may leave open. None; of `affine` some: it is certain of zeros
+/// where what cancels is of the same source, which the reference knows of single values alone.
+inline std::uint64_t allowed_undetermined(const validation::rule_counts& c) {
+    return c.rule == "affine" ? c.values / 1000 : 0;
+}
+
 inline void expect_all_kept(const validation::report& r) {
     EXPECT_EQ(r.violation_count(), 0U) << all_violations(r);
     EXPECT_FALSE(r.counts.empty());
     for (const auto& c : r.counts) {
-        EXPECT_EQ(c.undetermined, 0U) << c.rule << " " << c.number;
+        EXPECT_LE(c.undetermined, allowed_undetermined(c)) << c.rule << " " << c.number;
         EXPECT_GT(c.cases, 0U) << c.rule << " " << c.number;
     }
 }

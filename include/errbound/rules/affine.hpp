@@ -1,0 +1,312 @@
+// Bound rule `affine`: affine arithmetic. The error is a sum of terms, one for each source: an
+// input that is known to within something, or an operation that rounded. What came of one source
+// cancels where it meets again: x − x is exactly 0, and (x + y) − (x − y) knows nothing of x.
+// Rounding must be to nearest.
+//
+// Notation: v the computed value, true value = v + Σ cᵢεᵢ + ρ. Each source has its own εᵢ,
+// |εᵢ| <= 1, one number wherever the source appears; |ρ| <= rest, which is 0 but for numbers made
+// in constant expressions or device code, where sources are not counted (detail/sources.hpp). u =
+// 2^-p, ε = 2u, η the smallest positive number. An operation
+//  * combines the terms of its operands to first order, source by source;
+//  * adds one term of a new source for all that is left: its own rounding (as error_free.hpp tells
+//    it; at most u|v| + η/2 where that does not), what coefficients lost in rounding, terms of
+//    second order, and the operands' rests. Its ε is by definition what is left over its
+//    coefficient;
+//  * has no new term where nothing is left: exact operations on exact numbers give exact ones;
+//  * where that makes more terms than the limit, adds the smallest to that new one. They are then
+//    not told apart any more, but are still one source: x − x stays 0.
+// All amounts that are not coefficients are rounded upwards without touching the rounding mode:
+//  * fl(x + y)(1 + ε), rounded, is at least x + y >= 0: with s = fl(x + y) normal, sε is at least
+//  its
+//    last place, so that s(1 + ε) is at least its successor; subnormal, s is x + y, and rounding is
+//    monotone;
+//  * of a product or quotient likewise, and η more where it underflows;
+//  * fl(x − y)(1 − ε), rounded, is at most x − y > 0, for the same reason.
+// A number whose value, or the sum of whose terms, overflows or is NaN is unknown: no terms, and an
+// infinite rest.
+// Source: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37), with new terms
+// as small as error-free transformations make them.
+//
+// Functions that are not + − × ÷ (functions.hpp) start from the error of their arguments: their
+// results are new sources. Sources are told apart on all threads of one program; a number that
+// another process made must be made anew, by `within`. Not part of tracked.hpp: what counts sources
+// is global.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/detail/sources.hpp>
+#include <errbound/error_free.hpp>
+#include <errbound/rules/rule.hpp>
+
+namespace errbound {
+
+/// Affine arithmetic with at most Limit terms, which fill 16 bytes each, used or not. Cost: an
+/// operation is linear in the number of terms, plus Limit writes.
+template <std::size_t Limit>
+struct affine_of {
+    static_assert(Limit >= 1, "errbound: affine arithmetic keeps one term at least");
+    static constexpr const char* name = "affine";
+
+    template <class T>
+    struct term {
+        std::uint64_t source;
+        T coefficient;
+    };
+    /// Terms by ascending source; `radius` is at least |value − true value|.
+    template <class T>
+    struct bound {
+        T radius, rest;
+        std::size_t count;
+        std::array<term<T>, Limit> terms;
+    };
+    template <class T>
+    using operand = rule_operand<T, affine_of>;
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        const T nothing = value - value;  // NaN if the value is not finite
+        return {nothing, nothing, 0, {}};
+    }
+    /// One term, of a new source.
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        if (!(error >= 0)) return unknown<T>();
+        builder<T> r;
+        r.add_left(error);
+        return r.finished(value);
+    }
+    template <class T>
+    static constexpr T error(const T&, const bound<T>& b) {
+        return b.radius;
+    }
+    template <class T>
+    static constexpr bound<T> negate(const bound<T>& b) {
+        bound<T> r = b;
+        for (std::size_t i = 0; i < r.count; ++i) r.terms[i].coefficient = -r.terms[i].coefficient;
+        return r;
+    }
+
+    /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ; what a sum of coefficients loses is known exactly.
+    template <class T>
+    static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
+        return sum<false, T>(v, a, b);
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, operand<T> a, operand<T> b) {
+        return sum<true, T>(v, a, b);
+    }
+    /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, and besides at most |â|·rest_b + rest_a·|b̂| and the product
+    /// of the radii.
+    template <class T>
+    static constexpr bound<T> multiply(const T& v, operand<T> a, operand<T> b) {
+        using traits = number_traits<T>;
+        if (is_zero(a) || is_zero(b)) return exact<T>(v);
+        const with_error<T> product = two_product<T>(a.value, b.value);
+        builder<T> r;
+        r.add_left(product_error_is_exact<T>(a.value, b.value, product) ? traits::abs(product.error)
+                                                                        : half_ulp<T>(v));
+        for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
+            const T x = detail::rounded_product(a.value, of_b);
+            const T y = detail::rounded_product(of_a, b.value);
+            const with_error<T> c = two_sum<T>(x, y);
+            r.add(source, c.value);
+            if (of_b != 0 && a.value != 0) r.add_left(half_ulp<T>(x));
+            if (of_a != 0 && b.value != 0) r.add_left(half_ulp<T>(y));
+            r.add_left(traits::abs(c.error));
+        });
+        r.add_left(upper_product<T>(traits::abs(a.value), b.bound.rest));
+        r.add_left(upper_product<T>(a.bound.rest, traits::abs(b.value)));
+        r.add_left(upper_product<T>(a.bound.radius, b.bound.radius));
+        return r.finished(v);
+    }
+    /// With q = v and the remainder of division r, a/b − q = N/b, where
+    /// N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b), and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most
+    /// |N/b̂|·radius_b/(|b̂| − radius_b). Where r is not known, r/b̂, the error of q, is at most
+    /// u|v| + η/2. Unknown where b may be zero.
+    template <class T>
+    static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
+        using traits = number_traits<T>;
+        const T size = traits::abs(b.value);
+        const T distance = detail::rounded_product(T(size - b.bound.radius),
+                                                   T(1 - traits::epsilon()));  // of b from zero
+        if (!(distance > 0)) return unknown<T>();
+        if (is_zero(a)) return exact<T>(v);
+        const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
+        builder<T> r;
+        if (!division.exact) r.add_left(half_ulp<T>(v));
+        // Of N, besides its terms.
+        T left = upper_sum<T>(upper_product<T>(traits::abs(v), b.bound.rest), a.bound.rest);
+        if (division.exact) left = upper_sum<T>(left, traits::abs(division.value));
+        for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
+            const T x = detail::rounded_product(v, of_b);
+            const with_error<T> n = two_sum<T>(of_a, T(-x));
+            left = upper_sum<T>(left, traits::abs(n.error));
+            if (of_b != 0) left = upper_sum<T>(left, half_ulp<T>(x));
+            const T c = n.value / b.value;
+            r.add(source, c);
+            if (n.value != 0) r.add_left(half_ulp<T>(c));
+        });
+        r.add_left(upper_quotient<T>(left, size));
+        const T quotient = upper_sum<T>(r.radius(), r.left());  // at least |N/b̂|
+        if (b.bound.radius > 0)
+            r.add_left(upper_quotient<T>(upper_product<T>(quotient, b.bound.radius), distance));
+        return r.finished(v);
+    }
+    /// Scaling by a power of two is exact unless it underflows: then value, coefficients and rest
+    /// are each off by at most η/2.
+    template <class T>
+    static constexpr bound<T> scale(const T& v, operand<T> a, int e) {
+        using traits = number_traits<T>;
+        builder<T> r;
+        const auto lost = [e](const T& scaled, const T& x) {
+            return e >= 0 || traits::scale(scaled, -e) == x ? T(0) : traits::underflow_unit();
+        };
+        r.add_left(lost(v, a.value));
+        for (std::size_t i = 0; i < a.bound.count; ++i) {
+            const T& of_a = a.bound.terms[i].coefficient;
+            const T c = traits::scale(of_a, e);
+            r.add(a.bound.terms[i].source, c);
+            r.add_left(lost(c, of_a));
+        }
+        const T rest = traits::scale(a.bound.rest, e);
+        r.add_left(rest);
+        r.add_left(lost(rest, a.bound.rest));
+        return r.finished(v);
+    }
+
+  private:
+    template <class T>
+    static constexpr bound<T> unknown() {
+        return {number_traits<T>::infinity(), number_traits<T>::infinity(), 0, {}};
+    }
+    template <class T>
+    static constexpr bool is_zero(operand<T> a) {
+        return a.value == 0 && a.bound.radius == 0;
+    }
+
+    /// At least x + y, for x, y >= 0.
+    template <class T>
+    static constexpr T upper_sum(const T& x, const T& y) {
+        if (x == 0) return y;
+        if (y == 0) return x;
+        return detail::rounded_product(T(x + y), T(1 + number_traits<T>::epsilon()));
+    }
+    /// At least x·y, for x, y >= 0.
+    template <class T>
+    static constexpr T upper_product(const T& x, const T& y) {
+        using traits = number_traits<T>;
+        if (x == 0 || y == 0) return T(0);
+        return detail::rounded_product(detail::rounded_product(x, y), T(1 + traits::epsilon())) +
+               traits::underflow_unit();
+    }
+    /// At least x/y, for x >= 0, y > 0.
+    template <class T>
+    static constexpr T upper_quotient(const T& x, const T& y) {
+        using traits = number_traits<T>;
+        if (x == 0) return T(0);
+        return detail::rounded_product(T(x / y), T(1 + traits::epsilon())) +
+               traits::underflow_unit();
+    }
+    /// At least the error of a result that is rounded to v: u|v| is exact or underflows, and where
+    /// it is exact and η is lost on it, v does not underflow.
+    template <class T>
+    static constexpr T half_ulp(const T& v) {
+        using traits = number_traits<T>;
+        return detail::rounded_product(traits::abs(v), traits::unit_roundoff()) +
+               traits::underflow_unit();
+    }
+
+    /// A result as its terms come, by ascending source, and what is left over.
+    template <class T>
+    class builder {
+      public:
+        constexpr void add(std::uint64_t source, const T& coefficient) {
+            if (coefficient != 0) terms_[count_++] = {source, coefficient};
+        }
+        /// An amount >= 0 that no term above has.
+        constexpr void add_left(const T& amount) { left_ = upper_sum<T>(left_, amount); }
+        constexpr const T& left() const { return left_; }
+        constexpr T radius() const {
+            T sum(0);
+            for (std::size_t i = 0; i < count_; ++i)
+                sum = upper_sum<T>(sum, number_traits<T>::abs(terms_[i].coefficient));
+            return sum;
+        }
+        constexpr bound<T> finished(const T& value) {
+            using traits = number_traits<T>;
+            const T radius_of_all = upper_sum<T>(radius(), left_);
+            if (!traits::is_finite(value) || !traits::is_finite(radius_of_all)) return unknown<T>();
+            const std::size_t room = left_ == 0 ? Limit : Limit - 1;
+            if (count_ > room) shorten();
+            bound<T> b{radius_of_all, T(0), 0, {}};
+            if (left_ != 0) b.rest = as_term_of(detail::fresh_source());
+            for (; b.count < count_; ++b.count) b.terms[b.count] = terms_[b.count];
+            return b;
+        }
+
+      private:
+        /// Makes room for a term of what is left, to which the smallest are added.
+        constexpr void shorten() {
+            using traits = number_traits<T>;
+            while (count_ >= Limit) {
+                std::size_t least = 0;
+                for (std::size_t i = 1; i < count_; ++i)
+                    if (traits::abs(terms_[i].coefficient) < traits::abs(terms_[least].coefficient))
+                        least = i;
+                add_left(traits::abs(terms_[least].coefficient));
+                for (--count_; least < count_; ++least) terms_[least] = terms_[least + 1];
+            }
+        }
+        /// Makes what is left a term, of a source that is mostly the last. Returns the rest: all of
+        /// it if that is no source.
+        constexpr T as_term_of(std::uint64_t source) {
+            if (source == detail::no_source) return left_;
+            std::size_t i = count_++;
+            for (; i > 0 && terms_[i - 1].source > source; --i) terms_[i] = terms_[i - 1];
+            terms_[i] = {source, left_};
+            return T(0);
+        }
+
+        T left_ = T(0);
+        std::size_t count_ = 0;
+        std::array<term<T>, 2 * Limit + 1> terms_{};
+    };
+
+    /// Calls f(source, a's coefficient, b's coefficient) for each source of either, ascending.
+    template <class T, class F>
+    static constexpr void for_each_source(const bound<T>& a, const bound<T>& b, const F& f) {
+        std::size_t i = 0, j = 0;
+        while (i < a.count || j < b.count) {
+            const bool of_a =
+                j == b.count || (i < a.count && a.terms[i].source <= b.terms[j].source);
+            const bool of_b =
+                i == a.count || (j < b.count && b.terms[j].source <= a.terms[i].source);
+            f(of_a ? a.terms[i].source : b.terms[j].source, of_a ? a.terms[i].coefficient : T(0),
+              of_b ? b.terms[j].coefficient : T(0));
+            i += of_a;
+            j += of_b;
+        }
+    }
+
+    template <bool Minus, class T>
+    static constexpr bound<T> sum(const T& v, operand<T> a, operand<T> b) {
+        using traits = number_traits<T>;
+        builder<T> r;
+        r.add_left(traits::abs(two_sum<T>(a.value, Minus ? T(-b.value) : b.value).error));
+        for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
+            const with_error<T> c = two_sum<T>(of_a, Minus ? T(-of_b) : of_b);
+            r.add(source, c.value);
+            r.add_left(traits::abs(c.error));
+        });
+        r.add_left(a.bound.rest);
+        r.add_left(b.bound.rest);
+        return r.finished(v);
+    }
+};
+
+/// With at most 16 terms.
+using affine = affine_of<16>;
+
+}  // namespace errbound

@@ -1,0 +1,182 @@
+// Bound rule `relative`: counts factors 1 + δ, as error analyses on paper do. Made for products,
+// quotients and sums of numbers of one sign; rounding must be to nearest.
+//
+// Notation: v the computed value, x the true one, u = 2^-p, ε = 2u. A number is known by k:
+// v = x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter <k>), so
+// that v and x have one sign, and |ln(v/x)| <= kw, w = −ln(1 − u). It is kw that k stands for,
+// which need not be whole.
+//  * exact numbers have k = 0; an operation adds one to the count unless it is exact, as
+//    error_free.hpp tells;
+//  * products and quotients: k = ka + kb; sums of one sign: k = max(ka, kb), for a sum of such lies
+//    between the extremes of its parts;
+//  * sums of unlike signs have no count by themselves. They fall back on absolute errors,
+//    E = Ea + Eb, taken relatively: with r = E/|â + b̂| < 1, the logarithm is at most −ln(1 − r) <=
+//    r(6 − 5r)/(2(1 − r)(3 − r)), and that is divided by u <= w for k. (With x = 1/(1 − r), it says
+//    ln x <= (x − 1)(x + 5)/(4x + 2); both are 0 at 1, and the difference has the derivative
+//    (x − 1)³/(x(2x + 1)²).) So what cancellation leaves has a count that shows what was lost. From
+//    r = 1 on, and where the value is 0, nothing is known: not even that x − x is 0, unless x is
+//    exact;
+//  * underflow, of anything but a sum, and overflow: unknown, k infinite.
+// In numbers: |v − x| <= |v|(e^L − 1), L = kw, and e^L − 1 <= L/(1 − L/2) for 0 <= L < 2, since
+// ln((2 + L)/(2 − L)) = L + L³/12 + ... So for k factors about k·u|v|, as Higham's γ_k = ku/(1 −
+// ku). From L = 7/4 on nothing is said any more.
+//
+// Counts are doubles whatever the type of numbers, which float16 and its like would not do for;
+// sums of counts are exact, or rounded up by a factor 1 + ε of double's, which leads to their
+// successor. Factors 1 + 8ε, 16 times double's u, pay for the roundings of the other formulas:
+// twelve or fewer, where that of 5r counts up to five times, and that of L up to eight.
+#pragma once
+
+#include <errbound/error_free.hpp>
+#include <errbound/rules/rule.hpp>
+#include <errbound/sign.hpp>
+#include <limits>
+
+namespace errbound {
+
+struct relative {
+    static constexpr const char* name = "relative";
+
+    template <class T>
+    struct bound {
+        double factors;  ///< k; infinite where nothing is known
+    };
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        return {number_traits<T>::is_finite(value) ? 0 : unknown};
+    }
+    /// Unknown unless error < |value|: a relative rule cannot say that a number is small.
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        using traits = number_traits<T>;
+        if (error == 0) return exact(value);
+        if (!(error > 0) || !traits::is_finite(value)) return {unknown};
+        return {factors_of<T>(error, traits::abs(value))};
+    }
+    template <class T>
+    static constexpr T error(const T& value, const bound<T>& b) {
+        using traits = number_traits<T>;
+        if (b.factors == 0) return T(0);
+        const double l = b.factors * of_one_factor<T>();
+        if (!(l < 1.75)) return traits::infinity();
+        const double r = l / (1 - l / 2) * (1 + 8 * epsilon);
+        T share = static_cast<T>(r);
+        if (static_cast<double>(share) < r) share = upper<T>(share) + traits::underflow_unit();
+        return upper<T>(detail::rounded_product(traits::abs(value), share)) +
+               traits::underflow_unit();
+    }
+    /// That of the value, wherever anything is known.
+    template <class T>
+    static constexpr sign_type sign(const T& value, const bound<T>& b) {
+        if (!number_traits<T>::is_finite(error<T>(value, b))) return sign_type::uncertain;
+        if (value == 0) return sign_type::zero;
+        return value > 0 ? sign_type::positive : sign_type::negative;
+    }
+
+    template <class T>
+    static constexpr bound<T> add(const T& v, rule_operand<T, relative> a,
+                                  rule_operand<T, relative> b) {
+        return sum<T>(v, a.value, a.bound, b.value, b.bound);
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T& v, rule_operand<T, relative> a,
+                                       rule_operand<T, relative> b) {
+        return sum<T>(v, a.value, a.bound, T(-b.value), b.bound);
+    }
+    template <class T>
+    static constexpr bound<T> multiply(const T& v, rule_operand<T, relative> a,
+                                       rule_operand<T, relative> b) {
+        if (is_zero(a) || is_zero(b)) return exact<T>(v);
+        const with_error<T> product = two_product<T>(a.value, b.value);
+        const bool is_exact =
+            product_error_is_exact<T>(a.value, b.value, product) && product.error == 0;
+        return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
+    }
+    /// Unknown where b may be zero, which is where b's value is, or nothing is known of it.
+    template <class T>
+    static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
+                                     rule_operand<T, relative> b) {
+        if (b.value == 0 || !(b.bound.factors < unknown)) return {unknown};
+        if (is_zero(a)) return exact<T>(v);
+        const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
+        return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors),
+                             division.exact && division.value == 0);
+    }
+    template <class T>
+    static constexpr bound<T> scale(const T& v, rule_operand<T, relative> a, int e) {
+        return rounded_to<T>(v, a.bound.factors,
+                             e >= 0 || number_traits<T>::scale(v, -e) == a.value);
+    }
+
+  private:
+    static constexpr double unknown = std::numeric_limits<double>::infinity();
+    static constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+    template <class T>
+    static constexpr bool is_zero(rule_operand<T, relative> a) {
+        return a.value == 0 && a.bound.factors == 0;
+    }
+    /// At least the successor of x >= 0, or x itself if that is subnormal.
+    template <class T>
+    static constexpr T upper(const T& x) {
+        return detail::rounded_product(x, T(1 + number_traits<T>::epsilon()));
+    }
+
+    /// At least −ln(1 − u), which is what one factor counts.
+    template <class T>
+    static constexpr double of_one_factor() {
+        const double u = static_cast<double>(number_traits<T>::unit_roundoff());
+        return u * (1 - u / 2) / (1 - u) * (1 + 8 * epsilon);
+    }
+    static constexpr double count_sum(double j, double k) {
+        const with_error<double> sum = two_sum<double>(j, k);
+        return sum.error > 0 ? upper<double>(sum.value) : sum.value;
+    }
+    /// How many factors an error of `error` is on something of size `size` >= 0.
+    template <class T>
+    static constexpr double factors_of(const T& error, const T& size) {
+        using traits = number_traits<T>;
+        const T share = upper<T>(T(error / size)) + traits::underflow_unit();
+        if (!(share < T(1))) return unknown;
+        // Not less, of types wider than double; below 1 also after that.
+        const double r =
+            upper<double>(static_cast<double>(share)) + std::numeric_limits<double>::denorm_min();
+        if (!(r < 1)) return unknown;
+        const double u = static_cast<double>(traits::unit_roundoff());
+        return r * (6 - 5 * r) / (2 * (1 - r) * (3 - r) * u) * (1 + 8 * epsilon);
+    }
+
+    /// Of a result with k factors that is rounded to v, if it is not exact.
+    template <class T>
+    static constexpr bound<T> rounded_to(const T& v, double k, bool is_exact) {
+        using traits = number_traits<T>;
+        if (!traits::is_finite(v)) return {unknown};
+        if (is_exact) return {k};
+        if (traits::abs(v) >= traits::smallest_normal()) return {count_sum(k, 1)};
+        return {unknown};
+    }
+    template <class T>
+    static constexpr bound<T> sum(const T& v, const T& a, const bound<T>& of_a, const T& b,
+                                  const bound<T>& of_b) {
+        using traits = number_traits<T>;
+        const bool is_exact = two_sum<T>(a, b).error == 0;
+        const double k = of_a.factors < of_b.factors ? of_b.factors : of_a.factors;
+        if (k == 0 || (a >= 0 && b >= 0) || (a <= 0 && b <= 0))
+            return rounded_sum<T>(v, k, is_exact);
+        const T off = upper<T>(T(error<T>(a, of_a) + error<T>(b, of_b)));
+        // |â + b̂| is at least the predecessor of |v|, which |v|(1 − ε), rounded, does not exceed.
+        const T size = traits::abs(v);
+        const T least = is_exact ? size : detail::rounded_product(size, T(1 - traits::epsilon()));
+        if (!traits::is_finite(v) || !(off < least)) return {unknown};
+        return rounded_sum<T>(v, factors_of<T>(off, least), is_exact);
+    }
+    /// Sums do not underflow but exactly.
+    template <class T>
+    static constexpr bound<T> rounded_sum(const T& v, double k, bool is_exact) {
+        if (!number_traits<T>::is_finite(v)) return {unknown};
+        return {is_exact ? k : count_sum(k, 1)};
+    }
+};
+
+}  // namespace errbound

@@ -1,0 +1,226 @@
+// Bound rule `stochastic`: stochastic arithmetic, which estimates errors and promises nothing.
+// Beside a number stand samples of it, computed with every operation rounded up or down at random;
+// how far they scatter tells how far rounding carries. For comparison with bounds, and for programs
+// on which bounds tell too little. Its type says what it is: error_is is error_meaning::estimate,
+// and promises_bound<stochastic> is false; signs go by the estimate and may be wrong, so that no
+// predicate takes this rule.
+//
+//  * A sample's operation is rounded to one of the two neighbours of the exact result, to the
+//  nearer
+//    with the higher probability (stochastic rounding, which is right on average: Croci, Fasi,
+//    Higham, Mary, Mikaitis 2022; random rounding of Parker's Monte Carlo arithmetic, 1997). The
+//    exact result is known by error_free.hpp; near underflow, where it is not, a last place or none
+//    is added or taken away.
+//  * Nothing is drawn: chance is a hash of the operands, of the sample's number and of Seed. So
+//    results are the same in each run, there is no generator to share, and the same operation on
+//    the same operands rounds alike, as it does in the arithmetic that samples stand for: a + b and
+//    b + a are one, and b − a is −(a − b). (So do the modes of Verrou that end in _det.)
+//  * `within` gives samples spread evenly over what the number may be, by a new source at each call
+//    (detail/sources.hpp); in constant expressions and device code by value and error alone.
+//  * The value is plain arithmetic's. With m the mean of the samples' deviations from it and s
+//  their
+//    standard deviation, the estimate is |m| + τs/√N, where τ is Student's for 95 %: CESTAC's
+//    (Vignes 1993), which has the mean for its result, with what the value is off it. Where samples
+//    do not scatter, the estimate is 0.
+// What goes wrong: errors that are not of rounding (truncation), branches that samples do not take,
+// and chance. How often estimates are too small is among what `errbound validate` measures.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/detail/sources.hpp>
+#include <errbound/error_free.hpp>
+#include <errbound/rules/rule.hpp>
+#include <utility>
+
+namespace errbound {
+
+/// Stochastic arithmetic with that many samples, 2 to 8. Cost: an operation is Samples times an
+/// error-free one, and a hash each.
+template <std::size_t Samples, std::uint64_t Seed = 0>
+struct stochastic_of {
+    static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
+    static constexpr const char* name = "stochastic";
+    static constexpr error_meaning error_is = error_meaning::estimate;
+
+    template <class T>
+    struct bound {
+        std::array<T, Samples> samples;
+    };
+    template <class T>
+    using operand = rule_operand<T, stochastic_of>;
+
+    template <class T>
+    static constexpr bound<T> exact(const T& value) {
+        return by_sample<T>([&](std::size_t) { return value; });
+    }
+    template <class T>
+    static constexpr bound<T> within(const T& value, const T& error) {
+        return spread<T>(value, error, detail::fresh_source());
+    }
+    /// An estimate; infinite where a sample is not finite.
+    template <class T>
+    static constexpr T error(const T& value, const bound<T>& b) {
+        using traits = number_traits<T>;
+        T largest(0);
+        for (const T& sample : b.samples) {
+            const T off = traits::abs(sample - value);
+            if (!traits::is_finite(off)) return traits::infinity();
+            largest = traits::max(largest, off);
+        }
+        if (largest == 0) return T(0);
+        double sum = 0, squares = 0;
+        for (const T& sample : b.samples) sum += static_cast<double>(T((sample - value) / largest));
+        const double mean = sum / Samples;
+        for (const T& sample : b.samples) {
+            const double off = static_cast<double>(T((sample - value) / largest)) - mean;
+            squares += off * off;
+        }
+        const double spread = students_t[Samples - 2] *
+                              number_traits<double>::sqrt(squares / (Samples - 1) / Samples);
+        return detail::rounded_product(largest, static_cast<T>((mean < 0 ? -mean : mean) + spread));
+    }
+    template <class T>
+    static constexpr bound<T> negate(const bound<T>& b) {
+        return by_sample<T>([&](std::size_t k) { return T(-b.samples[k]); });
+    }
+
+    template <class T>
+    static constexpr bound<T> add(const T&, operand<T> a, operand<T> b) {
+        return by_sample<T>(
+            [&](std::size_t k) { return sum<T>(a.bound.samples[k], b.bound.samples[k], k); });
+    }
+    template <class T>
+    static constexpr bound<T> subtract(const T&, operand<T> a, operand<T> b) {
+        return by_sample<T>(
+            [&](std::size_t k) { return sum<T>(a.bound.samples[k], T(-b.bound.samples[k]), k); });
+    }
+    template <class T>
+    static constexpr bound<T> multiply(const T&, operand<T> a, operand<T> b) {
+        return by_sample<T>([&](std::size_t k) {
+            const T &x = a.bound.samples[k], &y = b.bound.samples[k];
+            const with_error<T> product = two_product<T>(x, y);
+            const std::uint64_t random = symmetric_hash<T>(x, y, k | of_product);
+            return product_error_is_exact<T>(x, y, product)
+                       ? at_random<T>(product.value, product.error, random)
+                       : disturbed<T>(product.value, random);
+        });
+    }
+    template <class T>
+    static constexpr bound<T> divide(const T&, operand<T> a, operand<T> b) {
+        return by_sample<T>([&](std::size_t k) {
+            const T &x = a.bound.samples[k], &y = b.bound.samples[k];
+            const T q = x / y;
+            const division_remainder<T> division = remainder_of_division<T>(x, y, q);
+            const std::uint64_t random =
+                hash<T>(number_traits<T>::abs(x), number_traits<T>::abs(y), k | of_quotient);
+            return division.exact ? at_random<T>(q, T(division.value / y), random)
+                                  : disturbed<T>(q, random);
+        });
+    }
+    template <class T>
+    static constexpr bound<T> scale(const T&, operand<T> a, int e) {
+        using traits = number_traits<T>;
+        return by_sample<T>([&](std::size_t k) {
+            const T& x = a.bound.samples[k];
+            const T v = traits::scale(x, e);
+            return e >= 0 || traits::scale(v, -e) == x
+                       ? v
+                       : disturbed<T>(v, hash<T>(traits::abs(x), T(0), k | of_scaling));
+        });
+    }
+
+  private:
+    /// For 95 % on both sides and one degree of freedom to seven.
+    static constexpr std::array<double, 7> students_t{12.706, 4.303, 3.182, 2.776,
+                                                      2.571,  2.447, 2.365};
+
+    template <class T, class F>
+    static constexpr bound<T> by_sample(const F& f) {
+        return [&]<std::size_t... K>(std::index_sequence<K...>) {
+            return bound<T>{{f(K)...}};
+        }
+        (std::make_index_sequence<Samples>());
+    }
+
+    /// Evenly from value − error to value + error.
+    template <class T>
+    static constexpr bound<T> spread(const T& value, const T& error, std::uint64_t source) {
+        return by_sample<T>([&](std::size_t k) {
+            if (!(error >= 0)) return number_traits<T>::infinity();
+            const double share = 2 * chance(hash<T>(value, error, k ^ (source << 3))) - 1;
+            return T(value + detail::rounded_product(error, static_cast<T>(share)));
+        });
+    }
+    template <class T>
+    static constexpr T sum(const T& a, const T& b, std::size_t k) {
+        const with_error<T> r = two_sum<T>(a, b);
+        return at_random<T>(r.value, r.error, symmetric_hash<T>(a, b, k | of_sum));
+    }
+    /// Half an ulp of v and somewhat more, so that v and this round to v's neighbour.
+    template <class T>
+    static constexpr T step(const T& v) {
+        using traits = number_traits<T>;
+        return detail::rounded_product(T(traits::abs(v) * traits::unit_roundoff()), T(1.25)) +
+               traits::underflow_unit();
+    }
+    /// v + error, rounded to v or to its neighbour on that side.
+    template <class T>
+    static constexpr T at_random(const T& v, const T& error, std::uint64_t random) {
+        if (error == 0 || !number_traits<T>::is_finite(error)) return v;
+        const T neighbour = error > 0 ? v + step<T>(v) : v - step<T>(v);
+        const T share = error / (neighbour - v);
+        return share > static_cast<T>(chance(random)) ? neighbour : v;
+    }
+    /// v or, half the time, one of its neighbours.
+    template <class T>
+    static constexpr T disturbed(const T& v, std::uint64_t random) {
+        const T off = random >> 63 == 0 ? T(0) : step<T>(v);
+        return (random >> 62 & 1) == 0 ? v - off : v + off;
+    }
+
+    /// Evenly in [0, 1).
+    static constexpr double chance(std::uint64_t random) {
+        return static_cast<double>(random >> 11) * 0x1p-53;
+    }
+    /// Operations of the same operands are hashed apart.
+    enum operation : std::uint64_t {
+        of_sum = 0,
+        of_product = 8,
+        of_quotient = 16,
+        of_scaling = 24
+    };
+
+    /// Whatever the order of a and b, and their signs.
+    template <class T>
+    static constexpr std::uint64_t symmetric_hash(const T& a, const T& b, std::uint64_t which) {
+        const T x = number_traits<T>::abs(a), y = number_traits<T>::abs(b);
+        return x < y ? hash<T>(x, y, which) : hash<T>(y, x, which);
+    }
+    template <class T>
+    static constexpr std::uint64_t hash(const T& a, const T& b, std::uint64_t which) {
+        std::uint64_t h = mixed(Seed + 0x9e3779b97f4a7c15U * (which + 1));
+        for (const T& x : {a, b}) {
+            T left = x;
+            for (int bits = 0; bits < number_traits<T>::digits; bits += 53) {
+                const double part = static_cast<double>(left);
+                h = mixed(h ^ std::bit_cast<std::uint64_t>(part));
+                if constexpr (number_traits<T>::digits > 53) left = left - static_cast<T>(part);
+            }
+        }
+        return h;
+    }
+    /// The last step of SplitMix64 (Steele, Lea, Flood 2014): a bijection that mixes bits.
+    static constexpr std::uint64_t mixed(std::uint64_t z) {
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+        return z ^ (z >> 31);
+    }
+};
+
+/// With three samples, as CADNA has.
+using stochastic = stochastic_of<3>;
+
+}  // namespace errbound

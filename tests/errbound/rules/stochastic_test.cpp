@@ -1,0 +1,152 @@
+// The rule `stochastic`: that it promises nothing, that its samples are neighbours and right on
+// average, and how often its estimates reach the true error.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <errbound/functions.hpp>
+#include <errbound/rules/stochastic.hpp>
+#include <errbound/small_floats.hpp>
+#include <errbound/tracked.hpp>
+#include <limits>
+#include <random>
+
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using errbound::sign_type;
+using errbound::stochastic;
+using errbound::stochastic_of;
+using errbound::tracked;
+using number = tracked<double, stochastic>;
+
+static_assert(!errbound::promises_bound<stochastic>);
+static_assert(errbound::meaning_of_error<stochastic> == errbound::error_meaning::estimate);
+static_assert(!errbound::promises_bound<errbound::none>);
+static_assert(errbound::promises_bound<errbound::tight>);
+
+TEST(Stochastic, ValuesArePlainArithmetics) {
+    const number a = 0.1, b = 0.3, c = 0.7;
+    EXPECT_EQ((a * a - b * c / a + sqrt(b)).value(), 0.1 * 0.1 - 0.3 * 0.7 / 0.1 + std::sqrt(0.3));
+}
+
+TEST(Stochastic, ExactOperationsDoNotScatter) {
+    const number x = number(3) * number(0.125) + number(5) / number(4) - scale(number(0.1), 2);
+    const number exact = number(3) * number(0.125) + number(5) / number(4);
+    EXPECT_EQ(exact.error(), 0);
+    EXPECT_EQ(sign_of(exact), sign_type::positive);
+    EXPECT_EQ(sign_of(exact - exact), sign_type::zero);
+    EXPECT_GT(x.error(), 0);
+}
+
+TEST(Stochastic, TheSameOperationRoundsAlike) {
+    const number a = 0.1, b = 0.3;
+    for (const number& zero :
+         {a * b - b * a, (a + b) - (b + a), (a - b) + (b - a), (-a) * b + a * b, a / b + a / -b}) {
+        EXPECT_EQ(sign_of(zero), sign_type::zero);
+        EXPECT_EQ(zero.error(), 0);
+    }
+    // And again in another run of the same.
+    const auto run = [&] { return (a * b + a / b).bound().samples; };
+    EXPECT_EQ(run(), run());
+}
+
+/// Of one operation the samples are the two neighbours of the exact result, their mean that result.
+template <class Operation>
+void expect_right_on_average(const Operation& operation) {
+    using eight = tracked<double, stochastic_of<8>>;
+    std::mt19937_64 random(1);
+    const auto draw = [&] { return 1 + std::ldexp(static_cast<double>(random() >> 12), -52); };
+    double sum = 0;
+    const int count = support::scaled(4000);
+    for (int i = 0; i < count; ++i) {
+        const double x = draw(), y = draw();
+        const double v = operation(x, y);
+        const long double exact =
+            operation(static_cast<long double>(x), static_cast<long double>(y));
+        const double ulp = std::nextafter(v, 1e300) - v;
+        const eight result = operation(eight(x), eight(y));
+        for (const double sample : result.bound().samples) {
+            ASSERT_LT(std::abs(static_cast<long double>(sample) - exact), ulp);
+            sum += static_cast<double>((static_cast<long double>(sample) - exact) / ulp);
+        }
+    }
+    // Deviations are of mean 0 and at most 1/4 in variance: six times that of the mean.
+    EXPECT_LE(std::abs(sum) / (8 * count), 6 * 0.5 / std::sqrt(8.0 * count));
+}
+
+TEST(Stochastic, SamplesAreRightOnAverage) {
+    expect_right_on_average([](auto x, auto y) { return x + y; });
+    expect_right_on_average([](auto x, auto y) { return x - y * decltype(x)(0.5); });
+    expect_right_on_average([](auto x, auto y) { return x / y; });
+}
+
+TEST(Stochastic, EstimatesAreOfTheErrorsSize) {
+    std::mt19937_64 random(2);
+    int enough = 0, far = 0;
+    const int count = support::scaled(400);
+    for (int i = 0; i < count; ++i) {
+        number sum = 0;
+        long double exact = 0;
+        for (int k = 0; k < 200; ++k) {
+            const double x = std::ldexp(static_cast<double>(random() >> 11), -53) - 0.25;
+            sum += number(x);
+            exact += x;
+        }
+        const double off = static_cast<double>(std::abs(exact - sum.value()));
+        enough += sum.error() >= off;
+        far += sum.error() > 1000 * off;
+    }
+    // 95 % by design, which rests on normal distributions; a share that says it is not nonsense.
+    EXPECT_GE(enough, 0.8 * count);
+    EXPECT_LE(far, 0.2 * count);
+    // Cancellation is seen.
+    const number x = number(0.1) * number(0.1), y = (number(1) + x) - number(1);
+    EXPECT_GT((y - x).error(), 0);
+    EXPECT_EQ(sign_of(y), sign_type::positive);
+}
+
+TEST(Stochastic, InputsAreSpreadEachByItself) {
+    const number x = number::within(1, 0.1), y = number::within(1, 0.1);
+    EXPECT_EQ(sign_of(x - x), sign_type::zero);
+    EXPECT_NE((x - y).error(), 0);
+    for (const double sample : x.bound().samples) EXPECT_LE(std::abs(sample - 1), 0.1000001);
+    EXPECT_FALSE(std::isfinite(number::within(1, -1).error()));
+}
+
+TEST(Stochastic, WhatIsNotFiniteIsUnknown) {
+    const number huge(std::numeric_limits<double>::max());
+    for (const number& x :
+         {huge + huge, huge * huge, huge * huge - huge * huge,
+          number(std::numeric_limits<double>::quiet_NaN()), number(1) / number(0)}) {
+        EXPECT_FALSE(std::isfinite(x.error()));
+        EXPECT_EQ(sign_of(x), sign_type::uncertain);
+    }
+}
+
+TEST(Stochastic, SeedsAreOtherChances) {
+    using other = tracked<double, stochastic_of<3, 1>>;
+    int differ = 0;
+    for (int i = 1; i <= 20; ++i)
+        differ +=
+            (number(0.1) * number(i)).bound().samples != (other(0.1) * other(i)).bound().samples;
+    EXPECT_GT(differ, 5);
+}
+
+TEST(Stochastic, TakesOtherTypesOfNumbers) {
+    const auto check = []<class T>(T) {
+        using small = tracked<T, stochastic>;
+        small sum(T(0));
+        for (int i = 0; i < 30; ++i) sum += small(T(0.1)) * small(T(0.7));
+        EXPECT_GT(static_cast<double>(sum.error()), 0);
+        EXPECT_EQ(sign_of(sum - sum), sign_type::zero);
+    };
+    check(0.0F);
+    check(0.0L);
+    check(errbound::float16(0.0F));
+    check(errbound::float8_e4m3(0.0F));
+}
+
+}  // namespace
