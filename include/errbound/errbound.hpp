@@ -6,6 +6,7 @@
 #include <errbound/bsc.hpp>
 #include <errbound/conversion.hpp>
 #include <errbound/decimal.hpp>
+#include <errbound/elementary.hpp>
 #include <errbound/environment.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/polynomial.hpp>

@@ -12,6 +12,7 @@
 // 1 − ε of a bound, but for η where it underflows.
 #pragma once
 
+#include <concepts>
 #include <errbound/error_free.hpp>
 #include <errbound/tracked.hpp>
 #include <type_traits>
@@ -219,9 +220,10 @@ constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, 
 }
 
 /// x^n by repeated squaring, as the rule has products; x^0 is 1. For n < 0, 1/x^|n|, unknown by a
-/// rule without quotients.
-template <class T, class Rule>
-constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, int n) {
+/// rule without quotients. Other exponents than whole numbers of the language:
+/// errbound/elementary.hpp.
+template <class T, class Rule, std::same_as<int> Int>
+constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, Int n) {
     using number = tracked<T, Rule>;
     number result(1), power = x;
     bool first = true;

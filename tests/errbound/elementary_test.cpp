@@ -1,0 +1,374 @@
+// Elementary functions of tracked numbers against MPFR, under every rule and in every format: of
+// numbers with bounds, of every size, at the ends of domains, near poles and zeros.
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <cmath>
+#include <errbound/elementary.hpp>
+#include <errbound/validation/ball.hpp>
+#include <errbound/validation/mpfr_functions.hpp>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "tests/support/any_format.hpp"
+#include "tests/support/scaled.hpp"
+
+/// As for another library.
+template <>
+inline constexpr double errbound::function_error<errbound::elementary_function::exp2, long double> =
+    7.5;
+
+namespace {
+
+using errbound::elementary_function;
+using errbound::number_traits;
+using errbound::sign_type;
+using errbound::tracked;
+using errbound::validation::has_two_arguments;
+using errbound::validation::has_value;
+using errbound::validation::mpfr_number;
+using errbound::validation::name_of;
+using errbound::validation::named_functions;
+
+template <class T>
+void set(mpfr_ptr to, T x) {
+    if constexpr (std::floating_point<T>)
+        mpfr_set_ld(to, x, MPFR_RNDN);
+    else
+        mpfr_set_d(to, static_cast<double>(x), MPFR_RNDN);
+}
+
+template <elementary_function F, class Number>
+Number applied(const Number& x, const Number& y) {
+    if constexpr (F == elementary_function::pow)
+        return pow(x, y);
+    else if constexpr (F == elementary_function::atan2)
+        return atan2(x, y);
+    else
+        return errbound::detail::function_of<F>(x);
+}
+
+template <class T, class Rule>
+class checker {
+    using number = tracked<T, Rule>;
+    using traits = number_traits<T>;
+    using limits = std::numeric_limits<std::conditional_t<std::floating_point<T>, T, float>>;
+
+  public:
+    void run(int count) {
+        for (const auto& [f, name] : named_functions)
+            for (int k = 0; k < count && !testing::Test::HasFatalFailure(); ++k) {
+                input(f, first_, x_.get());
+                if (has_two_arguments(f))
+                    input(f, second_, y_.get());
+                else
+                    second_ = number(0);
+                errbound::validation::with_function(
+                    f, [&]<elementary_function F>() { result_ = applied<F>(first_, second_); });
+                check(f, result_);
+            }
+    }
+
+  private:
+    /// Whether the result claims nothing; then it has to be of unknown sign.
+    static bool claims_nothing(const number& r) {
+        if (traits::is_finite(r.value()) && traits::is_finite(r.error())) return false;
+        EXPECT_EQ(sign_of(r), sign_type::uncertain);
+        return true;
+    }
+    void check(elementary_function f, const number& r) {
+        if (claims_nothing(r)) return;
+        const bool two = has_two_arguments(f);
+        ASSERT_TRUE(two ? has_value(f, x_.get(), y_.get()) : has_value(f, x_.get())) << text(f, r);
+        set(value_.get(), r.value());
+        set(error_.get(), r.error());
+        bool within = false;
+        int least = 0, most = 0;
+        for (const mpfr_rnd_t direction : {MPFR_RNDD, MPFR_RNDU}) {
+            if (two)
+                errbound::validation::mpfr_of_two(f, exact_.get(), x_.get(), y_.get(), direction);
+            else
+                errbound::validation::mpfr_function_of(f)(exact_.get(), x_.get(), direction);
+            (direction == MPFR_RNDD ? least : most) = mpfr_sgn(exact_.get());
+            // Rounded towards zero: a bound that is too small by less than 2^-200 passes.
+            mpfr_sub(off_.get(), value_.get(), exact_.get(), MPFR_RNDZ);
+            within = within || mpfr_cmpabs(off_.get(), error_.get()) <= 0;
+        }
+        ASSERT_TRUE(within) << text(f, r);
+        const sign_type sign = sign_of(r);
+        const bool is_right =
+            sign == sign_type::uncertain || (sign == sign_type::zero && least == 0 && most == 0) ||
+            (sign == sign_type::positive && most > 0) || (sign == sign_type::negative && least < 0);
+        ASSERT_TRUE(is_right) << text(f, r);
+    }
+    std::string text(elementary_function f, const number& r) const {
+        char line[600];
+        std::snprintf(line, sizeof line, "%s %s of %La ± %La, %La ± %La: %La ± %La",
+                      std::string(name_of(f)).c_str(), Rule::name, shown(first_.value()),
+                      shown(first_.error()), shown(second_.value()), shown(second_.error()),
+                      shown(r.value()), shown(r.error()));
+        return line;
+    }
+    static long double shown(T x) {
+        if constexpr (std::floating_point<T>)
+            return x;
+        else
+            return static_cast<double>(x);
+    }
+
+    /// A number that may be in the domain, with a bound or none, and what it stands for.
+    void input(elementary_function f, number& to, mpfr_ptr exact) {
+        T v = candidate(f);
+        while (!traits::is_finite(v)) v = candidate(f);
+        T error(0);
+        if (random_() % 3 != 0) {
+            error = random_() % 8 == 0
+                        ? traits::abs(candidate(f))
+                        : traits::scale(random_() % 2 ? traits::abs(v) : T(1),
+                                        -static_cast<int>(random_() % (traits::digits + 12)));
+            if (!traits::is_finite(error)) error = T(0);
+        }
+        to = error == T(0) ? number(v) : number::within(v, error);
+        const int quarters =
+            random_() % 2 ? (random_() % 2 ? 4 : -4) : static_cast<int>(random_() % 9) - 4;
+        set<T>(exact, error);
+        mpfr_mul_si(exact, exact, quarters, MPFR_RNDN);
+        mpfr_div_2ui(exact, exact, 2, MPFR_RNDN);
+        set<T>(value_.get(), v);
+        mpfr_add(exact, exact, value_.get(), MPFR_RNDN);
+    }
+    T candidate(elementary_function f) {
+        using enum elementary_function;
+        const auto near = [&](double x) {
+            T v = static_cast<T>(x);
+            const int steps = static_cast<int>(random_() % 5) - 2;
+            return T(v * (1 + T(steps) * traits::epsilon()));
+        };
+        switch (random_() % 6) {
+            case 0:
+                return near(static_cast<int>(random_() % 9) - 4.0);
+            case 1:  // zeros, extremes and poles of the waves
+                return near(1.5707963267948966 * (static_cast<int>(random_() % 2000) - 1000));
+            case 2:  // where results overflow, underflow, or no longer change
+                return near((random_() % 2 ? 1 : -1) * overflow_of(f));
+            case 3:
+                return T(static_cast<double>(random_() % 4001) / 1000 - 2);
+            default:
+                return sized();
+        }
+    }
+    /// Of long doubles not the largest and smallest: sums of them would have too many bits.
+    T sized() {
+        if constexpr (std::is_same_v<T, long double>)
+            return std::ldexp(static_cast<T>(special_value<double>(random_)),
+                              static_cast<int>(random_() % 21) - 10);
+        else
+            return any_number<T>(random_);
+    }
+    static double overflow_of(elementary_function f) {
+        const double log2 = limits::max_exponent;
+        return f == elementary_function::exp2 ? log2 : log2 * 0.6931471805599453;
+    }
+
+    std::mt19937_64 random_{21};
+    number first_, second_, result_;
+    mpfr_number x_{2400}, y_{2400}, exact_{260}, off_{200}, value_{64}, error_{64};
+};
+
+template <class T>
+class ElementaryFunctions : public testing::Test {};
+using numbers = testing::Types<double, float, long double, errbound::float16, errbound::bfloat16,
+                               errbound::float8_e5m2, errbound::float8_e4m3>;
+TYPED_TEST_SUITE(ElementaryFunctions, numbers);
+
+TYPED_TEST(ElementaryFunctions, HoldTheExactResult) {
+    const int count = support::scaled(300);
+    checker<TypeParam, errbound::tight>().run(count);
+    checker<TypeParam, errbound::sharp>().run(count);
+    checker<TypeParam, errbound::safe>().run(count);
+    checker<TypeParam, errbound::interval>().run(count);
+    checker<TypeParam, errbound::residual>().run(count);
+}
+
+template <class Rule>
+class ElementaryFunctionsOfDoubles : public testing::Test {
+  public:
+    using number = tracked<double, Rule>;
+};
+using Rules = testing::Types<errbound::tight, errbound::sharp, errbound::safe, errbound::interval,
+                             errbound::residual>;
+TYPED_TEST_SUITE(ElementaryFunctionsOfDoubles, Rules);
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, AreExactWhereThatIsKnown) {
+    using number = typename TestFixture::number;
+    const number zero(0), one(1);
+    for (const number& x : {exp(zero), exp2(zero), cos(zero), cosh(zero), pow(number(5), zero),
+                            pow(one, number::within(3, 1)), pow(zero, zero)}) {
+        EXPECT_EQ(x.value(), 1);
+        EXPECT_EQ(x.error(), 0);
+    }
+    for (const number& x :
+         {expm1(zero), log(one), log2(one), log10(one), log1p(zero), sin(zero), tan(zero),
+          asin(zero), acos(one), atan(zero), sinh(zero), tanh(zero), asinh(zero), acosh(one),
+          atanh(zero), cbrt(zero), atan2(zero, number::within(2, 1)), pow(zero, number(0.5))})
+        EXPECT_EQ(sign_of(x), sign_type::zero);
+    EXPECT_EQ(exp2(number(-1074)).error(), 0);
+    EXPECT_EQ(sign_of(exp2(number(-1074))), sign_type::positive);
+    EXPECT_NE(exp2(number(-1075)).error(), 0);
+    EXPECT_NE(exp2(number(0.5)).error(), 0);
+    EXPECT_EQ(log2(number(0x1p-1074)).value(), -1074);
+    EXPECT_EQ(log2(number(0x1p-1074)).error(), 0);
+    EXPECT_EQ(cbrt(number(8)).error(), 0);
+    EXPECT_EQ(cbrt(number(-8)).value(), -2);
+    EXPECT_NE(cbrt(number(9)).error(), 0);
+    EXPECT_EQ(pow(number::within(3, 0.5), number(1)).value(), 3);
+}
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, AreUnknownOutsideOfDomainsAndAtPoles) {
+    using number = typename TestFixture::number;
+    const auto about = [](double v, double e) { return number::within(v, e); };
+    for (const number& x : {log(number(0)),
+                            log(number(-1)),
+                            log2(about(1, 1)),
+                            log10(about(1, 2)),
+                            log1p(number(-1)),
+                            log1p(about(0, 1)),
+                            asin(number(1.5)),
+                            asin(about(1, 0x1p-60)),
+                            acos(about(-1, 0x1p-1074)),
+                            acosh(about(1, 0x1p-1074)),
+                            acosh(number(0.5)),
+                            atanh(number(1)),
+                            atanh(about(0.5, 0.5)),
+                            tan(about(1.5, 0.1)),
+                            tan(about(0, 1.6)),
+                            tan(about(0, 1e300)),
+                            pow(number(-8), number(1.5)),
+                            pow(about(-8, 1), about(2, 0.1)),
+                            pow(number(0), number(-1)),
+                            pow(about(0, 1), number(0.5)),
+                            pow(about(1, 2), number(-2)),
+                            atan2(number(0), number(0)),
+                            atan2(about(1, 1), about(1, 1)),
+                            exp(number(1000)),
+                            exp(about(700, 100)),
+                            pow(number(10), number(400)),
+                            sinh(about(0, 1e9))}) {
+        EXPECT_FALSE(std::isfinite(x.error())) << x.value();
+        EXPECT_EQ(sign_of(x), sign_type::uncertain) << x.value();
+    }
+}
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, AreUnknownWhereArgumentsAre) {
+    using number = typename TestFixture::number;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const auto about = [](double v, double e) { return number::within(v, e); };
+    for (const double bad : {nan, infinity, -infinity})
+        for (const number& x :
+             {exp(number(bad)), log(number(bad)), sin(number(bad)), atan(number(bad)),
+              tanh(number(bad)), cbrt(number(bad)), pow(number(bad), number(0)),
+              pow(number(1), number(bad)), atan2(number(1), number(bad)),
+              sin(about(1, std::abs(bad))), atan(about(1, std::abs(bad)))}) {
+            EXPECT_FALSE(std::isfinite(x.error()) && std::isfinite(x.value())) << bad;
+            EXPECT_EQ(sign_of(x), sign_type::uncertain) << bad;
+        }
+}
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, AreKnownToTheEndsOfDomains) {
+    using number = typename TestFixture::number;
+    const auto about = [](double v, double e) { return number::within(v, e); };
+    EXPECT_TRUE(std::isfinite(asin(number(1)).error()));
+    EXPECT_TRUE(std::isfinite(log1p(about(-0.5, 0.25)).error()));
+    // By rules that know no less than they were told.
+    if (about(0.5, 0.5).error() == 0.5 && about(1.5, 0.5).error() == 0.5) {
+        EXPECT_TRUE(std::isfinite(acos(about(0.5, 0.5)).error()));
+        EXPECT_TRUE(std::isfinite(acosh(about(1.5, 0.5)).error()));
+    }
+}
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, AreOffByLittleMoreThanTheyHaveToBe) {
+    using number = typename TestFixture::number;
+    // f'(x̂)e, and the system's function: less than 6 units of ε of the value, of rules' own 3 more.
+    const auto expect = [](const number& r, double slope, const number& x) {
+        const double change = slope * x.error();
+        EXPECT_LE(r.error(), 1.001 * change + 9 * 0x1p-52 * std::abs(r.value())) << r.value();
+        EXPECT_GE(r.error(), 0.999 * change) << r.value();
+    };
+    for (const double e : {0x1p-20, 0x1p-40, 0x1p-52, 0x1p-70}) {
+        const auto about = [e](double v) { return number::within(v, e); };
+        const number half = about(0.5), minus_half = about(-0.5), one = about(1), two = about(2),
+                     three = about(3), far = about(1e5), large = about(600), small = about(-600);
+        expect(exp(one), std::exp(1.0), one);
+        expect(exp(large), std::exp(600.0), large);
+        expect(exp(small), std::exp(-600.0), small);
+        expect(log(three), 1.0 / 3, three);
+        expect(log(one), 1, one);
+        expect(sin(one), std::cos(1.0), one);
+        expect(sin(far), std::abs(std::cos(1e5)), far);
+        expect(cos(one), std::sin(1.0), one);
+        expect(tan(one), 1 / (std::cos(1.0) * std::cos(1.0)), one);
+        expect(asin(half), 1 / std::sqrt(0.75), half);
+        expect(acos(minus_half), 1 / std::sqrt(0.75), minus_half);
+        expect(atan(two), 0.2, two);
+        expect(sinh(three), std::cosh(3.0), three);
+        expect(tanh(half), 1 / (std::cosh(0.5) * std::cosh(0.5)), half);
+        expect(asinh(two), 1 / std::sqrt(5.0), two);
+        expect(acosh(two), 1 / std::sqrt(3.0), two);
+        expect(atanh(half), 1 / 0.75, half);
+        expect(cbrt(one), 1.0 / 3, one);
+        expect(pow(two, number(3.5)), 3.5 * std::pow(2, 2.5), two);
+        expect(pow(number(2), three), std::log(2) * 8, three);
+        expect(atan2(three, number(4)), 4.0 / 25, three);
+        expect(atan2(number(4), three), 4.0 / 25, three);
+    }
+    // At an extreme of the second order; at most the range.
+    EXPECT_LE(cos(number::within(0, 0x1p-20)).error(), 1.01 * 0x1p-41);
+    EXPECT_LE(sin(number::within(0.5, 1e10)).error(), 1.4795);
+    EXPECT_LE(atan2(number::within(0, 1), number::within(-5, 1)).error(), 6.2832);
+    EXPECT_LE(cbrt(number::within(0, 1)).error(), 1.0001);
+    EXPECT_LE(pow(number::within(0, 1), number(3)).error(), 1.0001);
+}
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, TakeZeroForANumberWithoutASign) {
+    using number = typename TestFixture::number;
+    const number angle = atan2(number(-0.0), number(-1));
+    EXPECT_GE(angle.error(), std::abs(angle.value() - M_PI));
+    EXPECT_LE(atan2(number(0.0), number(-1)).error(), 0x1p-48);
+}
+
+TEST(ElementaryFunctionsOfNone, AreThoseOfPlainArithmetic) {
+    using number = tracked<double, errbound::none>;
+    EXPECT_EQ(exp(number(2)).value(), std::exp(2.0));
+    EXPECT_EQ(pow(number(2), 0.5).value(), std::pow(2, 0.5));
+    EXPECT_EQ(sign_of(log(number(-1))), sign_type::uncertain);
+    EXPECT_EQ(tan(tracked<float, errbound::none>(1)).value(), std::tan(1.0F));
+}
+
+TEST(ElementaryFunctionsOfAnyNumber, AreFoundByTheirArguments) {
+    const auto logistic = [](const auto& x) {
+        using std::exp;
+        return 1 / (1 + exp(-x));
+    };
+    EXPECT_EQ(logistic(tracked<double>(0.5)).value(), logistic(0.5));
+    EXPECT_EQ(logistic(tracked<float>(0.5F)).value(), logistic(0.5F));
+}
+
+TEST(FunctionErrors, AreThoseThatAProgramNames) {
+    const long double x = 0.5, v = std::exp2(x), unit = std::numeric_limits<long double>::epsilon();
+    const auto named = exp2(tracked<long double>(x)), other = exp(tracked<long double>(x));
+    EXPECT_GE(named.error(), 7.5 * unit * v);
+    EXPECT_LE(named.error(), 7.6 * unit * v);
+    EXPECT_LE(other.error(), 2.1 * unit * other.value());
+}
+
+TEST(Powers, AreByProductsForWholeExponentsOfTheLanguage) {
+    const tracked<double> x = 3;
+    EXPECT_EQ(pow(x, 2).error(), (x * x).error());
+    EXPECT_EQ(pow(x, 0.5).value(), std::sqrt(3.0));
+    EXPECT_EQ(pow(2, x).value(), 8);
+    EXPECT_EQ(pow(tracked<float>(4.0F), 0.5).value(), 2);
+}
+
+}  // namespace
