@@ -784,28 +784,30 @@ Definition bsc_exact_decides_edges (finder : root_finder) (a0 a1 b0 b1 : given) 
 Lemma integers_exact (n : integers) : sign_of n <> uncertain.
 Proof. apply integer_tells. Qed.
 
-Theorem bsc_exact_face finder v f0 f1 f2 : bsc_exact_decides_face finder v f0 f1 f2 = true <->
+Theorem bsc_exact_face finder v f0 f1 f2 : face_border_meets finder (promises finder) v f0 f1 f2 ->
+  bsc_exact_decides_face finder v f0 f1 f2 = true <->
   vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
 Proof.
-  unfold bsc_exact_decides_face. set (q := [v; f0; f1; f2]).
+  intros Border. unfold bsc_exact_decides_face. set (q := [v; f0; f1; f2]).
   assert (In v q /\ In f0 q /\ In f1 q /\ In f2 q) as (I & I0 & I1 & I2) by (simpl; tauto).
   destruct (to_integers_right q v I) as (K & E). destruct (to_integers_right q f0 I0) as (_ & E0).
   destruct (to_integers_right q f1 I1) as (_ & E1). destruct (to_integers_right q f2 I2) as (_ & E2).
   unfold in_integers in *. rewrite <- (face_units (unit_of q)) by exact K. rewrite <- E, <- E0, <- E1,
     <- E2.
-  apply face_decision; [apply integers_exact |]. rewrite face_border_right. unfold face_border_collides.
+  apply face_decision; [apply integers_exact |]. rewrite face_border_right by exact Border. unfold face_border_collides.
   now rewrite E, E0, E1, E2, !(vertex_edge_units (unit_of q)).
 Qed.
-Theorem bsc_exact_edges finder a0 a1 b0 b1 : bsc_exact_decides_edges finder a0 a1 b0 b1 = true <->
+Theorem bsc_exact_edges finder a0 a1 b0 b1 : edges_border_meets finder (promises finder) a0 a1 b0 b1 ->
+  bsc_exact_decides_edges finder a0 a1 b0 b1 = true <->
   edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
 Proof.
-  unfold bsc_exact_decides_edges. set (q := [a0; a1; b0; b1]).
+  intros Border. unfold bsc_exact_decides_edges. set (q := [a0; a1; b0; b1]).
   assert (In a0 q /\ In a1 q /\ In b0 q /\ In b1 q) as (I0 & I1 & I2 & I3) by (simpl; tauto).
   destruct (to_integers_right q a0 I0) as (K & E0). destruct (to_integers_right q a1 I1) as (_ & E1).
   destruct (to_integers_right q b0 I2) as (_ & E2). destruct (to_integers_right q b1 I3) as (_ & E3).
   unfold in_integers in *. rewrite <- (edges_units (unit_of q)) by exact K. rewrite <- E0, <- E1, <- E2,
     <- E3.
-  apply edges_decision; [apply integers_exact |]. rewrite edges_border_right. unfold
+  apply edges_decision; [apply integers_exact |]. rewrite edges_border_right by exact Border. unfold
     edges_border_collides.
   now rewrite E0, E1, E2, E3, !(vertex_edge_units (unit_of q)).
 Qed.

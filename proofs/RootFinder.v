@@ -4,8 +4,10 @@
 
     Results:
         found_roots_right        of integer coefficients, real_roots finds the roots in (0, oo)
-        reference_by_isolation, bsc_exact_by_isolation
-                                 the decisions by any functions that return what the algorithms return *)
+        reference_face_by_isolation, reference_edges_by_isolation, reference_vertex_edge_by_isolation,
+        bsc_exact_face_by_isolation, bsc_exact_edges_by_isolation
+                                 the decisions by any functions that return what the algorithms return of
+                                 the polynomials that the query asks them for *)
 
 From Coq Require Import Reals ZArith Lia Lra List Sorted.
 From Errbound Require Import RootIsolation ControlValues CommonFactor.
@@ -122,12 +124,16 @@ Variable intervals : list Z -> list interval.
 Variable sign_there : list Z -> list Z -> interval -> sign.
 
 Definition asked (p : list Z) : Prop := trimmed p /\ (2 <= length p)%nat /\ poly p 0 <> 0.
-Hypothesis common_returned : forall f g, trimmed f -> trimmed g -> CommonFactor.common_factor f g (common f g).
-Hypothesis roots_returned : forall p, asked p -> found_roots p (squarefree p) (intervals p).
-(** The interval may be one that earlier calls have refined: after_refining is a case of the relation. *)
-Hypothesis sign_returned : forall p g i, asked p -> In i (intervals p) -> trimmed g -> exists s,
-  RootIsolation.sign_at_root (reals_of (squarefree p)) (reals_of g) i s /\
-  sign_there (squarefree p) g i = BoundedInteger.sign_of_integer s.
+(** What the algorithms return, of what is asked. The interval may be one that earlier calls have refined:
+    after_refining is a case of the relation. *)
+Definition returned : demands := {|
+  of_factor := fun f g => trimmed f -> trimmed g -> CommonFactor.common_factor f g (common f g);
+  of_roots := fun p => asked p -> found_roots p (squarefree p) (intervals p);
+  of_signs := fun p g => asked p -> trimmed g -> found_roots p (squarefree p) (intervals p) /\
+    forall i, In i (intervals p) -> exists s,
+      RootIsolation.sign_at_root (reals_of (squarefree p)) (reals_of g) i s /\
+      sign_there (squarefree p) g i = BoundedInteger.sign_of_integer s
+|}.
 
 Let all_roots (p : list Z) : list located := map (Located (squarefree p)) (intervals p).
 
@@ -138,47 +144,83 @@ Proof.
   - intros z [<- | I]; [exists y; auto |]. destruct (L z I) as (w & W & Q). exists w; auto.
   - intros z [<- | I]; [exists x; auto |]. destruct (R z I) as (w & W & Q). exists w; auto.
 Qed.
-Lemma located_right p k : asked p -> In k (all_roots p) -> polynomial k = squarefree p /\
+Lemma located_right p k : asked p -> found_roots p (squarefree p) (intervals p) -> In k (all_roots p) -> polynomial k = squarefree p /\
   In (place k) (intervals p) /\ isolates (reals_of (squarefree p)) (place k) (root_of k).
 Proof.
-  intros A I. apply in_map_iff in I. destruct I as (i & <- & I). split; [easy |]. split; [exact I |].
-  destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) (roots_returned p A)) as (roots & F & _).
+  intros A Returned I. apply in_map_iff in I. destruct I as (i & <- & I). split; [easy |]. split; [exact I |].
+  destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) Returned) as (roots & F & _).
   destruct (proj1 (paired _ _ _ F) i I) as (r & _ & H). now rewrite (root_of_right _ _ r).
 Qed.
-Lemma all_roots_right p x : asked p -> (exists k, In k (all_roots p) /\ root_of k = x) <-> 0 < x /\ poly p x = 0.
+Lemma all_roots_right p x : asked p -> found_roots p (squarefree p) (intervals p) -> (exists k, In k (all_roots p) /\ root_of k = x) <-> 0 < x /\ poly p x = 0.
 Proof.
-  intros A. destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) (roots_returned p A)) as (roots & F & _ & R).
+  intros A Returned. destruct (found_roots_right p _ _ (proj1 A) (proj2 (proj2 A)) Returned) as (roots & F & _ & R).
   rewrite <- R. destruct (paired _ _ _ F) as (To & From). split.
   - intros (k & I & <-). apply in_map_iff in I. destruct I as (i & <- & I). destruct (To i I) as (r & Ir & H).
     now rewrite (root_of_right _ _ r).
   - intros I. destruct (From x I) as (i & Ii & H). exists (Located (squarefree p) i).
     split; [now apply in_map | now apply root_of_right].
 Qed.
-Lemma sign_there_right p g k : asked p -> In k (all_roots p) -> trimmed g ->
+Lemma sign_there_right p g k : asked p -> trimmed g -> of_signs returned p g -> In k (all_roots p) ->
   tells (sign_there (polynomial k) g (place k)) (poly g (root_of k)).
 Proof.
-  intros A I T. destruct (located_right p k A I) as (-> & Ii & H). destruct (sign_returned p g _ A Ii T) as (s & S & ->).
+  intros A T M I. destruct (M A T) as (Returned & Signs).
+  destruct (located_right p k A Returned I) as (-> & Ii & H). destruct (Signs _ Ii) as (s & S & ->).
   apply (RootIsolation.sign_at_root_right _ _ _ _ _ H) in S. subst s. fold (poly g (root_of k)).
   destruct (SignVariations.sgn_cases (poly g (root_of k))) as [(L & ->) | [(L & ->) | (L & ->)]]; now split.
 Qed.
 
 Definition isolation : root_finder := {|
   common_factor := common; root := located; real_roots := all_roots;
-  sign_at_root := fun g k => sign_there (polynomial k) g (place k); where_is := root_of;
-  common_factor_right := fun f g F G => CommonFactor.common_factor_right f g _ F G (common_returned f g F G);
-  real_roots_right := fun p x T L N => all_roots_right p x (conj T (conj L N));
-  sign_at_root_right := fun p g k T L N => sign_there_right p g k (conj T (conj L N)) |}.
+  sign_at_root := fun g k => sign_there (polynomial k) g (place k); where_is := root_of |}.
 
-Theorem reference_by_isolation q0 q1 q2 q3 :
-  let m0 := given_motion q0 in let m1 := given_motion q1 in let m2 := given_motion q2 in let m3 := given_motion q3 in
-  (reference_decides_face isolation q0 q1 q2 q3 = true <-> vertex_face_collides m0 m1 m2 m3) /\
-  (reference_decides_edges isolation q0 q1 q2 q3 = true <-> edge_edge_collides m0 m1 m2 m3) /\
-  (reference_decides_vertex_edge isolation q0 q1 q2 = true <-> vertex_edge_collides m0 m1 m2).
-Proof. split; [apply reference_face |]. split; [apply reference_edges | apply reference_vertex_edge]. Qed.
-Theorem bsc_exact_by_isolation q0 q1 q2 q3 :
-  let m0 := given_motion q0 in let m1 := given_motion q1 in let m2 := given_motion q2 in let m3 := given_motion q3 in
-  (bsc_exact_decides_face isolation q0 q1 q2 q3 = true <-> vertex_face_collides m0 m1 m2 m3) /\
-  (bsc_exact_decides_edges isolation q0 q1 q2 q3 = true <-> edge_edge_collides m0 m1 m2 m3).
-Proof. split; [apply bsc_exact_face | apply bsc_exact_edges]. Qed.
+(** What is returned is what is promised. *)
+Lemma factor_promised f g : of_factor returned f g -> of_factor (promises isolation) f g.
+Proof. intros M F G. exact (CommonFactor.common_factor_right f g _ F G (M F G)). Qed.
+Lemma roots_promised p : of_roots returned p -> of_roots (promises isolation) p.
+Proof. intros M T L N x. exact (all_roots_right p x (conj T (conj L N)) (M (conj T (conj L N)))). Qed.
+Lemma signs_promised p g : of_signs returned p g -> of_signs (promises isolation) p g.
+Proof. intros M T L N G k I. exact (sign_there_right p g k (conj T (conj L N)) G M I). Qed.
+Lemma factors_promised fs : forall all, factors_meet isolation returned all fs ->
+  factors_meet isolation (promises isolation) all fs.
+Proof. induction fs as [| f fs IH]; intros all M; [easy |]. destruct M as (P & M). split; [now apply factor_promised | now apply IH]. Qed.
+Lemma edge_promised query v e0 e1 : edge_contact_meets isolation returned query v e0 e1 ->
+  edge_contact_meets isolation (promises isolation) query v e0 e1.
+Proof.
+  intros (F & R & S). exact (conj (factors_promised _ _ F) (conj (roots_promised _ R) (signs_promised _ _ S))).
+Qed.
+Lemma face_border_promised v f0 f1 f2 : face_border_meets isolation returned v f0 f1 f2 ->
+  face_border_meets isolation (promises isolation) v f0 f1 f2.
+Proof. intros (A & B & C). exact (conj (edge_promised _ _ _ _ A) (conj (edge_promised _ _ _ _ B) (edge_promised _ _ _ _ C))). Qed.
+Lemma edges_border_promised a0 a1 b0 b1 : edges_border_meets isolation returned a0 a1 b0 b1 ->
+  edges_border_meets isolation (promises isolation) a0 a1 b0 b1.
+Proof.
+  intros (A & B & C & D). exact (conj (edge_promised _ _ _ _ A) (conj (edge_promised _ _ _ _ B)
+    (conj (edge_promised _ _ _ _ C) (edge_promised _ _ _ _ D)))).
+Qed.
+Lemma regular_promised y gs n2 : regular_meets returned y gs n2 -> regular_meets (promises isolation) y gs n2.
+Proof.
+  intros (R & S). exact (conj (roots_promised _ R) (Forall_impl _ (fun f => signs_promised _ (without_end_roots f)) S)).
+Qed.
+
+Theorem reference_face_by_isolation v f0 f1 f2 : reference_face_meets isolation returned v f0 f1 f2 ->
+  reference_decides_face isolation v f0 f1 f2 = true <->
+  vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
+Proof. intros (R & B). apply reference_face. exact (conj (regular_promised _ _ _ R) (face_border_promised _ _ _ _ B)). Qed.
+Theorem reference_edges_by_isolation a0 a1 b0 b1 : reference_edges_meets isolation returned a0 a1 b0 b1 ->
+  reference_decides_edges isolation a0 a1 b0 b1 = true <->
+  edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
+Proof. intros (R & B). apply reference_edges. exact (conj (regular_promised _ _ _ R) (edges_border_promised _ _ _ _ B)). Qed.
+Theorem reference_vertex_edge_by_isolation v e0 e1 : edge_contact_meets isolation returned [v; e0; e1] v e0 e1 ->
+  reference_decides_vertex_edge isolation v e0 e1 = true <->
+  vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
+Proof. intros M. apply reference_vertex_edge. exact (edge_promised _ _ _ _ M). Qed.
+Theorem bsc_exact_face_by_isolation v f0 f1 f2 : face_border_meets isolation returned v f0 f1 f2 ->
+  bsc_exact_decides_face isolation v f0 f1 f2 = true <->
+  vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
+Proof. intros B. apply bsc_exact_face. exact (face_border_promised _ _ _ _ B). Qed.
+Theorem bsc_exact_edges_by_isolation a0 a1 b0 b1 : edges_border_meets isolation returned a0 a1 b0 b1 ->
+  bsc_exact_decides_edges isolation a0 a1 b0 b1 = true <->
+  edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
+Proof. intros B. apply bsc_exact_edges. exact (edges_border_promised _ _ _ _ B). Qed.
 
 End Isolation.

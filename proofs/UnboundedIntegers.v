@@ -160,15 +160,25 @@ Record root_finder := {
   root : Type;
   real_roots : list Z -> list root;             (** those in x > 0 *)
   sign_at_root : list Z -> root -> sign;
-  where_is : root -> R;
-  common_factor_right : forall f g, trimmed f -> trimmed g ->
-    trimmed (common_factor f g) /\ (common_factor f g = [] <-> f = [] /\ g = []) /\
-    forall x, poly (common_factor f g) x = 0 <-> poly f x = 0 /\ poly g x = 0;
-  real_roots_right : forall p x, trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 ->
-    (exists k, In k (real_roots p) /\ where_is k = x) <-> 0 < x /\ poly p x = 0;
-  sign_at_root_right : forall p g k, trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 ->
-    In k (real_roots p) -> trimmed g -> tells (sign_at_root g k) (poly g (where_is k))
+  where_is : root -> R
 }.
+
+(** What is asked of two polynomials, of one, and of one at another's roots. A query asks it of its own
+    polynomials and no others: so its answer does not depend on what is found of any other's. *)
+Record demands := Demands {
+  of_factor : list Z -> list Z -> Prop;
+  of_roots : list Z -> Prop;
+  of_signs : list Z -> list Z -> Prop          (** p, whose roots are asked, and the other *)
+}.
+Definition promises (finder : root_finder) : demands := {|
+  of_factor := fun f g => trimmed f -> trimmed g ->
+    let h := common_factor finder f g in
+    trimmed h /\ (h = [] <-> f = [] /\ g = []) /\ forall x, poly h x = 0 <-> poly f x = 0 /\ poly g x = 0;
+  of_roots := fun p => trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 -> forall x,
+    (exists k, In k (real_roots finder p) /\ where_is finder k = x) <-> 0 < x /\ poly p x = 0;
+  of_signs := fun p g => trimmed p -> (2 <= length p)%nat -> poly p 0 <> 0 -> trimmed g -> forall k,
+    In k (real_roots finder p) -> tells (sign_at_root finder g k) (poly g (where_is finder k))
+|}.
 
 Section Contact.
 
@@ -180,23 +190,30 @@ Implicit Types (f b : list Z) (fs : list (list Z)).
 Definition on_line fs : list Z :=
   fold_left (fun all f => common_factor finder all (without_end_roots f)) fs [].
 
-Lemma on_line_right fs : trimmed (on_line fs) /\
+(** The factors that on_line asks. *)
+Fixpoint factors_meet (d : demands) (all : list Z) fs : Prop :=
+  match fs with
+  | [] => True
+  | f :: rest => of_factor d all (without_end_roots f) /\
+      factors_meet d (common_factor finder all (without_end_roots f)) rest
+  end.
+
+Lemma on_line_right fs : factors_meet (promises finder) [] fs -> trimmed (on_line fs) /\
   (on_line fs = [] <-> Forall (fun f => without_end_roots f = []) fs) /\
   forall x, poly (on_line fs) x = 0 <-> Forall (fun f => poly (without_end_roots f) x = 0) fs.
 Proof.
-  unfold on_line. assert (H : forall fs all, trimmed all ->
+  unfold on_line. assert (H : forall fs all, factors_meet (promises finder) all fs -> trimmed all ->
     let r := fold_left (fun all f => common_factor finder all (without_end_roots f)) fs all in
     trimmed r /\ (r = [] <-> all = [] /\ Forall (fun f => without_end_roots f = []) fs) /\
     forall x, poly r x = 0 <-> poly all x = 0 /\ Forall (fun f => poly (without_end_roots f) x = 0) fs).
-  { clear fs. induction fs as [| f fs IH]; intros all T; cbn [fold_left].
+  { clear fs. induction fs as [| f fs IH]; intros all M T; cbn [fold_left].
     - split; auto. split; [intuition | intros; intuition].
-    - destruct (common_factor_right finder all (without_end_roots f) T (without_end_roots_trimmed f)) as
-      (Tc & E & R).
-      destruct (IH (common_factor finder all (without_end_roots f)) Tc) as (Tr & Er & Rr). cbv zeta.
+    - destruct M as (P & M). destruct (P T (without_end_roots_trimmed f)) as (Tc & E & R).
+      destruct (IH (common_factor finder all (without_end_roots f)) M Tc) as (Tr & Er & Rr). cbv zeta.
         split; auto.
       split; [rewrite Er, E, Forall_cons_iff; tauto |]. intros x. rewrite Rr, R, Forall_cons_iff. tauto.
         }
-  destruct (H fs [] (or_introl eq_refl)) as (T & E & R). cbv zeta in *. split; auto.
+  intros M. destruct (H fs [] M (or_introl eq_refl)) as (T & E & R). cbv zeta in *. split; auto.
   split; [rewrite E; tauto |]. intros x. rewrite R. unfold poly at 1. simpl. tauto.
 Qed.
 
@@ -213,6 +230,10 @@ Definition touches fs b : bool :=
         existsb (fun k => negb (same_sign (sign_at_root finder (without_end_roots b) k) positive))
           (real_roots finder p)
     end.
+
+(** What it asks of the finder. *)
+Definition touches_meets (d : demands) fs b : Prop :=
+  factors_meet d [] fs /\ of_roots d (on_line fs) /\ of_signs d (on_line fs) (without_end_roots b).
 
 Definition meets fs b (t : R) : Prop := Forall (fun f => form_at f t = 0) fs /\ form_at b t <= 0.
 
@@ -233,19 +254,19 @@ Proof.
   - split; [| now apply le_IZR]. intros f J. apply Z.eqb_eq, eq_IZR. rewrite <- V by auto. now apply A.
 Qed.
 
-Lemma inner_all_vanish fs t : Forall (fun f => length f = 3%nat) fs -> 0 < t < 1 ->
-  Forall (fun f => form_at f t = 0) fs <-> poly (on_line fs) (t / (1 - t)) = 0.
+Lemma inner_all_vanish fs t : factors_meet (promises finder) [] fs -> Forall (fun f => length f = 3%nat) fs ->
+  0 < t < 1 -> Forall (fun f => form_at f t = 0) fs <-> poly (on_line fs) (t / (1 - t)) = 0.
 Proof.
-  intros F T. rewrite (proj2 (proj2 (on_line_right fs))). rewrite !Forall_forall. rewrite Forall_forall
+  intros M F T. rewrite (proj2 (proj2 (on_line_right fs M))). rewrite !Forall_forall. rewrite Forall_forall
     in F.
   split; intros A f I; specialize (A f I); specialize (F f I);
     (apply (proj1 (inner_signs f t ltac:(now destruct f) T)); exact A).
 Qed.
 
-Lemma touches_right fs b : Forall (fun f => length f = 3%nat) fs -> length b = 3%nat ->
-  touches fs b = true <-> exists t, 0 <= t <= 1 /\ meets fs b t.
+Lemma touches_right fs b : touches_meets (promises finder) fs b -> Forall (fun f => length f = 3%nat) fs ->
+  length b = 3%nat -> touches fs b = true <-> exists t, 0 <= t <= 1 /\ meets fs b t.
 Proof.
-  intros F B. unfold touches. destruct (existsb (@certainly_rootless integers) fs) eqn:Rootless.
+  intros (Factors & Roots & Signs) F B. unfold touches. destruct (existsb (@certainly_rootless integers) fs) eqn:Rootless.
   { split; [easy |]. intros (t & T & V & _). apply existsb_exists in Rootless. destruct Rootless as (f &
     I & R).
     rewrite Forall_forall in V. specialize (V f I). now apply (@rootless_hull integers f t R T) in V. }
@@ -261,7 +282,7 @@ Proof.
     destruct (Req_dec t 1) as [-> | N1]; [now apply At1 in M |]. lra. }
   rewrite Inside. clear Inside.
   assert (Nb : b <> []) by now destruct b.
-  destruct (on_line_right fs) as (Tr & Empty & _). pose proof (fun t => inner_all_vanish fs t F) as
+  destruct (on_line_right fs Factors) as (Tr & Empty & At). pose proof (fun t => inner_all_vanish fs t Factors F) as
     Vanish.
   destruct (on_line fs) as [| a [| c l]] eqn:E.
   - (* on the line throughout *)
@@ -303,29 +324,27 @@ Proof.
     split; [easy |]. intros (t & T & A & _). apply Vanish in A; auto. unfold poly in A. simpl in A.
     destruct Tr as [| N]; [easy |]. simpl in N. apply not_0_IZR in N. exfalso. apply N. lra.
   - assert (Start : poly (a :: c :: l) 0 <> 0).
-    { rewrite <- E, (proj2 (proj2 (on_line_right fs))). intros H.
+    { rewrite At. intros H.
       assert (N : Forall (fun f => without_end_roots f = []) fs).
       { eapply Forall_impl; [| exact H]. intros f Z. destruct (without_end_roots_start f); easy. }
       now apply Empty in N. }
     assert (Two : (2 <= length (a :: c :: l))%nat) by (simpl; lia).
-    pose proof (real_roots_right finder (a :: c :: l)) as Roots. pose proof (sign_at_root_right finder
-      (a :: c :: l)) as Signs.
     remember (a :: c :: l) as p eqn:Ep. clear Ep.
     rewrite existsb_exists. split.
-    + intros (k & I & S). destruct (proj1 (Roots (where_is finder k) Tr Two Start)) as (X & Z); [now
+    + intros (k & I & S). destruct (proj1 (Roots Tr Two Start (where_is finder k))) as (X & Z); [now
       exists k |].
       destruct (proj2 (VertexEdge.by_ratio (fun x => x = where_is finder k))) as (t & T & W); [now
         exists (where_is finder k) |].
       exists t. split; auto. split; [apply Vanish; auto; now rewrite W |].
-      pose proof (Signs (without_end_roots b) k Tr Two Start I (without_end_roots_trimmed b)) as Tell.
+      pose proof (Signs Tr Two Start (without_end_roots_trimmed b) k I) as Tell.
         rewrite <- W in Tell.
       apply (proj2 (inner_signs b t Nb T)) in Tell. destruct Tell as (C & R).
       destruct (sign_at_root finder (without_end_roots b) k); simpl in *; try easy; lra.
     + intros (t & T & A & H). apply Vanish in A; auto.
-      destruct (proj2 (Roots (t / (1 - t)) Tr Two Start)) as (k & I & W); [split; auto; apply
-        Rdiv_lt_0_compat; lra |].
+      destruct (proj2 (Roots Tr Two Start (t / (1 - t)))) as (k & I & W);
+        [split; auto; apply Rdiv_lt_0_compat; lra |].
       exists k. split; auto.
-      pose proof (Signs (without_end_roots b) k Tr Two Start I (without_end_roots_trimmed b)) as Tell.
+      pose proof (Signs Tr Two Start (without_end_roots_trimmed b) k I) as Tell.
         rewrite W in Tell.
       apply (proj2 (inner_signs b t Nb T)) in Tell. destruct Tell as (C & R).
       destruct (sign_at_root finder (without_end_roots b) k); simpl in *; try easy; lra.
@@ -339,13 +358,17 @@ Definition contact (v e0 e1 : @moving_point integers) : bool :=
   let beyond := dot_form w (difference v e1) in
   touches [vx off_line; vy off_line; vz off_line] beyond.
 
-Theorem integer_contact_right v e0 e1 : contact v e0 e1 = true <->
+Definition contact_meets (d : demands) (v e0 e1 : @moving_point integers) : Prop :=
+  let off_line := cross_form (difference v e0) (difference e1 e0) in
+  touches_meets d [vx off_line; vy off_line; vz off_line] (dot_form (difference v e0) (difference v e1)).
+
+Theorem integer_contact_right v e0 e1 : contact_meets (promises finder) v e0 e1 -> contact v e0 e1 = true <->
   vertex_edge_collides (exact_motion v) (exact_motion e0) (exact_motion e1).
 Proof.
-  unfold contact. assert (D : forall q p : @moving_point integers, degree (difference q p) 1) by easy.
+  intros Asked. unfold contact. assert (D : forall q p : @moving_point integers, degree (difference q p) 1) by easy.
   destruct (cross_at (difference v e0) (difference e1 e0) 1 1 0 (D _ _) (D _ _)) as (_ & L & M & N).
   destruct (dot_at (difference v e0) (difference v e1) 1 1 0 (D _ _) (D _ _)) as (_ & B).
-  rewrite touches_right by (repeat constructor; auto || exact B).
+  rewrite touches_right by (exact Asked || (repeat constructor; auto) || exact B).
   assert (E : forall t, meets [vx (cross_form (difference v e0) (difference e1 e0)); vy (cross_form
     (difference v e0)
     (difference e1 e0)); vz (cross_form (difference v e0) (difference e1 e0))] (dot_form (difference v
@@ -372,29 +395,39 @@ Definition face_border (v f0 f1 f2 : given) : bool :=
 Definition edges_border (a0 a1 b0 b1 : given) : bool :=
   let on := edge_contact [a0; a1; b0; b1] in on a0 b0 b1 || on a1 b0 b1 || on b0 a0 a1 || on b1 a0 a1.
 
-Lemma edge_contact_right query (v e0 e1 : given) : In v query -> In e0 query -> In e1 query ->
+Definition edge_contact_meets (d : demands) (query : list given) (v e0 e1 : given) : Prop :=
+  let integer := to_integers query in contact_meets d (integer v) (integer e0) (integer e1).
+Definition face_border_meets (d : demands) (v f0 f1 f2 : given) : Prop :=
+  let on := edge_contact_meets d [v; f0; f1; f2] in on v f0 f1 /\ on v f1 f2 /\ on v f2 f0.
+Definition edges_border_meets (d : demands) (a0 a1 b0 b1 : given) : Prop :=
+  let on := edge_contact_meets d [a0; a1; b0; b1] in on a0 b0 b1 /\ on a1 b0 b1 /\ on b0 a0 a1 /\ on b1 a0 a1.
+
+Lemma edge_contact_right query (v e0 e1 : given) : edge_contact_meets (promises finder) query v e0 e1 ->
+  In v query -> In e0 query -> In e1 query ->
   edge_contact query v e0 e1 = true <->
   vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).
 Proof.
-  intros V E0 E1. destruct (to_integers_right query v V) as (K & Vi). destruct (to_integers_right query
+  intros Asked V E0 E1. destruct (to_integers_right query v V) as (K & Vi). destruct (to_integers_right query
     e0 E0) as (_ & E0i).
   destruct (to_integers_right query e1 E1) as (_ & E1i). unfold edge_contact, in_integers in *.
-  rewrite andb_true_iff, negb_true_iff, integer_contact_right, Vi, E0i, E1i, (vertex_edge_units (unit_of
+  rewrite andb_true_iff, negb_true_iff, (integer_contact_right _ _ _ Asked), Vi, E0i, E1i, (vertex_edge_units (unit_of
     query)) by exact K.
   split; [tauto |]. intros H. split; auto. destruct (separated _ _ _) eqn:P; auto. now apply separated_right
     in P.
 Qed.
-Theorem face_border_right (v f0 f1 f2 : given) : face_border v f0 f1 f2 = true <->
+Theorem face_border_right (v f0 f1 f2 : given) : face_border_meets (promises finder) v f0 f1 f2 ->
+  face_border v f0 f1 f2 = true <->
   face_border_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
 Proof.
-  unfold face_border, face_border_collides.
-  rewrite !orb_true_iff, !edge_contact_right by (simpl; auto). tauto.
+  intros (M0 & M1 & M2). unfold face_border, face_border_collides.
+  rewrite !orb_true_iff, !edge_contact_right by (assumption || (simpl; auto)). tauto.
 Qed.
-Theorem edges_border_right (a0 a1 b0 b1 : given) : edges_border a0 a1 b0 b1 = true <->
+Theorem edges_border_right (a0 a1 b0 b1 : given) : edges_border_meets (promises finder) a0 a1 b0 b1 ->
+  edges_border a0 a1 b0 b1 = true <->
   edges_border_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
 Proof.
-  unfold edges_border, edges_border_collides.
-  rewrite !orb_true_iff, !edge_contact_right by (simpl; auto). tauto.
+  intros (M0 & M1 & M2 & M3). unfold edges_border, edges_border_collides.
+  rewrite !orb_true_iff, !edge_contact_right by (assumption || (simpl; auto)). tauto.
 Qed.
 
 End Contact.

@@ -7,6 +7,7 @@
 namespace ccd {
 namespace {
 
+/// Proof: proofs/Exact.v, exact_face_right, exact_edges_right.
 template <class Query>
 verdict decide_by_stages(const Query& query, stage_report* report) {
     const verdict answer = detail::decide_in_floating_point(query, report);
