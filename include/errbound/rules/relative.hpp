@@ -133,10 +133,11 @@ struct relative {
         const with_error<double> sum = two_sum<double>(j, k);
         return sum.error > 0 ? upper<double>(sum.value) : sum.value;
     }
-    /// How many factors an error of `error` is on something of size `size` >= 0.
+    /// How many factors an error of `error` is on something of size `size`.
     template <class T>
     static constexpr double factors_of(const T& error, const T& size) {
         using traits = number_traits<T>;
+        if (!(size > 0)) return unknown;  // 0 may be −0
         const T share = upper<T>(T(error / size)) + traits::underflow_unit();
         if (!(share < T(1))) return unknown;
         // Not less, of types wider than double; below 1 also after that.

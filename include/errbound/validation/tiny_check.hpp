@@ -282,12 +282,15 @@ class tiny_checker {
     }
     /// Every pair of numbers with every pair of bounds.
     void check_bounded() {
-        std::vector<operand_range> all;
-        for (const Tiny x : finite_)
-            for (const Tiny e : bounds_)
-                if (all.push_back(within(x, e)); e != 0) check_one(all.back());
-        for (const operand_range& a : all)
-            for (const operand_range& b : all) check_pair(a, b);
+        // Made twice: a rule may know that a number and its copy are one.
+        std::vector<operand_range> first, second;
+        for (auto* const all : {&first, &second})
+            for (const Tiny x : finite_)
+                for (const Tiny e : bounds_) all->push_back(within(x, e));
+        for (const operand_range& a : first) {
+            if (a.as_operand.error != 0) check_one(a);
+            for (const operand_range& b : second) check_pair(a, b);
+        }
     }
     /// Every (a ∘ b) ∘ c and c ∘ (a ∘ b) of exact numbers, the inner operation not a division:
     /// bounds as rules make them themselves.

@@ -125,6 +125,10 @@ TEST(Relative, IsConstant) {
     constexpr number x = 0.1, y = x * x / number(3) - number(7);
     static_assert(sign_of(y) == sign_type::negative);
     static_assert(sizeof(number) == 2 * sizeof(double));
+    // Without a sign bit that is cleared: −0 as a size once made a negative count.
+    constexpr number near_zero = number::within(-0.0, 1);
+    static_assert(sign_of(near_zero) == sign_type::uncertain);
+    static_assert(sign_of(near_zero + number(0)) == sign_type::uncertain);
 }
 
 }  // namespace
