@@ -31,6 +31,8 @@ std::vector<part> parts_of(const validate_arguments& arguments,
                                  evidence_of_queries(arguments.rules, std::span(queries))});
             },
             files[i].queries);
+    if (!arguments.functions.functions.empty())
+        parts.push_back({"functions", evidence_of_functions(arguments.functions)});
     if (arguments.expressions)
         parts.push_back(
             {"expressions", evidence_of_expressions(arguments.rules, arguments.options)});
@@ -38,7 +40,8 @@ std::vector<part> parts_of(const validate_arguments& arguments,
 }
 
 exit_status run_validate(const validate_arguments& arguments) {
-    support::require_good_outputs({arguments.json, arguments.csv}, arguments.queries);
+    support::require_good_outputs({arguments.json, arguments.csv, arguments.functions_csv},
+                                  arguments.queries);
     const std::vector<ccd::io::query_file> files = read_files(arguments);
     std::vector<found_part> found;
     for (const part& p : parts_of(arguments, files)) {

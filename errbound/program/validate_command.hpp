@@ -12,7 +12,7 @@ namespace errbound::validation {
 
 /// What a run looks at.
 struct part {
-    std::string name;  ///< "expressions", "tiny" or the file
+    std::string name;  ///< "expressions", "tiny", "functions" or the file
     evidence what;
 };
 

@@ -1,6 +1,7 @@
 // The options of `errbound validate`.
 #include "errbound/program/validate_options.hpp"
 
+#include <algorithm>
 #include <ccd/io/query_file.hpp>
 #include <cstdint>
 
@@ -15,6 +16,16 @@ rule rule_named(const std::string& name) {
 number_type number_named(const std::string& name) {
     return support::entry_named("--numbers", name, number_types, &named_number_type::name).type;
 }
+elementary_function function_named(const std::string& name) {
+    return support::entry_named("--functions", name, named_functions, &named_function::name)
+        .function;
+}
+std::vector<elementary_function> functions_named(const std::string& names) {
+    if (names != "all") return support::all_named(names, function_named);
+    std::vector<elementary_function> all;
+    for (const named_function& f : named_functions) all.push_back(f.function);
+    return all;
+}
 
 }  // namespace
 
@@ -22,7 +33,8 @@ validate_options::validate_options(CLI::App& program, int threads)
     : line_(*program.add_subcommand(
           "validate",
           "Hold every bound rule's bounds and certain signs against MPFR, and report how tight "
-          "they\nare. Random expressions, unless --tiny or --queries asks for those.")) {
+          "they\nare. Random expressions, unless --tiny, --queries or --functions asks for "
+          "those.")) {
     arguments_.options.threads = threads;
     line_
         .add_option("--expressions", arguments_.options.expressions,
@@ -53,11 +65,36 @@ validate_options::validate_options(CLI::App& program, int threads)
     line_.add_flag("--tiny", arguments_.tiny, "Every case of number formats of 6 to 8 bits");
     line_.add_flag("--every-bound", arguments_.every_bound,
                    "With --tiny: in float8_e5m2 and float8_e4m3 every pair of bounds too");
+    add_functions();
     line_.add_option("--rules", rules_, "Rules R[,R...], else all")->type_name("R[,R...]");
     line_.add_option("--threads", arguments_.options.threads, "Threads; 0: one per core")
         ->check(CLI::Range(0, 4096));
     line_.add_option("--json", arguments_.json, "Write all tables as JSON")->type_name("OUT");
     line_.add_option("--csv", arguments_.csv, "Write the table of tightness as CSV")
+        ->type_name("OUT");
+}
+
+void validate_options::add_functions() {
+    line_
+        .add_option("--functions", functions_,
+                    "The system's elementary functions F[,F...], or all of them: how far they are "
+                    "off,\nin float and double, and whether function_error says so")
+        ->type_name("F[,F...]");
+    line_
+        .add_option("--samples", arguments_.functions.samples,
+                    "With --functions: arguments of each function and number type")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    line_.add_flag("--every-float", arguments_.functions.every_float,
+                   "With --functions: all floats, of functions of one argument: long");
+    line_
+        .add_option("--units", arguments_.functions.units,
+                    "With --functions: hold them to so many units in the last place, instead of "
+                    "function_error")
+        ->check(CLI::PositiveNumber);
+    line_
+        .add_option("--functions-csv", arguments_.functions_csv,
+                    "Write the table of functions as CSV")
         ->type_name("OUT");
 }
 
@@ -71,8 +108,23 @@ validate_arguments validate_options::checked() {
         all.options.numbers = support::all_named(numbers_, number_named);
     if (all.every_bound && !all.tiny)
         throw support::usage_error("found --every-bound without --tiny, expected both");
+    if (line_.count("--functions") > 0) {
+        all.functions.functions = functions_named(functions_);
+    } else if (all.functions.every_float || all.functions.units || all.functions_csv ||
+               line_.count("--samples") > 0) {
+        throw support::usage_error("found an option of --functions without it, expected both");
+    }
+    all.functions.numbers = all.options.numbers;
+    const auto has_functions = [](number_type number) {
+        return number == number_type::float_type || number == number_type::double_type;
+    };
+    if (!all.functions.functions.empty() &&
+        std::ranges::none_of(all.functions.numbers, has_functions))
+        throw support::usage_error("--functions: found --numbers without float and double");
+    all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);
-    all.expressions = line_.count("--expressions") > 0 || (!all.tiny && all.queries.empty());
+    all.expressions = line_.count("--expressions") > 0 ||
+                      (!all.tiny && all.queries.empty() && all.functions.functions.empty());
     return all;
 }
 

@@ -16,12 +16,13 @@ enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2,
 struct validate_arguments {
     std::vector<rule> rules;
     bool expressions = false, tiny = false;  ///< whether to run them
+    function_options functions;              ///< their numbers and seed are those of expressions
     bool every_bound = false;                ///< of tiny
     expression_options options;              ///< threads: of all parts
     std::vector<std::filesystem::path> queries;
     std::optional<ccd::kind> kind;  ///< none: from each path
     bool round = false;
-    std::optional<std::filesystem::path> json, csv;
+    std::optional<std::filesystem::path> json, csv, functions_csv;
 };
 
 class validate_options {
@@ -35,9 +36,11 @@ class validate_options {
     validate_arguments checked();
 
   private:
+    void add_functions();
+
     CLI::App& line_;
     validate_arguments arguments_;
-    std::string rules_, numbers_, kind_;
+    std::string rules_, numbers_, kind_, functions_;
 };
 
 }  // namespace errbound::validation

@@ -33,7 +33,7 @@ std::string text_of_counts(const std::vector<found_part>& parts) {
             rows.push_back({p.name, c.rule, c.number, std::to_string(c.cases),
                             std::to_string(c.values), std::to_string(c.violations),
                             std::to_string(c.undetermined)});
-    return text_of(rows, 3);
+    return rows.size() > 1 ? text_of(rows, 3) : std::string();
 }
 
 std::string text_of_tightness(const std::vector<found_part>& parts) {
@@ -54,6 +54,23 @@ std::string text_of_tightness(const std::vector<found_part>& parts) {
     return rows.size() > 1 ? text_of(rows, 5) : std::string();
 }
 
+/// Three digits after the point, rounded up: a bound that may be relied on.
+std::string text_of_units(double units) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3f", std::ceil(units * 1000) / 1000);
+    return text;
+}
+
+std::string text_of_functions(const std::vector<found_part>& parts) {
+    table rows{{"function", "number", "at", "arguments", "largest", "assumed", "violations"}};
+    for (const found_part& p : parts)
+        for (const function_errors& f : p.found.functions)
+            rows.push_back({f.function, f.number, f.at, std::to_string(f.arguments),
+                            text_of_units(f.largest), text_of_units(f.assumed),
+                            std::to_string(f.violations)});
+    return rows.size() > 1 ? text_of(rows, 3) : std::string();
+}
+
 std::string text_of_violations(const std::vector<found_part>& parts) {
     std::string text;
     for (const found_part& p : parts)
@@ -70,7 +87,8 @@ ordered_json number_or_null(double x) {
 std::string json_of(const std::vector<found_part>& parts) {
     ordered_json all{{"counts", ordered_json::array()},
                      {"violations", ordered_json::array()},
-                     {"tightness", ordered_json::array()}};
+                     {"tightness", ordered_json::array()},
+                     {"functions", ordered_json::array()}};
     for (const found_part& p : parts) {
         for (const rule_counts& c : p.found.counts)
             all["counts"].push_back({{"part", p.name},
@@ -95,6 +113,14 @@ std::string json_of(const std::vector<found_part>& parts) {
                 entry[q.name] = number_or_null(t.log10.quantile(q.share));
             all["tightness"].push_back(std::move(entry));
         }
+        for (const function_errors& f : p.found.functions)
+            all["functions"].push_back({{"function", f.function},
+                                        {"number", f.number},
+                                        {"arguments", f.arguments},
+                                        {"largest", f.largest},
+                                        {"at", f.at},
+                                        {"assumed", f.assumed},
+                                        {"violations", f.violations}});
     }
     // A path need not be UTF-8; the default would throw on such a one.
     return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
@@ -128,15 +154,32 @@ std::string csv_of(const std::vector<found_part>& parts) {
     return text;
 }
 
+std::string csv_of_functions(const std::vector<found_part>& parts) {
+    std::string text = "function,number,arguments,largest,at,assumed,violations\n";
+    for (const found_part& p : parts)
+        for (const function_errors& f : p.found.functions) {
+            char numbers[80];
+            std::snprintf(numbers, sizeof numbers, ",%.9g,", f.largest);
+            text += f.function + ',' + f.number + ',' + std::to_string(f.arguments) + numbers +
+                    field(f.at);
+            std::snprintf(numbers, sizeof numbers, ",%.9g,", f.assumed);
+            text += numbers + std::to_string(f.violations) + '\n';
+        }
+    return text;
+}
+
 }  // namespace
 
 exit_status write_results(const std::vector<found_part>& parts, const validate_arguments& to) {
     std::vector<support::output> outputs;
     if (to.json) outputs.push_back({*to.json, json_of(parts)});
     if (to.csv) outputs.push_back({*to.csv, csv_of(parts)});
+    if (to.functions_csv) outputs.push_back({*to.functions_csv, csv_of_functions(parts)});
     support::write_whole(outputs);
-    std::ostream& people = support::stream_for_people({to.json, to.csv});
-    people << text_of_counts(parts);
+    std::ostream& people = support::stream_for_people({to.json, to.csv, to.functions_csv});
+    if (const std::string text = text_of_counts(parts); !text.empty()) people << text;
+    if (const std::string text = text_of_functions(parts); !text.empty())
+        people << "\nerrors of functions, in units in the last place:\n" << text;
     if (const std::string text = text_of_tightness(parts); !text.empty())
         people << "\nlog10 of the measure:\n" << text;
     people << text_of_violations(parts);

@@ -11,7 +11,7 @@ namespace errbound::validation {
 
 /// What a part of the run found.
 struct found_part {
-    std::string name;  ///< "expressions", "tiny" or the file
+    std::string name;  ///< "expressions", "tiny", "functions" or the file
     report found;
 };
 

@@ -6,29 +6,10 @@
 #include <errbound/validation/expression.hpp>
 #include <limits>
 
+#include "errbound/validation/random_source.hpp"
+
 namespace errbound::validation {
 namespace {
-
-/// SplitMix64 (Steele, Lea, Flood 2014): any seed is as good as any other, and costs nothing.
-class random_source {
-  public:
-    explicit random_source(std::uint64_t seed) : state_(seed) {}
-
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-        return z ^ (z >> 31);
-    }
-    /// 0 <= result < n. (n is small: the bias is far below one in 2^50.)
-    int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
-    /// first <= result <= last.
-    int between(int first, int last) { return first + below(last - first + 1); }
-    bool one_in(int n) { return below(n) == 0; }
-
-  private:
-    std::uint64_t state_;
-};
 
 /// What sizes the inputs of one expression have.
 enum class operand_scale {
@@ -115,13 +96,15 @@ class input_maker {
     double middle_;
 };
 
-/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma.
-using operation_mix = std::array<int, operation_kinds>;
-constexpr std::array<operation_mix, 5> mixes{{{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0},  // polynomials
-                                              {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0},  // sums
-                                              {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0},  // products
-                                              {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4},  // functions
-                                              {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1}}};
+/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, any elementary function.
+using operation_mix = std::array<int, first_function + 1>;
+constexpr std::array<operation_mix, 6> mixes{{{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0, 0},  // polynomials
+                                              {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // sums
+                                              {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0, 0},  // products
+                                              {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4, 0},  // functions
+                                              {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1, 0},
+                                              {3, 3, 4, 0, 1, 2, 1, 1, 1, 1, 1, 8}}};
+constexpr std::size_t mix_with_quotients = 4, mix_with_elementary_functions = 5;
 
 operation_kind kind_from(const operation_mix& mix, random_source& random) {
     int sum = 0;
@@ -129,11 +112,13 @@ operation_kind kind_from(const operation_mix& mix, random_source& random) {
     int left = random.below(sum);
     std::size_t kind = 0;
     while ((left -= mix[kind]) >= 0) ++kind;
+    if (kind == first_function)
+        kind += static_cast<std::size_t>(random.below(static_cast<int>(named_functions.size())));
     return static_cast<operation_kind>(kind);
 }
 
 template <class T>
-expression made(random_source& random, bool may_divide, int longest) {
+expression made(random_source& random, std::uint64_t index, int longest) {
     using limits = std::numeric_limits<T>;
     expression e;
     input_maker<T> inputs(random, static_cast<operand_scale>(random.below(operand_scales)));
@@ -147,7 +132,9 @@ expression made(random_source& random, bool may_divide, int longest) {
         in.quarters = random.one_in(2) ? (random.one_in(2) ? 4 : -4) : random.between(-4, 4);
     }
 
-    const operation_mix& mix = mixes[may_divide ? 4 : static_cast<std::size_t>(random.below(4))];
+    const operation_mix& mix = mixes[index % 4 == 3   ? mix_with_quotients
+                                     : index % 4 == 1 ? mix_with_elementary_functions
+                                                      : static_cast<std::size_t>(random.below(4))];
     // Few operands among the latest values make an expression deep, many make it wide.
     const bool deep = random.one_in(2);
     e.operation_count = static_cast<std::size_t>(random.between(1, longest));
@@ -180,7 +167,8 @@ std::string name_of_value(std::size_t value) {
 }  // namespace
 
 std::string_view name_of(operation_kind kind) {
-    constexpr std::array<std::string_view, operation_kinds> names{
+    if (is_function(kind)) return name_of(function_of(kind));
+    constexpr std::array<std::string_view, first_function> names{
         "add",  "subtract", "multiply", "divide", "negate", "scale",
         "sqrt", "abs",      "min",      "max",    "fma"};
     return names[static_cast<std::size_t>(kind)];
@@ -191,8 +179,7 @@ expression random_expression(std::uint64_t seed, std::uint64_t index, number_typ
     random_source mixed(seed);
     const auto t = static_cast<std::uint64_t>(type);
     random_source random(mixed.bits() ^ (2 * index + t % 2) ^ (t / 2 << 60));
-    return with_number_type(type,
-                            [&]<class T>() { return made<T>(random, index % 4 == 3, longest); });
+    return with_number_type(type, [&]<class T>() { return made<T>(random, index, longest); });
 }
 
 namespace {
@@ -303,6 +290,8 @@ void evaluate(const expression& e, ball* values) {
             case operation_kind::fused:
                 values[n].set_fused(values[o.left], values[o.right], values[o.third]);
                 break;
+            default:
+                values[n].set_function(function_of(o.kind), values[o.left], values[o.right]);
         }
         cancelling.note(o, n, values);
     }
@@ -333,11 +322,7 @@ std::string cpp_text(const expression_operation& o) {
             return "-" + left;
         case operation_kind::scale:
             return "scale(" + left + ", " + std::to_string(o.exponent) + ")";
-        case operation_kind::root:
-        case operation_kind::absolute:
-        case operation_kind::lesser:
-        case operation_kind::greater:
-        case operation_kind::fused:
+        default:
             break;
     }
     return std::string(name_of(o.kind)) + "(" + left + (o.has_right() ? ", " + right : "") +

@@ -26,6 +26,7 @@ std::span<const rule> rules() {
 std::uint64_t report::violation_count() const {
     std::uint64_t sum = 0;
     for (const rule_counts& entry : counts) sum += entry.violations;
+    for (const function_errors& entry : functions) sum += entry.violations;
     return sum;
 }
 
@@ -68,9 +69,25 @@ void add(std::vector<rule_counts>& all, rule_counts one) {
     known->undetermined += one.undetermined;
 }
 
+void add(std::vector<function_errors>& all, function_errors one) {
+    const auto known = std::ranges::find_if(all, [&one](const function_errors& other) {
+        return other.function == one.function && other.number == one.number;
+    });
+    if (known == all.end()) {
+        all.push_back(std::move(one));
+        return;
+    }
+    known->arguments += one.arguments;
+    known->violations += one.violations;
+    if (!(one.largest > known->largest)) return;
+    known->largest = one.largest;
+    known->at = std::move(one.at);
+}
+
 }  // namespace
 
 void report::merge(report later) {
+    for (function_errors& one : later.functions) add(functions, std::move(one));
     for (rule_counts& one : later.counts) add(counts, std::move(one));
     const order_of order(counts);
     for (violation& one : later.violations) {

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <errbound/conversion.hpp>
 #include <errbound/error_free.hpp>
 #include <errbound/functions.hpp>
@@ -97,9 +98,16 @@ struct type_of_functions<small_float<P, E, HasInfinity>> {
 template <class T>
 using function_type = typename type_of_functions<T>::type;
 
+template <class T>
+inline constexpr bool has_system_functions =
+    std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, long double>;
+
 template <elementary_function F, class... T>
 auto system_function(const T&... x) {
     using enum elementary_function;
+    static_assert((has_system_functions<T> && ...),
+                  "errbound: elementary functions are those of float, double, long double and the "
+                  "types of 8 and 16 bits");
     if constexpr (F == exp) return std::exp(x...);
     if constexpr (F == exp2) return std::exp2(x...);
     if constexpr (F == expm1) return std::expm1(x...);
@@ -450,9 +458,6 @@ tracked<T, Rule> function_of(const tracked<T, Rule>& x) {
     if constexpr (!std::is_same_v<T, function_type<T>>) {
         return convert<T>(function_of<F>(convert<function_type<T>>(x)));
     } else {
-        static_assert(std::is_floating_point_v<T>,
-                      "errbound: elementary functions are those of float, double, long double and "
-                      "the types of 8 and 16 bits");
         const bounded<T> result = function_of_range<F>(x.value(), x.error());
         return tracked<T, Rule>::within(result.value, result.error);
     }

@@ -21,6 +21,9 @@ auto members(tightness& t, distribution::counts& c) {
     return std::tie(t.rule, t.number, t.quantity, t.measure, c.exact, c.unknown, c.first_bin,
                     c.bins, c.least, c.most);
 }
+json packed(const function_errors& f) {
+    return {f.function, f.number, f.arguments, f.largest, f.at, f.assumed, f.violations};
+}
 
 template <class... Members>
 json array_of(const std::tuple<Members&...>& members) {
@@ -50,6 +53,15 @@ void unpack(const json& from, tightness& entry) {
     read_array(from, members(entry, counts));
     entry.log10 = distribution(std::move(counts));
 }
+void unpack(const json& from, function_errors& f) {
+    from.at(0).get_to(f.function);
+    from.at(1).get_to(f.number);
+    from.at(2).get_to(f.arguments);
+    from.at(3).get_to(f.largest);
+    from.at(4).get_to(f.at);
+    from.at(5).get_to(f.assumed);
+    from.at(6).get_to(f.violations);
+}
 
 template <class Entry>
 json all_packed(const std::vector<Entry>& entries) {
@@ -67,7 +79,7 @@ void unpack_all(const json& from, std::vector<Entry>& entries) {
 
 std::string report_line(const report& found) {
     const json all = {all_packed(found.counts), all_packed(found.violations),
-                      all_packed(found.distributions)};
+                      all_packed(found.distributions), all_packed(found.functions)};
     return all.dump(-1, ' ', true, json::error_handler_t::replace);
 }
 
@@ -77,6 +89,7 @@ report report_from(const std::string& line) {
     unpack_all(all.at(0), found.counts);
     unpack_all(all.at(1), found.violations);
     unpack_all(all.at(2), found.distributions);
+    unpack_all(all.at(3), found.functions);
     return found;
 }
 

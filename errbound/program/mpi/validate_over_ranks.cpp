@@ -66,6 +66,11 @@ std::string identity_of(const validate_arguments& arguments, const std::vector<q
     if (arguments.expressions)
         all["expressions"] = {arguments.options.expressions, arguments.options.operations,
                               arguments.options.seed};
+    const function_options& functions = arguments.functions;
+    for (const elementary_function f : functions.functions) all["functions"].push_back(name_of(f));
+    if (!functions.functions.empty())
+        all["arguments"] = {functions.samples, functions.every_float, functions.seed,
+                            functions.units.value_or(0)};
     for (const rule& r : arguments.rules) all["rules"].push_back(r.name);
     for (std::size_t i = 0; i < files.size(); ++i) {
         boost::crc_32_type checksum;
@@ -114,7 +119,8 @@ class chunk_list {
 exit_status validate_over_ranks(MPI_Comm comm, const validate_arguments& arguments,
                                 const std::optional<std::filesystem::path>& journal) {
     study::on_root(comm, [&] {
-        support::require_good_outputs({arguments.json, arguments.csv, journal}, arguments.queries);
+        support::require_good_outputs(
+            {arguments.json, arguments.csv, arguments.functions_csv, journal}, arguments.queries);
     });
     const std::vector<query_file> files = shared_files(comm, arguments);
     const chunk_list chunks(parts_of(arguments, files));

@@ -9,6 +9,7 @@
 #include <mpfr.h>
 
 #include <errbound/sign.hpp>
+#include <errbound/validation/mpfr_functions.hpp>
 #include <utility>
 
 namespace errbound::validation {
@@ -119,19 +120,17 @@ class ball {
     /// be.
     void set_quotient(const ball& a, const ball& b) {
         if (b.is_exact() && mpfr_zero_p(b.middle())) {
-            mpfr_set_nan(middle_.get());
+            set_undefined();
             return;
         }
         MPFR_DECL_INIT(distance, radius_precision);
         mpfr_abs(distance, b.middle(), MPFR_RNDD);
         mpfr_sub(distance, distance, b.radius(), MPFR_RNDD);
         if (a.is_unknown() || !(mpfr_sgn(distance) > 0)) {
-            if (!a.is_defined() || !b.is_defined()) {
-                mpfr_set_nan(middle_.get());
-            } else {
-                mpfr_set_zero(middle_.get(), 1);
-                mpfr_set_inf(radius_.get(), 1);
-            }
+            if (!a.is_defined() || !b.is_defined())
+                set_undefined();
+            else
+                set_unknown();
             return;
         }
         MPFR_DECL_INIT(size, radius_precision);
@@ -152,12 +151,11 @@ class ball {
         MPFR_DECL_INIT(least, radius_precision);
         mpfr_sub(least, a.middle(), a.radius(), MPFR_RNDD);
         if (!a.is_defined() || a.sign() == sign_type::negative) {
-            mpfr_set_nan(middle_.get());
+            set_undefined();
             return;
         }
         if (a.is_unknown() || mpfr_sgn(least) < 0) {
-            mpfr_set_zero(middle_.get(), 1);
-            mpfr_set_inf(radius_.get(), 1);
+            set_unknown();
             return;
         }
         mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
@@ -180,6 +178,9 @@ class ball {
         product.set_product(a, b);
         set_sum(product, c);
     }
+    /// f of what is in a and, if it has two arguments, in b; undefined where none of it has a
+    /// value, unknown where some may have none, or the precision does not tell.
+    void set_function(elementary_function f, const ball& a, const ball& b);
     /// a·2^e.
     void set_scaled(const ball& a, int e) {
         mpfr_mul_2si(middle_.get(), a.middle(), e, MPFR_RNDN);
@@ -205,10 +206,26 @@ class ball {
   private:
     static constexpr mpfr_prec_t radius_precision = 64;
 
+    void set_undefined() { mpfr_set_nan(middle_.get()); }
+    void set_unknown() {
+        mpfr_set_zero(middle_.get(), 1);
+        mpfr_set_inf(radius_.get(), 1);
+    }
+    void set_function_of_one(elementary_function f, const ball& a);
+    void set_function_of_two(elementary_function f, const ball& a, const ball& b);
+    void set_power(const ball& a, const ball& b);
+    void set_angle(const ball& a, const ball& b);
+    /// What is between two numbers; unknown unless both are finite.
+    void set_between(mpfr_srcptr lower, mpfr_srcptr upper);
+    /// The midpoint has been set to a function's rounded value.
+    void set_computed(int off);
+    /// Gives up a midpoint of an exponent far beyond those of all formats.
+    void confine();
+
     /// The one that `first` says; exact where that is certain and it is.
     void set_one(const ball& a, const ball& b, int (*first)(mpfr_srcptr, mpfr_srcptr)) {
         if (!a.is_defined() || !b.is_defined()) {
-            mpfr_set_nan(middle_.get());
+            set_undefined();
             return;
         }
         MPFR_DECL_INIT(apart, radius_precision);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/elementary.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
@@ -29,10 +30,20 @@ enum class operation_kind : std::uint8_t {
     absolute,
     lesser,
     greater,
-    fused
+    fused,
+    function  ///< and after it all others of elementary_function, in its order
 };
-inline constexpr std::size_t operation_kinds = 11;
+inline constexpr std::size_t first_function = static_cast<std::size_t>(operation_kind::function);
+inline constexpr std::size_t operation_kinds = first_function + named_functions.size();
 std::string_view name_of(operation_kind kind);
+
+constexpr bool is_function(operation_kind kind) {
+    return kind >= operation_kind::function;
+}
+/// Precondition: is_function(kind).
+constexpr elementary_function function_of(operation_kind kind) {
+    return static_cast<elementary_function>(static_cast<std::size_t>(kind) - first_function);
+}
 
 /// Stands for value + error·quarters/4, and is known to within error of value; error 0: exact.
 struct expression_input {
@@ -40,13 +51,15 @@ struct expression_input {
     int quarters = 0;
 };
 
-/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third.
+/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third; a function of left, or
+/// of left and right.
 struct expression_operation {
     operation_kind kind = operation_kind::add;
     std::uint8_t left = 0, right = 0, third = 0;
     int exponent = 0;
 
     bool has_right() const {
+        if (is_function(kind)) return has_two_arguments(function_of(kind));
         return kind != operation_kind::negate && kind != operation_kind::scale &&
                kind != operation_kind::root && kind != operation_kind::absolute;
     }
@@ -126,8 +139,8 @@ constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     }
 }
 
-/// The expression of this index: the same for the same seed. Every fourth one may divide, the
-/// others do not. At most `longest` operations.
+/// The expression of this index: the same for the same seed. Every fourth one may divide, and
+/// another fourth has elementary functions; no others do. At most `longest` operations.
 expression random_expression(std::uint64_t seed, std::uint64_t index, number_type type,
                              int longest);
 
@@ -166,6 +179,15 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
             return max(left, right);
         case operation_kind::fused:
             return fma(left, right, x[o.third]);
+        default:
+            return with_function(function_of(o.kind), [&]<elementary_function F>() {
+                if constexpr (F == elementary_function::pow)
+                    return pow(left, right);
+                else if constexpr (F == elementary_function::atan2)
+                    return atan2(left, right);
+                else
+                    return detail::function_of<F>(left);
+            });
     }
     return {};
 }

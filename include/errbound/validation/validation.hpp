@@ -4,14 +4,17 @@
 // Three kinds of evidence: random expressions, the polynomials and the sign classification of
 // stored collision queries, and number formats so small that every case can be tried. In all of
 // them a rule is held to two promises: |value − exact value| <= error(), and every certain sign is
-// the exact one. docs/validation.md tells more.
+// the exact one. A fourth is of what tracked elementary functions assume of the system's.
+// docs/validation.md tells more.
 #pragma once
 
 #include <ccd/query.hpp>
 #include <cstdint>
 #include <errbound/validation/distribution.hpp>
+#include <errbound/validation/mpfr_functions.hpp>
 #include <errbound/validation/rule.hpp>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +50,16 @@ struct rule_counts {
     std::uint64_t undetermined = 0;  ///< where even the largest precision did not tell
 };
 
+/// How far the system's function is off, in units in the last place of the exact result.
+struct function_errors {
+    std::string function, number;
+    std::uint64_t arguments = 0;   ///< those with a value and a finite result: what was compared
+    double largest = 0;            ///< rounded up, by less than 2^-30
+    std::string at;                ///< where it is the largest: hexadecimal, as in C++
+    double assumed = 0;            ///< function_error, or what the options say
+    std::uint64_t violations = 0;  ///< errors that are larger than that
+};
+
 struct report {
     /// Violations that are told, of each entry of counts; all are counted.
     static constexpr std::size_t kept_violations = 5;
@@ -54,7 +67,9 @@ struct report {
     std::vector<rule_counts> counts;
     std::vector<violation> violations;  ///< the first of each entry of counts, in its order
     std::vector<tightness> distributions;
+    std::vector<function_errors> functions;
 
+    /// Of rules, and of what is assumed of functions.
     std::uint64_t violation_count() const;
     /// Adds what was found of further cases. Entries of counts that are not here come last.
     void merge(report later);
@@ -92,6 +107,21 @@ struct expression_options {
 evidence evidence_of_expressions(std::span<const rule> rules, const expression_options& options);
 report validate_expressions(std::span<const rule> rules, const expression_options& options,
                             const progress& show = {});
+
+struct function_options {
+    std::vector<elementary_function> functions;  ///< none: nothing is done
+    std::uint64_t samples = 1'000'000;           ///< arguments, or pairs, of each function and type
+    bool every_float = false;     ///< all floats instead, of functions of one argument
+    std::optional<double> units;  ///< what they are held to, instead of function_error
+    std::uint64_t seed = 1;
+    std::vector<number_type> numbers{number_type::double_type, number_type::float_type};
+};
+
+/// The system's functions against MPFR: whether function_error holds. Arguments are random bits,
+/// and those that are hard: near multiples of π/2, zeros, ends of domains and where results
+/// overflow, underflow or pass a power of two. Of float and double; other types have float's
+/// functions, and are left out. Cost: about a microsecond an argument.
+evidence evidence_of_functions(const function_options& options);
 
 /// The forms of stored queries and BSC itself on them, operation by operation, in double. The
 /// evidence looks at the queries as long as it is used. Cost: about a millisecond a query and rule.

@@ -68,6 +68,13 @@ class ValidateOverRanks(unittest.TestCase):
         self.assertIn("tiny ", one[0])
         self.assertEqual(self.results(self.over(3), *arguments), one)
 
+    def test_functions(self):
+        arguments = ("--functions", "sin,atan2", "--samples", 50000, "--expressions", 10)
+        one = self.results(self.alone, *arguments)
+        self.assertIn("atan2 ", one[0])
+        for ranks, more in ((2, ("--journal", self.kept)), (3, ("--threads", 2))):
+            self.assertEqual(self.results(self.over(ranks), *arguments, *more), one)
+
     def test_killed_rank(self):
         arguments = ("--expressions", 150000, "--seed", 5)
         process = over_ranks.start(3, os.environ["ERRBOUND_MPI_PROGRAM"], "validate", *arguments,

@@ -36,7 +36,7 @@ class Validate(unittest.TestCase):
         out, table = self.directory / "out.json", self.directory / "out.csv"
         text = self.good("--expressions", 2000, "--json", out, "--csv", table)
         found = json.loads(out.read_text())
-        self.assertEqual(list(found), ["counts", "violations", "tightness"])
+        self.assertEqual(list(found), ["counts", "violations", "tightness", "functions"])
         self.assertEqual(found["violations"], [])
         for entry in found["counts"]:
             self.assertGreaterEqual(entry["cases"], 2000)
@@ -79,6 +79,30 @@ class Validate(unittest.TestCase):
         quantities = {t["quantity"] for t in found["tightness"]}
         self.assertLessEqual({"k0", "3 k1", "3 k2", "k3", "Y'(0)", "Y''(1)", "G"}, quantities)
 
+    def test_functions(self):
+        out, table = self.directory / "out.json", self.directory / "out.csv"
+        common = ("--functions", "exp,cbrt,pow", "--samples", 3000)
+        text = self.good(*common, "--json", out, "--functions-csv", table)
+        self.assertNotIn("expressions", text)
+        found = json.loads(out.read_text())["functions"]
+        self.assertEqual([(f["function"], f["number"]) for f in found],
+                         [(f, n) for f in ("exp", "cbrt", "pow") for n in ("double", "float")])
+        with open(table, newline="") as file:
+            rows = list(csv.DictReader(file))
+        for f, row in zip(found, rows, strict=True):
+            self.assertEqual(sorted(row), sorted(f))
+            self.assertGreater(f["arguments"], 1000)
+            self.assertGreater(f["largest"], 0.4)
+            self.assertLessEqual(f["largest"], f["assumed"])
+            self.assertEqual((row["at"], int(row["violations"])), (f["at"], 0))
+            self.assertIn(f["at"], text)
+        self.assertEqual(text, self.good(*common, "--threads", 3))
+        self.assertNotEqual(text, self.good(*common, "--seed", 2))
+        # What they are not: rounded correctly to one bit more.
+        done = self.run_program("validate", *common, "--units", "0.25")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"\n[1-9][0-9]+ violations\n$")
+
     def test_bad_input(self):
         file = self.directory / "vf.csv"
         file.write_text(HIT.replace("0.7\n", "x\n", 1))
@@ -101,6 +125,9 @@ class Validate(unittest.TestCase):
         for arguments in ((), ("validate", "--rules", "loose"), ("validate", "--expressions", "0"),
                           ("validate", "--operations", "49"), ("validate", "--kind", "vv"),
                           ("validate", "--queries", file, "--json", file),
+                          ("validate", "--functions", "erf"), ("validate", "--samples", 10),
+                          ("validate", "--functions", "exp", "--numbers", "float16"),
+                          ("validate", "--every-float"), ("validate", "--units", "1"),
                           ("validate", "--json", "out", "--csv", "out"), ("nothing",)):
             done = self.run_program(*arguments)
             self.assertEqual(done.returncode, 2, arguments)

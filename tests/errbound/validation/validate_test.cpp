@@ -135,6 +135,41 @@ TEST(Validate, ARuleWithTooSmallAFactorIsCaught) {
         EXPECT_LE(std::count(v.code.begin(), v.code.end(), '\n'), 4) << v.what << "\n" << v.code;
 }
 
+TEST(Validate, FunctionsAreAsFarOffAsIsAssumed) {
+    validation::function_options options{.samples = support::scaled(3000u), .seed = 5};
+    for (const auto& f : validation::named_functions) options.functions.push_back(f.function);
+    const validation::report r = validation::examine(validation::evidence_of_functions(options), 0);
+    EXPECT_EQ(r.violation_count(), 0U);
+    ASSERT_EQ(r.functions.size(), 2 * validation::named_functions.size());
+    for (const auto& f : r.functions) {
+        EXPECT_GE(f.arguments, options.samples / 8) << f.function << " " << f.number;
+        EXPECT_LE(f.largest, f.assumed) << f.function << " of " << f.number << " " << f.at;
+        EXPECT_GE(f.largest, 0.45) << f.function << " " << f.number;
+    }
+    // What is held to less is caught.
+    options.units = 0.4;
+    const validation::report caught =
+        validation::examine(validation::evidence_of_functions(options), 0);
+    for (const auto& f : caught.functions) EXPECT_GT(f.violations, 0U) << f.function;
+    EXPECT_GT(caught.violation_count(), r.violation_count());
+}
+
+TEST(Validate, EveryFloatIsTried) {
+    validation::function_options options{
+        .functions = {errbound::elementary_function::sin},
+        .every_float = true,
+        .numbers = {errbound::validation::number_type::float_type}};
+    const validation::evidence what = validation::evidence_of_functions(options);
+    ASSERT_GT(what.chunks, 100U);
+    // The last ones are NaN, of which nothing is asked.
+    const validation::report last = what.report_of(what.chunks - 1);
+    ASSERT_EQ(last.functions.size(), 1U);
+    EXPECT_EQ(last.functions.front().function, "sin");
+    EXPECT_EQ(last.functions.front().arguments, 0U);
+    options.functions.clear();
+    EXPECT_EQ(validation::evidence_of_functions(options).chunks, 0U);
+}
+
 TEST(Validate, ChunksAreTheWhole) {
     const rule rules[] = {validation::rule_of<errbound::tight>(), validation::rule_of<as_printed>(),
                           validation::rule_of<too_small>()};

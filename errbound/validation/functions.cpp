@@ -1,0 +1,231 @@
+// The system's elementary functions against MPFR.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <errbound/validation/ball.hpp>
+#include <errbound/validation/validation.hpp>
+#include <limits>
+#include <utility>
+
+#include "errbound/validation/chunks.hpp"
+#include "errbound/validation/random_source.hpp"
+
+namespace errbound::validation {
+namespace {
+
+constexpr std::uint64_t least_chunk = 10000;
+constexpr std::uint64_t float_count = std::uint64_t{1} << 32;
+
+/// A function, a type and what is tried of it.
+struct job {
+    elementary_function function{};
+    number_type number{};
+    bool every_float = false;
+    chunks cases{0, 1};
+};
+
+std::vector<job> jobs_of(const function_options& options) {
+    std::vector<job> jobs;
+    for (const elementary_function f : options.functions)
+        for (const number_type number : options.numbers) {
+            if (number != number_type::float_type && number != number_type::double_type) continue;
+            const bool all =
+                options.every_float && number == number_type::float_type && !has_two_arguments(f);
+            jobs.push_back({f, number, all, {all ? float_count : options.samples, least_chunk}});
+        }
+    return jobs;
+}
+
+template <class T>
+std::string text_of(T x) {
+    return hexadecimal(double{x},
+                       std::same_as<T, float> ? number_type::float_type : number_type::double_type);
+}
+
+/// Holds results of one function of T against the exact ones.
+template <elementary_function F, class T>
+class comparison {
+    using traits = number_traits<T>;
+    static constexpr bool has_two = has_two_arguments(F);
+    // 40 bits more than T's, so that an error is known to 2^-39 units.
+    static constexpr mpfr_prec_t precision = traits::digits + 40;
+    static constexpr double slack = 0x1p-39;
+
+  public:
+    explicit comparison(const std::optional<double>& units)
+        : exact_(precision), off_(64), first_(traits::digits), second_(traits::digits) {
+        found.function = name_of(F);
+        found.number = std::same_as<T, float> ? "float" : "double";
+        found.assumed = units.value_or(function_error<F, T>);
+    }
+
+    void add(T x, T y = 0) {
+        T v;
+        if constexpr (has_two)
+            v = detail::system_function<F>(x, y);
+        else
+            v = detail::system_function<F>(x);
+        if (!std::isfinite(v) || !std::isfinite(x) || !std::isfinite(y)) return;
+        mpfr_set_d(first_.get(), x, MPFR_RNDN);
+        mpfr_set_d(second_.get(), y, MPFR_RNDN);
+        if constexpr (has_two) {
+            if (!has_value(F, first_.get(), second_.get())) return;
+            // Of zeros with a sign, the library's own.
+            if (F == elementary_function::atan2 && x == 0 && std::signbit(x)) return;
+            mpfr_of_two(F, exact_.get(), first_.get(), second_.get(), MPFR_RNDZ);
+        } else {
+            if (!has_value(F, first_.get())) return;
+            mpfr_function_of(F)(exact_.get(), first_.get(), MPFR_RNDZ);
+        }
+        ++found.arguments;
+        const double off = units_off(v);
+        if (off > found.assumed) ++found.violations;
+        if (!(off > found.largest)) return;
+        found.largest = off;
+        found.at = has_two ? text_of(x) + ", " + text_of(y) : text_of(x);
+    }
+
+    function_errors found;
+
+  private:
+    /// |v − f|, in units in the last place of f, which is towards zero of its own and so has the
+    /// exponent of the exact one; rounded up.
+    double units_off(T v) {
+        constexpr mpfr_exp_t least = traits::min_exponent - traits::digits;
+        const mpfr_exp_t last = mpfr_zero_p(exact_.get()) != 0
+                                    ? least
+                                    : std::max(mpfr_get_exp(exact_.get()) - traits::digits, least);
+        mpfr_set_d(off_.get(), v, MPFR_RNDN);
+        mpfr_sub(off_.get(), off_.get(), exact_.get(), MPFR_RNDU);
+        if (mpfr_zero_p(off_.get())) return 0;
+        mpfr_mul_2si(off_.get(), off_.get(), -last, MPFR_RNDU);
+        mpfr_abs(off_.get(), off_.get(), MPFR_RNDU);
+        return mpfr_get_d(off_.get(), MPFR_RNDU) + slack;
+    }
+
+    mpfr_number exact_, off_, first_, second_;
+};
+
+/// Arguments that are hard for some function, and others.
+template <class T>
+class argument_maker {
+    using limits = std::numeric_limits<T>;
+    using traits = number_traits<T>;
+    using code = std::conditional_t<std::same_as<T, float>, std::uint32_t, std::uint64_t>;
+
+  public:
+    argument_maker(elementary_function f, std::uint64_t seed, std::uint64_t chunk)
+        : function_(f), random_(mixed(seed, chunk)) {}
+
+    T argument() {
+        switch (random_.below(8)) {
+            case 0:
+                return any_bits();
+            case 1:  // of a few units
+                return signed_by(uniform(4));
+            case 2:  // near multiples of π/2
+                return near(static_cast<T>(half_pi * std::floor(std::exp2(uniform(30)))));
+            case 3:  // near numbers of few digits, ends of domains among them
+                return near(signed_by(std::ldexp(T(random_.below(9)), random_.between(-3, 1))));
+            case 4:  // near those
+                return signed_by(1 + signed_by(std::exp2(-uniform(traits::digits))));
+            case 5:  // where results pass powers of two
+                return near(static_cast<T>(random_.between(least, most) * unit_of_exponent()));
+            case 6:  // over the range of exponentials
+                return static_cast<T>(unit_of_exponent() * (least + uniform(most - least)));
+            default:
+                return of_any_size();
+        }
+    }
+    /// Two of them; of powers often those that neither overflow nor underflow.
+    std::pair<T, T> two() {
+        T x = argument(), y = argument();
+        if (function_ == elementary_function::atan2) {
+            if (random_.below(2) == 0) y = x * signed_by(std::exp2(uniform(60) - 30));
+        } else if (random_.below(4) != 0) {
+            if (random_.below(2) == 0) x = std::abs(x);
+            const T log = std::log2(std::abs(x));
+            if (log != 0 && std::isfinite(log)) y = near(T(least + uniform(most - least)) / log);
+            if (random_.below(4) == 0) y = std::trunc(y);
+        }
+        return {x, y};
+    }
+
+  private:
+    static constexpr double half_pi = 1.57079632679489661923;
+    static constexpr int least = limits::min_exponent - limits::digits - 2,
+                         most = limits::max_exponent + 1;
+
+    static std::uint64_t mixed(std::uint64_t seed, std::uint64_t chunk) {
+        random_source random(seed);
+        return random.bits() ^ chunk * 0x9e3779b97f4a7c15U;
+    }
+    /// From 0 to below `end`.
+    T uniform(double end) {
+        return static_cast<T>(end * std::ldexp(static_cast<double>(random_.bits() >> 11), -53));
+    }
+    T signed_by(T x) { return random_.below(2) == 0 ? x : -x; }
+    T any_bits() { return std::bit_cast<T>(static_cast<code>(random_.bits())); }
+    T of_any_size() { return std::ldexp(signed_by(1 + uniform(1)), random_.between(least, most)); }
+    T near(T x) {
+        for (int steps = random_.below(4); steps > 0; --steps)
+            x = std::nextafter(x, random_.below(2) == 0 ? limits::max() : limits::lowest());
+        return x;
+    }
+    /// An argument that doubles the result of an exponential.
+    double unit_of_exponent() const {
+        return function_ == elementary_function::exp2 ? 1.0 : 0.693147180559945309417;
+    }
+
+    elementary_function function_;
+    random_source random_;
+};
+
+template <elementary_function F, class T>
+function_errors compared(const job& what, const function_options& options, std::uint64_t chunk) {
+    comparison<F, T> all(options.units);
+    auto [begin, end] = what.cases.of(chunk);
+    if (what.every_float) {
+        for (std::uint64_t code = begin; code < end; ++code)
+            all.add(std::bit_cast<float>(static_cast<std::uint32_t>(code)));
+        return all.found;
+    }
+    argument_maker<T> make(F, options.seed, chunk);
+    for (; begin < end; ++begin)
+        if constexpr (has_two_arguments(F)) {
+            const auto [x, y] = make.two();
+            all.add(x, y);
+        } else {
+            all.add(make.argument());
+        }
+    return all.found;
+}
+
+report report_of(const std::vector<job>& jobs, const function_options& options,
+                 std::uint64_t chunk) {
+    auto one = jobs.begin();
+    for (; chunk >= one->cases.count(); ++one) chunk -= one->cases.count();
+    report found;
+    with_function(one->function, [&]<elementary_function F>() {
+        found.functions.push_back(one->number == number_type::float_type
+                                      ? compared<F, float>(*one, options, chunk)
+                                      : compared<F, double>(*one, options, chunk));
+    });
+    return found;
+}
+
+}  // namespace
+
+evidence evidence_of_functions(const function_options& options) {
+    const std::vector<job> jobs = jobs_of(options);
+    std::uint64_t chunks = 0;
+    for (const job& one : jobs) chunks += one.cases.count();
+    return with_mpfr(
+        {.chunks = chunks,
+         .report_of = [jobs,
+                       options](std::uint64_t chunk) { return report_of(jobs, options, chunk); },
+         .tell = [](report&) {}});
+}
+
+}  // namespace errbound::validation
