@@ -109,10 +109,10 @@ report validate_expressions(std::span<const rule> rules, const expression_option
                             const progress& show = {});
 
 struct function_options {
-    std::vector<elementary_function> functions;  ///< none: nothing is done
-    std::uint64_t samples = 1'000'000;           ///< arguments, or pairs, of each function and type
-    bool every_float = false;     ///< all floats instead, of functions of one argument
-    std::optional<double> units;  ///< what they are held to, instead of function_error
+    std::vector<elementary_function> functions{};  ///< none: nothing is done
+    std::uint64_t samples = 1'000'000;  ///< arguments, or pairs, of each function and type
+    bool every_float = false;           ///< all floats instead, of functions of one argument
+    std::optional<double> units{};      ///< what they are held to, instead of function_error
     std::uint64_t seed = 1;
     std::vector<number_type> numbers{number_type::double_type, number_type::float_type};
 };
