@@ -242,6 +242,47 @@ class multiples {
     std::array<multiple, expression::max_values> known_;
 };
 
+/// The result of an operation on others of the values.
+void set_result(ball& result, const expression_operation& o, const ball* values) {
+    switch (o.kind) {
+        case operation_kind::add:
+            result.set_sum(values[o.left], values[o.right]);
+            break;
+        case operation_kind::subtract:
+            result.set_difference(values[o.left], values[o.right]);
+            break;
+        case operation_kind::multiply:
+            result.set_product(values[o.left], values[o.right]);
+            break;
+        case operation_kind::divide:
+            result.set_quotient(values[o.left], values[o.right]);
+            break;
+        case operation_kind::negate:
+            result.set_negative(values[o.left]);
+            break;
+        case operation_kind::scale:
+            result.set_scaled(values[o.left], o.exponent);
+            break;
+        case operation_kind::root:
+            result.set_root(values[o.left]);
+            break;
+        case operation_kind::absolute:
+            result.set_absolute(values[o.left]);
+            break;
+        case operation_kind::lesser:
+            result.set_lesser(values[o.left], values[o.right]);
+            break;
+        case operation_kind::greater:
+            result.set_greater(values[o.left], values[o.right]);
+            break;
+        case operation_kind::fused:
+            result.set_fused(values[o.left], values[o.right], values[o.third]);
+            break;
+        default:
+            result.set_function(function_of(o.kind), values[o.left], values[o.right]);
+    }
+}
+
 }  // namespace
 
 void evaluate(const expression& e, ball* values) {
@@ -256,43 +297,7 @@ void evaluate(const expression& e, ball* values) {
     }
     for (std::size_t i = 0; i < e.operation_count; ++i, ++n) {
         const expression_operation& o = e.operations[i];
-        switch (o.kind) {
-            case operation_kind::add:
-                values[n].set_sum(values[o.left], values[o.right]);
-                break;
-            case operation_kind::subtract:
-                values[n].set_difference(values[o.left], values[o.right]);
-                break;
-            case operation_kind::multiply:
-                values[n].set_product(values[o.left], values[o.right]);
-                break;
-            case operation_kind::divide:
-                values[n].set_quotient(values[o.left], values[o.right]);
-                break;
-            case operation_kind::negate:
-                values[n].set_negative(values[o.left]);
-                break;
-            case operation_kind::scale:
-                values[n].set_scaled(values[o.left], o.exponent);
-                break;
-            case operation_kind::root:
-                values[n].set_root(values[o.left]);
-                break;
-            case operation_kind::absolute:
-                values[n].set_absolute(values[o.left]);
-                break;
-            case operation_kind::lesser:
-                values[n].set_lesser(values[o.left], values[o.right]);
-                break;
-            case operation_kind::greater:
-                values[n].set_greater(values[o.left], values[o.right]);
-                break;
-            case operation_kind::fused:
-                values[n].set_fused(values[o.left], values[o.right], values[o.third]);
-                break;
-            default:
-                values[n].set_function(function_of(o.kind), values[o.left], values[o.right]);
-        }
+        set_result(values[n], o, values);
         cancelling.note(o, n, values);
     }
 }

@@ -6,20 +6,19 @@
 // predicate takes this rule.
 //
 //  * A sample's operation is rounded to one of the two neighbours of the exact result, to the
-//  nearer
-//    with the higher probability (stochastic rounding, which is right on average: Croci, Fasi,
-//    Higham, Mary, Mikaitis 2022; random rounding of Parker's Monte Carlo arithmetic, 1997). The
-//    exact result is known by error_free.hpp; near underflow, where it is not, a last place or none
-//    is added or taken away.
+//    nearer with the higher probability (stochastic rounding, which is right on average: Croci,
+//    Fasi, Higham, Mary, Mikaitis 2022; random rounding of Parker's Monte Carlo arithmetic, 1997).
+//    The exact result is known by error_free.hpp; near underflow, where it is not, a last place or
+//    none is added or taken away.
 //  * Nothing is drawn: chance is a hash of the operands, of the sample's number and of Seed. So
 //    results are the same in each run, there is no generator to share, and the same operation on
 //    the same operands rounds alike, as it does in the arithmetic that samples stand for: a + b and
 //    b + a are one, and b − a is −(a − b). (So do the modes of Verrou that end in _det.)
-//  * `within` gives samples spread evenly over what the number may be, by a new source at each call
-//    (detail/sources.hpp); in constant expressions and device code by value and error alone.
+//  * `within` gives samples spread evenly over what the number may be, by value and error alone:
+//  two
+//    numbers within the same move together, as if they were one.
 //  * The value is plain arithmetic's. With m the mean of the samples' deviations from it and s
-//  their
-//    standard deviation, the estimate is |m| + τs/√N, where τ is Student's for 95 %: CESTAC's
+//    their standard deviation, the estimate is |m| + τs/√N, where τ is Student's for 95 %: CESTAC's
 //    (Vignes 1993), which has the mean for its result, with what the value is off it. Where samples
 //    do not scatter, the estimate is 0.
 // What goes wrong: errors that are not of rounding (truncation), branches that samples do not take,
@@ -30,7 +29,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <errbound/detail/sources.hpp>
 #include <errbound/error_free.hpp>
 #include <errbound/rules/rule.hpp>
 #include <utility>
@@ -56,9 +54,14 @@ struct stochastic_of {
     static constexpr bound<T> exact(const T& value) {
         return by_sample<T>([&](std::size_t) { return value; });
     }
+    /// Evenly from value − error to value + error.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
-        return spread<T>(value, error, detail::fresh_source());
+        return by_sample<T>([&](std::size_t k) {
+            if (!(error >= 0)) return number_traits<T>::infinity();
+            const double share = 2 * chance(hash<T>(value, error, k)) - 1;
+            return T(value + detail::rounded_product(error, static_cast<T>(share)));
+        });
     }
     /// An estimate; infinite where a sample is not finite.
     template <class T>
@@ -145,15 +148,6 @@ struct stochastic_of {
         (std::make_index_sequence<Samples>());
     }
 
-    /// Evenly from value − error to value + error.
-    template <class T>
-    static constexpr bound<T> spread(const T& value, const T& error, std::uint64_t source) {
-        return by_sample<T>([&](std::size_t k) {
-            if (!(error >= 0)) return number_traits<T>::infinity();
-            const double share = 2 * chance(hash<T>(value, error, k ^ (source << 3))) - 1;
-            return T(value + detail::rounded_product(error, static_cast<T>(share)));
-        });
-    }
     template <class T>
     static constexpr T sum(const T& a, const T& b, std::size_t k) {
         const with_error<T> r = two_sum<T>(a, b);
