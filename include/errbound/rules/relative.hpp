@@ -2,7 +2,7 @@
 // quotients and sums of numbers of one sign; rounding must be to nearest.
 //
 // Notation: v the computed value, x the true one, u = 2^-p, ε = 2u. A number is known by k:
-// v = x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter <k>), so
+// v = x·Π(1 + δᵢ)^±1 over k factors, |δᵢ| <= u (Higham 2002, Lemma 3.1; Stewart's counter of k), so
 // that v and x have one sign, and |ln(v/x)| <= kw, w = −ln(1 − u). It is kw that k stands for,
 // which need not be whole.
 //  * exact numbers have k = 0; an operation adds one to the count unless it is exact, as
