@@ -11,7 +11,7 @@ cmake --install "$build" --prefix "$work/prefix" >/dev/null
 test -f "$work/prefix/share/doc/errbound/CITATION.cff"
 export PKG_CONFIG_PATH
 PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name errbound.pc)")
-read -ra flags < <(pkg-config --static --cflags --libs errbound-ccd)
+read -ra flags < <(pkg-config --cflags --libs errbound-ccd)
 "$compiler" -std=c++20 "$source/tests/install/user/use_ccd.cpp" "${flags[@]}" -o "$work/by_pkg_config"
 "$work/by_pkg_config"
 "$source/tests/install/use.sh" "$source" "$work/prefix" "$work" "$compiler" "$generator"
