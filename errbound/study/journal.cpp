@@ -58,7 +58,8 @@ std::pair<std::string_view, std::string_view> differing_parts(std::string_view a
     const std::size_t comma = a.substr(0, same).rfind(',');
     const std::size_t begin = comma == std::string_view::npos ? 0 : comma + 1;
     const auto part = [&](std::string_view of) {
-        return of.substr(begin, std::min(of.find_first_of(",\n", same), of.size()) - begin);
+        of = of.substr(begin, std::min(of.find_first_of(",\n", same), of.size()) - begin);
+        return of.substr(std::min(of.find_first_not_of(' '), of.size()));
     };
     return {part(a), part(b)};
 }

@@ -176,8 +176,8 @@ void ball::set_function_of_two(elementary_function f, const ball& a, const ball&
 
 void ball::set_power(const ball& a, const ball& b) {
     const ends x(a), y(b);
-    if (a.is_exact() && mpfr_zero_p(a.middle()) && mpfr_sgn(y.lower.get()) > 0) return set(0);
-    if (b.is_exact() && mpfr_zero_p(b.middle())) return set(1);
+    if (a.is_zero() && mpfr_sgn(y.lower.get()) > 0) return set(0);
+    if (b.is_zero()) return set(1);
     if (b.is_exact() && mpfr_cmp_ui(b.middle(), 1) == 0) {
         mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
         return set_computed(mpfr_set(middle_.get(), a.middle(), MPFR_RNDN));

@@ -31,7 +31,7 @@ std::string text_of(const tiny_account& how) {
 
 }  // namespace
 
-void tiny_judge::check(const claim& r, const exact_range& exact, const tiny_account& how) {
+void claim_checker::check(const claim& r, const exact_range& exact, const tiny_account& how) {
     ++found_.values;
     if (!std::isfinite(r.value) || !exact.defined()) {
         if (certain(r.sign) || std::isfinite(r.error))
@@ -58,8 +58,8 @@ int compare_product(double x, double y, double z) {
 
 }  // namespace
 
-void tiny_judge::check_product(const claim& r, const exact_range& a, const exact_range& b,
-                               const tiny_account& how) {
+void claim_checker::check_product(const claim& r, const exact_range& a, const exact_range& b,
+                                  const tiny_account& how) {
     if (!a.defined() || !b.defined() || !std::isfinite(r.value)) {
         check(r, {}, how);
         return;
@@ -80,8 +80,8 @@ void tiny_judge::check_product(const claim& r, const exact_range& a, const exact
     check_sign(r, low, high, how);
 }
 
-void tiny_judge::check_quotient(const claim& r, const exact_range& n, const exact_range& d,
-                                const tiny_account& how) {
+void claim_checker::check_quotient(const claim& r, const exact_range& n, const exact_range& d,
+                                   const tiny_account& how) {
     if (!n.defined() || !d.defined() || !(d.low > 0 || d.high < 0) || !std::isfinite(r.value)) {
         check(r, {}, how);
         return;
@@ -98,7 +98,7 @@ void tiny_judge::check_quotient(const claim& r, const exact_range& n, const exac
     check_sign(r, dividends.low, dividends.high, how);
 }
 
-void tiny_judge::check_root(const claim& r, const exact_range& x, const tiny_account& how) {
+void claim_checker::check_root(const claim& r, const exact_range& x, const tiny_account& how) {
     if (!x.defined() || x.low < 0 || !std::isfinite(r.value)) {
         check(r, {}, how);
         return;
@@ -111,14 +111,14 @@ void tiny_judge::check_root(const claim& r, const exact_range& x, const tiny_acc
     check_sign(r, x.low, x.high, how);
 }
 
-void tiny_judge::check_sign(const claim& r, double low, double high, const tiny_account& how) {
+void claim_checker::check_sign(const claim& r, double low, double high, const tiny_account& how) {
     if ((r.sign == sign_type::positive && !(low > 0)) ||
         (r.sign == sign_type::negative && !(high < 0)) ||
         (r.sign == sign_type::zero && !(low == 0 && high == 0)))
         add(r, "the sign is wrong", how);
 }
 
-void tiny_judge::add(const claim& r, const char* broken, const tiny_account& how) {
+void claim_checker::add(const claim& r, const char* broken, const tiny_account& how) {
     if (++found_.violations > report::kept_violations) return;
     found_.first.push_back(
         {std::string(broken) + " (rounding " + std::string(direction_) + "): value " +

@@ -18,6 +18,19 @@ struct with_error {
     T value, error;
 };
 
+namespace detail {
+
+/// At least the error of a result that is rounded to v, to nearest, underflow included: u|v| + η,
+/// rounded (u|v| is exact or underflows, and where it is exact and η is lost on it, v does not
+/// underflow).
+template <class T>
+constexpr T half_ulp(const T& v) {
+    using traits = number_traits<T>;
+    return rounded_product(traits::abs(v), traits::unit_roundoff()) + traits::underflow_unit();
+}
+
+}  // namespace detail
+
 /// a + b = value + error exactly, value = a ⊕ b.
 /// Precondition: no overflow, of the sum or on the way to the error (an operand of the largest size
 /// only); else value or error is infinite or NaN. Underflow does no harm: sums that underflow are

@@ -13,13 +13,17 @@ namespace {
 struct contestant {
     ccd::method method;
     int threads;  ///< 0: all
+    ccd::instruction_set set = ccd::instruction_sets().back();
     ccd::step_result quickest = {};
     double seconds = std::numeric_limits<double>::infinity();
 };
 
-void run(const ccd::mesh& before, const ccd::mesh& after, contestant& c) {
+ccd::step_result run(const ccd::mesh& before, const ccd::mesh& after, const contestant& c) {
+    return ccd::step(before, after, {.method = c.method, .threads = c.threads, .set = c.set});
+}
+void run_timed(const ccd::mesh& before, const ccd::mesh& after, contestant& c) {
     const clock::time_point start = clock::now();
-    ccd::step_result result = ccd::step(before, after, {.method = c.method, .threads = c.threads});
+    ccd::step_result result = run(before, after, c);
     const double seconds = seconds_since(start);
     if (seconds >= c.seconds) return;
     c.seconds = seconds;
@@ -31,7 +35,7 @@ std::vector<timing> race_steps(const ccd::mesh& before, const ccd::mesh& after,
                                std::vector<contestant>& contestants, int repeats) {
     std::vector<std::function<void()>> passes;
     for (contestant& c : contestants) {
-        passes.push_back([&before, &after, &c] { run(before, after, c); });
+        passes.push_back([&before, &after, &c] { run_timed(before, after, c); });
     }
     return race(passes, repeats);
 }
@@ -46,13 +50,13 @@ double megabytes(std::size_t bytes) {
 
 std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
     const ccd::step_result& r = c.quickest;
-    const std::size_t heap = peak_heap(
-        [&] { keep(ccd::step(s.before, s.after, {.method = c.method, .threads = c.threads})); });
+    const std::size_t heap = peak_heap([&] { keep(run(s.before, s.after, c)); });
     const std::size_t frames = bytes_of(s.before) + bytes_of(s.after);
     const std::size_t result = r.pairs.vertex_face.size() * sizeof(ccd::vertex_face_pair) +
                                r.pairs.edge_edge.size() * sizeof(ccd::edge_edge_pair);
     const std::size_t without_result = heap - std::min(heap, result);
     return {word(ccd::info(c.method).name),
+            word(std::string(ccd::name(c.set))),
             count(static_cast<std::uint64_t>(r.threads)),
             number(1e3 * t.minimum, 2),
             number(1e3 * t.median, 2),
@@ -73,6 +77,8 @@ std::vector<cell> row_of(const scene& s, const contestant& c, const timing& t) {
 void steps(const scene& s, const options& o, report& out) {
     std::vector<contestant> contestants{{ccd::method::exact, 1}, {ccd::method::exact, 0}};
     if (!o.quick) {
+        for (const ccd::instruction_set set : ccd::instruction_sets())
+            if (set != contestants.front().set) contestants.push_back({ccd::method::exact, 1, set});
         contestants.push_back({ccd::method::tight, 1});
         contestants.push_back({ccd::method::float_, 1});
     }
@@ -90,6 +96,7 @@ void steps(const scene& s, const options& o, report& out) {
                   ": whole steps, frames in memory to sorted pairs (peak: heap on top of the "
                   "frames; its ratio to the frames without the result)",
               {{"method", "method", true},
+               {"instruction_set", "instruction set", true},
                {"threads", "threads"},
                {"ms_min", "min ms"},
                {"ms_median", "median ms"},

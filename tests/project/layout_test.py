@@ -22,7 +22,7 @@ SOURCES = CPP | {".py"}
 LAYERS = [
     ("floating-point facts", r"include/errbound/((environment|number_traits|small_floats|binary128|sign|error_free)\.hpp|detail/)"),
     ("bound rules", r"include/errbound/rules/"),
-    ("tracked scalar", r"include/errbound/(tracked|functions)\.hpp"),
+    ("tracked scalar", r"include/errbound/((tracked|functions)\.hpp|functions/)"),
     ("linear algebra", r"include/errbound/(linear/|(eigen|certified_solve)\.hpp)"),
     ("exact numbers", r"include/errbound/(integers/|multiprecision\.hpp)"),
     ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),

@@ -17,9 +17,8 @@
 //    not told apart any more, but are still one source: x − x stays 0.
 // All amounts that are not coefficients are rounded upwards without touching the rounding mode:
 //  * fl(x + y)(1 + ε), rounded, is at least x + y >= 0: with s = fl(x + y) normal, sε is at least
-//  its
-//    last place, so that s(1 + ε) is at least its successor; subnormal, s is x + y, and rounding is
-//    monotone;
+//    its last place, so that s(1 + ε) is at least its successor; subnormal, s is x + y, and
+//    rounding is monotone;
 //  * of a product or quotient likewise, and η more where it underflows;
 //  * fl(x − y)(1 − ε), rounded, is at most x − y > 0, for the same reason.
 // A number whose value, or the sum of whose terms, overflows or is NaN is unknown: no terms, and an
@@ -106,14 +105,14 @@ struct affine_of {
         const with_error<T> product = two_product<T>(a.value, b.value);
         builder<T> r;
         r.add_left(product_error_is_exact<T>(a.value, b.value, product) ? traits::abs(product.error)
-                                                                        : half_ulp<T>(v));
+                                                                        : detail::half_ulp<T>(v));
         for_each_source(a.bound, b.bound, [&](std::uint64_t source, const T& of_a, const T& of_b) {
             const T x = detail::rounded_product(a.value, of_b);
             const T y = detail::rounded_product(of_a, b.value);
             const with_error<T> c = two_sum<T>(x, y);
             r.add(source, c.value);
-            if (of_b != 0 && a.value != 0) r.add_left(half_ulp<T>(x));
-            if (of_a != 0 && b.value != 0) r.add_left(half_ulp<T>(y));
+            if (of_b != 0 && a.value != 0) r.add_left(detail::half_ulp<T>(x));
+            if (of_a != 0 && b.value != 0) r.add_left(detail::half_ulp<T>(y));
             r.add_left(traits::abs(c.error));
         });
         r.add_left(upper_product<T>(traits::abs(a.value), b.bound.rest));
@@ -135,7 +134,7 @@ struct affine_of {
         if (is_zero(a)) return exact<T>(v);
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
         builder<T> r;
-        if (!division.exact) r.add_left(half_ulp<T>(v));
+        if (!division.exact) r.add_left(detail::half_ulp<T>(v));
         // Of N, besides its terms.
         T left = upper_sum<T>(upper_product<T>(traits::abs(v), b.bound.rest), a.bound.rest);
         if (division.exact) left = upper_sum<T>(left, traits::abs(division.value));
@@ -143,10 +142,10 @@ struct affine_of {
             const T x = detail::rounded_product(v, of_b);
             const with_error<T> n = two_sum<T>(of_a, T(-x));
             left = upper_sum<T>(left, traits::abs(n.error));
-            if (of_b != 0) left = upper_sum<T>(left, half_ulp<T>(x));
+            if (of_b != 0) left = upper_sum<T>(left, detail::half_ulp<T>(x));
             const T c = n.value / b.value;
             r.add(source, c);
-            if (n.value != 0) r.add_left(half_ulp<T>(c));
+            if (n.value != 0) r.add_left(detail::half_ulp<T>(c));
         });
         r.add_left(upper_quotient<T>(left, size));
         const T quotient = upper_sum<T>(r.radius(), r.left());  // at least |N/b̂|
@@ -209,15 +208,6 @@ struct affine_of {
         return detail::rounded_product(T(x / y), T(1 + traits::epsilon())) +
                traits::underflow_unit();
     }
-    /// At least the error of a result that is rounded to v: u|v| is exact or underflows, and where
-    /// it is exact and η is lost on it, v does not underflow.
-    template <class T>
-    static constexpr T half_ulp(const T& v) {
-        using traits = number_traits<T>;
-        return detail::rounded_product(traits::abs(v), traits::unit_roundoff()) +
-               traits::underflow_unit();
-    }
-
     /// A result as its terms come, by ascending source, and what is left over.
     template <class T>
     class builder {

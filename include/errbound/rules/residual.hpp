@@ -93,7 +93,7 @@ struct residual {
         const with_error<T> product = two_product<T>(a.value, b.value);
         const bool known = product_error_is_exact<T>(a.value, b.value, product);
         const T own = known ? product.error : T(0);
-        const T unknown = known ? T(0) : half_ulp<T>(v);
+        const T unknown = known ? T(0) : detail::half_ulp<T>(v);
         if (is_exact(a) && is_exact(b)) return {own, unknown};
 
         const T ca = traits::abs(a.bound.correction), cb = traits::abs(b.bound.correction);
@@ -125,7 +125,7 @@ struct residual {
         const division_remainder<T> division = remainder_of_division<T>(a.value, b.value, v);
         const bool known = division.exact;
         const T own = known ? division.value : T(0);
-        const T unknown = known ? T(0) : half_ulp<T>(v);
+        const T unknown = known ? T(0) : detail::half_ulp<T>(v);
         if (own == 0 && is_exact(a) && is_exact(b)) return {T(0), unknown + (v - v)};
 
         const T x = detail::rounded_product(v, b.bound.correction);
@@ -140,7 +140,7 @@ struct residual {
                         (detail::rounded_product(q, b.bound.remainder) + a.bound.remainder)) +
                        roundings<T>(x, T(0), inherited, numerator);
         return {correction,
-                inflated<T>(inflated<T>(left) / distance + half_ulp<T>(correction) + lost)};
+                inflated<T>(inflated<T>(left) / distance + detail::half_ulp<T>(correction) + lost)};
     }
     /// Scaling by a power of two is exact unless it underflows: then value, correction and
     /// remainder are each off by at most η/2. Proof: proofs/IeeeResidual.v, residual_scale_known.
@@ -179,13 +179,6 @@ struct residual {
             (traits::abs(x) + traits::abs(y)) + (traits::abs(first) + traits::abs(second));
         return detail::rounded_product(sizes, traits::unit_roundoff()) +
                4 * traits::underflow_unit();
-    }
-    /// At least the error of a result rounded to v, underflow included: u|v| + η.
-    template <class T>
-    static constexpr T half_ulp(const T& v) {
-        using traits = number_traits<T>;
-        return detail::rounded_product(traits::abs(v), traits::unit_roundoff()) +
-               traits::underflow_unit();
     }
     template <class T>
     static constexpr T inflated(const T& bound) {

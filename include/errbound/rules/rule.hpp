@@ -22,9 +22,8 @@
 //                                                nearest: validation then tries every direction
 //   holds_without_subnormals                     true where sums may underflow: T then is a type
 //                                                without gradual underflow
-//   error_is                                     error_meaning::estimate or nothing, for a rule
-//   that
-//                                                promises no bound
+//   error_is                                     error_meaning::estimate or nothing, where no
+//                                                bound is promised
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp. A
 // rule that differs from another in a part is derived from it: rules/derived.hpp. The state may be
 // of any size, terms by source for instance: rules/affine.hpp.

@@ -97,8 +97,12 @@ class ball {
         mpfr_add(radius_.get(), a.radius(), b.radius(), MPFR_RNDU);
         rounded(off);
     }
-    /// |xy − ab| <= |a|·rb + ra·(|b| + rb).
+    /// |xy − ab| <= |a|·rb + ra·(|b| + rb). Zero times an unknown number is zero.
     void set_product(const ball& a, const ball& b) {
+        if ((a.is_zero() && b.is_defined()) || (a.is_defined() && b.is_zero())) {
+            set(0);
+            return;
+        }
         const int off = mpfr_mul(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
         if (a.is_exact() && b.is_exact()) {
             mpfr_set_zero(radius_.get(), 1);
@@ -119,7 +123,7 @@ class ball {
     /// |x/y − a/b| <= (ra + |a/b|·rb)/(|b| − rb); undefined if b is exactly 0, unknown if it may
     /// be.
     void set_quotient(const ball& a, const ball& b) {
-        if (b.is_exact() && mpfr_zero_p(b.middle())) {
+        if (b.is_zero()) {
             set_undefined();
             return;
         }
@@ -190,6 +194,7 @@ class ball {
     mpfr_srcptr middle() const { return middle_.get(); }
     mpfr_srcptr radius() const { return radius_.get(); }
     bool is_exact() const { return mpfr_zero_p(radius_.get()) != 0; }
+    bool is_zero() const { return is_exact() && mpfr_zero_p(middle_.get()) != 0; }
     /// Nothing is known: the precision did not tell a divisor from zero.
     bool is_unknown() const { return mpfr_inf_p(radius_.get()) != 0; }
     /// False for what was divided by exactly zero, and all that comes of it.
@@ -198,8 +203,7 @@ class ball {
     sign_type sign() const {
         if (!is_defined()) return sign_type::uncertain;
         if (mpfr_cmpabs(middle_.get(), radius_.get()) <= 0)
-            return is_exact() && mpfr_zero_p(middle_.get()) ? sign_type::zero
-                                                            : sign_type::uncertain;
+            return is_zero() ? sign_type::zero : sign_type::uncertain;
         return mpfr_sgn(middle_.get()) > 0 ? sign_type::positive : sign_type::negative;
     }
 

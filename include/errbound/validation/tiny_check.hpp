@@ -122,9 +122,9 @@ struct tiny_account {
 /// Holds results to what they may be the results of. Exact references are doubles here: every sum
 /// and difference of what formats of 8 bits and their bounds hold fits 53 bits; a product is
 /// compared with such, exactly, and quotients are compared multiplied out.
-class tiny_judge {
+class claim_checker {
   public:
-    tiny_judge(tiny_findings& found, std::string_view rule, std::string_view direction)
+    claim_checker(tiny_findings& found, std::string_view rule, std::string_view direction)
         : found_(found), rule_(rule), direction_(direction) {}
 
     void check(const claim& r, const exact_range& exact, const tiny_account& how);
@@ -156,7 +156,7 @@ class tiny_checker {
 
   public:
     tiny_checker(tiny_findings& found, std::string_view direction)
-        : judge_(found, Rule::name, direction) {
+        : claims_(found, Rule::name, direction) {
         for (int code = 0; code < Tiny::codes; ++code)
             if (const Tiny x = Tiny::from_code(code); std::isfinite(double(x))) {
                 finite_.push_back(x);
@@ -196,25 +196,25 @@ class tiny_checker {
     }
 
     /// The flag is cleared after a result was looked at, and so before each operation.
-    template <class Judge>
-    void check_by(const Judge& judge, const number& r, tiny_account& how, const char* operation) {
+    template <class Check>
+    void check_by(const Check& check, const number& r, tiny_account& how, const char* operation) {
         if (!format::overflowed_unnoticed()) {  // the one thing that a rule may miss
             how.operation = operation;
-            judge({double(r.value()), double(r.error()), sign_of(r)});
+            check({double(r.value()), double(r.error()), sign_of(r)});
         }
         format::clear_flag();
     }
     void check(const number& r, const exact_range& exact, tiny_account& how,
                const char* operation) {
-        check_by([&](const claim& c) { judge_.check(c, exact, how); }, r, how, operation);
+        check_by([&](const claim& c) { claims_.check(c, exact, how); }, r, how, operation);
     }
     void check_product(const number& r, const exact_range& a, const exact_range& b,
                        tiny_account& how, const char* operation) {
-        check_by([&](const claim& c) { judge_.check_product(c, a, b, how); }, r, how, operation);
+        check_by([&](const claim& c) { claims_.check_product(c, a, b, how); }, r, how, operation);
     }
     void check_quotient(const number& r, const exact_range& n, const exact_range& d,
                         tiny_account& how, const char* operation) {
-        check_by([&](const claim& c) { judge_.check_quotient(c, n, d, how); }, r, how, operation);
+        check_by([&](const claim& c) { claims_.check_quotient(c, n, d, how); }, r, how, operation);
     }
 
     /// Every operation on two operands.
@@ -247,7 +247,7 @@ class tiny_checker {
               how, "abs(a)");
         check_by(
             [&](const claim& c) {
-                judge_.check_root(c, {a.low, a.high}, how);
+                claims_.check_root(c, {a.low, a.high}, how);
             },
             sqrt(a.x), how, "sqrt(a)");
         constexpr int reach = (1 << Tiny::exponent_bits) + Tiny::precision;
@@ -327,7 +327,7 @@ class tiny_checker {
         }
     }
 
-    tiny_judge judge_;
+    claim_checker claims_;
     std::vector<Tiny> finite_, bounds_;
 };
 

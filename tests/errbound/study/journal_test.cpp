@@ -108,7 +108,7 @@ TEST(Journal, RefusesWhatIsNotItsOwn) {
     contents(file);
     EXPECT_NE(refusal(file, "sums, seed 2, 10 chunks").find("found the journal of another study"),
               std::string::npos);
-    EXPECT_NE(refusal(file, "sums, seed 2, 10 chunks").find("seed 1, expected  seed 2"),
+    EXPECT_NE(refusal(file, "sums, seed 2, 10 chunks").find("study, seed 1, expected seed 2"),
               std::string::npos)
         << refusal(file, "sums, seed 2, 10 chunks");
     {

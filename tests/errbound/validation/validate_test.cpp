@@ -136,7 +136,8 @@ TEST(Validate, ARuleWithTooSmallAFactorIsCaught) {
 }
 
 TEST(Validate, FunctionsAreAsFarOffAsIsAssumed) {
-    validation::function_options options{.samples = support::scaled(3000u), .seed = 5};
+    // Not fewer under sanitizers: the largest errors must be met.
+    validation::function_options options{.samples = 3000, .seed = 5};
     for (const auto& f : validation::named_functions) options.functions.push_back(f.function);
     const validation::report r = validation::examine(validation::evidence_of_functions(options), 0);
     EXPECT_EQ(r.violation_count(), 0U);
@@ -144,10 +145,10 @@ TEST(Validate, FunctionsAreAsFarOffAsIsAssumed) {
     for (const auto& f : r.functions) {
         EXPECT_GE(f.arguments, options.samples / 8) << f.function << " " << f.number;
         EXPECT_LE(f.largest, f.assumed) << f.function << " of " << f.number << " " << f.at;
-        EXPECT_GE(f.largest, 0.3) << f.function << " " << f.number;
+        EXPECT_GE(f.largest, 0.45) << f.function << " " << f.number;
     }
     // What is held to less is caught.
-    options.units = 0.25;
+    options.units = 0.4;
     const validation::report caught =
         validation::examine(validation::evidence_of_functions(options), 0);
     for (const auto& f : caught.functions) EXPECT_GT(f.violations, 0U) << f.function;

@@ -1,0 +1,63 @@
+// How far the system's elementary functions are off: the assumption that bounds of
+// errbound/elementary.hpp rest on, a number for each function and type, for users to replace.
+#pragma once
+
+#include <errbound/number_traits.hpp>
+
+namespace errbound {
+
+/// As the C library names them.
+enum class elementary_function {
+    exp,
+    exp2,
+    expm1,
+    log,
+    log2,
+    log10,
+    log1p,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    sinh,
+    cosh,
+    tanh,
+    asinh,
+    acosh,
+    atanh,
+    cbrt,
+    pow,
+    atan2
+};
+
+namespace detail {
+
+/// In the order of elementary_function: at least what function_error's comment names.
+constexpr double documented_error(elementary_function f, bool is_wide) {
+    constexpr double narrow[] = {1, 1, 2, 1, 2, 3, 2, 1, 1, 2, 1, 1, 1, 3, 3, 3, 3, 3, 3, 5, 1, 2};
+    constexpr double wide[] = {2, 2, 4, 2, 4, 3, 4, 3, 3, 3, 2, 2, 2, 4, 4, 4, 5, 5, 5, 2, 4, 3};
+    return (is_wide ? wide : narrow)[static_cast<int>(f)];
+}
+
+}  // namespace detail
+
+/// The assumption: wherever the system's function F has a finite result v for arguments of type T
+/// in its domain, |v − f| is at most so many units in the last place of the exact result f, which
+/// are of η where f is subnormal; in rounding to nearest. From 0.5 to 1024.
+///
+/// The defaults are at least the errors that the GNU C library documents (its manual, "Known
+/// Maximum Errors in Math Functions", x86-64; for long double the larger one of those of 80 and 128
+/// bits) and those found by Gladman, Innocente, Mather and Zimmermann (Accuracy of Mathematical
+/// Functions in Single, Double, Double Extended, and Quadruple Precision), rounded up. `errbound
+/// validate --functions all` tells whether they hold on a system. For another library, or closer
+/// bounds, specialise it before the first use:
+///
+///   template <>
+///   inline constexpr double errbound::function_error<errbound::elementary_function::exp, double> =
+///       0.52;
+template <elementary_function F, class T>
+inline constexpr double function_error = detail::documented_error(F, number_traits<T>::digits > 53);
+
+}  // namespace errbound

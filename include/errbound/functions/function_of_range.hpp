@@ -1,0 +1,388 @@
+// What an elementary function of all numbers within e of x̂ is within. Internal.
+//
+// Notation: x̂ and e an argument's value and error, v the computed result, f the function, η the
+// smallest positive number, u = ε/2 the unit roundoff. A computed bound keeps at least (1 − u)^13
+// of itself on its way, for which enlarged() pays, (1 + 16u)(1 − u)^13 > 1; what underflows is
+// counted.
+#pragma once
+
+#include <cmath>
+#include <errbound/error_free.hpp>
+#include <errbound/functions/function_error.hpp>
+#include <errbound/functions.hpp>
+#include <errbound/small_floats.hpp>
+#include <type_traits>
+
+namespace errbound {
+
+namespace detail {
+
+/// The type whose functions serve T: T itself, or float for types of 8 and 16 bits.
+template <class T>
+struct type_of_functions {
+    using type = T;
+};
+template <int P, int E, bool HasInfinity>
+struct type_of_functions<small_float<P, E, HasInfinity>> {
+    using type = float;
+};
+template <class T>
+using function_type = typename type_of_functions<T>::type;
+
+template <class T>
+inline constexpr bool has_system_functions =
+    std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, long double>;
+
+template <elementary_function F, class... T>
+auto system_function(const T&... x) {
+    using enum elementary_function;
+    static_assert((has_system_functions<T> && ...),
+                  "errbound: elementary functions are those of float, double, long double and the "
+                  "types of 8 and 16 bits");
+    if constexpr (F == exp) return std::exp(x...);
+    if constexpr (F == exp2) return std::exp2(x...);
+    if constexpr (F == expm1) return std::expm1(x...);
+    if constexpr (F == log) return std::log(x...);
+    if constexpr (F == log2) return std::log2(x...);
+    if constexpr (F == log10) return std::log10(x...);
+    if constexpr (F == log1p) return std::log1p(x...);
+    if constexpr (F == sin) return std::sin(x...);
+    if constexpr (F == cos) return std::cos(x...);
+    if constexpr (F == tan) return std::tan(x...);
+    if constexpr (F == asin) return std::asin(x...);
+    if constexpr (F == acos) return std::acos(x...);
+    if constexpr (F == atan) return std::atan(x...);
+    if constexpr (F == sinh) return std::sinh(x...);
+    if constexpr (F == cosh) return std::cosh(x...);
+    if constexpr (F == tanh) return std::tanh(x...);
+    if constexpr (F == asinh) return std::asinh(x...);
+    if constexpr (F == acosh) return std::acosh(x...);
+    if constexpr (F == atanh) return std::atanh(x...);
+    if constexpr (F == cbrt) return std::cbrt(x...);
+    if constexpr (F == pow) return std::pow(x...);
+    if constexpr (F == atan2) return std::atan2(x...);
+}
+
+/// At least |v − f|, but for enlarged(). With k units: the last place of f is at most ε|f| + η, and
+/// |f| <= (|v| + kη)/(1 − kε), so that |v − f| <= kε|v|/(1 − kε) + kη + k²εη/(1 − kε); and
+/// 1/(1 − kε) < 1 + 2kε, k²ε < 1/8. Another 2kε >= u pays for k that T rounds, and another η for
+/// the product's underflow.
+template <elementary_function F, class T>
+T error_of_function(const T& v) {
+    using traits = number_traits<T>;
+    constexpr double k = function_error<F, T>;
+    static_assert(k >= 0.5 && k <= 1024,
+                  "errbound: function_error is from 0.5 to 1024 units in the last place");
+    constexpr T relative = T(k) * traits::epsilon();
+    return rounded_product(traits::abs(v), T(relative * (1 + 4 * relative))) +
+           T(static_cast<int>(k) + 2) * traits::underflow_unit();
+}
+
+/// A value, and at least its distance from the exact one, but for enlarged() where that is said;
+/// infinite or NaN where nothing is known.
+template <class T>
+struct bounded {
+    T value, error;
+};
+
+/// A function's value at a T, but for enlarged().
+template <elementary_function F, class T>
+bounded<T> evaluated(const T& x) {
+    const T v = system_function<F>(x);
+    return {v, error_of_function<F>(v)};
+}
+
+/// The sign of a + b − limit.
+template <class T>
+sign_type order_of_sum(const T& a, const T& b, const T& limit) {
+    const with_error<T> sum = two_sum(a, b);
+    // Rounding is monotone: the exact sum is on the same side of a T as the rounded one.
+    const T side = sum.value == limit ? sum.error : T(sum.value - limit);
+    return side > 0 ? sign_type::positive : side < 0 ? sign_type::negative : sign_type::zero;
+}
+
+/// Whether every number within e of x̂ is in the domain of F, and no pole.
+template <elementary_function F, class T>
+bool is_in_domain(const T& x, const T& e) {
+    using enum elementary_function;
+    if constexpr (F == log || F == log2 || F == log10) return x > e;
+    if constexpr (F == log1p) return order_of_sum(x, T(1), e) == sign_type::positive;
+    if constexpr (F == acosh) return certainly_nonnegative(order_of_sum(x, T(-e), T(1)));
+    const T size = number_traits<T>::abs(x);
+    if constexpr (F == asin || F == acos) return certainly_nonpositive(order_of_sum(size, e, T(1)));
+    if constexpr (F == atanh) return order_of_sum(size, e, T(1)) == sign_type::negative;
+    return true;
+}
+
+/// Whether v³ = x.
+template <class T>
+bool is_cube_root(const T& v, const T& x) {
+    const with_error<T> square = two_product(v, v), cube = two_product(square.value, v);
+    return product_error_is_exact(v, v, square) && square.error == 0 &&
+           product_error_is_exact(square.value, v, cube) && cube.error == 0 && cube.value == x;
+}
+
+/// Whether v is the exact result for an exact x. There are no other rational results of rational
+/// arguments, but for the logarithms of powers of ten (by the theorems of Lindemann, and of
+/// Gelfond and Schneider).
+template <elementary_function F, class T>
+bool is_exact_result(const T& x, const T& v) {
+    using enum elementary_function;
+    using traits = number_traits<T>;
+    if constexpr (F == exp || F == cos || F == cosh) return x == 0 && v == 1;
+    if constexpr (F == log || F == log10 || F == acos || F == acosh) return x == 1 && v == 0;
+    if constexpr (F == cbrt) return is_cube_root(v, x);
+    constexpr int reach = traits::max_exponent - traits::min_exponent + traits::digits;
+    if constexpr (F == exp2) {
+        if (!(x > -reach && x < reach && v > 0)) return false;
+        const int n = static_cast<int>(x);
+        return T(n) == x && v == traits::scale(T(1), n);
+    }
+    if constexpr (F == log2) {
+        const int n = traits::exponent(x) - 1;
+        return x == traits::scale(T(1), n) && v == T(n);
+    }
+    return x == 0 && v == 0;
+}
+
+/// Where |f'| does not decrease: for greater arguments, for lesser ones, away from zero, towards
+/// it. On both sides of zero alike, for the last two.
+enum class steeper_side { above, below, outward, inward };
+
+template <elementary_function F>
+constexpr steeper_side steeper() {
+    using enum elementary_function;
+    switch (F) {
+        case exp:
+        case exp2:
+        case expm1:
+            return steeper_side::above;
+        case log:
+        case log2:
+        case log10:
+        case log1p:
+        case acosh:
+            return steeper_side::below;
+        case asin:
+        case acos:
+        case sinh:
+        case cosh:
+        case atanh:
+            return steeper_side::outward;
+        default:  // atan, tanh, asinh, cbrt
+            return steeper_side::inward;
+    }
+}
+
+/// By how much an argument can change before f' changes by much.
+template <elementary_function F, class T>
+T natural_distance(const T& x) {
+    using enum elementary_function;
+    const T size = number_traits<T>::abs(x);
+    if constexpr (F == exp || F == exp2 || F == expm1 || F == sinh || F == cosh) return T(1);
+    if constexpr (F == log || F == log2 || F == log10 || F == cbrt) return size;
+    if constexpr (F == log1p) return 1 + x;
+    if constexpr (F == asin || F == acos || F == atanh) return 1 - size;
+    if constexpr (F == acosh) return x - 1;
+    return size > 1 ? size : T(1);
+}
+
+/// x̂ ± distance or, where that is not a T, the next one beyond; of the domains that have their
+/// ends, no number beyond these.
+template <elementary_function F, class T>
+T moved(const T& x, const T& distance, bool up) {
+    using enum elementary_function;
+    const with_error<T> sum = two_sum(x, up ? distance : T(-distance));
+    T p = sum.value;
+    // An error that is NaN (overflow) steps on, too.
+    if (!(up ? sum.error <= 0 : sum.error >= 0))
+        p = std::nextafter(p, up ? number_traits<T>::infinity() : T(-number_traits<T>::infinity()));
+    if constexpr (F == asin || F == acos) return p > 1 ? T(1) : p < -1 ? T(-1) : p;
+    if constexpr (F == acosh) return p < 1 ? T(1) : p;
+    return p;
+}
+
+/// At least |v − f(x)| for x within e > 0 of x̂, all of them in the domain.
+///
+/// |f(x) − f(x̂)| is at most the integral of |f'| over the e beyond x̂ on the side where it is
+/// steeper. On a longer way there, from x̂ to p, at a distance d >= e, the mean of |f'| is no less,
+/// so that it is at most (e/d)·|f(p) − f(x̂)|: f is monotone there. A d of about √ε natural
+/// distances gives the derivative to about √ε, whatever e. Where |f'| grows towards zero, p goes
+/// beyond only if x can be zero, and then at d = e: the integral is still the largest of all
+/// intervals of that length with an end at x̂.
+template <elementary_function F, class T>
+T error_by_slope(const T& x, const T& e, const T& v) {
+    using traits = number_traits<T>;
+    constexpr steeper_side side = steeper<F>();
+    const T size = traits::abs(x);
+    const bool up =
+        side == steeper_side::above ||
+        (side == steeper_side::outward ? x >= 0 : side == steeper_side::inward && x < 0);
+    T distance = traits::max(
+        e, rounded_product(natural_distance<F>(x), traits::scale(T(1), -(traits::digits / 2))));
+    bool to_the_end = false;
+    if constexpr (side == steeper_side::inward) {
+        to_the_end = size <= e;
+        if (distance > size) distance = to_the_end ? e : size;
+    }
+    const T p = moved<F>(x, distance, up);
+    const bounded<T> end = evaluated<F>(p);
+    const T own = error_of_function<F>(v), way = traits::abs(T(p - x));
+    const T difference = traits::abs(T(end.value - v)) + (own + end.error);
+    // Where the way is rounded to e or less, or infinite, the share is 1.
+    const bool shares = !to_the_end && way > e && traits::is_finite(way);
+    const T share = shares ? T(e / way + traits::underflow_unit()) : T(1);
+    return own + (rounded_product(share, difference) + traits::underflow_unit());
+}
+
+/// At least |f(x) − f(x̂)| for f = sin or cos, `slope` of its derivative at x̂, the other one's
+/// value: with d = x − x̂, |2 sin(d/2) cos(x̂ + d/2)| <= e·min(1, |cos x̂| + e/2), likewise of cos.
+template <class T>
+T change_of_wave(const bounded<T>& slope, const T& e) {
+    using traits = number_traits<T>;
+    const T steepest = traits::abs(slope.value) + (slope.error + e / 2);
+    return rounded_product(e, steepest < 1 ? enlarged<T>(steepest) : T(1)) +
+           traits::underflow_unit();
+}
+
+/// At least |tan x − tan x̂| for x within e of x̂; infinite where a pole may be among them. With
+/// t = |tan x̂| and q = tan e, e < π/2: tan(x̂ + d) − tan x̂ = tan d (1 + tan² x̂)/(1 − tan x̂ tan d) is
+/// at most q(1 + t²)/(1 − tq), and there is no pole as long as tq < 1.
+template <class T>
+T change_of_tangent(const bounded<T>& tangent, const T& e) {
+    using traits = number_traits<T>;
+    if (!(e <= 1.5)) return traits::infinity();
+    const bounded<T> of_e = evaluated<elementary_function::tan>(e);
+    const T q = enlarged<T>(of_e.value + of_e.error);
+    const T t = enlarged<T>(traits::abs(tangent.value) + tangent.error);
+    const T product = enlarged<T>(rounded_product(t, q) + traits::underflow_unit());
+    if (!(product < 1)) return traits::infinity();
+    const T numerator = rounded_product(q, T(1 + rounded_product(t, t)));
+    return enlarged<T>(numerator / (1 - product)) + traits::underflow_unit();
+}
+
+/// F of what is within e of x̂.
+template <elementary_function F, class T>
+bounded<T> function_of_range(const T& x, const T& e) {
+    using enum elementary_function;
+    using traits = number_traits<T>;
+    const T v = system_function<F>(x);
+    if (!traits::is_finite(x) || !traits::is_finite(e) || !is_in_domain<F>(x, e))
+        return {v, traits::infinity()};
+    const T own = error_of_function<F>(v);
+    if (e == 0) return {v, is_exact_result<F>(x, v) ? T(0) : enlarged<T>(own)};
+    if constexpr (F == sin || F == cos) {
+        constexpr elementary_function derivative = F == sin ? cos : sin;
+        const T error = own + change_of_wave<T>(evaluated<derivative>(x), e);
+        // No more than the distance of v from the other end of the range.
+        const T range = 1 + traits::abs(v);
+        return {v, enlarged<T>(error < range ? error : range)};
+    } else if constexpr (F == tan) {
+        return {v, enlarged<T>(own + change_of_tangent<T>({v, own}, e))};
+    } else {
+        return {v, enlarged<T>(error_by_slope<F>(x, e, v))};
+    }
+}
+
+/// At least |v − x^y| for |x̂| > e_x, where v is the computed power of x̂ and ŷ.
+///
+/// |log(x^y) − log(x̂^ŷ)| <= |ŷ|·λ + e_y·(|log |x̂|| + λ) =: s, λ = log(|x̂|/(|x̂| − e_x)), of which
+/// log1p(e_x/(|x̂| − e_x)) is another form; and x^y is off from x̂^ŷ by a factor of at most e^s.
+template <class T>
+T error_of_power(const T& size, const T& of_x, const T& y, const T& of_y, const T& v) {
+    using enum elementary_function;
+    using traits = number_traits<T>;
+    const T own = error_of_function<pow>(v);
+    if (of_x == 0 && of_y == 0) return own;
+    T of_log(0), exponent(0);
+    if (of_x != 0) {
+        const bounded<T> ratio =
+            evaluated<log1p>(enlarged<T>(of_x / (size - of_x) + traits::underflow_unit()));
+        of_log = enlarged<T>(ratio.value + ratio.error);
+        exponent = rounded_product(traits::abs(y), of_log);
+    }
+    if (of_y != 0) {
+        const bounded<T> log_x = evaluated<log>(size);
+        exponent += rounded_product(of_y, T(traits::abs(log_x.value) + (log_x.error + of_log)));
+    }
+    const bounded<T> growth =
+        evaluated<expm1>(enlarged<T>(exponent + 2 * traits::underflow_unit()));
+    const T most = enlarged<T>(traits::abs(v) + own);
+    return own + (rounded_product(most, enlarged<T>(growth.value + growth.error)) +
+                  traits::underflow_unit());
+}
+
+/// At least the error of x^n for a whole n > 0, where x may be zero: |x^n − x̂^n| <= (|x̂| + e)^n −
+/// |x̂|^n.
+template <class T>
+T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
+    using enum elementary_function;
+    const T own = error_of_function<pow>(v);
+    const T end = system_function<pow>(moved<pow>(size, e, true), n);
+    return own + ((end - number_traits<T>::abs(v)) + (error_of_function<pow>(end) + own));
+}
+
+/// At least |atan2(y, x) − atan2(ŷ, x̂)| where the path from one to the other crosses no cut:
+/// infinite where this does not tell. The angle's tangent is (x̂·dy − ŷ·dx)/(x̂² + ŷ² + x̂·dx + ŷ·dy),
+/// and an angle is at most its tangent. In units of the larger of |x̂| and |ŷ|, which cannot be
+/// zero; what underflows there, four scalings and products at most in each sum, is less than η
+/// each.
+template <class T>
+T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
+    using traits = number_traits<T>;
+    const T larger = traits::max(traits::abs(x), traits::abs(y));
+    const int unit = traits::exponent(larger);
+    const auto scaled = [&](const T& z) { return traits::scale(traits::abs(z), -unit); };
+    const T a = scaled(x), b = scaled(y), da = scaled(of_x), db = scaled(of_y);
+    const T lost = 8 * traits::underflow_unit();
+    const T across = rounded_product(a, T(db + lost)) + (rounded_product(b, T(da + lost)) + lost);
+    const T along = rounded_product(a, T(da + lost)) + (rounded_product(b, T(db + lost)) + lost);
+    const T square = rounded_product(a, a) + rounded_product(b, b);
+    const T least = rounded_product(square, T(1 - 4 * traits::epsilon())) - enlarged<T>(along);
+    if (!(least > 0)) return traits::infinity();
+    return enlarged<T>(across) / least + lost;
+}
+
+/// x^y of what is within e_x of x̂ and e_y of ŷ.
+template <class T>
+bounded<T> power_of_ranges(const T& x, const T& of_x, const T& y, const T& of_y) {
+    using traits = number_traits<T>;
+    const T v = system_function<elementary_function::pow>(x, y);
+    const bounded<T> unknown{v, traits::infinity()};
+    // A number that is not finite is among the errors, too.
+    if (!traits::is_finite(of_x) || !traits::is_finite(of_y)) return unknown;
+    if (of_y == 0 && y == 0) return {T(1), T(0)};
+    const bool is_whole = of_y == 0 && std::trunc(y) == y;
+    const T size = traits::abs(x);
+    if (size > of_x) {
+        if (x < 0 && !is_whole) return unknown;
+        if (x == 1 && of_x == 0) return {T(1), T(0)};
+        return {v, enlarged<T>(error_of_power(size, of_x, y, of_y, v))};
+    }
+    if (of_x == 0 && y > of_y) return {T(0), T(0)};
+    if (!is_whole || y < 0) return unknown;
+    return {v, enlarged<T>(error_of_power_at_zero(size, of_x, y, v))};
+}
+
+/// The angle of (x, y) in [−π, π] of what is within e_y of ŷ and e_x of x̂.
+template <class T>
+bounded<T> angle_of_ranges(const T& y, const T& of_y, const T& x, const T& of_x) {
+    using traits = number_traits<T>;
+    const T v = system_function<elementary_function::atan2>(y, x);
+    const bool may_be_origin = !(traits::abs(x) > of_x) && !(traits::abs(y) > of_y);
+    if (!traits::is_finite(of_x) || !traits::is_finite(of_y) || may_be_origin)
+        return {v, traits::infinity()};
+    if (y == 0 && of_y == 0 && x > of_x && v == 0) return {v, T(0)};
+    const T own = error_of_function<elementary_function::atan2>(v);
+    // What is not above or below the cut, where x may be negative. (−0 is below it.)
+    const bool above = y >= of_y && !std::signbit(y), below = y < -of_y;
+    const T range = traits::abs(v) + T(3.14159265358979323846264338327950288L);
+    if (!(x > of_x) && !above && !below) return {v, enlarged<T>(range)};
+    if (of_x == 0 && of_y == 0) return {v, enlarged<T>(own)};
+    const T error = own + change_of_angle(y, of_y, x, of_x);
+    return {v, enlarged<T>(error < range ? error : range)};
+}
+
+}  // namespace detail
+
+}  // namespace errbound
