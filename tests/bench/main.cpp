@@ -58,8 +58,9 @@ int main(int argc, char** argv) try {
     CLI::App app{"Times exact and the other methods; prints tables."};
     app.name("./run bench");
     app.footer(
-        "./run bench also takes, as its first argument, --linear, --predicates or --roots: those "
-        "beside\nother libraries; --worst: worst cases; and --native: these by a build for this "
+        "./run bench also takes, as its first argument, --linear, --predicates, --roots or "
+        "--rules: those beside\nother libraries; --worst: worst cases; and --native: these by a "
+        "build for this "
         "processor "
         "beside these.");
     bench::options o;

@@ -1,0 +1,68 @@
+#include <arb.h>
+
+#include "tests/bench/rules/contestants.hpp"
+
+namespace bench {
+namespace {
+
+/// A ball.
+class ball {
+  public:
+    ball() { arb_init(value_); }
+    explicit ball(double x) : ball() { arb_set_d(value_, x); }
+    ball(const ball& x) : ball() { arb_set(value_, x.value_); }
+    ball& operator=(const ball& x) {
+        arb_set(value_, x.value_);
+        return *this;
+    }
+    ~ball() { arb_clear(value_); }
+    arb_ptr get() { return value_; }
+    arb_srcptr get() const { return value_; }
+
+  private:
+    arb_t value_;
+};
+
+/// At the precision of doubles.
+struct arithmetic {
+    static constexpr slong precision = 53;
+    static ball made(double x, double y) {
+        ball r;
+        multiply(r, ball(x), ball(y));
+        return r;
+    }
+    static void add(ball& r, const ball& a, const ball& b) {
+        arb_add(r.get(), a.get(), b.get(), precision);
+    }
+    static void subtract(ball& r, const ball& a, const ball& b) {
+        arb_sub(r.get(), a.get(), b.get(), precision);
+    }
+    static void multiply(ball& r, const ball& a, const ball& b) {
+        arb_mul(r.get(), a.get(), b.get(), precision);
+    }
+    static void divide(ball& r, const ball& a, const ball& b) {
+        arb_div(r.get(), a.get(), b.get(), precision);
+    }
+    static void root(ball& r, const ball& a) { arb_sqrt(r.get(), a.get(), precision); }
+    static void fused(ball& r, const ball& a, const ball& b, const ball& c) {
+        arb_fma(r.get(), a.get(), b.get(), c.get(), precision);
+    }
+    static void absolute(ball& r, const ball& a) { arb_abs(r.get(), a.get()); }
+    static void lesser(ball& r, const ball& a, const ball& b) {
+        arb_min(r.get(), a.get(), b.get(), precision);
+    }
+    static errbound::sign_type sign(const ball& a) {
+        if (arb_is_positive(a.get()) != 0) return errbound::sign_type::positive;
+        if (arb_is_negative(a.get()) != 0) return errbound::sign_type::negative;
+        return arb_is_zero(a.get()) != 0 ? errbound::sign_type::zero
+                                         : errbound::sign_type::uncertain;
+    }
+};
+
+}  // namespace
+
+contestant arb_contestant() {
+    return contestant_of<ball, arithmetic>("arb", "arb");
+}
+
+}  // namespace bench

@@ -1,0 +1,28 @@
+#include "tests/bench/peers/boost_interval.hpp"
+
+#include "tests/bench/rules/contestants.hpp"
+
+namespace bench {
+namespace {
+
+struct arithmetic : operators<boost_interval> {
+    static void root(boost_interval& r, const boost_interval& a) { r = boost::numeric::sqrt(a); }
+    /// It has none: a product and a sum.
+    static void fused(boost_interval& r, const boost_interval& a, const boost_interval& b,
+                      const boost_interval& c) {
+        r = a * b + c;
+    }
+    static void absolute(boost_interval& r, const boost_interval& a) { r = boost::numeric::abs(a); }
+    static void lesser(boost_interval& r, const boost_interval& a, const boost_interval& b) {
+        r = boost::numeric::min(a, b);
+    }
+    static errbound::sign_type sign(const boost_interval& a) { return sign_of_interval(a); }
+};
+
+}  // namespace
+
+contestant boost_interval_contestant() {
+    return contestant_of<boost_interval, arithmetic>("boost_interval", "Boost.Interval");
+}
+
+}  // namespace bench

@@ -1,0 +1,116 @@
+// What each operation costs under each bound rule, beside plain double and the intervals of other
+// libraries: what is installed of Boost.Interval, MPFI and arb.
+#include <cstdio>
+#include <errbound/functions.hpp>
+#include <errbound/validation/rule_list.hpp>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "ccd/report/measuring/machine.hpp"
+#include "tests/bench/rules/contestants.hpp"
+
+namespace bench {
+namespace {
+
+struct plain_operators : operators<double> {
+    static errbound::sign_type sign(double a) {
+        using errbound::sign_type;
+        return a > 0 ? sign_type::positive : a < 0 ? sign_type::negative : sign_type::zero;
+    }
+};
+
+/// With as many terms as there may be, of the same sources in all operands.
+struct full_operators : operators<errbound::tracked<double, errbound::affine>> {
+    using number = errbound::tracked<double, errbound::affine>;
+    static number made(double x, double y) {
+        static const std::vector<number> sources = [] {
+            std::vector<number> all;
+            for (int i = 0; i < 16; ++i) all.push_back(number::within(1.0 / 16, 1e-9));
+            return all;
+        }();
+        number sum = 0;
+        for (const number& source : sources) sum += source * number(x);
+        return sum * number(y);
+    }
+};
+
+std::vector<contestant> all_contestants() {
+    std::vector<contestant> all;
+    all.push_back(contestant_of<double, plain_operators>("plain", "plain double"));
+    errbound::for_each_rule(errbound::all_rules(), [&]<class Rule>() {
+        using number = errbound::tracked<double, Rule>;
+        all.push_back(contestant_of<number, operators<number>, errbound::has_division<Rule>>(
+            Rule::name, Rule::name));
+    });
+    all.push_back(
+        contestant_of<full_operators::number, full_operators>("affine_full", "affine, 16 terms"));
+    all.push_back(boost_interval_contestant());
+#ifdef ERRBOUND_HAVE_MPFI
+    all.push_back(mpfi_contestant());
+#endif
+#ifdef ERRBOUND_HAS_ARB
+    all.push_back(arb_contestant());
+#endif
+    return all;
+}
+
+void time_operations(bool quick, report& out) {
+    const std::vector<contestant> all = all_contestants();
+    std::vector<column> columns{{"operation", "operation", true}};
+    for (const contestant& c : all) columns.push_back({c.key, c.heading});
+    std::vector<std::vector<cell>> minima, medians, ratios;
+    for (std::size_t k = 0; k < operation_count; ++k) {
+        std::vector<std::function<void()>> passes;
+        for (const contestant& c : all)
+            if (c.passes[k]) passes.push_back(c.passes[k]);
+        const std::vector<timing> timings = race(passes, quick ? 1 : 15);
+        for (auto* const rows : {&minima, &medians, &ratios})
+            rows->push_back({word(operation_names[k])});
+        auto taken = timings.begin();
+        for (const contestant& c : all) {
+            if (!c.passes[k]) {
+                for (auto* const rows : {&minima, &medians, &ratios})
+                    rows->back().push_back(none());
+                continue;
+            }
+            const auto ns = [](double seconds) { return 1e9 * seconds / operands_per_pass; };
+            const double ratio = taken->minimum / timings.front().minimum;
+            minima.back().push_back(number(ns(taken->minimum), 2));
+            medians.back().push_back(number(ns(taken->median), 2));
+            ratios.back().push_back(number(ratio, ratio < 100 ? 1 : 0));
+            ++taken;
+        }
+    }
+    out.table("rules", {{"what", "minimum"}},
+              "ns per operation, throughput over arrays in the first cache: least of some passes",
+              columns, minima);
+    out.table("rules", {{"what", "median"}}, "the same, median", columns, medians);
+    out.table("rules", {{"what", "ratio"}}, "the least, over plain double's", columns, ratios);
+}
+
+}  // namespace
+}  // namespace bench
+
+int main(int argc, char** argv) try {
+    const bool quick = argc == 2 && std::string_view(argv[1]) == "--quick";
+    if (argc > 1 && !quick) {
+        std::fprintf(stderr, "usage: ./run bench --rules [--quick]\n");
+        return 2;
+    }
+    const ccd::report::machine here = ccd::report::this_machine();
+    std::printf("%s, %u cores, load %.2f\n%s, flags: %s\n", here.processor.c_str(), here.cores,
+                here.load, here.compiler.c_str(), here.flags.c_str());
+#ifndef ERRBOUND_HAVE_MPFI
+    bench::report::say("built without MPFI (libmpfi-dev)");
+#endif
+#ifndef ERRBOUND_HAS_ARB
+    bench::report::say("built without arb (libflint-arb-dev)");
+#endif
+    bench::report out;
+    bench::time_operations(quick, out);
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "bench: %s\n", error.what());
+    return 1;
+}
