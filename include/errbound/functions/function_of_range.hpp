@@ -8,8 +8,8 @@
 
 #include <cmath>
 #include <errbound/error_free.hpp>
-#include <errbound/functions/function_error.hpp>
 #include <errbound/functions.hpp>
+#include <errbound/functions/function_error.hpp>
 #include <errbound/small_floats.hpp>
 #include <type_traits>
 

@@ -70,8 +70,7 @@ class root_isolation {
     void isolate(const point& low, const point& high, std::vector<interval>& roots,
                  work_meter& meter) const {
         const std::size_t first = roots.size();
-        meter.spend(work_of_value(low) + work_of_value(high));
-        const end from = end_at(low), to = end_at(high), zero{point(), false};
+        const end from = end_at(low, meter), to = end_at(high, meter), zero{point(), false};
         if (from.is_root) roots.push_back({low, low});
         if (low < high) {
             if (low < zero.at) {
@@ -198,9 +197,10 @@ class root_isolation {
                    ? 0
                    : n * (1 + n * static_cast<std::uint64_t>(floor_log2(x.numerator()) + 1) / 128);
     }
-    end end_at(const point& x) const {
-        const bool beyond = x <= lower_bound() || upper_bound() <= x;
-        return {x, !beyond && sign_at(squarefree(), x) == sign_type::zero};
+    end end_at(const point& x, work_meter& meter) const {
+        if (x <= lower_bound() || upper_bound() <= x) return {x, false};
+        meter.spend(work_of_value(x));
+        return {x, sign_at(squarefree(), x) == sign_type::zero};
     }
 
     /// The roots strictly between low and high, 0 <= low < high.

@@ -10,9 +10,11 @@ namespace errbound {
 struct root_limits {
     static constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
-    std::uint64_t operations = none;  ///< on words of 64 bits: about a nanosecond each
-    std::uint64_t bytes =
-        none;  ///< of rows of numbers held at a time, estimated; p and its copies beside
+    /// On words of 64 bits, about a nanosecond each, counted before they are made as if no
+    /// coefficient were zero.
+    std::uint64_t operations = none;
+    /// Of rows of numbers held at a time, estimated; p and its copies beside.
+    std::uint64_t bytes = none;
 };
 
 }  // namespace errbound

@@ -229,6 +229,12 @@ TEST(RootLimits, GiveUpAtOnceOrChangeNothing) {
     c[100000] = 1;
     EXPECT_FALSE(
         count_roots<integer>(polynomial<double>(c), 0, infinity, {.operations = 1'000'000'000}));
+    // x^1000000 − 2: no value is computed beyond all roots.
+    c.assign(1'000'001, 0);
+    c[0] = -2;
+    c[1'000'000] = 1;
+    EXPECT_EQ(count_roots<integer>(polynomial<double>(c), 0, 10, {.operations = 1'000'000'000}),
+              1U);
     // What the filter decides costs no integers.
     EXPECT_EQ(count_roots<integer>(polynomial<double>{-2, 0, 1}, 0, 2, {.operations = 0}), 1U);
     auto roots = isolate_roots<integer>(polynomial<double>{-2, 0, 1}, 0, 2, {.operations = 0});
