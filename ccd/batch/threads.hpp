@@ -8,11 +8,17 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 
 namespace ccd::detail {
 
-/// How many are meant by `threads`: 0, or more than the machine has cores, one per core.
+/// How many are meant by `threads`: 0, or more than the machine has cores, one per core. Throws
+/// std::invalid_argument if it is negative.
 inline int threads_of(int threads) {
+    if (threads < 0)
+        throw std::invalid_argument("ccd: found " + std::to_string(threads) +
+                                    " threads, expected 0 (one per core) or more");
     const int cores = tbb::info::default_concurrency();
     return threads > 0 ? std::min(threads, cores) : cores;
 }
@@ -29,7 +35,7 @@ int on_threads(int threads, const Work& work) {
 template <class Visit>
 void for_each_part(std::size_t count, int threads, const Visit& visit) {
     constexpr std::size_t few = 64;
-    if (threads == 1 || count <= few) return visit(std::size_t{0}, count);
+    if (threads_of(threads) == 1 || count <= few) return visit(std::size_t{0}, count);
     on_threads(threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, few),
                           [&](const auto& range) { visit(range.begin(), range.end()); });

@@ -37,7 +37,7 @@ struct step_question {
     std::optional<instruction_set> set;
     bool explain = false;
     bool times = false, advance = false;
-    double distance = 0;
+    double distance = 0, t_max = 1;
 
     step_options options() const {
         return {.method = method,
@@ -47,6 +47,7 @@ struct step_question {
                 .explain = explain,
                 .first_contact = times || advance,
                 .times = times,
+                .t_max = t_max,
                 .distances = {distance}};
     }
 };
@@ -71,6 +72,10 @@ const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }
 
+std::uint64_t left_open(const stage_report::entry& entry) {
+    return entry.entered - entry.separate - entry.collides;
+}
+
 void add_contacts(const step_question& asked, const step_outcome& found,
                   nlohmann::ordered_json& document) {
     if (!asked.times && !asked.advance) return;
@@ -83,7 +88,19 @@ void add_contacts(const step_question& asked, const step_outcome& found,
     if (found.advance) document["advance"] = found.advance->fraction;
 }
 
-std::string json_of(const step_question& asked, const step_outcome& found) {
+struct possible_pairs {
+    double vertex_face, edge_edge;
+};
+
+/// How many pairs a mesh has of elements, unique ones; doubles, which hold any number of them.
+possible_pairs pairs_of_mesh(const mesh& mesh) {
+    const auto vertices = static_cast<double>(mesh.vertices.size()),
+               faces = static_cast<double>(unique_faces(mesh.faces).size()),
+               edges = static_cast<double>(unique_edges(mesh.faces, mesh.edges).size());
+    return {vertices * faces, edges * (edges - 1) / 2};
+}
+
+std::string json_of(const step_question& asked, const mesh& before, const step_outcome& found) {
     const step_result& result = found.result;
     nlohmann::ordered_json document = {{"method", info(asked.method).name},
                                        {"candidates", nullptr},
@@ -105,6 +122,9 @@ std::string json_of(const step_question& asked, const step_outcome& found) {
     });
     add_contacts(asked, found, document);
     if (asked.explain) {
+        const auto [vertex_face, edge_edge] = pairs_of_mesh(before);
+        document["pairs_of_mesh"] = {{name(kind::vertex_face), vertex_face},
+                                     {name(kind::edge_edge), edge_edge}};
         document["stages"] = nlohmann::ordered_json::array();
         for (const stage_info& stage : exact_stages) {
             const stage_report::entry& entry = result.stages[stage.stage];
@@ -113,6 +133,7 @@ std::string json_of(const step_question& asked, const step_outcome& found) {
                                           {"left_out", entry.left_out},
                                           {"separate", entry.separate},
                                           {"collides", entry.collides},
+                                          {"left_open", left_open(entry)},
                                           {"seconds", entry.seconds}});
         }
     }
@@ -126,18 +147,16 @@ std::string fixed(double value, const char* format) {
 }
 
 /// What the boxes left out, and what it cost to see it.
-std::string text_of_boxes(std::size_t vertices, std::size_t faces, std::size_t edges,
-                          const step_result& result) {
+std::string text_of_boxes(const mesh& before, const step_result& result) {
     const auto row = [](const char* kind, double possible, std::size_t candidates) {
         return std::vector<std::string>{kind, fixed(possible, "%.0f"),
                                         fixed(possible - static_cast<double>(candidates), "%.0f"),
                                         std::to_string(candidates)};
     };
-    const auto v = static_cast<double>(vertices), f = static_cast<double>(faces),
-               e = static_cast<double>(edges);
+    const auto [vertex_face, edge_edge] = pairs_of_mesh(before);
     const table rows = {{"pairs", "of the mesh", "apart", "candidates"},
-                        row("vertex-face", v * f, result.candidates->vertex_face),
-                        row("edge-edge", e * (e - 1) / 2, result.candidates->edge_edge)};
+                        row("vertex-face", vertex_face, result.candidates->vertex_face),
+                        row("edge-edge", edge_edge, result.candidates->edge_edge)};
     return text_of(rows, 1) + "apart: swept boxes do not touch, or a vertex is shared; found in " +
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
@@ -153,8 +172,7 @@ std::string text_of_stages(const step_result& result) {
         rows.push_back(
             {std::string(stage.name), std::to_string(entry.entered), std::to_string(entry.left_out),
              std::to_string(entry.separate), std::to_string(entry.collides),
-             std::to_string(entry.entered - entry.separate - entry.collides),
-             fixed(1e3 * entry.seconds, "%.2f"),
+             std::to_string(left_open(entry)), fixed(1e3 * entry.seconds, "%.2f"),
              entry.entered == 0
                  ? "-"
                  : fixed(1e9 * entry.seconds / static_cast<double>(entry.entered), "%.1f")});
@@ -208,12 +226,8 @@ std::string text_of_step(const step_question& asked, const mesh& before,
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(asked, found) +
-           (asked.explain
-                ? '\n' +
-                      text_of_boxes(before.vertices.size(), unique_faces(before.faces).size(),
-                                    unique_edges(before.faces, before.edges).size(), result) +
-                      '\n' + text_of_stages(result)
-                : "");
+           (asked.explain ? '\n' + text_of_boxes(before, result) + '\n' + text_of_stages(result)
+                          : "");
 }
 
 class step final : public command {
@@ -314,7 +328,7 @@ class step final : public command {
         if (advance_)
             outputs.push_back({*advance_, io::ply_of({std::move(found.advance->positions),
                                                       before.faces, before.edges})});
-        if (json_) outputs.push_back({*json_, json_of(asked_, found)});
+        if (json_) outputs.push_back({*json_, json_of(asked_, before, found)});
         if (view_)
             for (auto& file :
                  io::view_files(*view_, {vertex_rows(before, after), before.faces, before.edges,
@@ -327,13 +341,17 @@ class step final : public command {
         asked_.times = toi_.has_value();
         asked_.advance = advance_.has_value();
         asked_.distance = separation_.value(0, std::numeric_limits<double>::max());
-        if (!asked_.times && !asked_.advance && !separation_.was_given()) return;
+        asked_.t_max = t_max_.value(1, 1);
+        if (!asked_.times && !asked_.advance && !separation_.was_given() && !t_max_.was_given())
+            return;
         if (asked_.method != method::exact)
-            throw usage_error("--toi, --separation and --advance: found --method " + method_ +
-                              ", expected exact");
-        if (asked_.device.cuda && (asked_.advance || separation_.was_given()))
+            throw usage_error("--toi, --separation, --t-max and --advance: found --method " +
+                              method_ + ", expected exact");
+        if (asked_.device.cuda && (asked_.advance || separation_.was_given() || t_max_.was_given()))
             throw usage_error(
-                "--separation and --advance: found --device cuda, expected --device cpu");
+                "--separation, --t-max and --advance: found --device cuda, expected --device cpu");
+        if (asked_.advance && t_max_.was_given())
+            throw usage_error("--advance: found --t-max, expected the whole step");
         if (asked_.explain && asked_.distance != 0)
             throw usage_error(
                 "--explain: found --separation, expected contact, which alone has stages");
@@ -371,6 +389,7 @@ class step final : public command {
     std::optional<std::filesystem::path> pairs_, toi_, advance_, json_, view_;
     number_option separation_{line_, "--separation",
                               "Report pairs that come within that distance, in place of contacts"};
+    number_option t_max_{line_, "--t-max", "Report pairs up to that part of the step, from 0 to 1"};
     device_options device_{line_};
 };
 

@@ -8,8 +8,8 @@
 
 #include "ccd/batch/batch_worker.hpp"
 #include "ccd/step/candidate_blocks.hpp"
-#include "ccd/step/curve_order.hpp"
 #include "ccd/step/elements.hpp"
+#include "ccd/step/vertex_order.hpp"
 
 namespace ccd::detail {
 namespace {
@@ -41,9 +41,8 @@ std::vector<edge> edges_of_no_face(std::span<const edge> edges,
 }  // namespace
 
 template <std::size_t N>
-template <class Real, class Tree, class Build>
-void ordered_elements<N>::build_tree(const Tree& tree, const swept_boxes& boxes,
-                                     const Build& build) {
+template <class Real, class Tree, class Sort, class Build>
+void ordered_elements<N>::build_tree(const Tree& tree, const Sort& sort, const Build& build) {
     constexpr bool by_doubles = std::is_same_v<Real, double>;
     constexpr double worth_sorting = 1.25;  // times as long as the leaves have been
     auto& least = std::is_same_v<Tree, extents_tree> ? least_of_extents_ : least_of_boxes_;
@@ -55,7 +54,7 @@ void ordered_elements<N>::build_tree(const Tree& tree, const swept_boxes& boxes,
             return;
         }
     }
-    order_along_curve<Real>(elements_, boxes);
+    sort(elements_);
     build();
     least_of_boxes_ = least_of_extents_ = std::nullopt;
     least = tree.length_of_leaves();
@@ -91,12 +90,20 @@ candidate_search candidate_search::in_plane(std::span<const edge> edges, std::si
     return search;
 }
 
+template <class Real, std::size_t N>
+auto candidate_search::sorting(const swept_boxes& boxes, const ordered_elements<N>& sample) {
+    return [&](auto& elements) {
+        order_.find<Real, N>(boxes, vertices(), sample);
+        order_.sort<Real>(elements, boxes);
+    };
+}
+
 template <kind K, class Real, class First, class Second>
 std::size_t candidate_search::find_by(tree_pair<Real>& trees, const question& asked, First& first,
                                       Second& second) {
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](box_tree<Real>& tree, auto& elements) {
-        elements.template build_tree<Real>(tree, asked.boxes, [&] {
+        elements.template build_tree<Real>(tree, sorting<Real>(asked.boxes, second), [&] {
             tree.build(elements.size(),
                        [&](std::size_t i) { return asked.boxes.swept_box<Real>(elements[i]); });
         });
@@ -121,8 +128,9 @@ std::size_t candidate_search::find_close(const question& asked, First& first, Se
     constexpr bool within_one = std::is_same_v<First, Second>;
     const auto build = [&](extents_tree& tree, auto& elements) {
         constexpr std::size_t n = std::remove_cvref_t<decltype(elements)>::vertices;
-        elements.template build_tree<float>(
-            tree, asked.boxes, [&] { tree.build<n>(*asked.close, asked.rounded, elements); });
+        elements.template build_tree<float>(tree, sorting<float>(asked.boxes, second), [&] {
+            tree.build<n>(*asked.close, asked.rounded, elements);
+        });
     };
     extents_tree& b = of_extents_.second;
     extents_tree& a = within_one ? b : of_extents_.first;
@@ -171,6 +179,7 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
                          options.stop,
                          positions.rounded,
                          pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
+    order_.forget();
     pair_counts counts;
     if (in_plane_) {
         counts.vertex_edge = find_kind<kind::vertex_edge>(asked, vertices_, edges_);

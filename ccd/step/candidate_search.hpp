@@ -12,6 +12,7 @@
 
 #include "ccd/step/box_tree.hpp"
 #include "ccd/step/extents_tree.hpp"
+#include "ccd/step/vertex_order.hpp"
 #include "ccd/step/swept_boxes.hpp"
 
 namespace ccd::detail {
@@ -33,10 +34,10 @@ class ordered_elements {
     const std::array<vertex_index, N>& operator[](std::size_t i) const { return elements_[i]; }
     operator std::span<const std::array<vertex_index, N>>() const { return elements_; }
 
-    /// Makes `tree` one over them by calling build(); sorts them anew where they are in no good
-    /// order.
-    template <class Real, class Tree, class Build>
-    void build_tree(const Tree& tree, const swept_boxes& boxes, const Build& build);
+    /// Makes `tree` one over them by calling build(), after sort(elements) where they are in no
+    /// good order.
+    template <class Real, class Tree, class Sort, class Build>
+    void build_tree(const Tree& tree, const Sort& sort, const Build& build);
 
   private:
     std::vector<std::array<vertex_index, N>> elements_;
@@ -46,8 +47,8 @@ class ordered_elements {
 };
 
 /// Of one mesh, from step to step. Working memory: about 40 bytes a face or 44 an edge, whichever
-/// is more, and 14 a vertex, twice as much where floats do not do, or for close pairs 187, 191 and
-/// 179; and 32 KB a thread; kept.
+/// is more, and 18 a vertex, twice as much where floats do not do, or for close pairs 187, 191 and
+/// 183; and 32 KB a thread; kept.
 class candidate_search {
   public:
     /// Indices must be in range.
@@ -87,6 +88,9 @@ class candidate_search {
         extents_tree first, second;
     };
 
+    /// Sorts elements by the order of the vertices, with cells as elements of the sample ask for.
+    template <class Real, std::size_t N>
+    auto sorting(const swept_boxes& boxes, const ordered_elements<N>& sample);
     template <kind K, class First, class Second>
     std::size_t find_kind(const question& asked, First& first, Second& second);
     template <kind K, class Real, class First, class Second>
@@ -95,6 +99,7 @@ class candidate_search {
     template <kind K, class First, class Second>
     std::size_t find_close(const question& asked, First& first, Second& second);
 
+    vertex_order order_;
     ordered_elements<1> vertices_, points_;
     ordered_elements<2> edges_, rods_;
     ordered_elements<3> faces_;

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "ccd/step/buckets.hpp"
+#include "ccd/step/order/buckets.hpp"
 #include "ccd/step/vertex_groups.hpp"
 
 namespace ccd {
@@ -21,21 +21,33 @@ vertex_index largest(std::span<const std::array<vertex_index, N>> elements) {
     return last;
 }
 
+/// Two indices as one number, which compares fast.
+constexpr std::uint64_t packed(vertex_index upper, vertex_index lower) {
+    return std::uint64_t(upper) << 32 | lower;
+}
+constexpr vertex_index upper(std::uint64_t indices) {
+    return static_cast<vertex_index>(indices >> 32);
+}
+constexpr vertex_index lower(std::uint64_t indices) {
+    return static_cast<vertex_index>(indices);
+}
+
 /// A face's vertices, ascending, and its number: equal faces follow each other, the first one
 /// first.
 struct numbered_face {
-    vertex_index low, middle, high, number;
+    std::uint64_t low_and_middle, high_and_number;
     friend auto operator<=>(const numbered_face&, const numbered_face&) = default;
 
     numbered_face() = default;
-    numbered_face(const face& f, std::size_t i)
-        : low(std::min({f[0], f[1], f[2]})),
-          high(std::max({f[0], f[1], f[2]})),
-          number(static_cast<vertex_index>(i)) {
-        middle = f[0] ^ f[1] ^ f[2] ^ low ^ high;
+    numbered_face(const face& f, std::size_t i) {
+        const vertex_index low = std::min({f[0], f[1], f[2]}), high = std::max({f[0], f[1], f[2]});
+        low_and_middle = packed(low, f[0] ^ f[1] ^ f[2] ^ low ^ high);
+        high_and_number = packed(high, static_cast<vertex_index>(i));
     }
+    vertex_index number() const { return lower(high_and_number); }
     bool repeats(const numbered_face& other) const {
-        return low == other.low && middle == other.middle && high == other.high;
+        return low_and_middle == other.low_and_middle &&
+               upper(high_and_number) == upper(other.high_and_number);
     }
 };
 
@@ -48,19 +60,24 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
         return elements.subspan(begin,
                                 detail::begin_of_share(share + 1, shares, elements.size()) - begin);
     };
-    std::vector<edge> unique = detail::sorted_by_vertex<edge>(
+    const std::vector<std::uint64_t> all = detail::sorted_by_vertex<std::uint64_t>(
         shares, std::max(largest(faces), largest(edges)),
         [&](std::size_t share, const auto& visit) {
             const auto take = [&visit](vertex_index v, vertex_index w) {
-                if (v != w) visit(edge{std::min(v, w), std::max(v, w)});
+                if (v != w) visit(packed(std::min(v, w), std::max(v, w)));
             };
             for (const face& f : share_of(faces, share))
                 for (std::size_t k = 0; k < 3; ++k) take(f[k], f[(k + 1) % 3]);
             for (const edge& e : share_of(edges, share)) take(e[0], e[1]);
         },
-        [](const edge& e) { return e[0]; });
-    unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-    unique.shrink_to_fit();
+        [](std::uint64_t e) { return upper(e); });
+    const auto is_first = [&](std::size_t i) { return i == 0 || all[i] != all[i - 1]; };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) count += is_first(i);
+    std::vector<edge> unique;
+    unique.reserve(count);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (is_first(i)) unique.push_back({upper(all[i]), lower(all[i])});
     return unique;
 }
 
@@ -73,10 +90,10 @@ std::vector<face> unique_faces(std::span<const face> faces) {
             for (std::size_t i = detail::begin_of_share(share, shares, faces.size()); i < end; ++i)
                 visit(numbered_face(faces[i], i));
         },
-        [](const numbered_face& f) { return f.low; });
+        [](const numbered_face& f) { return upper(f.low_and_middle); });
     std::vector<vertex_index> repeated;
     for (std::size_t i = 1; i < all.size(); ++i)
-        if (all[i].repeats(all[i - 1])) repeated.push_back(all[i].number);
+        if (all[i].repeats(all[i - 1])) repeated.push_back(all[i].number());
     std::ranges::sort(repeated);
     std::vector<face> unique;
     unique.reserve(faces.size());

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "ccd/batch/batch_worker.hpp"
-#include "ccd/step/buckets.hpp"
 #include "ccd/step/elements.hpp"
+#include "ccd/step/order/buckets.hpp"
 #include "ccd/step/stopwatch.hpp"
 
 namespace ccd::detail {

@@ -36,7 +36,7 @@ inline constexpr std::array<stage_info, stage_count> exact_stages{{
     {stage::integers, "integers",
      "which signs have the G_i at the roots of Y, and does a vertex touch an edge?",
      "integers of bounded width, one unit an axis"},
-    {stage::unbounded, "unbounded", "the same, with roots isolated by Descartes' rule of signs",
+    {stage::unbounded, "unbounded", "the same, with roots isolated by Descartes' rule of signs?",
      "integers of unbounded width"},
 }};
 

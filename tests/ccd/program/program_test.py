@@ -322,6 +322,8 @@ class Step(ProgramTest):
         for s in stages:
             self.assertEqual(rows[s["stage"]][1:5],
                              [str(s[k]) for k in ("entered", "left_out", "separate", "collides")])
+            self.assertEqual(s["left_open"], s["entered"] - s["separate"] - s["collides"])
+        self.assertEqual(result["pairs_of_mesh"], {"vertex_face": 12, "edge_edge": 15})
         # Six vertices and two faces, six edges: what the boxes left out.
         self.assertIn("of the mesh  apart  candidates", text)
         of_boxes = [row.split() for row in text.splitlines() if row.startswith("edge-edge")][1]

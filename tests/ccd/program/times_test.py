@@ -117,6 +117,14 @@ class StepTimes(StepTest):
         self.assertEqual(still[2]["touching_at_start"], len(still[0]))
         self.assertEqual(self.step(self.frames[0], self.frames[0], "--separation", 0.9)[0], [])
 
+    def test_until_a_time(self):
+        # The lowest vertex is at the floor at half of the step.
+        self.assertIn("vf,3,0,1,2", self.step(*self.frames, "--t-max", 0.5)[0])
+        before = self.step(*self.frames, "--t-max", "0x1.fp-2")
+        self.assertNotIn("vf,3,0,1,2", before[0])
+        self.assertEqual([line.rsplit(",", 2)[0] for line in before[1]], before[0])
+        self.assertEqual(self.step(*self.frames, "--t-max", 1)[:2], self.step(*self.frames)[:2])
+
     def test_bad_usage(self):
         out = self.directory / "out"
         for options, message in [
@@ -125,6 +133,9 @@ class StepTimes(StepTest):
                 (["--separation", 1, "--method", "float"], "found --method float, expected exact"),
                 (["--advance", out], "expected a name that ends in .ply"),
                 (["--separation", 1, "--explain"], "expected contact"),
+                (["--t-max", 2], "expected a number from 0 to 1"),
+                (["--t-max", 1, "--method", "float"], "found --method float, expected exact"),
+                (["--t-max", 0.5, "--advance", "-"], "expected the whole step"),
                 (["--separation", "inf"], "expected a finite number"),
                 (["--advance", self.frames[0]], "expected a file of its own"),
                 (["--advance", "-", "--toi", "-"], "expected a file of its own")]:

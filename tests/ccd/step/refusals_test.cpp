@@ -81,6 +81,8 @@ TEST(StepRefuses, OptionsThatAreNone) {
     EXPECT_EQ(refusal_of(before, after, {.method = ccd::method(77)}),
               "ccd::step: found method 77, expected one of ccd::methods()");
     EXPECT_THROW(ccd::step({}, {}, {.set = ccd::instruction_set(7)}), std::invalid_argument);
+    EXPECT_EQ(refusal_of(before, after, {.threads = -5}),
+              "ccd: found -5 threads, expected 0 (one per core) or more");
     EXPECT_EQ(refusal_of(before, after, {.filter = {.rule = ccd::pair_filter::group_rule(9)}}),
               "ccd::step: found group rule 9, expected between_groups or within_groups");
     const std::vector<int> groups(9);

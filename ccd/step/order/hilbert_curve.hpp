@@ -1,0 +1,74 @@
+// Hilbert's curve through the cells of a cube: neighbours along it are neighbours in space.
+//
+// In each cube the curve goes through the octants in the order of Gray's code, seen from the corner
+// where it enters along the axis on which it leaves (Hamilton and Rau-Chaplin, "Compact Hilbert
+// indices", 2008). That corner and axis are the state that a cube hands to its octants.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace ccd::detail {
+
+/// Which octant comes when, by state.
+class hilbert_states {
+  public:
+    struct step {
+        std::uint8_t digit, next;
+    };
+
+    constexpr hilbert_states() {
+        for (unsigned corner = 0; corner < octants; ++corner)
+            for (unsigned along = 0; along < axes; ++along)
+                for (unsigned i = 0; i < octants; ++i) {
+                    const unsigned octant = rotated(i ^ (i >> 1), along) ^ corner;
+                    steps_[state(corner, along)][octant] = {
+                        static_cast<std::uint8_t>(i),
+                        state(corner ^ rotated(entry(i), along), along + 1 + axis(i))};
+                }
+    }
+    constexpr step operator()(unsigned state, std::uint64_t octant) const {
+        return steps_[state][octant];
+    }
+
+  private:
+    static constexpr unsigned axes = 3, octants = 8;
+
+    static constexpr std::uint8_t state(unsigned corner, unsigned axis) {
+        return static_cast<std::uint8_t>(corner * axes + axis % axes);
+    }
+    static constexpr unsigned rotated(unsigned octant, unsigned along) {
+        const unsigned by = (along + 1) % axes;
+        return (octant << by | octant >> (axes - by)) & (octants - 1);
+    }
+    /// Of the octant that comes i-th: the corner where the curve enters it, and the axis along
+    /// which it leaves.
+    static constexpr unsigned entry(unsigned i) {
+        const unsigned before = i == 0 ? 0 : (i - 1) & ~1U;
+        return before ^ (before >> 1);
+    }
+    static constexpr unsigned axis(unsigned i) {
+        return i == 0 ? 0 : static_cast<unsigned>(std::countr_one(i - 1 + i % 2));
+    }
+
+    std::array<std::array<step, octants>, octants * axes> steps_{};
+};
+
+inline constexpr hilbert_states states_of_hilbert;
+
+/// The position along Hilbert's curve of the cell at `morton` along Morton's, whose digits are
+/// octants, of so many bits an axis.
+constexpr std::uint64_t hilbert_position(std::uint64_t morton, unsigned axis_bits) {
+    std::uint64_t along = 0;
+    unsigned state = 0;
+    for (unsigned shift = 3 * axis_bits; shift > 0;) {
+        shift -= 3;
+        const auto step = states_of_hilbert(state, (morton >> shift) & 7);
+        along = along << 3 | step.digit;
+        state = step.next;
+    }
+    return along;
+}
+
+}  // namespace ccd::detail
