@@ -245,35 +245,36 @@ Proof.
 Qed.
 (** ** Their coefficients as integers *)
 
-Section Forms.
-
-Context {S : scalar}.
-
-(** value_at(p, s, t) where p's coefficients and s, t are forms: Horner's rule, power is t^i. *)
-Fixpoint form_from_term (sum p s t power : list S) : list S :=
-  match p with
-  | [] => sum
-  | a :: l =>
-      let next := plus_form (product sum s) (product [a] power) in
-      match l with [] => next | _ => form_from_term next l s t (product power t) end
+(** sub_part's y: the power coefficients at a/2^n by Horner's rule, times 2^3n. *)
+Definition power_coefficients (y0 y1 y2 y3 v : Z) : Z * Z * Z * Z :=
+  let thrice := (y0 + y0 + y0)%Z in
+  (y0 * (v * v * v), (y1 - thrice) * (v * v), (y2 - y1 - y1 + thrice) * v, y3 - y2 + y1 - y0)%Z.
+Definition moved (c : Z * Z * Z * Z) (a : Z) : Z * Z * Z * Z :=
+  let '(c0, c1, c2, c3) := c in
+  let c2 := (c2 + c3 * a)%Z in
+  let c1 := (c1 + c2 * a)%Z in
+  let c0 := (c0 + c1 * a)%Z in
+  let c2 := (c2 + c3 * a)%Z in
+  let c1 := (c1 + c2 * a)%Z in
+  (c0, c1, c2 + c3 * a, c3)%Z.
+Definition widened (c : Z * Z * Z * Z) (q : Z) : Z * Z * Z * Z :=
+  let '(c0, c1, c2, c3) := c in (c0, c1 * q, c2 * (q * q), c3 * (q * q * q))%Z.
+Definition from_power (c : Z * Z * Z * Z) : list Z :=
+  let '(c0, c1, c2, c3) := c in
+  let twice := (c0 + c0 + c1)%Z in [c0; twice + c0; twice + c0 + c1 + c2; c0 + c1 + c2 + c3]%Z.
+Definition sub_y (y : list Z) (n a w : Z) : list Z :=
+  match y with
+  | [y0; y1; y2; y3] => from_power (widened (moved (power_coefficients y0 y1 y2 y3 (2 ^ n)) a) (2 ^ w))
+  | _ => []
   end.
-Definition value_at_forms (p s t : list S) : list S :=
-  match p with [] => [] | a :: l => form_from_term [a] l s t t end.
-(** sub_part's y: s and t are linear forms, whose end coefficients are those places in units of 2^-n. *)
-Definition sub_form (whole : Z -> S) (y : list S) (n a w : Z) : list S :=
-  let b := (a + 2 ^ w)%Z in
-  value_at_forms y [whole (2 ^ n - a)%Z; whole (2 ^ n - b)%Z] [whole a; whole b].
-
-End Forms.
-Definition sub_y (y : list Z) (n a w : Z) : list Z := @sub_form integers (fun x => x) y n a w.
 
 Lemma sub_y_substituted y n a w : length y = 4%nat -> map IZR (sub_y y n a w) =
   substituted (map IZR y) (IZR (2 ^ n - a)) (IZR (2 ^ n - (a + 2 ^ w))) (IZR a) (IZR (a + 2 ^ w)).
 Proof.
   intros L. destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; try discriminate.
-  unfold sub_y, sub_form. cbv zeta. generalize (2 ^ n - a)%Z (2 ^ n - (a + 2 ^ w))%Z a (a + 2 ^ w)%Z.
-  intros s0 s1 t0 t1. cbn. rewrite ?plus_IZR, ?mult_IZR. rewrite ?plus_IZR, ?mult_IZR.
-  apply same_four; repeat rewrite ?plus_IZR, ?mult_IZR; ring.
+  unfold sub_y, from_power, widened, moved, power_coefficients. cbv zeta beta iota.
+  generalize (2 ^ n)%Z (2 ^ w)%Z. intros v q. cbn [map]. unfold substituted.
+  apply same_four; repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR; ring.
 Qed.
 
 (** What the coefficients are: those of the part between a/2^n and (a + 2^w)/2^n, times 2^3n. *)
@@ -498,7 +499,7 @@ Definition below (k : Z) (v : @vector_form integers) : Prop :=
 Definition is_single (three : bool) (changes : sign_changes) : bool :=
   opposite changes && (Nat.eqb (count changes) 1 || negb three).
 Definition max_bits : Z := 1534.
-Definition most_y_bits : Z := 64 * 88 - 183.
+Definition most_y_bits : Z := 64 * 88 - 188.
 Definition can_be_narrowed (q : close_part) : bool :=
   (unit_bits q + 60 <=? max_bits)%Z &&
   forallb (fun h => BoundedInteger.bit_length h <=? most_y_bits)%Z (close_y q).
@@ -1248,65 +1249,124 @@ Definition place_numbers (b c p : vector) (s t s' t' : list Z) : list expression
     let m := map Opposite (FixedWidths.cross_product (fst pq) (snd pq)) in
     [nth 1 m (Whole 0) ⊗ s ⊖ nth 0 m (Whole 0) ⊗ t; nth 0 m (Whole 0) ⊗ t' ⊖ nth 1 m (Whole 0) ⊗ s']) (pairs n) ++
   common_roots_numbers n ++ map (fun f => value_at f s t) n ++ map (fun f => value_at f s' t') n.
-(** Y's coefficients on a part, and what sub_part and contact_in_middle compute of them. *)
+(** Of Y's coefficients on a part, their sum. *)
 Definition y_words : nat := 88.
-Definition narrowing_numbers (y : list (list Z)) (n a w : Z) (end_ : Z -> list Z) : list expression :=
+Definition sum_of_coefficients (y : list (list Z)) : expression :=
   let y := map (Given y_words 1 most_y_bits) y in
-  @sub_form expressions (fun z => Given 1 1 60 (end_ z)) y n a w ++
-  [nth 0 y (Whole 0) ⊕ nth 1 y (Whole 0) ⊕ nth 2 y (Whole 0) ⊕ nth 3 y (Whole 0)].
-Theorem close_widths b c p s t s' t' y0 y1 y2 y3 n a w end_ :
+  nth 0 y (Whole 0) ⊕ nth 1 y (Whole 0) ⊕ nth 2 y (Whole 0) ⊕ nth 3 y (Whole 0).
+Theorem close_widths b c p s t s' t' y0 y1 y2 y3 :
   forallb fine (interior_numbers (moving 4 b) (moving 4 c) (moving 4 p)) = true /\
   forallb fine (place_numbers (moving 4 b) (moving 4 c) (moving 4 p) s t s' t') = true /\
-  forallb fine (narrowing_numbers [y0; y1; y2; y3] n a w end_) = true.
+  forallb fine [sum_of_coefficients [y0; y1; y2; y3]] = true.
 Proof. split; [apply interior_widths; simpl; auto | split]; apply all_measured; vm_cast_no_check (eq_refl true). Qed.
 End Widths.
 
-Ltac nonnegative := repeat first [apply Z.add_nonneg_nonneg | apply Z.mul_nonneg_nonneg]; try assumption; lia.
-(** And sub_part's coefficients fit the words of the part's. *)
-Theorem narrowed_fits y n a w : length y = 4%nat -> (0 <= n <= 60)%Z -> (0 <= a)%Z -> (a + 2 ^ w <= 2 ^ n)%Z ->
-  Forall (fun h => BoundedInteger.bit_length h <= most_y_bits)%Z y ->
-  Forall (fun h => Z.abs h < 2 ^ (64 * Z.of_nat y_words - 1))%Z (sub_y y n a w).
+(** And all that sub_part computes of them fits the words of the part's. *)
+Section Narrowed.
+Variables m v : Z.
+(** At most k times m·v^e. *)
+Definition within_units (k : Z) (e : nat) (x : Z) : Prop := (0 <= k /\ Z.abs x <= k * (m * v ^ Z.of_nat e))%Z.
+Lemma within_sum k l e x y : within_units k e x -> within_units l e y -> within_units (k + l) e (x + y).
+Proof. unfold within_units. generalize (m * v ^ Z.of_nat e)%Z. intros. lia. Qed.
+Lemma within_difference k l e x y : within_units k e x -> within_units l e y -> within_units (k + l) e (x - y).
+Proof. unfold within_units. generalize (m * v ^ Z.of_nat e)%Z. intros. lia. Qed.
+Lemma within_product k e x a : (0 <= a <= v)%Z -> within_units k e x -> within_units k (S e) (x * a).
 Proof.
-  intros L N A B F.
-  assert (S : Forall (fun h => Z.abs h <= 2 ^ most_y_bits)%Z y).
+  unfold within_units. intros A (K & H). split; [easy |].
+  rewrite Nat2Z.inj_succ, Z.pow_succ_r, Z.abs_mul, (Z.abs_eq a) by lia.
+  replace (k * (m * (v * v ^ Z.of_nat e)))%Z with (k * (m * v ^ Z.of_nat e) * v)%Z by ring.
+  apply Z.mul_le_mono_nonneg; lia.
+Qed.
+Lemma within_more k e d x : (1 <= v)%Z -> within_units k e x -> within_units k (d + e) x.
+Proof.
+  intros V H. induction d as [| d IH]; [exact H |]. pose proof (within_product k (d + e) x 1 ltac:(lia) IH) as P.
+  now rewrite Z.mul_1_r in P.
+Qed.
+End Narrowed.
+
+(** All numbers on the way, in sub_part's order. *)
+Definition sub_numbers (y0 y1 y2 y3 v a q : Z) : list Z :=
+  let thrice := (y0 + y0 + y0)%Z in
+  let '(c0, c1, c2, c3) := power_coefficients y0 y1 y2 y3 v in
+  let d2 := (c2 + c3 * a)%Z in
+  let d1 := (c1 + d2 * a)%Z in
+  let d0 := (c0 + d1 * a)%Z in
+  let e2 := (d2 + c3 * a)%Z in
+  let e1 := (d1 + e2 * a)%Z in
+  let f2 := (e2 + c3 * a)%Z in
+  let w1 := (e1 * q)%Z in
+  let w2 := (f2 * (q * q))%Z in
+  let w3 := (c3 * (q * q * q))%Z in
+  [y0 + y0; thrice; c0; y1 - thrice; c1; y2 - y1; y2 - y1 - y1; y2 - y1 - y1 + thrice; c2; y3 - y2; y3 - y2 + y1; c3;
+   c3 * a; d2; d2 * a; d1; d1 * a; d0; e2; e2 * a; e1; f2; w1; w2; w3;
+   d0 + d0; d0 + d0 + w1; d0 + d0 + w1 + d0; d0 + d0 + w1 + d0 + w1; d0 + d0 + w1 + d0 + w1 + w2;
+   d0 + w1; d0 + w1 + w2; d0 + w1 + w2 + w3]%Z.
+Lemma sub_numbers_has y0 y1 y2 y3 n a w :
+  incl (sub_y [y0; y1; y2; y3] n a w) (sub_numbers y0 y1 y2 y3 (2 ^ n) a (2 ^ w)).
+Proof.
+  unfold sub_y, sub_numbers, from_power, widened, moved, power_coefficients. cbv zeta beta iota.
+  intros x H. cbn [In] in *. destruct H as [<- | [<- | [<- | [<- | []]]]]; auto 60.
+Qed.
+Theorem narrowed_fits y0 y1 y2 y3 n a w : (0 <= n <= 60)%Z -> (0 <= a)%Z -> (0 <= w)%Z -> (a + 2 ^ w <= 2 ^ n)%Z ->
+  Forall (fun h => BoundedInteger.bit_length h <= most_y_bits)%Z [y0; y1; y2; y3] ->
+  Forall (fun h => Z.abs h < 2 ^ (64 * Z.of_nat y_words - 1))%Z (sub_numbers y0 y1 y2 y3 (2 ^ n) a (2 ^ w)).
+Proof.
+  intros N A W B F.
+  assert (F' : Forall (fun h => Z.abs h <= 2 ^ most_y_bits)%Z [y0; y1; y2; y3]).
   { eapply Forall_impl; [| exact F]. intros h H. cbv beta in H. destruct (BoundedInteger.bit_length_bounds h) as (H0 & H1 & _).
     apply Z.le_trans with (1 := H1). now apply Z.pow_le_mono_r. }
-  clear F. pose proof (Z.pow_nonneg 2 w ltac:(lia)) as W. set (b := (a + 2 ^ w)%Z) in *.
-  assert (P : (0 < 2 ^ n)%Z) by (apply Z.pow_pos_nonneg; lia). set (v := (2 ^ n)%Z) in *.
-  assert (V : (v * v * v <= 2 ^ 180)%Z).
-  { assert (v <= 2 ^ 60)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 180)%Z with (2 ^ 60 * 2 ^ 60 * 2 ^ 60)%Z.
-    repeat apply Z.mul_le_mono_nonneg; lia. }
-  set (M := (2 ^ most_y_bits)%Z) in *. assert (PM : (0 <= M)%Z) by (apply Z.pow_nonneg; lia).
-  assert (Lim : (3 * (v * v * v) * M < 2 ^ (64 * Z.of_nat y_words - 1))%Z).
-  { apply Z.le_lt_trans with (3 * 2 ^ 180 * M)%Z; [apply Z.mul_le_mono_nonneg_r; lia | reflexivity]. }
-  destruct y as [| y0 [| y1 [| y2 [| y3 [|]]]]]; try discriminate.
-  inversion_clear S as [| ? ? S0 S']. inversion_clear S' as [| ? ? S1 S]. inversion_clear S as [| ? ? S2 S'].
-  inversion_clear S' as [| ? ? S3 _].
-  set (s0 := (v - a)%Z). set (s1 := (v - b)%Z).
-  assert (Bound : forall k0 k1 k2 k3, (0 <= k0)%Z -> (0 <= k1)%Z -> (0 <= k2)%Z -> (0 <= k3)%Z ->
-    (k0 + k1 + k2 + k3 <= 3 * (v * v * v))%Z ->
-    (Z.abs (y0 * k0 + y1 * k1 + y2 * k2 + y3 * k3) <= 3 * (v * v * v) * M)%Z).
-  { intros k0 k1 k2 k3 K0 K1 K2 K3 K.
-    assert (T : forall h k, (0 <= k)%Z -> (Z.abs h <= M)%Z -> (Z.abs (h * k) <= k * M)%Z).
-    { intros h k Hk Hh. rewrite Z.abs_mul, (Z.abs_eq k), Z.mul_comm by easy. now apply Z.mul_le_mono_nonneg_l. }
-    pose proof (T _ _ K0 S0). pose proof (T _ _ K1 S1). pose proof (T _ _ K2 S2). pose proof (T _ _ K3 S3).
-    apply Z.mul_le_mono_nonneg_r with (p := M) in K; [| exact PM]. rewrite !Z.mul_add_distr_r in K. revert K. clear Lim.
-    generalize dependent (y0 * k0)%Z. generalize dependent (y1 * k1)%Z. generalize dependent (y2 * k2)%Z.
-    generalize dependent (y3 * k3)%Z. generalize (k0 * M)%Z (k1 * M)%Z (k2 * M)%Z (k3 * M)%Z (3 * (v * v * v) * M)%Z.
-    clear. lia. }
-  assert (E : sub_y [y0; y1; y2; y3] n a w =
-    [y0 * (s0 * s0 * s0) + y1 * (s0 * s0 * a) + y2 * (s0 * a * a) + y3 * (a * a * a);
-     y0 * (3 * s0 * s0 * s1) + y1 * (2 * s0 * s1 * a + s0 * s0 * b) + y2 * (s1 * a * a + 2 * s0 * a * b) + y3 * (3 * a * a * b);
-     y0 * (3 * s0 * s1 * s1) + y1 * (s1 * s1 * a + 2 * s0 * s1 * b) + y2 * (2 * s1 * a * b + s0 * b * b) + y3 * (3 * a * b * b);
-     y0 * (s1 * s1 * s1) + y1 * (s1 * s1 * b) + y2 * (s1 * b * b) + y3 * (b * b * b)]%Z).
-  { unfold sub_y, sub_form. cbv zeta. fold v b s0 s1. generalize s0 s1 a b. intros. cbn -[Z.mul Z.add].
-    repeat (apply (f_equal2 (@cons Z)); [ring |]). reflexivity. }
-  rewrite E. assert (Hs0 : (0 <= s0 /\ s0 + a = v)%Z) by (unfold s0; lia). assert (Hs1 : (0 <= s1 /\ s1 + b = v)%Z) by (unfold s1; lia).
-  assert (Hb : (0 <= b)%Z) by lia. destruct Hs0 as (Hs0 & E0), Hs1 as (Hs1 & E1). clearbody s0 s1 b v M. clear E W V.
-  assert (V0 : (v * v * v = (s0 + a) * (s0 + a) * (s0 + a))%Z) by now rewrite E0.
-  assert (V1 : (v * v * v = (s0 + a) * (s0 + a) * (s1 + b))%Z) by now rewrite E0, E1.
-  assert (V2 : (v * v * v = (s0 + a) * (s1 + b) * (s1 + b))%Z) by now rewrite E0, E1.
-  assert (V3 : (v * v * v = (s1 + b) * (s1 + b) * (s1 + b))%Z) by now rewrite E1.
-  clear E0 E1 S0 S1 S2 S3 L N B.
-  repeat apply Forall_cons; try apply Forall_nil; (eapply Z.le_lt_trans; [apply Bound | exact Lim]); nonnegative.
+  clear F. assert (Q : (0 < 2 ^ w)%Z) by (apply Z.pow_pos_nonneg; lia).
+  assert (V1 : (2 ^ n <= 2 ^ 60)%Z) by (apply Z.pow_le_mono_r; lia).
+  assert (V0 : (1 <= 2 ^ n)%Z) by lia.
+  revert V1 V0 Q B. generalize (2 ^ n)%Z (2 ^ w)%Z. intros v q V1 V0 Q B.
+  assert (PM : (0 < 2 ^ most_y_bits)%Z) by (apply Z.pow_pos_nonneg; unfold most_y_bits; lia).
+  assert (Lim : (128 * (2 ^ most_y_bits * v ^ 3) <= 2 ^ (64 * Z.of_nat y_words - 1))%Z).
+  { apply Z.le_trans with (128 * (2 ^ most_y_bits * (2 ^ 60) ^ 3))%Z; [| apply Zle_bool_imp_le; vm_compute; reflexivity].
+    apply Z.mul_le_mono_nonneg_l; [lia |]. apply Z.mul_le_mono_nonneg_l; [lia |]. apply Z.pow_le_mono_l. lia. }
+  revert PM Lim F'. generalize (2 ^ most_y_bits)%Z. intros m PM Lim F'.
+  assert (Small : forall k d e x, (d + e = 3)%nat -> (k < 128)%Z -> within_units m v k e x ->
+    (Z.abs x < 2 ^ (64 * Z.of_nat y_words - 1))%Z).
+  { intros k d e x D K H. apply (within_more m v k e d x V0) in H. rewrite D in H. destruct H as (K0 & H).
+    change (Z.of_nat 3) with 3%Z in H.
+    assert (0 < m * v ^ 3)%Z by (apply Z.mul_pos_pos; [lia | apply Z.pow_pos_nonneg; lia]).
+    apply Z.le_lt_trans with (1 := H). apply Z.lt_le_trans with (128 * (m * v ^ 3))%Z; [| exact Lim].
+    apply Z.mul_lt_mono_pos_r; lia. }
+  assert (Y : forall y, In y [y0; y1; y2; y3] -> within_units m v 1 0 y).
+  { intros y H. rewrite Forall_forall in F'. specialize (F' y H). unfold within_units. cbn [Z.of_nat]. rewrite Z.pow_0_r. lia. }
+  assert (Y0 := Y y0 ltac:(cbn; tauto)). assert (Y1 := Y y1 ltac:(cbn; tauto)).
+  assert (Y2 := Y y2 ltac:(cbn; tauto)). assert (Y3 := Y y3 ltac:(cbn; tauto)). clear Y F'.
+  assert (Sum := within_sum m v). assert (Less := within_difference m v).
+  assert (Times := within_product m v).
+  assert (Av : (0 <= a <= v)%Z) by lia. assert (Qv : (0 <= q <= v)%Z) by lia. assert (Vv : (0 <= v <= v)%Z) by lia.
+  unfold sub_numbers, power_coefficients. rewrite !Z.mul_assoc.
+  assert (T2 := Sum _ _ _ _ _ Y0 Y0). assert (T3 := Sum _ _ _ _ _ T2 Y0).
+  set (thrice := (y0 + y0 + y0)%Z) in *.
+  assert (C0 := Times _ _ _ _ Vv (Times _ _ _ _ Vv (Times _ _ _ _ Vv Y0))).
+  assert (L1 := Less _ _ _ _ _ Y1 T3).
+  assert (C1 := Times _ _ _ _ Vv (Times _ _ _ _ Vv L1)).
+  assert (L2 := Less _ _ _ _ _ Y2 Y1). assert (L3 := Less _ _ _ _ _ L2 Y1). assert (L4 := Sum _ _ _ _ _ L3 T3).
+  assert (C2 := Times _ _ _ _ Vv L4).
+  assert (L5 := Less _ _ _ _ _ Y3 Y2). assert (L6 := Sum _ _ _ _ _ L5 Y1). assert (C3 := Less _ _ _ _ _ L6 Y0).
+  set (c0 := (y0 * v * v * v)%Z) in *. set (c1 := ((y1 - thrice) * v * v)%Z) in *.
+  set (c2 := ((y2 - y1 - y1 + thrice) * v)%Z) in *. set (c3 := (y3 - y2 + y1 - y0)%Z) in *.
+  assert (P3 := Times _ _ _ _ Av C3).
+  assert (D2 := Sum _ _ _ _ _ C2 P3). set (d2 := (c2 + c3 * a)%Z) in *.
+  assert (PD2 := Times _ _ _ _ Av D2).
+  assert (D1 := Sum _ _ _ _ _ C1 PD2). set (d1 := (c1 + d2 * a)%Z) in *.
+  assert (PD1 := Times _ _ _ _ Av D1).
+  assert (D0 := Sum _ _ _ _ _ C0 PD1). set (d0 := (c0 + d1 * a)%Z) in *.
+  assert (E2 := Sum _ _ _ _ _ D2 P3). set (e2 := (d2 + c3 * a)%Z) in *.
+  assert (PE2 := Times _ _ _ _ Av E2).
+  assert (E1 := Sum _ _ _ _ _ D1 PE2). set (e1 := (d1 + e2 * a)%Z) in *.
+  assert (F2 := Sum _ _ _ _ _ E2 P3). set (f2 := (e2 + c3 * a)%Z) in *.
+  assert (W1 := Times _ _ _ _ Qv E1). set (w1 := (e1 * q)%Z) in *.
+  assert (W2 := Times _ _ _ _ Qv (Times _ _ _ _ Qv F2)). set (w2 := (f2 * q * q)%Z) in *.
+  assert (W3 := Times _ _ _ _ Qv (Times _ _ _ _ Qv (Times _ _ _ _ Qv C3))).
+  set (w3 := (c3 * q * q * q)%Z) in *.
+  assert (R0 := Sum _ _ _ _ _ D0 D0). assert (R1 := Sum _ _ _ _ _ R0 W1). assert (R2 := Sum _ _ _ _ _ R1 D0).
+  assert (R3 := Sum _ _ _ _ _ R2 W1). assert (R4 := Sum _ _ _ _ _ R3 W2).
+  assert (U0 := Sum _ _ _ _ _ D0 W1). assert (U1 := Sum _ _ _ _ _ U0 W2). assert (U2 := Sum _ _ _ _ _ U1 W3).
+  clear - Small T2 T3 C0 L1 C1 L2 L3 L4 C2 L5 L6 C3 P3 D2 PD2 D1 PD1 D0 E2 PE2 E1 F2 W1 W2 W3 R0 R1 R2 R3 R4 U0 U1 U2.
+  repeat apply Forall_cons; try apply Forall_nil;
+    match goal with H : within_units _ _ ?k ?e ?x |- (Z.abs ?x < _)%Z => exact (Small k (3 - e)%nat e x eq_refl ltac:(lia) H) end.
 Qed.

@@ -136,7 +136,7 @@ class close_contact {
     /// Narrowed at once by no more than this, which an std::int64_t holds.
     static constexpr int most_at_once = 60;
     /// So that narrowing once fits. Proof: proofs/CloseContact.v, close_widths, narrowed_fits.
-    static constexpr int most_y_bits = 64 * y_words - 3 * (most_at_once + 1);
+    static constexpr int most_y_bits = 64 * y_words - 3 * most_at_once - 8;
     /// G_i are not asked before: interior_contact did.
     static constexpr int first_asked_bits = 40;
 
@@ -160,18 +160,26 @@ class close_contact {
                                [](const auto& h) { return h.bit_length() <= most_y_bits; });
         }
 
-        /// That between a/2^n and (a + 2^w)/2^n of this one's width.
+        /// That between a/2^n and (a + 2^w)/2^n of this one's width: y's power coefficients there,
+        /// by Horner's rule.
         /// Proof: proofs/CloseContact.v, sub_part_right.
         part sub_part(int n, std::int64_t a, int w) const {
-            using small = number<1>;
-            const std::int64_t whole = std::int64_t(1) << n, b = a + (std::int64_t(1) << w);
-            const errbound::bernstein<small, 1> s{{small(whole - a), small(whole - b)}},
-                t{{small(a), small(b)}};
-            errbound::bernstein<errbound::bernstein<number<y_words>, 0>, 3> coefficients;
-            for (int i = 0; i <= 3; ++i) coefficients[i][0] = y[i];
-            const auto there = value_at(coefficients, s, t);
+            using big = number<y_words>;
+            const big thrice = y[0] + y[0] + y[0];
+            // Of x^k in y(x/2^n)·2^3n, then in y((a + x)/2^n)·2^3n.
+            std::array<big, 4> c{y[0] << 3 * n, (y[1] - thrice) << 2 * n,
+                                 (y[2] - y[1] - y[1] + thrice) << n, y[3] - y[2] + y[1] - y[0]};
+            for (std::size_t first = 0; first < 3; ++first)
+                for (std::size_t k = 3; k-- > first;)
+                    c[k] = c[k] + big::product(c[k + 1], number<1>(a));
+            if (w > 0)
+                for (int k = 1; k <= 3; ++k) c[k] = c[k] << k * w;
+            const big twice = c[0] + c[0] + c[1];
             part r;
-            for (int i = 0; i <= 3; ++i) r.y[i] = there[i];
+            r.y[0] = c[0];
+            r.y[1] = twice + c[0];
+            r.y[2] = twice + c[0] + c[1] + c[2];
+            r.y[3] = c[0] + c[1] + c[2] + c[3];
             r.roots = inner_sign_changes(r.y);
             r.low = (low << (n - width_bits)) + place_number(a);
             r.unit_bits = unit_bits + n - width_bits;

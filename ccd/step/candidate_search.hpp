@@ -12,8 +12,8 @@
 
 #include "ccd/step/box_tree.hpp"
 #include "ccd/step/extents_tree.hpp"
-#include "ccd/step/vertex_order.hpp"
 #include "ccd/step/swept_boxes.hpp"
+#include "ccd/step/vertex_order.hpp"
 
 namespace ccd::detail {
 

@@ -1,3 +1,5 @@
+#include "ccd/step/order/hilbert_curve.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "ccd/step/elements.hpp"
-#include "ccd/step/order/hilbert_curve.hpp"
 
 namespace {
 
@@ -22,8 +23,7 @@ TEST(HilbertCurve, GoesFromNeighbourToNeighbour) {
         for (std::uint64_t x = 0; x < n; ++x)
             for (std::uint64_t y = 0; y < n; ++y)
                 for (std::uint64_t z = 0; z < n; ++z) {
-                    const auto morton =
-                        spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
+                    const auto morton = spread_bits(x) | spread_bits(y) << 1 | spread_bits(z) << 2;
                     auto& cell = cells.at(hilbert_position(morton, bits));
                     ASSERT_EQ(cell[0], -1);
                     cell = {static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)};
