@@ -58,6 +58,11 @@ class tracked {
         const T v = detail::rounded(value);
         return {v, Rule::within(v, error)};
     }
+    /// `value` with what the rule has said of it, for rules that wrap others: bound() of a number
+    /// of that value.
+    static constexpr tracked from_bound(const T& value, const bound_type& bound) {
+        return {value, bound};
+    }
 
     /// The value that plain arithmetic would have computed.
     constexpr const T& value() const { return value_; }

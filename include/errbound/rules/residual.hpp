@@ -50,6 +50,11 @@ struct residual {
         if (b.remainder == 0) return traits::abs(b.correction);
         return inflated<T>(traits::abs(b.correction) + b.remainder);
     }
+    /// c.
+    template <class T>
+    static constexpr T correction(const T&, const bound<T>& b) {
+        return b.correction;
+    }
     /// v + c is known to ρ, a bound of second order: that tells far more than error(). With
     /// s = v ⊕ c, |v + c| >= |s|(1 − u), and (1 + 8ε)(1 − u)/(1 + u) > 1; where s is subnormal, it
     /// is exact. Proof: proofs/IeeeResidual.v, residual_sign_known.

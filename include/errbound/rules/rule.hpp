@@ -16,6 +16,8 @@
 //                                                |value − true value| <= error; default: what value
 //                                                and error tell. Uncertain where value or error is
 //                                                not finite; zero only if the true value is zero
+//   correction(value, bound)                     what the rule knows of true value − value,
+//                                                signed and no larger than the error; default: 0
 //   minimal_precision                            the number of bits of T that the proof needs
 //   has_division                                 false where `divide` only says why there is none
 //   holds_in_directed_rounding                   true where the proof does not need rounding to
@@ -115,6 +117,12 @@ template <class Rule, class T>
 concept rule_sign_is_one = !rule_has_sign<Rule, T> ||
                            requires(const T& value, const typename Rule::template bound<T>& bound) {
     { Rule::sign(value, bound) } -> std::same_as<sign_type>;
+};
+
+template <class Rule, class T>
+concept rule_has_correction = requires(const T& value,
+                                       const typename Rule::template bound<T>& bound) {
+    { Rule::template correction<T>(value, bound) } -> std::convertible_to<T>;
 };
 
 template <class Rule>
