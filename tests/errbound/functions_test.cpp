@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <errbound/explain/explain.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/relative.hpp>
@@ -19,7 +20,8 @@ class Functions : public testing::Test {
     using number = tracked<double, Rule>;
 };
 using Rules = testing::Types<errbound::tight, errbound::sharp, errbound::safe, errbound::interval,
-                             errbound::residual, errbound::affine, errbound::relative>;
+                             errbound::residual, errbound::affine, errbound::relative,
+                             errbound::explained<errbound::tight>>;
 TYPED_TEST_SUITE(Functions, Rules);
 
 TYPED_TEST(Functions, RootsOfSquaresAreExact) {

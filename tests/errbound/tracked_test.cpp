@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <errbound/errbound.hpp>
+#include <errbound/explain/explain.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/relative.hpp>
@@ -136,7 +137,7 @@ template <class Rule>
 class TrackedBy : public testing::Test {};
 using rules = testing::Types<errbound::tight, errbound::safe, errbound::sharp, errbound::interval,
                              errbound::residual, errbound::affine, errbound::affine_of<2>,
-                             errbound::relative>;
+                             errbound::relative, errbound::explained<errbound::tight>>;
 TYPED_TEST_SUITE(TrackedBy, rules);
 
 TYPED_TEST(TrackedBy, BoundsHoldInRandomPrograms) {

@@ -1,0 +1,76 @@
+// Where the error of a variance comes from, and how it goes: the naive formula, the compensated
+// one, and what is left. docs/how-wrong.md tells it.
+//
+// usage: variance [FILE]; FILE is what `errbound explain` reads.
+#include <cstdio>
+#include <errbound/explain/explain.hpp>
+#include <vector>
+
+// The mean of squares less the square of the mean.
+template <class S>
+S naive_variance(const std::vector<S>& x) {
+    const errbound::scope s("naive");
+    const S n = static_cast<int>(x.size());
+    S sum = 0, squares = 0;
+    for (const S& y : x) {
+        const errbound::scope s_sum("sum");
+        sum += y;
+    }
+    for (const S& y : x) {
+        const errbound::scope s_squares("squares");
+        squares += y * y;
+    }
+    const errbound::scope s_difference("difference");
+    return (squares - sum * sum / n) / (n - 1);
+}
+
+// Chan, Golub and LeVeque's: squares of deviations, less what the mean's own error puts into them.
+template <class S>
+S compensated_variance(const std::vector<S>& x) {
+    const errbound::scope s("compensated");
+    const S n = static_cast<int>(x.size());
+    S mean = 0, sum = 0, squares = 0;
+    {
+        const errbound::scope s_mean("mean");
+        for (const S& y : x) mean += y;
+        mean /= n;
+    }
+    for (const S& y : x) {
+        const errbound::scope s_deviations("deviations");
+        const S d = y - mean;
+        sum += d;
+        squares += d * d;
+    }
+    const errbound::scope s_difference("difference");
+    return (squares - sum * sum / n) / (n - 1);
+}
+
+// Readings of a height in metres that hardly changes, far from zero. Each is exactly a double.
+template <class S>
+std::vector<S> readings() {
+    std::vector<S> x;
+    for (int i = 0; i < 100; ++i) x.push_back(S(8848.86 + 0.001 * (i * 37 % 11)));
+    return x;
+}
+
+int main(int argc, char** argv) {
+    std::printf("double:  %.17g\n", naive_variance(readings<double>()));
+
+    using tracked = errbound::tracked<double>;
+    const tracked v = naive_variance(readings<tracked>());
+    std::printf("tracked: %.17g, to within %.2g\n", v.value(), v.error());
+
+    using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
+    const std::vector<number> x = readings<number>();
+    const auto naive = errbound::explain(naive_variance(x), "naive variance");
+    const auto compensated = errbound::explain(compensated_variance(x), "compensated variance");
+    std::fputs(text_of(naive).c_str(), stdout);
+    std::fputs(text_of(compensated).c_str(), stdout);
+
+    using signed_number = errbound::tracked<double, errbound::explained<errbound::residual>>;
+    const auto seen = errbound::explain(compensated_variance(readings<signed_number>()),
+                                        "compensated variance, errors with signs");
+    std::fputs(text_of(seen).c_str(), stdout);
+
+    if (argc > 1) errbound::write_explanations(argv[1], {naive, compensated, seen});
+}

@@ -1,0 +1,247 @@
+// Rule over a rule: where the error of a tracked number comes from.
+//
+//   using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
+//   ... a computation, in scopes (scope.hpp) ...
+//   std::cout << text_of(errbound::explain(x));        // a table (explanation.hpp)
+//
+// Values, bounds and signs are those of the rule that is wrapped, bit for bit. Beside its bound a
+// number has a ledger (ledger.hpp): what each source, a scope and a kind of operation, has put into
+// the error. An operation
+//  * carries the operands' contributions on, each times the derivative: 1 for sums, the other
+//    factor for products, 1/b and v/b for quotients v = a/b, 2^e for scalings;
+//  * books its own: what the rule says of the same operation on exact operands of the same values;
+//  * adds what the rule's bound has beyond that (products of errors, factors for its own roundings)
+//    in proportion to these; where a rule's bound is less, contributions are lowered in proportion.
+// So contributions of a number add up to its error(). Where the rule knows errors with their signs
+// (`correction`, see rules/rule.hpp), known parts are carried with them, and may cancel: they add
+// up to the correction, and their sizes to error() or more.
+//
+// The error that counts is the rule's bound: of what a rule overestimates the explanation tells as
+// it does of real errors.
+//
+// Cost: some 100 times that of the rule with few sources, 700 times with 32; memory 24 bytes for
+// each of a number's sources (T double), at most Limit of them: beyond that the smallest are put
+// together as "the rest". Numbers allocate, and operations throw std::bad_alloc where there is no
+// memory. Not for device code or SIMD packs. Threads need no more care than for other numbers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <errbound/explain/ledger.hpp>
+#include <errbound/functions.hpp>
+#include <errbound/tracked.hpp>
+#include <string_view>
+#include <utility>
+
+namespace errbound {
+
+/// Rule: what bounds are made by. Limit: the most sources that a number keeps apart.
+template <class Rule = tight, std::size_t Limit = 64>
+struct explained {
+    static_assert(Limit > 0, "errbound: an explained number keeps at least one source");
+
+    /// That of the rule whose bounds these are.
+    static constexpr const char* name = Rule::name;
+    static constexpr error_meaning error_is = meaning_of_error<Rule>;
+    static constexpr bool has_division = detail::rule_divides<Rule, double>;
+    static constexpr bool holds_without_subnormals = detail::holds_without_subnormals<Rule>;
+    static constexpr bool holds_in_directed_rounding = [] {
+        if constexpr (requires { Rule::holds_in_directed_rounding; })
+            return Rule::holds_in_directed_rounding;
+        else
+            return false;
+    }();
+    static constexpr int minimal_precision = [] {
+        if constexpr (requires { Rule::minimal_precision; })
+            return Rule::minimal_precision;
+        else
+            return 2;
+    }();
+
+    using wrapped_rule = Rule;
+    template <class T>
+    using of_rule = typename Rule::template bound<T>;
+    template <class T>
+    using amount = detail::amount_of<T>;
+    template <class T>
+    using ledger = detail::ledger<amount<T>>;
+
+    template <class T>
+    struct bound {
+        typename Rule::template bound<T> of_rule;
+        ledger<T> contributions;
+    };
+
+    template <class T>
+    static bound<T> exact(const T& value) {
+        return from_outside<T>(value, Rule::template exact<T>(value));
+    }
+    /// A source of the kind "input".
+    template <class T>
+    static bound<T> within(const T& value, const T& error) {
+        return from_outside<T>(value, Rule::template within<T>(value, error));
+    }
+    template <class T>
+    static constexpr T error(const T& value, const bound<T>& b) {
+        return Rule::template error<T>(value, b.of_rule);
+    }
+    template <class T>
+    static constexpr auto sign(const T& value,
+                               const bound<T>& b) requires detail::rule_has_sign<Rule, T> {
+        return Rule::sign(value, b.of_rule);
+    }
+    template <class T>
+    static constexpr T correction(const T& value,
+                                  const bound<T>& b) requires detail::rule_has_correction<Rule, T> {
+        return Rule::template correction<T>(value, b.of_rule);
+    }
+    template <class T>
+    static bound<T> negate(const bound<T>& b) {
+        bound<T> result = b;
+        if constexpr (requires { Rule::negate(b.of_rule); })
+            result.of_rule = Rule::negate(b.of_rule);
+        result.contributions.negate();
+        return result;
+    }
+
+    template <class T>
+    static bound<T> add(const T& v, rule_operand<T, explained> a, rule_operand<T, explained> b) {
+        return booked<T>(
+            detail::operations::plus, v, a, b,
+            [&](auto x, auto y) { return Rule::template add<T>(v, x, y); },
+            [](const amount<T>& x) { return x; }, [](const amount<T>& y) { return y; });
+    }
+    template <class T>
+    static bound<T> subtract(const T& v, rule_operand<T, explained> a,
+                             rule_operand<T, explained> b) {
+        return booked<T>(
+            detail::operations::minus, v, a, b,
+            [&](auto x, auto y) { return Rule::template subtract<T>(v, x, y); },
+            [](const amount<T>& x) { return x; }, [](const amount<T>& y) { return amount<T>(-y); });
+    }
+    template <class T>
+    static bound<T> multiply(const T& v, rule_operand<T, explained> a,
+                             rule_operand<T, explained> b) {
+        const amount<T> of_a = static_cast<amount<T>>(a.value),
+                        of_b = static_cast<amount<T>>(b.value);
+        return booked<T>(
+            detail::operations::times, v, a, b,
+            [&](auto x, auto y) { return Rule::template multiply<T>(v, x, y); },
+            [&](const amount<T>& x) { return amount<T>(x * of_b); },
+            [&](const amount<T>& y) { return amount<T>(y * of_a); });
+    }
+    template <class T>
+    static bound<T> divide(const T& v, rule_operand<T, explained> a,
+                           rule_operand<T, explained> b) requires detail::rule_has_divide<Rule, T> {
+        const amount<T> of_b = static_cast<amount<T>>(b.value),
+                        quotient = static_cast<amount<T>>(v);
+        return booked<T>(
+            detail::operations::divided_by, v, a, b,
+            [&](auto x, auto y) { return Rule::template divide<T>(v, x, y); },
+            [&](const amount<T>& x) { return amount<T>(x / of_b); },
+            [&](const amount<T>& y) { return amount<T>(-(y / of_b) * quotient); });
+    }
+    template <class T>
+    static bound<T> scale(const T& v, rule_operand<T, explained> a, int e) {
+        const auto exact_a = Rule::template exact<T>(a.value);
+        const auto result = Rule::template scale<T>(v, {a.value, a.bound.of_rule}, e);
+        const auto own = Rule::template scale<T>(v, {a.value, exact_a}, e);
+        ledger<T> contributions;
+        carry<T>(contributions, v, result, a,
+                 [e](const amount<T>& x) { return number_traits<amount<T>>::scale(x, e); });
+        return closed<T>(detail::operations::scaled, v, result, own, std::move(contributions));
+    }
+
+    /// For functions: x as the rule itself has it.
+    template <class T>
+    static tracked<T, Rule> unwrapped(const tracked<T, explained>& x) {
+        return tracked<T, Rule>::from_bound(x.value(), x.bound().of_rule);
+    }
+    /// The rule's x with contributions that add up to its error.
+    template <class T>
+    static tracked<T, explained> wrapped(const tracked<T, Rule>& x, ledger<T> contributions) {
+        return tracked<T, explained>::from_bound(x.value(), {x.bound(), std::move(contributions)});
+    }
+    /// A function's result, with what its arguments' errors have put into it and what the function
+    /// has, `own`: what it would be of exact arguments.
+    template <class T>
+    static tracked<T, explained> closed(std::uint32_t function, const tracked<T, Rule>& result,
+                                        const tracked<T, Rule>& own, ledger<T> contributions) {
+        return tracked<T, explained>::from_bound(
+            result.value(), closed<T>(function, result.value(), result.bound(), own.bound(),
+                                      std::move(contributions)));
+    }
+
+  private:
+    /// An operation's result `v` with the rule's bound, with what its operands have put into it;
+    /// the bound would be `own` if they were exact.
+    template <class T>
+    static bound<T> closed(std::uint32_t operation, const T& v, const of_rule<T>& result,
+                           const of_rule<T>& own, ledger<T> contributions) {
+        const detail::source from{detail::current_scope(), operation};
+        if (is_known<T>(v, result)) {
+            using traits = number_traits<amount<T>>;
+            const amount<T> known = correction_of<T>(v, own);
+            const amount<T> unknown = error_of<T>(v, own) - traits::abs(known);
+            contributions.book({from, known, traits::max(amount<T>(0), unknown)});
+            contributions.settle(from, correction_of<T>(v, result), error_of<T>(v, result));
+        } else if (contributions.entries().empty()) {
+            contributions.book_unknown(from);
+        }
+        contributions.limit(Limit);
+        return {result, std::move(contributions)};
+    }
+    template <class T>
+    static amount<T> error_of(const T& v, const of_rule<T>& b) {
+        return static_cast<amount<T>>(T(Rule::template error<T>(v, b)));
+    }
+    template <class T>
+    static amount<T> correction_of([[maybe_unused]] const T& v,
+                                   [[maybe_unused]] const of_rule<T>& b) {
+        if constexpr (detail::rule_has_correction<Rule, T>)
+            return static_cast<amount<T>>(T(Rule::template correction<T>(v, b)));
+        else
+            return amount<T>(0);
+    }
+    template <class T>
+    static bool is_known(const T& v, const of_rule<T>& b) {
+        return number_traits<T>::is_finite(T(Rule::template error<T>(v, b)));
+    }
+
+    template <class T>
+    static bound<T> from_outside(const T& value, const of_rule<T>& b) {
+        return closed<T>(detail::operations::input, value, b, b, {});
+    }
+    template <class T, class Times>
+    static void carry(ledger<T>& to, const T& v, const of_rule<T>& result,
+                      rule_operand<T, explained> a, const Times& times) {
+        if (is_known<T>(v, result))
+            to.carry(a.bound.contributions, times);
+        else
+            to.carry_unknown(a.bound.contributions);
+    }
+    /// bound_of: the rule's operation on two of its own operands.
+    template <class T, class BoundOf, class TimesA, class TimesB>
+    static bound<T> booked(std::uint32_t operation, const T& v, rule_operand<T, explained> a,
+                           rule_operand<T, explained> b, const BoundOf& bound_of,
+                           const TimesA& times_a, const TimesB& times_b) {
+        using operand = rule_operand<T, Rule>;
+        const of_rule<T> exact_a = Rule::template exact<T>(a.value);
+        const of_rule<T> exact_b = Rule::template exact<T>(b.value);
+        const of_rule<T> result =
+            bound_of(operand{a.value, a.bound.of_rule}, operand{b.value, b.bound.of_rule});
+        const of_rule<T> own = bound_of(operand{a.value, exact_a}, operand{b.value, exact_b});
+        ledger<T> contributions;
+        carry<T>(contributions, v, result, a, times_a);
+        carry<T>(contributions, v, result, b, times_b);
+        return closed<T>(operation, v, result, own, std::move(contributions));
+    }
+};
+
+/// Whether a rule is `explained` of another one.
+template <class>
+inline constexpr bool is_explained = false;
+template <class Rule, std::size_t Limit>
+inline constexpr bool is_explained<explained<Rule, Limit>> = true;
+
+}  // namespace errbound

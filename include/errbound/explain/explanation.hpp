@@ -1,0 +1,238 @@
+// What an explanation is: a number's error by sources, as numbers, as a table, as JSON.
+//
+// `errbound explain FILE` prints what is written here and draws it (docs/how-wrong.md).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <errbound/explain/scope.hpp>
+#include <errbound/printing.hpp>
+#include <errbound/support/error.hpp>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace errbound {
+
+/// What one source has put into a result's error.
+struct contribution {
+    std::vector<place> scopes;  ///< that it stands in, the outermost first
+    /// "+", "-", "*", "/", "scale", "input" (a number that is within an error) or a function's
+    /// name; "the rest", in no scope: what was too small to be kept apart.
+    std::string operation;
+    /// Its part of the error's bound, at least 0. Infinite: from here on nothing is known.
+    double amount = 0;
+    /// The part of true value − value that it is known to be, with its sign; 0 by rules that know
+    /// no signs.
+    double known = 0;
+};
+
+/// A result's error by its sources.
+struct explanation {
+    std::string name;  ///< of the result
+    std::string rule;  ///< by which its error is bounded
+    double value = 0;
+    double error = 0;  ///< infinite: nothing is known
+    /// The largest first. Amounts come to the error, but for roundings (of this sum and of what was
+    /// added up on the way: a few 2^-53 for each source); by a rule that knows signs they come to
+    /// it or to more, where known parts cancel.
+    std::vector<contribution> contributions;
+};
+
+namespace detail {
+
+/// Positions of the text's bytes that begin no character of UTF-8 are left out.
+inline std::size_t character_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+    };
+    const unsigned first = byte(0), second = byte(1);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xc2 ? 0
+                               : first < 0xe0 ? 2
+                               : first < 0xf0 ? 3
+                               : first < 0xf5 ? 4
+                                              : 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if (byte(i) < 0x80 || byte(i) >= 0xc0) return 0;
+    // Overlong forms, surrogates and what is beyond the last character.
+    if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
+        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90))
+        return 0;
+    return length;
+}
+
+/// A JSON string. Bytes that are no UTF-8 (a path may be any) are written as '?'.
+inline std::string json_string(std::string_view text) {
+    std::string quoted = "\"";
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        const auto first = static_cast<unsigned char>(text.front());
+        if (length == 0) {
+            quoted += '?';
+        } else if (first < 0x20) {
+            std::array<char, 8> code{};
+            std::snprintf(code.data(), code.size(), "\\u%04x", static_cast<unsigned>(first));
+            quoted += code.data();
+        } else {
+            if (first == '"' || first == '\\') quoted += '\\';
+            quoted += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return quoted + '"';
+}
+/// The shortest decimal that reads back; null where there is none.
+inline std::string json_number(double x) {
+    return std::isfinite(x) ? decimal(x) : "null";
+}
+
+inline std::string json_of(const contribution& c) {
+    std::string scopes;
+    for (const place& s : c.scopes)
+        scopes += (scopes.empty() ? "" : ", ") + ("{\"name\": " + json_string(s.name)) +
+                  ", \"file\": " + json_string(s.file) + ", \"line\": " + std::to_string(s.line) +
+                  '}';
+    return "        {\"amount\": " + json_number(c.amount) +
+           ", \"known\": " + json_number(c.known) + ", \"operation\": " + json_string(c.operation) +
+           ", \"scopes\": [" + scopes + "]}";
+}
+inline std::string json_of(const explanation& e) {
+    std::string contributions;
+    for (const contribution& c : e.contributions)
+        contributions += (contributions.empty() ? "\n" : ",\n") + json_of(c);
+    return "    {\n      \"name\": " + json_string(e.name) +
+           ",\n      \"rule\": " + json_string(e.rule) +
+           ",\n      \"value\": " + json_number(e.value) +
+           ",\n      \"error\": " + json_number(e.error) + ",\n      \"contributions\": [" +
+           contributions + (contributions.empty() ? "]\n    }" : "\n      ]\n    }");
+}
+
+/// printf's, of one double.
+inline std::string formatted(const char* format, double x) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, x);
+    return text.data();
+}
+/// naive > squares (variance.cpp:20)
+inline std::string text_of(const std::vector<place>& scopes) {
+    if (scopes.empty()) return "";
+    std::string path;
+    for (const place& s : scopes) path += (path.empty() ? "" : " > ") + s.name;
+    const std::string& file = scopes.back().file;
+    return path + " (" + file.substr(file.find_last_of("/\\") + 1) + ':' +
+           std::to_string(scopes.back().line) + ')';
+}
+
+/// Rows of cells, the last one aligned left, the others right, but for that of operations.
+inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+    const std::size_t columns = rows.front().size();
+    std::vector<std::size_t> widths(columns, 0);
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], row[i].size());
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t i = 0; i < columns; ++i) {
+            const std::string spaces(widths[i] - row[i].size(), ' ');
+            line += "  " + (i + 2 < columns ? spaces + row[i] : row[i] + spaces);
+        }
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+    }
+    return text;
+}
+
+inline void write_file(const std::filesystem::path& path, std::string_view text) {
+    std::error_code error;
+    const auto kind = std::filesystem::status(path, error).type();
+    const bool in_place =  // pipes and devices are not replaced
+        kind != std::filesystem::file_type::regular &&
+        kind != std::filesystem::file_type::not_found;
+    std::filesystem::path beside = path;
+    if (!in_place)
+        beside += ".errbound-" +
+                  std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()) +
+                  ".tmp";
+    std::ofstream file(beside, std::ios::binary);
+    file << text;
+    file.close();
+    bool written = !file.fail();
+    if (written && !in_place) std::filesystem::rename(beside, path, error);
+    written = written && !error;
+    if (!written && !in_place) std::filesystem::remove(beside, error);
+    if (!written)
+        throw support::file_error(path.string() +
+                                  ": found that it cannot be written, expected a path that can");
+}
+
+}  // namespace detail
+
+/// The parts of the error that are the contributions', from 0 to 1, in their order; of what makes
+/// it unknown, an equal part each.
+inline std::vector<double> shares_of(const explanation& e) {
+    double all = 0, unknown = 0;
+    for (const contribution& c : e.contributions) {
+        all += c.amount;
+        unknown += std::isfinite(c.amount) ? 0 : 1;
+    }
+    std::vector<double> shares;
+    for (const contribution& c : e.contributions)
+        shares.push_back(unknown > 0 ? (std::isfinite(c.amount) ? 0 : 1 / unknown)
+                                     : (all > 0 ? c.amount / all : 0));
+    return shares;
+}
+
+/// A table for people: the result, and a line for each source, of which no more than `lines`.
+inline std::string text_of(const explanation& e, std::size_t lines = 20) {
+    std::string text =
+        e.name + " = " + detail::value_and_radius(e.value, e.error) + ", by " + e.rule + '\n';
+    if (e.contributions.empty()) return text + "  no error\n";
+    const bool known = std::any_of(e.contributions.begin(), e.contributions.end(),
+                                   [](const contribution& c) { return c.known != 0; });
+    std::vector<std::vector<std::string>> rows{{"amount", "share", "operation", "scope"}};
+    if (known) rows[0].insert(rows[0].begin() + 1, "signed");
+    const std::vector<double> shares = shares_of(e);
+    const std::size_t shown = std::min(lines, shares.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+        const contribution& c = e.contributions[i];
+        std::vector<std::string> row{
+            std::isfinite(c.amount) ? detail::formatted("%.2e", c.amount) : "unknown",
+            detail::formatted("%.1f %%", 100 * shares[i]), c.operation, detail::text_of(c.scopes)};
+        if (known) row.insert(row.begin() + 1, detail::formatted("%+.2e", c.known));
+        rows.push_back(row);
+    }
+    text += detail::aligned(rows);
+    double sum = 0;
+    for (const contribution& c : e.contributions) sum += c.amount;
+    if (shown < shares.size()) text += "  and " + std::to_string(shares.size() - shown) + " more\n";
+    if (std::isfinite(sum) && sum > 1.01 * e.error)
+        text += "  together " + detail::formatted("%.2e", sum) + ", of which all but " +
+                detail::formatted("%.2e", e.error) + " cancels\n";
+    return text;
+}
+
+/// What `errbound explain` reads.
+inline std::string json_of(const std::vector<explanation>& results) {
+    std::string text;
+    for (const explanation& e : results) text += (text.empty() ? "\n" : ",\n") + detail::json_of(e);
+    return "{\n  \"format\": \"errbound explanation\",\n  \"version\": 1,\n  \"results\": [" +
+           text + (text.empty() ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+/// Writes what `errbound explain FILE` reads, whole or not at all. Throws
+/// errbound::support::file_error.
+inline void write_explanations(const std::filesystem::path& path,
+                               const std::vector<explanation>& results) {
+    detail::write_file(path, json_of(results));
+}
+
+}  // namespace errbound

@@ -1,0 +1,175 @@
+// Functions of explained numbers: their arguments' contributions are carried on.
+//
+//   sqrt(x);                                           // as for any tracked number
+//   errbound::as_one_operation("norm", f, x, y, z);    // a function of one's own, as one source
+//
+// A function says its error, not how that is made up. So it is asked again: with exact arguments
+// for its own contribution, and with each argument's error alone for that argument's. Functions
+// that are sums and products by themselves (midpoint, pow) are told apart as these.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/conversion.hpp>
+#include <errbound/explain/explained.hpp>
+#include <errbound/functions.hpp>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace errbound {
+
+namespace detail {
+
+template <class T, class Rule>
+T known_correction(const tracked<T, Rule>& x) {
+    if constexpr (rule_has_correction<Rule, T>)
+        return Rule::template correction<T>(x.value(), x.bound());
+    else
+        return T(0);
+}
+/// Whether all that is said of x is said of y.
+template <class T, class Rule>
+bool says_the_same(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
+    return x.value() == y.value() && x.error() == y.error() &&
+           known_correction(x) == known_correction(y);
+}
+
+/// What an argument's error adds to a function's result beyond its own error.
+template <class T, class Rule>
+amount_of<T> beyond(const tracked<T, Rule>& with_error, const tracked<T, Rule>& own) {
+    using amount = amount_of<T>;
+    const amount more = static_cast<amount>(with_error.error()) - static_cast<amount>(own.error());
+    return more > 0 && number_traits<amount>::is_finite(more) ? more : amount(0);
+}
+
+/// A function as the rule has it: its result, what that would be of exact arguments, and of
+/// arguments of which one alone has its error.
+template <class T, class Rule, std::size_t Count>
+struct asked_again {
+    tracked<T, Rule> result, own;
+    std::array<tracked<T, Rule>, Count> of_one;
+};
+
+template <class T, class Rule, std::size_t Limit, std::size_t Count>
+tracked<T, explained<Rule, Limit>> booked_function(
+    std::string_view name, const std::array<const tracked<T, explained<Rule, Limit>>*, Count>& x,
+    const asked_again<T, Rule, Count>& f) {
+    using rule = explained<Rule, Limit>;
+    using number = tracked<T, rule>;
+    typename rule::template ledger<T> contributions;
+    for (std::size_t i = 0; i < Count; ++i) {
+        const number negative = -*x[i];
+        if (says_the_same(f.result, rule::unwrapped(*x[i])))
+            return rule::wrapped(f.result, x[i]->bound().contributions);
+        if (says_the_same(f.result, rule::unwrapped(negative)))
+            return rule::wrapped(f.result, negative.bound().contributions);
+    }
+    for (std::size_t i = 0; i < Count; ++i)
+        if (number_traits<T>::is_finite(f.result.error()))
+            contributions.carry_sizes(x[i]->bound().contributions, beyond(f.of_one[i], f.own));
+        else
+            contributions.carry_unknown(x[i]->bound().contributions);
+    return rule::closed(all_sources::instance().function_named(name), f.result, f.own,
+                        std::move(contributions));
+}
+
+}  // namespace detail
+
+/// f(x, others...), which is one operation of that name, whatever f does: f takes numbers of the
+/// rule that is wrapped, and returns one. A result that says the same as an argument, or as an
+/// argument's negative, has its contributions. Names are kept for good. Cost: f is called twice
+/// more than it has arguments.
+template <class T, class Rule, std::size_t Limit, class F,
+          std::same_as<tracked<T, explained<Rule, Limit>>>... Others>
+tracked<T, explained<Rule, Limit>> as_one_operation(std::string_view name, const F& f,
+                                                    const tracked<T, explained<Rule, Limit>>& x,
+                                                    const Others&... others) {
+    using plain = tracked<T, Rule>;
+    constexpr std::size_t count = 1 + sizeof...(others);
+    const std::array<const tracked<T, explained<Rule, Limit>>*, count> arguments{&x, &others...};
+    std::array<plain, count> given, exact;
+    for (std::size_t i = 0; i < count; ++i) {
+        given[i] = explained<Rule, Limit>::unwrapped(*arguments[i]);
+        exact[i] = plain(arguments[i]->value());
+    }
+    detail::asked_again<T, Rule, count> asked{std::apply(f, given), std::apply(f, exact), {}};
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<plain, count> one = exact;
+        one[i] = given[i];
+        asked.of_one[i] = std::apply(f, one);
+    }
+    return detail::booked_function<T, Rule, Limit, count>(name, arguments, asked);
+}
+
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> sqrt(const tracked<T, explained<Rule, Limit>>& x) {
+    return as_one_operation(
+        "sqrt", [](const auto& y) { return sqrt(y); }, x);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> abs(const tracked<T, explained<Rule, Limit>>& x) {
+    return as_one_operation(
+        "abs", [](const auto& y) { return abs(y); }, x);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> min(const tracked<T, explained<Rule, Limit>>& a,
+                                       const tracked<T, explained<Rule, Limit>>& b) {
+    return as_one_operation(
+        "min", [](const auto& x, const auto& y) { return min(x, y); }, a, b);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> max(const tracked<T, explained<Rule, Limit>>& a,
+                                       const tracked<T, explained<Rule, Limit>>& b) {
+    return as_one_operation(
+        "max", [](const auto& x, const auto& y) { return max(x, y); }, a, b);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> fma(const tracked<T, explained<Rule, Limit>>& a,
+                                       const tracked<T, explained<Rule, Limit>>& b,
+                                       const tracked<T, explained<Rule, Limit>>& c) {
+    return as_one_operation(
+        "fma", [](const auto& x, const auto& y, const auto& z) { return fma(x, y, z); }, a, b, c);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> lerp(const tracked<T, explained<Rule, Limit>>& a,
+                                        const tracked<T, explained<Rule, Limit>>& b,
+                                        const tracked<T, explained<Rule, Limit>>& t) {
+    return as_one_operation(
+        "lerp", [](const auto& x, const auto& y, const auto& s) { return lerp(x, y, s); }, a, b, t);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> hypot(const tracked<T, explained<Rule, Limit>>& x,
+                                         const tracked<T, explained<Rule, Limit>>& y) {
+    return as_one_operation(
+        "hypot", [](const auto& a, const auto& b) { return hypot(a, b); }, x, y);
+}
+template <class T, class Rule, std::size_t Limit>
+tracked<T, explained<Rule, Limit>> copysign(const tracked<T, explained<Rule, Limit>>& x,
+                                            const tracked<T, explained<Rule, Limit>>& y) {
+    return as_one_operation(
+        "copysign", [](const auto& a, const auto& b) { return copysign(a, b); }, x, y);
+}
+
+/// convert of conversion.hpp; a new rule is `explained`, too (without it, contributions end).
+template <class To, class NewRule = void, class From, class Rule, std::size_t Limit>
+requires(std::is_void_v<NewRule> ||
+         is_explained<NewRule>) auto convert(const tracked<From, explained<Rule, Limit>>& x) {
+    using rule = std::conditional_t<std::is_void_v<NewRule>, explained<Rule, Limit>, NewRule>;
+    const auto result =
+        convert<To, typename rule::wrapped_rule>(explained<Rule, Limit>::unwrapped(x));
+    const auto own = convert<To, typename rule::wrapped_rule>(tracked<From, Rule>(x.value()));
+    typename rule::template ledger<To> contributions;
+    if (number_traits<To>::is_finite(result.error()))
+        contributions.carry_sizes(x.bound().contributions, detail::beyond(result, own));
+    else
+        contributions.carry_unknown(x.bound().contributions);
+    return rule::closed(detail::all_sources::instance().function_named("convert"), result, own,
+                        std::move(contributions));
+}
+
+}  // namespace errbound

@@ -1,0 +1,147 @@
+// A number's error by its sources: what the rule `explained` (explained.hpp) keeps beside a bound.
+//
+// An entry is what one source has put into the number so far: `known`, a part of true value − value
+// that the rule knows with its sign (`residual` does), and `unknown` >= 0, a bound of the rest.
+// With c what the rule knows of the number's error and e its bound, which are given, the entries
+// of a ledger that is settled have, but for roundings, Σ known = c and Σ (|known| + unknown) >= e,
+// with equality where nothing is known. Where e is not finite, entries are those that made it so.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <errbound/explain/scope.hpp>
+#include <errbound/number_traits.hpp>
+#include <limits>
+#include <vector>
+
+namespace errbound::detail {
+
+/// In which number type contributions are added up: double where it has T's range.
+template <class T>
+inline constexpr bool fits_double =
+    number_traits<T>::digits <= number_traits<double>::digits&& number_traits<T>::max_exponent <=
+    number_traits<double>::max_exponent&& number_traits<T>::min_exponent >=
+    number_traits<double>::min_exponent&& requires(const T& x) {
+    static_cast<double>(x);
+};
+template <class T>
+using amount_of = std::conditional_t<fits_double<T>, double, T>;
+
+template <class A>
+struct ledger_entry {
+    source from;
+    A known = A(0), unknown = A(0);
+
+    A size() const { return number_traits<A>::abs(known) + unknown; }
+    bool is_finite() const { return number_traits<A>::is_finite(size()); }
+};
+
+template <class A>
+class ledger {
+  public:
+    using entry = ledger_entry<A>;
+
+    const std::vector<entry>& entries() const { return entries_; }
+
+    /// Adds another's entries, each times a number: `times(x)` is that of x.
+    template <class Times>
+    void carry(const ledger& other, const Times& times) {
+        if (other.entries_.empty()) return;
+        std::vector<entry> all;
+        all.reserve(entries_.size() + other.entries_.size() + 1);
+        auto mine = entries_.begin();
+        for (const entry& o : other.entries_) {
+            const entry carried{o.from, times(o.known), number_traits<A>::abs(times(o.unknown))};
+            if (!carried.is_finite()) continue;  // the number is known by other means
+            while (mine != entries_.end() && mine->from < o.from) all.push_back(*mine++);
+            if (mine != entries_.end() && mine->from == o.from)
+                all.push_back(sum(*mine++, carried));
+            else
+                all.push_back(carried);
+        }
+        all.insert(all.end(), mine, entries_.end());
+        entries_.swap(all);
+    }
+    /// Adds another's entries by their sizes, of unknown sign, which come to `total` together.
+    template <class B>
+    void carry_sizes(const ledger<B>& other, const A& total) {
+        B sizes(0);
+        for (const ledger_entry<B>& o : other.entries()) sizes += o.size();
+        if (!number_traits<B>::is_finite(sizes)) return;
+        for (const ledger_entry<B>& o : other.entries())
+            book({o.from, A(0), A(static_cast<A>(o.size() / sizes) * total)});
+    }
+    /// Adds the entries of a number of which nothing is known.
+    template <class B>
+    void carry_unknown(const ledger<B>& other) {
+        for (const ledger_entry<B>& o : other.entries())
+            if (!o.is_finite()) book_unknown(o.from);
+    }
+    void book(const entry& e) {
+        if (e.size() == 0 || !e.is_finite()) return;
+        entry& there = at(e.from);
+        there = sum(there, e);
+    }
+    void book_unknown(const source& from) { at(from) = {from, A(0), number_traits<A>::infinity()}; }
+
+    /// Makes entries add up: to c, where signs are known, and to no less than the error e. What
+    /// the bound has beyond first order goes to all of them, by their sizes; to `own` if there are
+    /// none.
+    void settle(const source& own, const A& c, const A& e) {
+        using traits = number_traits<A>;
+        A known(0), unknown(0), sizes(0);
+        for (const entry& x : entries_) {
+            known += x.known;
+            unknown += x.unknown;
+            sizes += x.size();
+        }
+        if (!traits::is_finite(sizes)) {
+            entries_.clear();
+            known = unknown = sizes = A(0);
+        }
+        const A off = traits::abs(c - known);
+        const A wanted = traits::max(A(0), e - traits::abs(c)) + off;
+        // (Quotients first: the sums may be larger than what is wanted by more than a number's
+        // range.)
+        if (wanted > unknown && sizes > 0) {
+            const A missing = wanted - unknown;
+            for (entry& x : entries_) x.unknown += x.size() / sizes * missing;
+        } else if (wanted > unknown) {
+            book({own, A(0), wanted});
+        } else if (unknown > 0) {
+            for (entry& x : entries_) x.unknown = x.unknown / unknown * wanted;
+        }
+        std::erase_if(entries_, [](const entry& x) { return x.size() == 0; });
+    }
+    /// Puts the smallest entries together until there are no more than `limit` >= 1.
+    void limit(std::size_t limit) {
+        while (entries_.size() > limit) {
+            entry& rest = at(the_rest);  // the last of all
+            const auto smallest = std::min_element(
+                entries_.begin(), entries_.end() - 1,
+                [](const entry& x, const entry& y) { return x.size() < y.size(); });
+            rest = sum(rest, *smallest);
+            entries_.erase(smallest);
+        }
+    }
+    void negate() {
+        for (entry& x : entries_) x.known = -x.known;
+    }
+
+  private:
+    static entry sum(const entry& x, const entry& y) {
+        return {x.from, x.known + y.known, x.unknown + y.unknown};
+    }
+    entry& at(const source& from) {
+        const auto place =
+            std::lower_bound(entries_.begin(), entries_.end(), from,
+                             [](const entry& x, const source& wanted) { return x.from < wanted; });
+        if (place != entries_.end() && place->from == from) return *place;
+        return *entries_.insert(place, entry{from});
+    }
+
+    std::vector<entry> entries_;  // in the order of sources
+};
+
+}  // namespace errbound::detail

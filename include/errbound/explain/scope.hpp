@@ -1,0 +1,152 @@
+// Scopes: names for parts of a program, by which errors are told apart (explained.hpp).
+//
+//   {
+//       const errbound::scope s("mean");   // until the end of the block
+//       mean = sum / n;
+//   }
+//
+// Scopes nest as they are entered, in functions that are called from others, too: each thread has
+// its own nesting, which begins with none. A scope is told from others by its name, by the file and
+// line where it stands and by the scopes that it is in; entered again in itself, by recursion, it
+// is the outer one. Operators take their operands and nothing else, no source location either, so
+// that scopes are how places get into an explanation: what is in a scope and of one kind (its
+// products, say) is one source of error. Where that is too coarse, put scopes around less.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+namespace errbound {
+
+/// Where a scope stands.
+struct place {
+    std::string name;
+    std::string file;
+    std::uint_least32_t line = 0;
+
+    friend bool operator==(const place&, const place&) = default;
+};
+
+namespace detail {
+
+/// What errors are told apart by: the scope and the kind of operation, numbers of all_sources.
+struct source {
+    std::uint32_t scope = 0, operation = 0;
+
+    friend auto operator<=>(const source&, const source&) = default;
+};
+
+/// Operations that every rule has; functions' numbers follow.
+struct operations {
+    enum : std::uint32_t { input, plus, minus, times, divided_by, scaled, count };
+    static constexpr std::array<const char*, count> names{"input", "+", "-", "*", "/", "scale"};
+};
+
+/// Sources that were too small to be kept apart.
+inline constexpr source the_rest{static_cast<std::uint32_t>(-1), 0};
+
+/// The scopes and operations of all threads. They stay: numbers may outlive their scopes.
+class all_sources {
+  public:
+    static all_sources& instance() {
+        static all_sources& all = *new all_sources;  // outlives static numbers
+        return all;
+    }
+
+    /// The scope of that place in scope `parent`; `parent` itself where there are too many.
+    std::uint32_t scope_in(std::uint32_t parent, std::string_view name, std::string_view file,
+                           std::uint_least32_t line) {
+        const std::lock_guard lock(mutex_);
+        const key wanted{parent, name, file, line};
+        if (const auto found = scopes_.find(wanted); found != scopes_.end()) return found->second;
+        for (std::uint32_t s = parent; s != 0; s = nodes_[s].parent)
+            if (const place& p = nodes_[s].where;
+                p.name == name && p.file == file && p.line == line)
+                return s;
+        if (nodes_.size() > max_scopes) return parent;
+        const auto made = static_cast<std::uint32_t>(nodes_.size());
+        const place& p =
+            nodes_.emplace_back(node{parent, {std::string(name), std::string(file), line}}).where;
+        scopes_.emplace(key{parent, p.name, p.file, line}, made);
+        return made;
+    }
+    std::uint32_t function_named(std::string_view name) {
+        const std::lock_guard lock(mutex_);
+        for (std::size_t i = 0; i < functions_.size(); ++i)
+            if (functions_[i] == name) return operations::count + static_cast<std::uint32_t>(i);
+        functions_.emplace_back(name);
+        return operations::count + static_cast<std::uint32_t>(functions_.size() - 1);
+    }
+
+    /// The scopes around a source, the outermost first.
+    std::vector<place> scopes_of(const source& s) const {
+        const std::lock_guard lock(mutex_);
+        std::vector<place> path;
+        if (s == the_rest) return path;
+        for (std::uint32_t i = s.scope; i != 0; i = nodes_[i].parent)
+            path.push_back(nodes_[i].where);
+        std::reverse(path.begin(), path.end());
+        return path;
+    }
+    std::string operation_of(const source& s) const {
+        const std::lock_guard lock(mutex_);
+        if (s == the_rest) return "the rest";
+        return s.operation < operations::count ? operations::names[s.operation]
+                                               : functions_[s.operation - operations::count];
+    }
+
+  private:
+    struct node {
+        std::uint32_t parent;
+        place where;
+    };
+    using key = std::tuple<std::uint32_t, std::string_view, std::string_view, std::uint_least32_t>;
+    static constexpr std::size_t max_scopes = 100'000;
+
+    mutable std::mutex mutex_;
+    std::deque<node> nodes_{node{0, {}}};  // the first is no scope; places stay where they are
+    std::map<key, std::uint32_t> scopes_;
+    std::deque<std::string> functions_;
+};
+
+/// The scope that the calling thread is in; 0: none.
+inline std::uint32_t& current_scope() {
+    thread_local std::uint32_t current = 0;
+    return current;
+}
+
+}  // namespace detail
+
+/// A named part of the program, from here to the end of the block.
+///
+/// Cost: a look-up under a lock that all threads share, some hundred nanoseconds. A program may
+/// have 100,000 scopes (a name that is made when the program runs is a scope each); beyond, what is
+/// in a new one counts for the scope around it. Throws std::bad_alloc.
+class scope {
+  public:
+    /// File and line are the caller's (as by std::source_location, which clang 14 does not have).
+    [[nodiscard]] explicit scope(std::string_view name, std::string_view file = __builtin_FILE(),
+                                 std::uint_least32_t line = __builtin_LINE())
+        : outer_(detail::current_scope()) {
+        detail::current_scope() =
+            detail::all_sources::instance().scope_in(outer_, name, file, line);
+    }
+    ~scope() { detail::current_scope() = outer_; }
+    scope(const scope&) = delete;
+    scope& operator=(const scope&) = delete;
+
+  private:
+    std::uint32_t outer_;
+};
+
+}  // namespace errbound

@@ -1,0 +1,136 @@
+// What is printed and written of explanations.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <errbound/explain/explain.hpp>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/files.hpp"
+
+namespace {
+
+using errbound::contribution;
+using errbound::explanation;
+using errbound::json_of;
+using test_files::message_of;
+using test_files::temporary_directory;
+
+const double infinity = std::numeric_limits<double>::infinity();
+
+explanation some() {
+    return {"area",
+            "tight",
+            2.5,
+            4e-3,
+            {{{{"outer", "/src/a.cpp", 3}, {"inner", "/src/b.cpp", 14}}, "+", 3e-3, 0},
+             {{}, "input", 9e-4, 0},
+             {{}, "the rest", 1e-4, 0}}};
+}
+
+TEST(Table, HasALineForEachSource) {
+    EXPECT_EQ(text_of(some()),
+              "area = 2.5 ± 4.0e-03, by tight\n"
+              "    amount   share  operation  scope\n"
+              "  3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n"
+              "  9.00e-04  22.5 %  input\n"
+              "  1.00e-04   2.5 %  the rest\n");
+    EXPECT_EQ(text_of(some(), 1),
+              "area = 2.5 ± 4.0e-03, by tight\n"
+              "    amount   share  operation  scope\n"
+              "  3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n"
+              "  and 2 more\n");
+}
+
+TEST(Table, SaysWhatCancels) {
+    explanation e = some();
+    e.contributions[0].known = -3e-3;
+    e.contributions[1].known = 9e-4;
+    e.error = 2.2e-3;
+    EXPECT_EQ(text_of(e, 2),
+              "area = 2.5 ± 2.2e-03, by tight\n"
+              "    amount     signed   share  operation  scope\n"
+              "  3.00e-03  -3.00e-03  75.0 %  +          outer > inner (b.cpp:14)\n"
+              "  9.00e-04  +9.00e-04  22.5 %  input\n"
+              "  and 1 more\n"
+              "  together 4.00e-03, of which all but 2.20e-03 cancels\n");
+}
+
+TEST(Table, SaysWhereNothingIsKnownOrNothingIsWrong) {
+    explanation e = some();
+    e.error = e.contributions[0].amount = infinity;
+    EXPECT_EQ(text_of(e, 1),
+              "area = 2.5 ± ?, by tight\n"
+              "   amount    share  operation  scope\n"
+              "  unknown  100.0 %  +          outer > inner (b.cpp:14)\n"
+              "  and 2 more\n");
+    e.error = 0;
+    e.contributions.clear();
+    EXPECT_EQ(text_of(e), "area = 2.5 ± 0, by tight\n  no error\n");
+}
+
+TEST(Shares, AreOfTheSumOrOfWhatIsUnknown) {
+    explanation e = some();
+    EXPECT_EQ(shares_of(e), std::vector<double>({3e-3 / 4e-3, 9e-4 / 4e-3, 1e-4 / 4e-3}));
+    e.contributions[1].amount = e.contributions[2].amount = infinity;
+    EXPECT_EQ(shares_of(e), std::vector<double>({0, 0.5, 0.5}));
+    for (contribution& c : e.contributions) c.amount = 0;
+    EXPECT_EQ(shares_of(e), std::vector<double>({0, 0, 0}));
+}
+
+TEST(Json, KeepsNumbersAndNames) {
+    explanation e = some();
+    e.contributions.pop_back();
+    e.name = "a\"b\\c\n\xc3\xa4\xff\xed\xa0\x80";
+    e.value = 0.1;
+    e.contributions[1].amount = infinity;
+    EXPECT_EQ(json_of({e}), R"({
+  "format": "errbound explanation",
+  "version": 1,
+  "results": [
+    {
+      "name": "a\"b\\c\u000a)"
+                            "\xc3\xa4"
+                            R"(????",
+      "rule": "tight",
+      "value": 0.1,
+      "error": 0.004,
+      "contributions": [
+        {"amount": 0.003, "known": 0, "operation": "+", "scopes": [{"name": "outer", "file": "/src/a.cpp", "line": 3}, {"name": "inner", "file": "/src/b.cpp", "line": 14}]},
+        {"amount": null, "known": 0, "operation": "input", "scopes": []}
+      ]
+    }
+  ]
+}
+)");
+    EXPECT_EQ(
+        json_of(std::vector<explanation>()),
+        "{\n  \"format\": \"errbound explanation\",\n  \"version\": 1,\n  \"results\": []\n}\n");
+}
+
+TEST(File, IsWrittenWholeOrNotAtAll) {
+    const temporary_directory directory;
+    const auto file = directory.path / "out.json";
+    errbound::write_explanations(file, {some()});
+    errbound::write_explanations(file, {some(), some()});
+    std::ostringstream read;
+    read << std::ifstream(file).rdbuf();
+    EXPECT_EQ(read.str(), json_of({some(), some()}));
+    const auto missing = directory.path / "no" / "out.json";
+    EXPECT_NE(message_of([&] {
+                  errbound::write_explanations(missing, {some()});
+              }).find("out.json: found that it cannot be written"),
+              std::string::npos);
+    EXPECT_NE(message_of([&] {
+                  errbound::write_explanations(directory.path, {some()});
+              }).find("found that it cannot be written"),
+              std::string::npos);
+    namespace fs = std::filesystem;
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
+}
+
+}  // namespace
