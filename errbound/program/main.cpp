@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ccd/io/store/store_reader.hpp"
+#include "errbound/program/explain_command.hpp"
 #include "errbound/program/validate_command.hpp"
 #include "errbound/program/validate_options.hpp"
 #include "errbound/support/program.hpp"
@@ -13,15 +14,17 @@ namespace {
 
 int run_command_line(int argc, char** argv) {
     CLI::App app{
-        "Error bounds held against MPFR.\n"
+        "Error bounds held against MPFR, and errors of programs explained.\n"
         "Exit status: 0 done, 1 bad input or violations found, 2 bad usage.",
         "errbound"};
     app.require_subcommand(0, 1);  // none is told from an unknown one, which is named
     app.set_version_flag("--version", std::string("errbound ") + ERRBOUND_VERSION);
     constexpr int one_per_core = 0;
     validate_options validate(app, one_per_core);
+    explaining::explain_command explain(app);
     try {
         app.parse(argc, argv);
+        if (explain.was_given()) return explain.run();
         if (!validate.was_given()) throw CLI::RequiredError("A subcommand");
         return run_validate(validate.checked());
     } catch (const CLI::ParseError& error) {

@@ -24,6 +24,7 @@ PROGRAMS = {
     "docs/many-machines.md": ["examples/mpi/distributed_step.cpp"],
     "docs/in-ten-minutes.md": ["examples/in_ten_minutes.cpp"],
     "docs/elementary-functions.md": ["examples/functions/great_circle.cpp"],
+    "docs/how-wrong.md": ["examples/explain/variance.cpp"],
 }
 # Pages that quote measured figures.
 QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]

@@ -1,0 +1,174 @@
+// Explanations as flame graphs: paths of scopes in order, those that begin alike on one bar.
+#include "errbound/program/flame_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace errbound::explaining {
+namespace {
+
+constexpr double width = 1000, margin = 10, bar_height = 20, heading = 28;
+constexpr double whole = width - 2 * margin;                     // a result's bar
+constexpr double thinnest = 0.2, letter = 7.3, text_margin = 4;  // pixels, of 12 pixel monospace
+
+/// What a bar stands for.
+struct frame {
+    bool operation = false;
+    std::string name, where{};  ///< where: file:line, if it is a scope
+
+    friend auto operator<=>(const frame&, const frame&) = default;
+};
+
+/// A source: the bars on the lowest one that its part of the error belongs to.
+struct pile {
+    std::vector<frame> frames;
+    double share = 0, amount = 0;
+};
+
+/// In the order from left to right.
+std::vector<pile> piles_of(const explanation& e) {
+    std::vector<pile> piles;
+    const std::vector<double> shares = shares_of(e);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const contribution& c = e.contributions[i];
+        pile p{{{false, e.name}}, shares[i], c.amount};
+        for (const place& s : c.scopes)
+            p.frames.push_back({false, s.name, s.file + ':' + std::to_string(s.line)});
+        p.frames.push_back({true, c.operation});
+        piles.push_back(std::move(p));
+    }
+    if (piles.empty()) piles.push_back({{{false, e.name}}, 1, 0});
+    std::sort(piles.begin(), piles.end(),
+              [](const pile& p, const pile& q) { return p.frames < q.frames; });
+    return piles;
+}
+
+/// As XML text; characters that XML has not become '?'.
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (; !text.empty();
+         text.remove_prefix(std::max<std::size_t>(detail::character_length(text), 1))) {
+        const std::string_view character = text.substr(0, detail::character_length(text));
+        if (character == "<")
+            result += "&lt;";
+        else if (character == "&")
+            result += "&amp;";
+        else if (character == "\"")
+            result += "&quot;";
+        else if (character.empty() || static_cast<unsigned char>(character[0]) < 0x20 ||
+                 character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf")
+            result += '?';
+        else
+            result += character;
+    }
+    return result;
+}
+
+/// The text's beginning, as far as there is room for it.
+std::string shortened(std::string_view text, double room) {
+    const auto fit = static_cast<std::size_t>(std::max(0.0, (room - 2 * text_margin) / letter));
+    std::size_t characters = 0, bytes = 0, kept = 0;
+    while (bytes < text.size()) {
+        bytes += std::max<std::size_t>(detail::character_length(text.substr(bytes)), 1);
+        if (++characters + 1 == fit) kept = bytes;
+    }
+    if (characters <= fit) return escaped(text);
+    return fit < 3 ? std::string() : escaped(text.substr(0, kept)) + "…";
+}
+
+/// Warm for scopes, always the same for one name; cooler for operations; grey for the rest.
+std::string colour_of(const frame& f) {
+    if (f.operation) return f.name == "the rest" ? "#c8c8c8" : "#b9d3e8";
+    std::uint32_t hash = 2166136261U;
+    for (const char c : f.name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+    return "hsl(" + std::to_string(10 + hash % 40) + ",80%," + std::to_string(66 + hash / 64 % 12) +
+           "%)";
+}
+
+std::string number(double x) {
+    return detail::formatted("%.1f", x);
+}
+
+struct bar {
+    double left = 0, share = 0, amount = 0;
+};
+
+std::string drawn(const frame& f, const bar& b, double bottom) {
+    const double wide = b.share * whole;
+    if (!(wide >= thinnest)) return "";
+    const std::string tip =
+        f.name + (f.where.empty() ? "" : " (" + f.where + ")") + ": " +
+        detail::formatted("%.1f %%", 100 * b.share) +
+        (std::isfinite(b.amount) ? ", " + detail::formatted("%.2e", b.amount) : ", unknown");
+    std::string svg = "<g><title>" + escaped(tip) + "</title><rect x=\"" + number(b.left) +
+                      "\" y=\"" + number(bottom - bar_height) + "\" width=\"" + number(wide) +
+                      "\" height=\"" + number(bar_height - 1) + "\" fill=\"" + colour_of(f) +
+                      "\" stroke=\"#fff\" stroke-width=\"0.5\"/>";
+    if (const std::string text = shortened(f.name, wide); !text.empty())
+        svg += "<text x=\"" + number(b.left + text_margin) + "\" y=\"" + number(bottom - 6) +
+               "\">" + text + "</text>";
+    return svg + "</g>\n";
+}
+
+/// Bars on the line `bottom`.
+std::string graph(const std::vector<pile>& piles, double bottom) {
+    std::string svg;
+    std::vector<bar> open;  // those of the pile before
+    const std::vector<frame>* before = nullptr;
+    const auto close_down_to = [&](std::size_t count) {
+        for (; open.size() > count; open.pop_back()) {
+            const std::size_t level = open.size() - 1;
+            svg += drawn((*before)[level], open[level],
+                         bottom - bar_height * static_cast<double>(level));
+        }
+    };
+    double left = margin;
+    for (const pile& p : piles) {
+        std::size_t common = 0;
+        while (before != nullptr && common < std::min(before->size(), p.frames.size()) &&
+               (*before)[common] == p.frames[common])
+            ++common;
+        close_down_to(common);
+        open.resize(p.frames.size(), {left});
+        for (bar& b : open) {
+            b.share += p.share;
+            b.amount += p.amount;
+        }
+        before = &p.frames;
+        left += p.share * whole;
+    }
+    close_down_to(0);
+    return svg;
+}
+
+}  // namespace
+
+std::string flame_graphs(const std::vector<explanation>& results) {
+    std::string body;
+    double top = 0;
+    for (const explanation& e : results) {
+        const std::vector<pile> piles = piles_of(e);
+        std::size_t levels = 0;
+        for (const pile& p : piles) levels = std::max(levels, p.frames.size());
+        const std::string title = e.name + " = " + detail::value_and_radius(e.value, e.error) +
+                                  ", by " + e.rule + (e.contributions.empty() ? ": no error" : "");
+        body += "<text x=\"" + number(margin) + "\" y=\"" + number(top + heading - 9) + "\">" +
+                shortened(title, whole) + "</text>\n";
+        const double bottom = top + heading + bar_height * static_cast<double>(levels);
+        body += graph(piles, bottom);
+        top = bottom;
+    }
+    const std::string height = number(top + margin);
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width) + "\" height=\"" +
+           height + "\" viewBox=\"0 0 " + number(width) + ' ' + height +
+           "\" font-family=\"monospace\" font-size=\"12\">\n"
+           "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
+           body + "</svg>\n";
+}
+
+}  // namespace errbound::explaining

@@ -1,0 +1,99 @@
+# Tests of `errbound explain` as a user runs it, on what an example writes: tables, pictures, exit statuses,
+# messages. The programs' paths are in the environment variables ERRBOUND_PROGRAM and ERRBOUND_EXAMPLE.
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+from xml.etree import ElementTree
+
+PROGRAM = os.environ["ERRBOUND_PROGRAM"]
+EXAMPLE = os.environ["ERRBOUND_EXAMPLE"]
+
+
+class Explain(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.directory = pathlib.Path(directory.name)
+        self.file = self.directory / "variance.json"
+        self.printed = subprocess.run([EXAMPLE, self.file], capture_output=True, text=True, check=True).stdout
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, "explain", *map(str, arguments)], capture_output=True, text=True,
+                              timeout=300, **options)
+
+    def good(self, *arguments, **options):
+        done = self.run_program(*arguments, **options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_the_table_is_the_programs_own(self):
+        results = json.loads(self.file.read_text())["results"]
+        tables = self.good(self.file).split("\n\n")
+        self.assertEqual(len(tables), len(results))
+        for table, result in zip(tables, results):
+            self.assertIn(table.strip(), self.printed)
+            self.assertTrue(table.startswith(result["name"] + " = "))
+            self.assertEqual(len(table.strip().splitlines()), 2 + len(result["contributions"])
+                             + ("together" in table))
+        with open(self.file) as text:
+            self.assertEqual(self.good("-", stdin=text), self.good(self.file))
+
+    def test_contributions_add_up(self):
+        for result in json.loads(self.file.read_text())["results"]:
+            amounts = [c["amount"] for c in result["contributions"]]
+            self.assertEqual(amounts, sorted(amounts, reverse=True))
+            self.assertGreaterEqual(sum(amounts), result["error"] * (1 - 1e-13))
+            if result["rule"] == "tight":
+                self.assertLessEqual(sum(amounts), result["error"] * (1 + 1e-13))
+
+    def test_one_result_and_few_lines(self):
+        text = self.good(self.file, "--result", "naive variance", "--lines", 1)
+        lines = text.splitlines()
+        self.assertEqual(len(lines), 4)
+        self.assertIn("naive > sum (variance.cpp:", lines[2])
+        self.assertRegex(lines[3], r"^  and \d+ more$")
+
+    def test_pictures(self):
+        picture = self.directory / "out.svg"
+        self.good(self.file, "--picture", picture)
+        svg = ElementTree.parse(picture).getroot()
+        self.assertEqual(svg.tag, "{http://www.w3.org/2000/svg}svg")
+        titles = [title.text for title in svg.iter("{http://www.w3.org/2000/svg}title")]
+        self.assertTrue(any(title.startswith("squares (") for title in titles))
+        self.assertEqual(sum(title.startswith("naive variance: 100.0 %") for title in titles), 1)
+        done = self.run_program(self.file, "--picture", "-")
+        self.assertEqual(done.stdout, picture.read_text())
+        self.assertIn("naive variance = ", done.stderr)
+
+    def test_bad_input(self):
+        picture = self.directory / "out.svg"
+        for text, message in (("", "found no JSON at byte 1"), ("{}", "format: found nothing"),
+                              (self.file.read_text()[:-20], "found no JSON at byte")):
+            bad = self.directory / "bad.json"
+            bad.write_text(text)
+            done = self.run_program(bad, "--picture", picture)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("bad.json: " + message, done.stderr)
+            self.assertEqual(done.stdout, "")
+            self.assertFalse(picture.exists())
+        done = self.run_program(self.directory / "missing.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("missing.json", done.stderr)
+
+    def test_bad_usage(self):
+        text = self.file.read_text()
+        for arguments in ((), (self.file, "--result", "no such"), (self.file, "--lines", "0"),
+                          (self.file, "--picture", self.file), (self.file, self.file)):
+            done = self.run_program(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertNotEqual(done.stderr, "")
+            self.assertEqual(done.stdout, "")
+        self.assertEqual(self.file.read_text(), text)
+
+
+if __name__ == "__main__":
+    unittest.main()

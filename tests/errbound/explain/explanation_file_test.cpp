@@ -1,0 +1,123 @@
+// Files of explanations that are read, or refused with the place, what was found and what was
+// expected; and flame graphs of any of them.
+#include "errbound/program/explanation_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "errbound/program/flame_graph.hpp"
+#include "tests/support/files.hpp"
+
+namespace {
+
+using errbound::contribution;
+using errbound::explanation;
+using errbound::json_of;
+using errbound::explaining::flame_graphs;
+using errbound::explaining::parse_explanations;
+using test_files::message_of;
+
+const double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<explanation> some() {
+    return {{"area",
+             "tight",
+             0.1,
+             4e-3,
+             {{{{"outer", "/src/a.cpp", 3}, {"in <&\"ner", "/src/b.cpp", 14}}, "+", 3e-3, -1e-3},
+              {{}, "input", 1e-3, 0}}},
+            {"nothing", "residual", 1, 0, {}},
+            {"unknown", "tight", 1, infinity, {{{{"s", "f", 0}}, "/", infinity, 0}}}};
+}
+
+TEST(ExplanationFile, IsReadAsItWasWritten) {
+    const std::string text = json_of(some());
+    const std::vector<explanation> read = parse_explanations(text, "file");
+    EXPECT_EQ(json_of(read), text);
+    EXPECT_EQ(read[0].contributions[0].known, -1e-3);
+    EXPECT_EQ(read[0].contributions[0].scopes[1].line, 14U);
+    EXPECT_TRUE(std::isinf(read[2].error));
+    EXPECT_TRUE(parse_explanations(json_of(std::vector<explanation>()), "file").empty());
+}
+
+/// The file with one text in place of another.
+std::string message_with(const std::string& from, const std::string& to) {
+    std::string text = json_of(some());
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    return message_of([&] { parse_explanations(text, "f.json"); });
+}
+
+TEST(ExplanationFile, IsRefusedWithPlaceFoundAndExpected) {
+    EXPECT_EQ(message_of([] { parse_explanations("{\"a\": ", "f.json"); }),
+              "f.json: found no JSON at byte 7, expected what errbound::write_explanations writes");
+    EXPECT_EQ(message_of([] { parse_explanations("[]", "f.json"); }),
+              "f.json: found [], expected an object");
+    EXPECT_EQ(message_with("errbound explanation", "other"),
+              "f.json: format: found \"other\", expected \"errbound explanation\"");
+    EXPECT_EQ(message_with("\"version\": 1", "\"version\": 2"),
+              "f.json: version: found 2, expected 1");
+    EXPECT_EQ(message_with("\"error\": 0.004", "\"error\": -0.004"),
+              "f.json: results[0].error: found -0.004, expected a number that is not negative, or "
+              "null");
+    EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": \"0.1\""),
+              "f.json: results[0].value: found \"0.1\", expected a number or null");
+    EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": 1e999"),
+              "f.json: found a number out of range, expected those of double");
+    EXPECT_EQ(message_with("\"line\": 14", "\"line\": -1"),
+              "f.json: results[0].contributions[0].scopes[1].line: found -1, expected a line's "
+              "number");
+    EXPECT_EQ(message_with("\"amount\": 0.001", "\"amunt\": 0.001"),
+              "f.json: results[0].contributions[1].amount: found nothing, expected a value");
+    EXPECT_EQ(message_with("\"operation\": \"/\"", "\"operation\": [1]"),
+              "f.json: results[2].contributions[0].operation: found [1], expected a string");
+    EXPECT_EQ(
+        message_with("\"name\": \"area\"", "\"name\": {\"a\": \"" + std::string(99, 'x') + "\"}"),
+        "f.json: results[0].name: found an object, expected a string");
+    EXPECT_EQ(message_with("\"contributions\": []", "\"contributions\": {}"),
+              "f.json: results[1].contributions: found {}, expected an array");
+    EXPECT_NE(message_with("area", "\xff").find("found no JSON at byte"), std::string::npos);
+}
+
+TEST(FlameGraph, HasABarForEachScopeAndOperation) {
+    const std::string svg = flame_graphs(some());
+    EXPECT_EQ(svg.find("<svg xmlns=\"http://www.w3.org/2000/svg\""), 0U);
+    EXPECT_TRUE(svg.ends_with("</svg>\n"));
+    for (const char* tip :
+         {"<title>area: 100.0 %, 4.00e-03</title>",
+          "<title>outer (/src/a.cpp:3): 75.0 %, 3.00e-03</title>",
+          "<title>in &lt;&amp;&quot;ner (/src/b.cpp:14): 75.0 %",
+          "<title>+: 75.0 %, 3.00e-03</title>", "<title>input: 25.0 %, 1.00e-03</title>",
+          "<title>nothing: 100.0 %, 0.00e+00</title>", "<title>/: 100.0 %, unknown</title>",
+          ">nothing = 1 ± 0, by residual: no error<", ">area = 0.1 ± 4.0e-03, by tight<"})
+        EXPECT_NE(svg.find(tip), std::string::npos) << tip;
+    // The sum's bar is three quarters of the root's 980 pixels, and beside it is the input's.
+    EXPECT_NE(svg.find("width=\"735.0\""), std::string::npos);
+    EXPECT_NE(svg.find("x=\"745.0\""), std::string::npos);
+}
+
+TEST(FlameGraph, OfManySourcesAndDeepScopesIsDrawn) {
+    explanation e{"deep", "tight", 1, 1, {}};
+    for (int i = 0; i < 50'000; ++i)
+        e.contributions.push_back(
+            {{{"s", "f", static_cast<unsigned>(i)}}, i % 2 == 0 ? "+" : "*", 1.0 / 50'000, 0});
+    contribution deepest{{}, "-", 1, 0};
+    for (unsigned i = 0; i < 100'000; ++i) deepest.scopes.push_back({"deep", "f", i});
+    e.contributions.push_back(deepest);
+    EXPECT_TRUE(flame_graphs({e}).ends_with("</svg>\n"));
+    EXPECT_EQ(flame_graphs({}).find("<title>"), std::string::npos);
+}
+
+TEST(FlameGraph, HasNoCharactersThatXmlHasNot) {
+    explanation e{std::string("a\x01\xff\xef\xbf\xbf") + "b\xc3\xa4", "tight", 1, 1, {}};
+    const std::string svg = flame_graphs({e});
+    EXPECT_NE(svg.find(">a???b\xc3\xa4<"), std::string::npos);
+}
+
+}  // namespace
