@@ -184,11 +184,13 @@ struct explained {
             const amount<T> known = correction_of<T>(v, own);
             const amount<T> unknown = error_of<T>(v, own) - traits::abs(known);
             contributions.book({from, known, traits::max(amount<T>(0), unknown)});
+            contributions.limit(Limit);
             contributions.settle(from, correction_of<T>(v, result), error_of<T>(v, result));
         } else if (contributions.entries().empty()) {
             contributions.book_unknown(from);
+        } else {
+            contributions.limit(Limit);
         }
-        contributions.limit(Limit);
         return {result, std::move(contributions)};
     }
     template <class T>

@@ -42,9 +42,8 @@ struct explanation {
     std::string rule;  ///< by which its error is bounded
     double value = 0;
     double error = 0;  ///< infinite: nothing is known
-    /// The largest first. Amounts come to the error, but for roundings (of this sum and of what was
-    /// added up on the way: a few 2^-53 for each source); by a rule that knows signs they come to
-    /// it or to more, where known parts cancel.
+    /// The largest first. Amounts come to no less than the error, and to more by roundings (a few
+    /// 2^-53 of it for each source) or, by a rule that knows signs, where known parts cancel.
     std::vector<contribution> contributions;
 };
 

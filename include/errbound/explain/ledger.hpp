@@ -3,8 +3,9 @@
 // An entry is what one source has put into the number so far: `known`, a part of true value − value
 // that the rule knows with its sign (`residual` does), and `unknown` >= 0, a bound of the rest.
 // With c what the rule knows of the number's error and e its bound, which are given, the entries
-// of a ledger that is settled have, but for roundings, Σ known = c and Σ (|known| + unknown) >= e,
-// with equality where nothing is known. Where e is not finite, entries are those that made it so.
+// of a ledger that is settled have Σ (|known| + unknown) >= e, whatever is rounded on the way; but
+// for roundings, Σ known = c, and equality where nothing is known. Where e is not finite, entries
+// are those that made it so.
 #pragma once
 
 #include <algorithm>
@@ -112,6 +113,7 @@ class ledger {
         } else if (unknown > 0) {
             for (entry& x : entries_) x.unknown = x.unknown / unknown * wanted;
         }
+        cover(e);
         std::erase_if(entries_, [](const entry& x) { return x.size() == 0; });
     }
     /// Puts the smallest entries together until there are no more than `limit` >= 1.
@@ -130,6 +132,26 @@ class ledger {
     }
 
   private:
+    /// What roundings have left of e uncovered by the sizes, which are rounded themselves, is the
+    /// largest entry's: shares of it that are small may underflow, and the sum Ŝ of n sizes is off
+    /// by n − 1 roundings: their exact sum is at least Ŝ(1 − u)^(n − 1). Ŝ and what is missing of
+    /// e(1 + (n + 4)ε) come to that but for three roundings of no more than e, and the entry is
+    /// rounded twice more: no less than e(1 + 2(n + 4)u − 3u)(1 − u)^(n + 1) is left, which is at
+    /// least e for n <= 2^-10/u. Near underflow, where the product loses more than a rounding, sums
+    /// are exact.
+    void cover(const A& e) {
+        using traits = number_traits<A>;
+        A all(0);
+        for (const entry& x : entries_) all += x.size();
+        if (entries_.empty() || (entries_.size() == 1 && all >= e)) return;
+        const A missing = (e - all) + e * (static_cast<A>(entries_.size() + 4) * traits::epsilon());
+        if (!(missing > 0)) return;
+        entry& largest =
+            *std::max_element(entries_.begin(), entries_.end(),
+                              [](const entry& x, const entry& y) { return x.size() < y.size(); });
+        const A covered = largest.unknown + missing;
+        if (traits::is_finite(covered)) largest.unknown = covered;
+    }
     static entry sum(const entry& x, const entry& y) {
         return {x.from, x.known + y.known, x.unknown + y.unknown};
     }

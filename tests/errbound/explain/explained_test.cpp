@@ -6,6 +6,7 @@
 #include <errbound/errbound.hpp>
 #include <errbound/explain/explain.hpp>
 #include <errbound/rules/affine.hpp>
+#include <errbound/rules/derived.hpp>
 #include <errbound/rules/relative.hpp>
 #include <errbound/rules/stochastic.hpp>
 #include <limits>
@@ -34,6 +35,9 @@ bool same_bits(const T& x, const T& y) {
     return x == y && (x != T(0) ||
                       std::signbit(static_cast<double>(x)) == std::signbit(static_cast<double>(y)));
 }
+
+/// How much more than the error the amounts of a few sources come to, relatively.
+constexpr double rounded = 20 * std::numeric_limits<double>::epsilon();
 
 const char* const scope_names[] = {"first", "second", "third", "fourth"};
 
@@ -161,11 +165,12 @@ class lockstep {
         check_sums(s, where);
     }
     void check_sums(const sample& s, const std::string& where) {
-        rational sizes = 0, known = 0, unknown = 0;
+        rational sizes = 0, amounts = 0, known = 0, unknown = 0;
         const auto& entries = s.by_explained.bound().contributions.entries();
         for (const auto& e : entries) {
             ASSERT_TRUE(e.is_finite() && e.unknown >= 0) << where;
             sizes += boost::multiprecision::abs(exactly_of(e.known)) + exactly_of(e.unknown);
+            amounts += exactly_of(e.size());
             known += exactly_of(e.known);
             unknown += exactly_of(e.unknown);
         }
@@ -175,11 +180,14 @@ class lockstep {
         const rational slack = sizes * 4 * count * exactly(limits::epsilon()) +
                                4 * count * exactly(limits::denorm_min());
         const rational error = exactly_of(s.by_explained.error());
-        ASSERT_GE(rational(sizes + slack), error) << where;
+        // Covered, whatever was rounded; where no overflow is near.
+        if (error < exactly(limits::max()) / 2) {
+            ASSERT_GE(amounts, error) << where;
+        }
         if (!errbound::detail::rule_has_correction<Rule, T>) {
             ASSERT_LE(sizes, rational(error + slack)) << where;
         }
-        if (!s.exact || std::is_same_v<Rule, errbound::none>) return;
+        if (!s.exact || !errbound::promises_bound<Rule>) return;
         const rational off = *s.exact - exactly_of(s.by_explained.value());
         ASSERT_LE(boost::multiprecision::abs(off), error) << where;
         // Known parts are what the value is off by; unknown ones bound the rest.
@@ -191,11 +199,15 @@ class lockstep {
     std::vector<sample> pool_;
 };
 
+struct of_own : errbound::derived_rule<of_own, errbound::residual> {
+    static constexpr const char* name = "of one's own";
+};
+
 template <class Rule>
 class ExplainedBy : public testing::Test {};
-using rules =
-    testing::Types<errbound::tight, errbound::safe, errbound::sharp, errbound::interval,
-                   errbound::residual, errbound::affine, errbound::relative, errbound::none>;
+using rules = testing::Types<errbound::tight, errbound::safe, errbound::sharp, errbound::interval,
+                             errbound::residual, errbound::affine, errbound::affine_of<2>,
+                             errbound::relative, errbound::stochastic, of_own, errbound::none>;
 TYPED_TEST_SUITE(ExplainedBy, rules);
 
 TYPED_TEST(ExplainedBy, IsTheRuleItselfAndAddsUpInRandomPrograms) {
@@ -212,7 +224,6 @@ TEST(Explained, IsTheRuleItselfInOtherNumberTypesInRandomPrograms) {
     lockstep<long double, errbound::residual, 64>(6).run(programs / 4);
 }
 
-// (Its samples of an input are another number's at each call, so that two programs differ.)
 TEST(Explained, SaysWhatTheRulesErrorMeans) {
     using errbound::stochastic;
     static_assert(errbound::promises_bound<explained<errbound::tight>>);
@@ -224,7 +235,8 @@ TEST(Explained, SaysWhatTheRulesErrorMeans) {
     EXPECT_GT(y.error(), 0);
     double sum = 0;
     for (const auto& c : explain(of_told).contributions) sum += c.amount;
-    EXPECT_DOUBLE_EQ(sum, y.error());
+    EXPECT_GE(sum, y.error());
+    EXPECT_LE(sum, y.error() * (1 + rounded));
 }
 
 /// The amount of a source in the scope of that name; 0 where there is none.
@@ -380,7 +392,8 @@ TEST(Contributions, WithSignsCancelWhereErrorsDo) {
     const signed_number corrected = s + rest;
     const explanation e = explain(corrected);
     EXPECT_EQ(amount_in(e, "sum"), 0);
-    EXPECT_EQ(amount_in(e, "together", "+"), corrected.error());
+    EXPECT_GE(amount_in(e, "together", "+"), corrected.error());
+    EXPECT_LE(amount_in(e, "together", "+"), corrected.error() * (1 + rounded));
 }
 
 TEST(Contributions, PassThroughFunctions) {
@@ -509,7 +522,8 @@ TEST(Contributions, BeyondTheLimitAreTheRest) {
         all += c.amount;
         if (c.operation == "the rest") rest += c.amount;
     }
-    EXPECT_DOUBLE_EQ(all, sum.error());
+    EXPECT_GE(all, sum.error());
+    EXPECT_LE(all, sum.error() * (1 + rounded));
     EXPECT_NEAR(rest, 4.7e-8, 0.3e-8);
 }
 
