@@ -68,11 +68,12 @@ class element {
 
   private:
     [[noreturn]] void refuse(const std::string& expected) const {
-        std::string found = value_.dump(-1, ' ', false, json::error_handler_t::replace);
-        constexpr std::size_t shown = 40;
-        if (found.size() > shown)
-            found = value_.is_structured() ? std::string("an ") + value_.type_name()
-                                           : std::string("a long ") + value_.type_name();
+        // What has elements is not shown: nested deep, it would be more than the stack holds.
+        const bool shown = !value_.is_structured() || value_.empty();
+        std::string found = shown ? value_.dump(-1, ' ', false, json::error_handler_t::replace)
+                                  : std::string("an ") + value_.type_name();
+        constexpr std::size_t longest = 40;
+        if (found.size() > longest) found = std::string("a long ") + value_.type_name();
         throw file_error(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + "found " + found +
                          ", expected " + expected);
     }

@@ -36,32 +36,34 @@ std::vector<pile> piles_of(const explanation& e) {
     const std::vector<double> shares = shares_of(e);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const contribution& c = e.contributions[i];
-        pile p{{{false, e.name}}, shares[i], c.amount};
+        pile p{{{false, detail::printable(e.name)}}, shares[i], c.amount};
         for (const place& s : c.scopes)
-            p.frames.push_back({false, s.name, s.file + ':' + std::to_string(s.line)});
-        p.frames.push_back({true, c.operation});
+            p.frames.push_back({false, detail::printable(s.name),
+                                detail::printable(s.file) + ':' + std::to_string(s.line)});
+        p.frames.push_back({true, detail::printable(c.operation)});
         piles.push_back(std::move(p));
     }
-    if (piles.empty()) piles.push_back({{{false, e.name}}, 1, 0});
+    if (piles.empty()) piles.push_back({{{false, detail::printable(e.name)}}, 1, 0});
     std::sort(piles.begin(), piles.end(),
               [](const pile& p, const pile& q) { return p.frames < q.frames; });
     return piles;
 }
 
-/// As XML text; characters that XML has not become '?'.
+/// As XML text, of one that is UTF-8 without control characters; two more that XML has not become
+/// '?'.
 std::string escaped(std::string_view text) {
     std::string result;
-    for (; !text.empty();
-         text.remove_prefix(std::max<std::size_t>(detail::character_length(text), 1))) {
+    for (; !text.empty(); text.remove_prefix(detail::character_length(text))) {
         const std::string_view character = text.substr(0, detail::character_length(text));
         if (character == "<")
             result += "&lt;";
+        else if (character == ">")
+            result += "&gt;";
         else if (character == "&")
             result += "&amp;";
         else if (character == "\"")
             result += "&quot;";
-        else if (character.empty() || static_cast<unsigned char>(character[0]) < 0x20 ||
-                 character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf")
+        else if (character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf")
             result += '?';
         else
             result += character;
@@ -74,7 +76,7 @@ std::string shortened(std::string_view text, double room) {
     const auto fit = static_cast<std::size_t>(std::max(0.0, (room - 2 * text_margin) / letter));
     std::size_t characters = 0, bytes = 0, kept = 0;
     while (bytes < text.size()) {
-        bytes += std::max<std::size_t>(detail::character_length(text.substr(bytes)), 1);
+        bytes += detail::character_length(text.substr(bytes));
         if (++characters + 1 == fit) kept = bytes;
     }
     if (characters <= fit) return escaped(text);
@@ -155,8 +157,8 @@ std::string flame_graphs(const std::vector<explanation>& results) {
         const std::vector<pile> piles = piles_of(e);
         std::size_t levels = 0;
         for (const pile& p : piles) levels = std::max(levels, p.frames.size());
-        const std::string title = e.name + " = " + detail::value_and_radius(e.value, e.error) +
-                                  ", by " + e.rule + (e.contributions.empty() ? ": no error" : "");
+        const std::string title =
+            detail::heading_of(e) + (e.contributions.empty() ? ": no error" : "");
         body += "<text x=\"" + number(margin) + "\" y=\"" + number(top + heading - 9) + "\">" +
                 shortened(title, whole) + "</text>\n";
         const double bottom = top + heading + bar_height * static_cast<double>(levels);

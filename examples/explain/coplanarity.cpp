@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
+#include <exception>
 #include <string>
 
 using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
@@ -45,10 +46,13 @@ errbound::explanation explain_cubic(double away, const std::string& name) {
     return errbound::explain(value_at(y, number(1.0 / 3)), name);
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     const auto near = explain_cubic(0, "Y(1/3), at the origin");
     const auto far = explain_cubic(1000, "Y(1/3), 1000 away");
     std::fputs(text_of(near, 6).c_str(), stdout);
     std::fputs(text_of(far, 6).c_str(), stdout);
     if (argc > 1) errbound::write_explanations(argv[1], {near, far});
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "coplanarity: %s\n", error.what());
+    return 1;
 }

@@ -4,6 +4,7 @@
 // usage: heron [FILE]; FILE is what `errbound explain` reads.
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
+#include <exception>
 
 template <class S>
 S heron(const S& a, const S& b, const S& c) {
@@ -24,7 +25,7 @@ S kahan(const S& a, const S& b, const S& c) {
     return sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))) / S(4);
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     using number = errbound::tracked<double, errbound::explained<errbound::sharp>>;
     const number a = 100000, b = 99999.99979, c = 0.00029;
     const auto naive = errbound::explain(heron(a, b, c), "area by Heron");
@@ -33,4 +34,7 @@ int main(int argc, char** argv) {
     std::fputs(text_of(ordered).c_str(), stdout);
     std::printf("Kahan's bound is %.0e of Heron's\n", ordered.error / naive.error);
     if (argc > 1) errbound::write_explanations(argv[1], {naive, ordered});
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "heron: %s\n", error.what());
+    return 1;
 }

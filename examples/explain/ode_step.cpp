@@ -4,6 +4,7 @@
 // usage: ode_step [FILE]; FILE is what `errbound explain` reads.
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
+#include <exception>
 
 template <class S>
 struct body {
@@ -44,11 +45,14 @@ S x_after(int steps, double sun) {
     return b.x - S(sun);
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     using number = errbound::tracked<double, errbound::explained<errbound::tight>>;
     const auto centred = errbound::explain(x_after<number>(20, 0), "x, sun at 0");
     const auto far = errbound::explain(x_after<number>(20, 0x1p20), "x, sun at 2^20");
     std::fputs(text_of(centred, 8).c_str(), stdout);
     std::fputs(text_of(far, 8).c_str(), stdout);
     if (argc > 1) errbound::write_explanations(argv[1], {centred, far});
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "ode_step: %s\n", error.what());
+    return 1;
 }

@@ -4,6 +4,7 @@
 // usage: variance [FILE]; FILE is what `errbound explain` reads.
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
+#include <exception>
 #include <vector>
 
 // The mean of squares less the square of the mean.
@@ -53,7 +54,7 @@ std::vector<S> readings() {
     return x;
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
     std::printf("double:  %.17g\n", naive_variance(readings<double>()));
 
     using tracked = errbound::tracked<double>;
@@ -73,4 +74,7 @@ int main(int argc, char** argv) {
     std::fputs(text_of(seen).c_str(), stdout);
 
     if (argc > 1) errbound::write_explanations(argv[1], {naive, compensated, seen});
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "variance: %s\n", error.what());
+    return 1;
 }

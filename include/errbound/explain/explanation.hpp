@@ -70,6 +70,31 @@ inline std::size_t character_length(std::string_view text) {
     return length;
 }
 
+/// For people: bytes that are no UTF-8 and control characters, which a terminal would obey, are
+/// written as '?'.
+inline std::string printable(std::string_view text) {
+    std::string shown;
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+        const bool control = length == 1   ? byte(0) < 0x20 || byte(0) == 0x7f
+                             : length == 2 ? byte(0) == 0xc2 && byte(1) < 0xa0
+                                           : length == 0;
+        if (control)
+            shown += '?';
+        else
+            shown += text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return shown;
+}
+/// Of a text that is UTF-8: how many columns it takes, of a character each.
+inline std::size_t columns_of(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    }));
+}
+
 /// A JSON string. Bytes that are no UTF-8 (a path may be any) are written as '?'.
 inline std::string json_string(std::string_view text) {
     std::string quoted = "\"";
@@ -128,8 +153,14 @@ inline std::string text_of(const std::vector<place>& scopes) {
     std::string path;
     for (const place& s : scopes) path += (path.empty() ? "" : " > ") + s.name;
     const std::string& file = scopes.back().file;
-    return path + " (" + file.substr(file.find_last_of("/\\") + 1) + ':' +
+    return printable(path + " (" + file.substr(file.find_last_of("/\\") + 1)) + ':' +
            std::to_string(scopes.back().line) + ')';
+}
+
+/// area = 2.5 ± 4.0e-03, by tight
+inline std::string heading_of(const explanation& e) {
+    return printable(e.name) + " = " + value_and_radius(e.value, e.error) + ", by " +
+           printable(e.rule);
 }
 
 /// Rows of cells, the last one aligned left, the others right, but for that of operations.
@@ -137,12 +168,13 @@ inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     const std::size_t columns = rows.front().size();
     std::vector<std::size_t> widths(columns, 0);
     for (const auto& row : rows)
-        for (std::size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], row[i].size());
+        for (std::size_t i = 0; i < columns; ++i)
+            widths[i] = std::max(widths[i], columns_of(row[i]));
     std::string text;
     for (const auto& row : rows) {
         std::string line;
         for (std::size_t i = 0; i < columns; ++i) {
-            const std::string spaces(widths[i] - row[i].size(), ' ');
+            const std::string spaces(widths[i] - columns_of(row[i]), ' ');
             line += "  " + (i + 2 < columns ? spaces + row[i] : row[i] + spaces);
         }
         text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
@@ -150,24 +182,32 @@ inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     return text;
 }
 
+/// Beside the file that it replaces, which keeps its permissions and the links to it; pipes and
+/// devices are written to.
 inline void write_file(const std::filesystem::path& path, std::string_view text) {
+    namespace fs = std::filesystem;
     std::error_code error;
-    const auto kind = std::filesystem::status(path, error).type();
-    const bool in_place =  // pipes and devices are not replaced
-        kind != std::filesystem::file_type::regular &&
-        kind != std::filesystem::file_type::not_found;
-    std::filesystem::path beside = path;
+    const fs::file_status replaced = fs::status(path, error);
+    const bool replaces = fs::is_regular_file(replaced);
+    const bool in_place = !replaces && replaced.type() != fs::file_type::not_found;
+    const fs::path target = replaces ? fs::canonical(path, error) : path;
+    bool written = !replaces || std::ofstream(target, std::ios::app).is_open();
+    fs::path beside = target;
     if (!in_place)
         beside += ".errbound-" +
                   std::to_string(std::chrono::steady_clock::now().time_since_epoch().count()) +
                   ".tmp";
-    std::ofstream file(beside, std::ios::binary);
-    file << text;
-    file.close();
-    bool written = !file.fail();
-    if (written && !in_place) std::filesystem::rename(beside, path, error);
+    if (written) {
+        std::ofstream file(beside, std::ios::binary);
+        file << text;
+        file.close();
+        written = !file.fail();
+    }
+    error.clear();
+    if (written && replaces) fs::permissions(beside, replaced.permissions(), error);
+    if (written && !in_place && !error) fs::rename(beside, target, error);
     written = written && !error;
-    if (!written && !in_place) std::filesystem::remove(beside, error);
+    if (!written && !in_place) fs::remove(beside, error);
     if (!written)
         throw support::file_error(path.string() +
                                   ": found that it cannot be written, expected a path that can");
@@ -178,22 +218,28 @@ inline void write_file(const std::filesystem::path& path, std::string_view text)
 /// The parts of the error that are the contributions', from 0 to 1, in their order; of what makes
 /// it unknown, an equal part each.
 inline std::vector<double> shares_of(const explanation& e) {
-    double all = 0, unknown = 0;
+    double largest = 0, unknown = 0;
     for (const contribution& c : e.contributions) {
-        all += c.amount;
+        largest = std::max(largest, c.amount);
         unknown += std::isfinite(c.amount) ? 0 : 1;
     }
     std::vector<double> shares;
-    for (const contribution& c : e.contributions)
-        shares.push_back(unknown > 0 ? (std::isfinite(c.amount) ? 0 : 1 / unknown)
-                                     : (all > 0 ? c.amount / all : 0));
+    double all = 0;  // relative to the largest: the sum itself may overflow
+    for (const contribution& c : e.contributions) {
+        if (unknown > 0)
+            shares.push_back(std::isfinite(c.amount) ? 0 : 1);
+        else
+            shares.push_back(largest > 0 ? c.amount / largest : 0);
+        all += shares.back();
+    }
+    if (all > 0)
+        for (double& share : shares) share /= all;
     return shares;
 }
 
 /// A table for people: the result, and a line for each source, of which no more than `lines`.
 inline std::string text_of(const explanation& e, std::size_t lines = 20) {
-    std::string text =
-        e.name + " = " + detail::value_and_radius(e.value, e.error) + ", by " + e.rule + '\n';
+    std::string text = detail::heading_of(e) + '\n';
     if (e.contributions.empty()) return text + "  no error\n";
     const bool known = std::any_of(e.contributions.begin(), e.contributions.end(),
                                    [](const contribution& c) { return c.known != 0; });
@@ -205,7 +251,8 @@ inline std::string text_of(const explanation& e, std::size_t lines = 20) {
         const contribution& c = e.contributions[i];
         std::vector<std::string> row{
             std::isfinite(c.amount) ? detail::formatted("%.2e", c.amount) : "unknown",
-            detail::formatted("%.1f %%", 100 * shares[i]), c.operation, detail::text_of(c.scopes)};
+            detail::formatted("%.1f %%", 100 * shares[i]), detail::printable(c.operation),
+            detail::text_of(c.scopes)};
         if (known) row.insert(row.begin() + 1, detail::formatted("%+.2e", c.known));
         rows.push_back(row);
     }

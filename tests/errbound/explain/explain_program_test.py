@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -10,6 +11,21 @@ from xml.etree import ElementTree
 
 PROGRAM = os.environ["ERRBOUND_PROGRAM"]
 EXAMPLE = os.environ["ERRBOUND_EXAMPLE"]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def without_noise(line):
+    """A table's line; of less than one percent only which source it is: where compilers fuse products into
+    sums, the least amounts differ."""
+    share = re.search(r" (\d+\.\d) %  (.*)", line)
+    return share[2] if share and float(share[1]) < 1 else line
+
+
+def bars(picture):
+    """Of a percent or more."""
+    titles = [title.text.replace(f"{ROOT}/", "") for title in ElementTree.parse(picture).iter(SVG + "title")]
+    return [title for title in titles if float(re.search(r": (\d+\.\d) %", title)[1]) >= 1]
 
 
 class Explain(unittest.TestCase):
@@ -61,13 +77,26 @@ class Explain(unittest.TestCase):
         picture = self.directory / "out.svg"
         self.good(self.file, "--picture", picture)
         svg = ElementTree.parse(picture).getroot()
-        self.assertEqual(svg.tag, "{http://www.w3.org/2000/svg}svg")
-        titles = [title.text for title in svg.iter("{http://www.w3.org/2000/svg}title")]
+        self.assertEqual(svg.tag, SVG + "svg")
+        titles = [title.text for title in svg.iter(SVG + "title")]
         self.assertTrue(any(title.startswith("squares (") for title in titles))
         self.assertEqual(sum(title.startswith("naive variance: 100.0 %") for title in titles), 1)
         done = self.run_program(self.file, "--picture", "-")
         self.assertEqual(done.stdout, picture.read_text())
         self.assertIn("naive variance = ", done.stderr)
+
+    def test_the_page_shows_what_the_example_prints(self):
+        page = (ROOT / "docs/how-wrong.md").read_text()
+        printed = [without_noise(line) for line in self.printed.splitlines()]
+        blocks = [text for language, text in
+                  re.findall(r"^```(\w*)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL) if not language]
+        self.assertEqual(len(blocks), 4)
+        for block in blocks:
+            lines = [without_noise(line) for line in block.splitlines()]
+            self.assertIn("\n".join(lines), "\n".join(printed))
+        picture = self.directory / "out.svg"
+        self.good(self.file, "--picture", picture)
+        self.assertEqual(bars(picture), bars(ROOT / "docs/variance.svg"))
 
     def test_bad_input(self):
         picture = self.directory / "out.svg"
@@ -83,6 +112,14 @@ class Explain(unittest.TestCase):
         done = self.run_program(self.directory / "missing.json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("missing.json", done.stderr)
+
+    def test_bad_output(self):
+        missing = self.directory / "missing" / "out"
+        for program, *arguments in ((PROGRAM, "explain", self.file, "--picture", missing), (EXAMPLE, missing)):
+            done = subprocess.run([program, *arguments], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"{missing}: ", done.stderr)
+            self.assertFalse(missing.parent.exists())
 
     def test_bad_usage(self):
         text = self.file.read_text()

@@ -76,13 +76,32 @@ TEST(ExplanationFile, IsRefusedWithPlaceFoundAndExpected) {
     EXPECT_EQ(message_with("\"amount\": 0.001", "\"amunt\": 0.001"),
               "f.json: results[0].contributions[1].amount: found nothing, expected a value");
     EXPECT_EQ(message_with("\"operation\": \"/\"", "\"operation\": [1]"),
-              "f.json: results[2].contributions[0].operation: found [1], expected a string");
+              "f.json: results[2].contributions[0].operation: found an array, expected a string");
     EXPECT_EQ(
         message_with("\"name\": \"area\"", "\"name\": {\"a\": \"" + std::string(99, 'x') + "\"}"),
         "f.json: results[0].name: found an object, expected a string");
     EXPECT_EQ(message_with("\"contributions\": []", "\"contributions\": {}"),
               "f.json: results[1].contributions: found {}, expected an array");
     EXPECT_NE(message_with("area", "\xff").find("found no JSON at byte"), std::string::npos);
+}
+
+TEST(ExplanationFile, MayBeNestedAsDeepAsItLikes) {
+    constexpr std::size_t depth = 1'000'000;
+    const std::string inner = std::string(depth, '[') + std::string(depth, ']');
+    EXPECT_EQ(message_with("\"errbound explanation\"", inner),
+              "f.json: format: found an array, expected \"errbound explanation\"");
+    EXPECT_EQ(message_with("\"operation\": \"/\"", "\"operation\": " + inner),
+              "f.json: results[2].contributions[0].operation: found an array, expected a string");
+    EXPECT_NE(message_with("\"operation\": \"/\"", std::string(depth, '[')).find("found no JSON"),
+              std::string::npos);
+}
+
+TEST(ExplanationFile, CutAnywhereIsRefused) {
+    const std::string text = json_of(some());
+    for (std::size_t length = 0; length + 1 < text.size(); ++length)
+        EXPECT_TRUE(message_of([&] {
+                        parse_explanations(text.substr(0, length), "f");
+                    }).starts_with("f: found no JSON at byte"));
 }
 
 TEST(FlameGraph, HasABarForEachScopeAndOperation) {
@@ -112,6 +131,11 @@ TEST(FlameGraph, OfManySourcesAndDeepScopesIsDrawn) {
     e.contributions.push_back(deepest);
     EXPECT_TRUE(flame_graphs({e}).ends_with("</svg>\n"));
     EXPECT_EQ(flame_graphs({}).find("<title>"), std::string::npos);
+}
+
+TEST(FlameGraph, HasSharesOfAmountsWhoseSumOverflows) {
+    explanation e{"large", "tight", 1, 1, {{{}, "+", 1e308, 0}, {{}, "*", 1e308, 0}}};
+    EXPECT_NE(flame_graphs({e}).find("<title>+: 50.0 %, 1.00e+308</title>"), std::string::npos);
 }
 
 TEST(FlameGraph, HasNoCharactersThatXmlHasNot) {

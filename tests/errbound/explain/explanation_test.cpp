@@ -46,6 +46,21 @@ TEST(Table, HasALineForEachSource) {
               "  and 2 more\n");
 }
 
+TEST(Table, TellsTerminalsNothing) {
+    explanation e = some();
+    e.name = "\x1b[2J\xff\xc2\x9b";
+    e.contributions[0].scopes[1].name = "in\nner\x7f";
+    e.contributions[1].operation = "\xc3\xa4\xe2\x88\x9a";  // counts as two columns
+    EXPECT_EQ(text_of(e),
+              "?[2J?? = 2.5 ± 4.0e-03, by tight\n"
+              "    amount   share  operation  scope\n"
+              "  3.00e-03  75.0 %  +          outer > in?ner? (b.cpp:14)\n"
+              "  9.00e-04  22.5 %  \xc3\xa4\xe2\x88\x9a\n"
+              "  1.00e-04   2.5 %  the rest\n");
+    e.contributions[0].operation = "\xc3\xa4\xe2\x88\x9a";
+    EXPECT_NE(text_of(e).find("75.0 %  \xc3\xa4\xe2\x88\x9a         outer"), std::string::npos);
+}
+
 TEST(Table, SaysWhatCancels) {
     explanation e = some();
     e.contributions[0].known = -3e-3;
@@ -75,7 +90,11 @@ TEST(Table, SaysWhereNothingIsKnownOrNothingIsWrong) {
 
 TEST(Shares, AreOfTheSumOrOfWhatIsUnknown) {
     explanation e = some();
-    EXPECT_EQ(shares_of(e), std::vector<double>({3e-3 / 4e-3, 9e-4 / 4e-3, 1e-4 / 4e-3}));
+    const std::vector<double> of_sum = shares_of(e);
+    ASSERT_EQ(of_sum.size(), 3U);
+    EXPECT_DOUBLE_EQ(of_sum[0], 0.75);
+    EXPECT_DOUBLE_EQ(of_sum[1], 0.225);
+    EXPECT_DOUBLE_EQ(of_sum[2], 0.025);
     e.contributions[1].amount = e.contributions[2].amount = infinity;
     EXPECT_EQ(shares_of(e), std::vector<double>({0, 0.5, 0.5}));
     for (contribution& c : e.contributions) c.amount = 0;
@@ -129,8 +148,29 @@ TEST(File, IsWrittenWholeOrNotAtAll) {
                   errbound::write_explanations(directory.path, {some()});
               }).find("found that it cannot be written"),
               std::string::npos);
+    EXPECT_NE(message_of([] {
+                  errbound::write_explanations("/dev/full", {some()});
+              }).find("/dev/full: found that it cannot be written"),
+              std::string::npos);
     namespace fs = std::filesystem;
     EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
+}
+
+TEST(File, KeepsLinksAndPermissions) {
+    namespace fs = std::filesystem;
+    const temporary_directory directory;
+    const auto file = directory.path / "out.json", link = directory.path / "link.json";
+    test_files::write(file, "before");
+    const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
+    fs::permissions(file, own);
+    fs::create_symlink("out.json", link);
+    errbound::write_explanations(link, {some()});
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(fs::status(file).permissions(), own);
+    std::ostringstream read;
+    read << std::ifstream(file).rdbuf();
+    EXPECT_EQ(read.str(), json_of({some()}));
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 2);
 }
 
 }  // namespace
