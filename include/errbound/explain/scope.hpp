@@ -6,11 +6,13 @@
 //   }
 //
 // Scopes nest as they are entered, in functions that are called from others, too: each thread has
-// its own nesting, which begins with none. A scope is told from others by its name, by the file and
-// line where it stands and by the scopes that it is in; entered again in itself, by recursion, it
-// is the outer one. Operators take their operands and nothing else, no source location either, so
-// that scopes are how places get into an explanation: what is in a scope and of one kind (its
-// products, say) is one source of error. Where that is too coarse, put scopes around less.
+// its own nesting, which begins with none. A scope is a local variable: it ends before those around
+// it and on the thread where it began (a coroutine that is resumed elsewhere must not hold one). It
+// is told from others by its name, by the file and line where it stands and by the scopes that it
+// is in; entered again in itself, by recursion, it is the outer one. Operators take their operands
+// and nothing else, no source location either, so that scopes are how places get into an
+// explanation: what is in a scope and of one kind (its products, say) is one source of error. Where
+// that is too coarse, put scopes around less.
 #pragma once
 
 #include <algorithm>
@@ -82,10 +84,11 @@ class all_sources {
     }
     std::uint32_t function_named(std::string_view name) {
         const std::lock_guard lock(mutex_);
-        for (std::size_t i = 0; i < functions_.size(); ++i)
-            if (functions_[i] == name) return operations::count + static_cast<std::uint32_t>(i);
-        functions_.emplace_back(name);
-        return operations::count + static_cast<std::uint32_t>(functions_.size() - 1);
+        if (const auto found = numbers_.find(name); found != numbers_.end()) return found->second;
+        const auto made = operations::count + static_cast<std::uint32_t>(functions_.size());
+        const std::string& kept = functions_.emplace_back(name);
+        numbers_.emplace(kept, made);
+        return made;
     }
 
     /// The scopes around a source, the outermost first.
@@ -117,6 +120,7 @@ class all_sources {
     std::deque<node> nodes_{node{0, {}}};  // the first is no scope; places stay where they are
     std::map<key, std::uint32_t> scopes_;
     std::deque<std::string> functions_;
+    std::map<std::string_view, std::uint32_t> numbers_;  // of functions
 };
 
 /// The scope that the calling thread is in; 0: none.
@@ -129,9 +133,9 @@ inline std::uint32_t& current_scope() {
 
 /// A named part of the program, from here to the end of the block.
 ///
-/// Cost: a look-up under a lock that all threads share, some hundred nanoseconds. A program may
-/// have 100,000 scopes (a name that is made when the program runs is a scope each); beyond, what is
-/// in a new one counts for the scope around it. Throws std::bad_alloc.
+/// Cost: a look-up under a lock that all threads share; tens of nanoseconds, more where threads
+/// meet there. A program may have 100,000 scopes (a name that is made when the program runs is a
+/// scope each); beyond, what is in a new one counts for the scope around it. Throws std::bad_alloc.
 class scope {
   public:
     /// File and line are the caller's (as by std::source_location, which clang 14 does not have).

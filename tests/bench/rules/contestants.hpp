@@ -97,6 +97,8 @@ contestant contestant_of(std::string key, std::string heading) {
     return result;
 }
 
+contestant explained_contestant();
+contestant explained_contestant_of_32_sources();
 contestant boost_interval_contestant();
 contestant mpfi_contestant();
 contestant arb_contestant();

@@ -1,5 +1,5 @@
-// What each operation costs under each bound rule, beside plain double and the intervals of other
-// libraries: what is installed of Boost.Interval, MPFI and arb.
+// What each operation costs under each bound rule, and where errors are explained, beside plain
+// double and the intervals of other libraries: what is installed of Boost.Interval, MPFI and arb.
 #include <cstdio>
 #include <errbound/functions.hpp>
 #include <errbound/validation/rule_list.hpp>
@@ -45,6 +45,8 @@ std::vector<contestant> all_contestants() {
     });
     all.push_back(
         contestant_of<full_operators::number, full_operators>("affine_full", "affine, 16 terms"));
+    all.push_back(explained_contestant());
+    all.push_back(explained_contestant_of_32_sources());
     all.push_back(boost_interval_contestant());
 #ifdef ERRBOUND_HAVE_MPFI
     all.push_back(mpfi_contestant());

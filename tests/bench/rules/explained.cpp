@@ -1,0 +1,33 @@
+// Tracked numbers that keep where their errors come from (errbound/explain), beside the others.
+#include <errbound/explain/explain.hpp>
+
+#include "tests/bench/rules/contestants.hpp"
+
+namespace bench {
+namespace {
+
+using explained_number = errbound::tracked<double, errbound::explained<errbound::tight>>;
+
+/// The sum of as many products, each of a scope of its own, with the scopes in all operands.
+template <int Sources>
+struct of_sources : operators<explained_number> {
+    static explained_number made(double x, double y) {
+        explained_number sum = 0;
+        for (int i = 1; i < Sources; ++i) {
+            const errbound::scope s("product " + std::to_string(i));
+            sum += explained_number(x) * explained_number(y);
+        }
+        return sum;  // the products, and the sum's own error
+    }
+};
+
+}  // namespace
+
+contestant explained_contestant() {
+    return contestant_of<explained_number>("explained", "explained, one source");
+}
+contestant explained_contestant_of_32_sources() {
+    return contestant_of<explained_number, of_sources<32>>("explained_32", "explained, 32 sources");
+}
+
+}  // namespace bench
