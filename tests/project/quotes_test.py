@@ -25,6 +25,7 @@ PROGRAMS = {
     "docs/in-ten-minutes.md": ["examples/in_ten_minutes.cpp"],
     "docs/elementary-functions.md": ["examples/functions/great_circle.cpp"],
     "docs/how-wrong.md": ["examples/explain/variance.cpp"],
+    "docs/research-on-bounds.md": ["examples/research/rules_compared.cpp"],
 }
 # Pages that quote measured figures.
 QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]
