@@ -115,8 +115,10 @@ inline std::string json_string(std::string_view text) {
     }
     return quoted + '"';
 }
-/// The shortest decimal that reads back; null where there is none.
+/// The shortest decimal that reads back; null where there is none. (Readers may take -0 for an
+/// integer, which has no such zero.)
 inline std::string json_number(double x) {
+    if (x == 0 && std::signbit(x)) return "-0.0";
     return std::isfinite(x) ? decimal(x) : "null";
 }
 

@@ -43,6 +43,8 @@ TEST(ExplanationFile, IsReadAsItWasWritten) {
     EXPECT_EQ(read[0].contributions[0].scopes[1].line, 14U);
     EXPECT_TRUE(std::isinf(read[2].error));
     EXPECT_TRUE(parse_explanations(json_of(std::vector<explanation>()), "file").empty());
+    const explanation zero{"zero", "tight", -0.0, 0, {}};
+    EXPECT_TRUE(std::signbit(parse_explanations(json_of({zero}), "file")[0].value));
 }
 
 /// The file with one text in place of another.
