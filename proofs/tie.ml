@@ -2,6 +2,7 @@
    formats, and of a selection of cases of float and double: a line for each operation of each rule, with
    the number of cases and a hash of all results. tests/errbound/validation/tie_test.cpp does the same with the C++ code. *)
 open Code
+open Tie_hash
 
 (* Coq's integers. *)
 let rec positive n =
@@ -9,16 +10,6 @@ let rec positive n =
 let z n = if n = 0 then Z0 else if n > 0 then Zpos (positive n) else Zneg (positive (-n))
 let rec of_positive = function XH -> 1 | XO q -> 2 * of_positive q | XI q -> (2 * of_positive q) + 1
 let of_z = function Z0 -> 0 | Zpos q -> of_positive q | Zneg q -> - of_positive q
-
-(* FNV-1a, of 32-bit words. *)
-let hash = ref 0
-let put_word w = hash := ((!hash lxor w) * 16777619) land 0xffffffff
-
-(* A number sequence; the upper bits are used. *)
-let state = ref 0
-let draw n =
-  state := (!state * 3935559000370003845) + 2691343689449507681;
-  (!state lsr 20) mod n
 
 type 't format = {
   name : string;
@@ -258,11 +249,9 @@ let operations f =
 (* All cases, or a selection where there are more than that. *)
 let write ?(only = fun _ -> true) f exhaustive =
   List.iter (fun (name, total, case) -> if only name then begin
-      hash := 2166136261;
       let cases = if total <= exhaustive then total else min total f.samples in
       state := 1;
-      for i = 0 to cases - 1 do case (if cases = total then i else draw total) done;
-      Printf.printf "%s %s %d %08x\n%!" f.name name cases !hash end)
+      line (f.name ^ " " ^ name) cases (fun i -> case (if cases = total then i else draw total)) end)
     (operations f)
 
 (* With fused multiply-add: what differs. *)
@@ -303,9 +292,7 @@ let words n =
   state := n;
   let values = Array.init 24 (fun _ -> List.init n (fun _ -> word ())) in
   let write name cases put =
-    hash := 2166136261;
-    Array.iter put cases;
-    Printf.printf "fixed_integer<%d> %s %d %08x\n%!" n name (Array.length cases) !hash in
+    line (Printf.sprintf "fixed_integer<%d> %s" n name) (Array.length cases) (fun i -> put cases.(i)) in
   let pairs first second =
     Array.concat (Array.to_list (Array.map (fun x -> Array.map (fun y -> (x, y)) second) first)) in
   let both = pairs values values in

@@ -14,14 +14,14 @@
 #include <errbound/error_free.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/tiny_float.hpp>
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "tests/proofs/table.hpp"
 
 namespace tie {
 
@@ -65,46 +65,6 @@ struct given_error {
     static bound<T> scale(const T&, auto, int) {
         return {};
     }
-};
-
-struct expected_results {
-    std::uint64_t cases;
-    std::uint32_t hash;
-};
-using table = std::map<std::string, expected_results>;
-
-/// By "format operation".
-inline table read_table() {
-    std::ifstream file(ERRBOUND_TIE_TABLE);
-    table read;
-    std::string format, operation;
-    expected_results results{};
-    while (file >> format >> operation >> std::dec >> results.cases >> std::hex >> results.hash)
-        read[format + " " + operation] = results;
-    return read;
-}
-
-/// FNV-1a, of 32-bit words.
-class hash {
-  public:
-    void put(std::uint32_t word) { value_ = (value_ ^ word) * 16777619U; }
-    std::uint32_t value() const { return value_; }
-
-  private:
-    std::uint32_t value_ = 2166136261U;
-};
-
-/// A number sequence, modulo 2^63; the upper bits are used.
-class sequence {
-  public:
-    explicit sequence(std::uint64_t start = 1) : state_(start) {}
-    std::uint64_t draw(std::uint64_t n) {
-        state_ = (state_ * 3935559000370003845U + 2691343689449507681U) & (~std::uint64_t{0} >> 1);
-        return (state_ >> 20) % n;
-    }
-
-  private:
-    std::uint64_t state_;
 };
 
 // What is enumerated of a format: values, those not negative for bounds; and how results are put:

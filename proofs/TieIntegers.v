@@ -1,0 +1,28 @@
+(** The decision in integers as a program: whole numbers, and the real numbers of definitions that compute
+    no others, are OCaml's big integers. tests/proofs/tie_integers.cpp holds the C++ code to what comes
+    out. (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
+
+From Coq Require Import Reals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZBigInt.
+From Errbound Require VertexEdge InteriorContact CloseContact AxisUnits.
+
+(** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
+Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
+Extract Inlined Constant R => "Big_int_Z.big_int".
+Extract Inlined Constant IZR => "(fun n -> n)".
+Extract Inlined Constant Rlt_dec => "Big_int_Z.lt_big_int".
+Extract Inlined Constant Rle_dec => "Big_int_Z.le_big_int".
+Extract Inlined Constant Req_EM_T => "Big_int_Z.eq_big_int".
+Extract Inlined Constant Rabs => "Big_int_Z.abs_big_int".
+Extract Inlined Constant Rplus => "Big_int_Z.add_big_int".
+Extract Inlined Constant Rminus => "Big_int_Z.sub_big_int".
+Extract Inlined Constant Rmult => "Big_int_Z.mult_big_int".
+Extract Inlined Constant Ropp => "Big_int_Z.minus_big_int".
+Extract Inlined Constant pow => "Big_int_Z.power_big_int_positive_int".
+Extract Inductive VertexEdge.kind_of_roots => "_" [ "`None" "`One" "`Of_quadratic" "`Everywhere" ].
+
+Definition edge_contact := InteriorContact.edge_contact.
+Definition decide_once := InteriorContact.contact_of.
+Definition decide_to_the_end := CloseContact.decide_to_the_end.
+Definition vertices_contact := AxisUnits.vertices_contact.
+
+Extraction "integers.ml" decide_once decide_to_the_end edge_contact vertices_contact.

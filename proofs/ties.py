@@ -1,0 +1,132 @@
+"""Which functions decide, and which of them are tied: what the C++ code makes of some inputs is compared
+with what the proofs' definitions compute (README.md, The tie). Those that are not are in README.md, with
+the reason."""
+import re
+import sys
+from pathlib import Path
+
+proofs = Path(__file__).resolve().parent
+root = proofs.parent
+sys.path.insert(0, str(root / "tests/project"))
+from layout_test import cpp_functions  # noqa: E402
+
+# Of each tie, the files whose functions it compares, and what its lines in tie.txt begin with.
+TIES = {
+    "rules": (["include/errbound/rules/interval.hpp", "include/errbound/rules/none.hpp",
+               "include/errbound/rules/residual.hpp", "include/errbound/rules/safe.hpp",
+               "include/errbound/rules/sharp.hpp", "include/errbound/rules/tight.hpp",
+               "include/errbound/error_free.hpp", "include/errbound/functions.hpp",
+               "include/errbound/tracked.hpp", "include/errbound/integers/fixed_integer.hpp"],
+              ("tiny_float", "float", "double", "fixed_integer")),
+    "symbols": (["include/errbound/sign.hpp", "include/errbound/bernstein.hpp", "include/errbound/bsc.hpp",
+                 "include/ccd/methods/forms.hpp"], ("symbol",)),
+    "integers": (["ccd/exact/axis_units.hpp", "ccd/exact/bounded_integer.hpp", "ccd/exact/close_contact.hpp",
+                  "ccd/exact/common_roots.hpp", "ccd/exact/cubic_roots.hpp", "ccd/exact/features.hpp",
+                  "ccd/exact/integer_decision.hpp", "ccd/exact/integers.cpp",
+                  "ccd/exact/interior_contact.hpp", "ccd/exact/vertex_edge_contact.hpp"], ("integers",)),
+    "floats": (["ccd/exact/static_filter/coefficient_signs.hpp", "ccd/exact/static_filter/constants.hpp",
+                "ccd/exact/static_filter/difference_extents.hpp",
+                "ccd/exact/static_filter/separating_axes.hpp", "ccd/exact/static_filter/subdivision.hpp",
+                "ccd/exact/static_filter/whole_step.hpp", "ccd/exact/stages.cpp",
+                "ccd/batch/rounded_axes.hpp", "include/errbound/roots/control_values.hpp",
+                "include/errbound/filters/error_count.hpp"], ("filter", "rounded_axes")),
+}
+# Whose functions decide, too.
+OTHERS = ["include/errbound/rules/affine.hpp", "include/errbound/rules/relative.hpp",
+          "include/errbound/elementary.hpp", "include/errbound/functions/function_error.hpp",
+          "include/errbound/functions/function_of_range.hpp",
+          "include/errbound/roots/descartes_search.hpp",
+          "include/errbound/roots/double_order.hpp", "include/errbound/roots/fixed_row.hpp",
+          "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/integer_polynomial.hpp",
+          "include/errbound/roots/local_form.hpp", "include/errbound/roots/polynomial_stages.hpp",
+          "include/errbound/roots/prime_field.hpp", "include/errbound/roots/real_roots.hpp",
+          "include/errbound/roots/root_filter.hpp", "include/errbound/roots/root_isolation.hpp",
+          "include/errbound/roots/sign_variations.hpp", "include/errbound/filters/expression_count.hpp",
+          "include/errbound/filters/predicate_stages.hpp", "include/errbound/filters/semi_static_filter.hpp",
+          "include/errbound/filters/static_filter.hpp", "include/errbound/integers/binary_double.hpp",
+          "include/errbound/integers/common_exponent.hpp", "include/errbound/integers/double_word.hpp",
+          "include/errbound/integers/dyadic.hpp", "include/errbound/integers/long_integer.hpp",
+          "include/errbound/integers/sized_integer.hpp", "include/errbound/predicate.hpp",
+          "ccd/exact/coordinate_axes.hpp", "ccd/exact/exact.cpp", "ccd/exact/reference.cpp",
+          "ccd/exact/unbounded_integers.hpp", "ccd/exact/static_filter/distance_margins.hpp",
+          "ccd/contact/condition.cpp", "ccd/contact/control_polynomial.hpp", "ccd/contact/curve_filter.cpp",
+          "ccd/contact/feature_conditions.hpp", "ccd/contact/integer_first_contact.hpp",
+          "ccd/contact/integer_times.cpp", "ccd/contact/interior_time.hpp", "ccd/contact/reference.cpp",
+          "ccd/contact/separation.cpp", "ccd/contact/separation_filter.hpp", "ccd/contact/time_bracket.hpp",
+          "ccd/contact/time_of_impact.cpp", "ccd/contact/time_polynomial.hpp",
+          "ccd/contact/vertex_edge_time.hpp", "ccd/batch/filter_stages.hpp", "ccd/batch/pack_subdivision.hpp",
+          "ccd/batch/rounded_positions.hpp", "ccd/batch/time_stage.hpp", "ccd/batch/twofold.hpp",
+          "ccd/step/box_tree.hpp", "ccd/step/search_kernels.cpp",
+          "ccd/step/swept_boxes.hpp"]
+
+
+def functions(path):
+    """(name, first line, lines) of every function of a file."""
+    text = (root / path).read_text()
+    for _, first, lines in cpp_functions(text):
+        head = "\n".join(text.split("\n")[first - 1:first - 1 + lines]).split("{")[0]
+        names = [name for name in re.findall(r"(operator\s*\(\)|operator[^\s(]+|[~\w]+|\])\s*\(", head)
+                 if name not in ("requires", "decltype", "noexcept", "explicit")]
+        name = names[0] if names else head.split()[0]
+        if name == "]":  # of a lambda, what it is kept as
+            name = re.search(r"(\w+)\s*=\s*\[", head)[1]
+        yield name, first, lines
+
+
+def untied():
+    """By file, the names of functions that README.md says are not tied."""
+    found = {}
+    text = (proofs / "README.md").read_text().split("### Functions without a tie\n")[1].split("\n## ")[0]
+    rows = re.findall(r"^\| `([\w/.]+)` \| (`[^|]+`) \| [^|]+ \|$", text, re.MULTILINE)
+    for path, names in rows:
+        found[path] = set(re.findall(r"`([^`]+)`", names))
+    return found
+
+
+def untied_functions(path):
+    """(first line, lines) of those of a file that is tied."""
+    names = untied().get(path, set())
+    return [(first, lines) for name, first, lines in functions(path) if name in names]
+
+
+def count():
+    """By tie, how many functions it compares; how many others there are. Fails by a message where README.md
+    names what is not there, or does not name what is."""
+    named, tied, others = untied(), {}, 0
+    for tie, (paths, _) in TIES.items():
+        tied[tie] = 0
+        for path in paths:
+            names = [name for name, _, _ in functions(path)]
+            left = named.pop(path, set())
+            if not left <= set(names):
+                raise ValueError(f"README.md names functions of {path} as not tied: {left}; it has {names}")
+            tied[tie] += sum(name not in left for name in names)
+            others += sum(name in left for name in names)
+    for path in OTHERS:
+        names = [name for name, _, _ in functions(path)]
+        if named.pop(path, set()) != set(names):
+            row = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
+            raise ValueError(f"README.md has to name the functions of {path}, which is not tied: {row}")
+        others += len(names)
+    if named:
+        raise ValueError(f"README.md names functions as not tied of files that decide nothing: {sorted(named)}")
+    return tied, others
+
+
+def cases():
+    """By tie, how many inputs tie.txt compares."""
+    found = dict.fromkeys(TIES, 0)
+    for line in (proofs / "tie.txt").read_text().splitlines():
+        start, _, number, _ = line.split()
+        tie = next(tie for tie, (_, starts) in TIES.items() if re.match(r"\w+", start)[0] in starts)
+        found[tie] += int(number)
+    return found
+
+
+def table():
+    """What is tied, as text."""
+    (tied, others), inputs = count(), cases()
+    lines = [f"{'tie':<10}{'functions':>11}{'inputs':>13}"]
+    lines += [f"{tie:<10}{number:>11}{inputs[tie]:>13}" for tie, number in tied.items()]
+    lines.append(f"{sum(tied.values())} functions are tied of {sum(tied.values()) + others} that decide; README.md names the others")
+    return "\n".join(lines)

@@ -1,0 +1,93 @@
+// The table of what the proofs' definitions compute, proofs/tie.txt, and what cases are made of,
+// put together and compared by. Programs of the proofs' own definitions write it: proofs/tie_*.ml.
+// What is enumerated here, and in which order, is what is enumerated there.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tie {
+
+struct expected_results {
+    std::uint64_t cases;
+    std::uint32_t hash;
+};
+using table = std::map<std::string, expected_results>;
+
+/// By "format operation".
+inline table read_table() {
+    std::ifstream file(ERRBOUND_TIE_TABLE);
+    table read;
+    std::string format, operation;
+    expected_results results{};
+    while (file >> format >> operation >> std::dec >> results.cases >> std::hex >> results.hash)
+        read[format + " " + operation] = results;
+    return read;
+}
+
+/// FNV-1a, of 32-bit words.
+class hash {
+  public:
+    void put(std::uint32_t word) { value_ = (value_ ^ word) * 16777619U; }
+    /// The upper half first.
+    void put_both(std::uint64_t words) {
+        put(static_cast<std::uint32_t>(words >> 32));
+        put(static_cast<std::uint32_t>(words));
+    }
+    std::uint32_t value() const { return value_; }
+
+  private:
+    std::uint32_t value_ = 2166136261U;
+};
+
+/// A number sequence, modulo 2^63; the upper bits are used.
+class sequence {
+  public:
+    explicit sequence(std::uint64_t start = 1) : state_(start) {}
+    std::uint64_t draw(std::uint64_t n) {
+        state_ = (state_ * 3935559000370003845U + 2691343689449507681U) & (~std::uint64_t{0} >> 1);
+        return (state_ >> 20) % n;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+/// A line of the table: so many cases, and what puts the results of each, numbered from 0.
+struct line {
+    std::string name;
+    std::uint64_t cases;
+    std::function<void(hash&, std::uint64_t)> put;
+};
+
+/// Prints the lines whose results are not those of the table, the first or all; how many are.
+inline int count_differences(const std::vector<line>& lines, bool first_alone) {
+    const table expected = read_table();
+    int differences = 0;
+    for (const line& l : lines) {
+        hash results;
+        for (std::uint64_t i = 0; i < l.cases; ++i) l.put(results, i);
+        const auto found = expected.find(l.name);
+        if (found != expected.end() && found->second.cases == l.cases &&
+            found->second.hash == results.value())
+            continue;
+        const auto cases = static_cast<unsigned long long>(l.cases);
+        std::printf("%s: %llu %08x, which proofs/tie.txt has not\n", l.name.c_str(), cases,
+                    static_cast<unsigned>(results.value()));
+        ++differences;
+        if (first_alone) break;
+    }
+    return differences;
+}
+
+/// What main returns: whether lines differ. With an argument it stops at the first.
+inline int compare(const std::vector<line>& lines, int arguments) {
+    return count_differences(lines, arguments > 1) == 0 ? 0 : 1;
+}
+
+}  // namespace tie

@@ -1,0 +1,129 @@
+// Queries of vertex and face or of two edges in whole numbers, as proofs/tie_integers.ml draws
+// them: small and large, in a plane but for a little, that meet or almost meet inside or at a
+// border, with points that coincide, rigid but for a little, out and back; some with axes in other
+// units, and a little off.
+#pragma once
+
+#include <array>
+#include <ccd/query.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "tests/proofs/drawn_query.hpp"
+#include "tests/proofs/table.hpp"
+
+namespace tie {
+
+class whole_query_maker {
+  public:
+    explicit whole_query_maker(sequence& s) : s_(s) {}
+
+    drawn_query query() {
+        mode_ = draw(s_, 15);
+        edges_ = draw(s_, 2) == 1;
+        draw_numbers();
+        if (mode_ == 4)
+            for (std::size_t i = 0; i < 8; ++i) c_[3 * i + 2] = draw(s_, 4) == 0 ? pick(1) : 0;
+        if (mode_ == 5) meet(true, false);
+        if (mode_ == 6) coincide();
+        if (mode_ == 7) move_rigidly();
+        if (mode_ == 8) move_out_and_back();
+        if (mode_ >= 9 && mode_ <= 12) meet(false, draw(s_, 2) == 0);
+        return in_doubles();
+    }
+
+  private:
+    using whole = std::int64_t;
+
+    whole pick(whole size) {
+        return static_cast<whole>(s_.draw(static_cast<std::uint64_t>(2 * size + 1))) - size;
+    }
+    whole& at(int p, int e, int x) { return c_[static_cast<std::size_t>(6 * p + 3 * e + x)]; }
+
+    void draw_numbers() {
+        constexpr std::array<whole, 9> sizes{1, 2, 3, 5, 9, 30, 1000, 1 << 20, whole{1} << 40};
+        const auto drawn = [&](int first, int count) {
+            return sizes[static_cast<std::size_t>(first + draw(s_, count))];
+        };
+        size_ = mode_ < 3    ? drawn(0, 4)
+                : mode_ == 3 ? drawn(0, 9)
+                : mode_ < 9  ? drawn(3, 6)
+                             : 1 + draw(s_, 8);
+        for (whole& c : c_) c = mode_ >= 9 && draw(s_, 2) == 0 ? 0 : pick(size_);
+    }
+
+    /// Point 0 is at a place of the face, or edges cross there, at t = k/8; or they miss it by a
+    /// little.
+    void meet(bool sometimes_off, bool on_border) {
+        const whole k = draw(s_, 9), a = on_border ? 0 : draw(s_, 5);
+        const whole b = edges_ ? 1 + draw(s_, 4) : draw(s_, static_cast<int>(5 - a));
+        const auto off = [&] { return sometimes_off && draw(s_, 8) == 0 ? pick(1) : 0; };
+        const int moved = edges_ ? 3 : 0;
+        for (int x = 0; x < 3; ++x) {
+            const auto place = [&](int p) { return (8 - k) * at(p, 0, x) + k * at(p, 1, x); };
+            const whole target = edges_ ? (4 - a) * place(0) + a * place(1) - (4 - b) * place(2)
+                                        : (4 - a - b) * place(1) + a * place(2) + b * place(3);
+            const whole factor = edges_ ? 8 * b : 32;
+            for (int p = 0; p < 4; ++p)
+                for (int e = 0; e < 2; ++e)
+                    if (p != moved) at(p, e, x) *= factor;
+            const whole m = pick(size_);
+            at(moved, 0, x) = target + k * m + off();
+            at(moved, 1, x) = target - (8 - k) * m + off();
+        }
+    }
+
+    void coincide() {
+        const int p = draw(s_, 4), q = draw(s_, 4);
+        for (int i = 0; i < 6; ++i) at(p, 0, i) = at(q, 0, i) + (draw(s_, 3) == 0 ? pick(1) : 0);
+    }
+
+    void move_rigidly() {
+        std::array<whole, 3> d;
+        for (whole& x : d) x = pick(size_);
+        for (int p = 0; p < 4; ++p)
+            for (int x = 0; x < 3; ++x)
+                at(p, 1, x) = at(p, 0, x) + d[static_cast<std::size_t>(x)] + pick(2);
+    }
+
+    void move_out_and_back() {
+        for (int p = 0; p < 4; ++p)
+            for (int x = 0; x < 3; ++x) {
+                const whole sign = draw(s_, 2) == 0 ? 1 : -1;
+                at(p, 1, x) = sign * at(p, 0, x) + (draw(s_, 4) == 0 ? pick(1) : 0);
+            }
+    }
+
+    drawn_query in_doubles() {
+        drawn_query q{edges_, {}, {}, {}};
+        for (std::size_t i = 0; i < 24; ++i) q.x[i] = static_cast<double>(c_[i]);
+        if (mode_ < 10) return q;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        std::array<int, 3> exponents;
+        for (int& e : exponents) e = draw(s_, 110);
+        const bool same = draw(s_, 2) == 0;
+        const int seldom = draw(s_, 6) + 2;
+        for (std::size_t i = 0; i < 24; ++i) {
+            double& x = q.x[i];
+            x = std::ldexp(x, exponents[same ? 0 : i % 3]);
+            if (draw(s_, seldom) != 0) continue;
+            if (x == 0) {
+                x = static_cast<double>(pick(1));
+                x = std::ldexp(x, draw(s_, 3) > 0 ? 0 : draw(s_, 40));
+            } else if (draw(s_, 4) == 0) {
+                x = std::nextafter(x, draw(s_, 2) == 0 ? infinity : -infinity);
+            }
+        }
+        return q;
+    }
+
+    sequence& s_;
+    int mode_ = 0;
+    bool edges_ = false;
+    whole size_ = 1;
+    std::array<whole, 24> c_{};
+};
+
+}  // namespace tie
