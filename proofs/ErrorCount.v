@@ -643,7 +643,7 @@ Proof.
     repeat apply Rmult_le_compat_l; lra. }
   assert (X3 : (ua * (eta * T)) * (ub * (eta * T')) <= / 16 * h).
   { unfold h. destruct SAB as [-> | [-> | SAB]];
-      [nra | nra |].
+      [rewrite !Rmult_0_l; fold h; lra | rewrite Rmult_0_l, Rmult_0_r; fold h; lra |].
     replace (ua * (eta * T) * (ub * (eta * T'))) with (eta * (ua * ub) * (eta * (T * T'))) by ring.
     assert (0 <= T * T') by (apply Rmult_le_pos; lra).
     apply Rmult_le_compat; try lra.

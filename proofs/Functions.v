@@ -94,6 +94,8 @@ Lemma f_q2 : 1 <= f * (q * q).
 Proof. apply less_q, f_q3. generalize q_8. intros. repeat apply Rmult_le_pos; lra. Qed.
 Lemma f_q1 : 1 <= f * q.
 Proof. apply less_q, f_q2. generalize q_8. lra. Qed.
+Lemma no_less x c : 0 <= x -> 1 <= c -> x <= x * c.
+Proof. intros X C. rewrite <- (Rmult_1_r x) at 1. apply Rmult_le_compat_l; lra. Qed.
 
 Lemma rounding_nonnegative v : 0 <= rounding v.
 Proof. apply (Tight.rounding_nonnegative p emin direction p_3 emin_p). Qed.
@@ -335,10 +337,10 @@ Proof.
               + sc * (f * (q * q * q * q)) + eta * (f * (q * q * q)) + (3 * eta - 2 * h) * (f * (q * q * q * q)))
         by ring.
       assert (0 <= (3 * eta - 2 * h) * (f * (q * q * q * q))) by (apply Rmult_le_pos; lra).
-      assert (R <= R * (f * (q * q * q))) by nra. assert (K <= K * (f * (q * q * q * q * q))) by nra.
-      assert (T <= T * (f * (q * q * q * q * q * q))) by nra.
-      assert (sc <= sc * (f * (q * q * q * q))) by nra.
-      assert (eta <= eta * (f * (q * q * q))) by nra. lra.
+      assert (R <= R * (f * (q * q * q))) by (apply no_less; [lra | apply f_q3]). assert (K <= K * (f * (q * q * q * q * q))) by (apply no_less; [lra | apply f_q5]).
+      assert (T <= T * (f * (q * q * q * q * q * q))) by (apply no_less; [lra | apply f_q6]).
+      assert (sc <= sc * (f * (q * q * q * q))) by (apply no_less; [lra | apply f_q4]).
+      assert (eta <= eta * (f * (q * q * q))) by (apply no_less; [lra | apply f_q3]). lra.
     + apply Rmult_le_compat_r; auto. lra.
   - intros C.
     assert (L1 : S1 <= S) by (apply rnd_above; [apply rnd_number | lra]).
@@ -365,7 +367,8 @@ Proof.
       [| rewrite E1, E2, E3, E4, E5; apply Rmult_le_compat_r; lra].
     replace ((R + eta + (K - h + (T * q - h) + (sc + 3 * eta))) * f)
       with (R * f + K * f + T * (f * q) + sc * f + (4 * eta - 2 * h) * f) by ring.
-    assert (R <= R * f) by nra. assert (K <= K * f) by nra. assert (T <= T * (f * q)) by nra.
+    assert (R <= R * f) by (apply no_less; lra). assert (K <= K * f) by (apply no_less; lra).
+    assert (T <= T * (f * q)) by (apply no_less; [lra | apply f_q1]).
     assert (sc <= sc * f) by nra. assert (4 * eta - 2 * h <= (4 * eta - 2 * h) * f) by nra. lra.
 Qed.
 

@@ -587,7 +587,8 @@ Proof.
     rewrite plus_INR, mult_INR. simpl (INR 4). simpl (INR 8). unfold t. lra. }
   assert (Q1 : 1 <= (1 + u) ^ 6) by (apply pow_R1_Rle; lra).
   assert (Q2 : 1 <= pw * (1 + u / 16)).
-  { unfold pw. assert (0 <= (t + u) * (t + u)) by (apply Rmult_le_pos; lra). nra. }
+  { unfold pw. assert (0 <= (t + u) * (t + u)) by (apply Rmult_le_pos; lra).
+    apply Rle_trans with (1 * 1); [lra | apply Rmult_le_compat; lra]. }
   assert (S3 : exact_size e <= pw * (1 + u / 16) * g).
   { apply Rle_trans with (1 := S1). unfold g.
     assert (0 <= (IZR az - / 4) * tau) by (apply Rmult_le_pos; lra).
@@ -892,8 +893,9 @@ Proof.
     assert (Q4 : (IZR m + / 16) * M ^ degree x <= (IZR m + / 16) * M ^ d) by (apply Rmult_le_compat_l; lra).
     assert (Q5 : M ^ d <= IZR m * M ^ d) by (rewrite <- (Rmult_1_l (M ^ d)) at 1; apply Rmult_le_compat_r; lra).
     assert (u * b <= / 64 * b) by (apply Rmult_le_compat_r; lra).
-    assert (eta <= / 64) by (assert (eta <= 2 * INR d * eta) by (apply le_INR in Hd; simpl (INR 1) in Hd;
-      nra); lra).
+    assert (eta <= / 64).
+    { apply le_INR in Hd. simpl (INR 1) in Hd.
+      assert (1 * eta <= 2 * INR d * eta) by (apply Rmult_le_compat_r; lra). lra. }
     lra.
 Qed.
 

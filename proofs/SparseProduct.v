@@ -211,7 +211,8 @@ Lemma visits_exact b low l : words b -> low = leading_zeros b -> value b <> 0 ->
 Proof.
   intros Wb EL NB. induction l as [| [i w] l IH]; intros r beyond s start stop H P S L A.
   { cbn [fold_left total fst]. rewrite Z.add_0_r. split; [exact H | lia]. }
-  destruct A as (I & NW & HW & A). cbn [fold_left total].
+  destruct A as (I & NW & HW & A). cbn [fold_left total]. assert (I0 : 0 <= i) by lia.
+  assert (Li : (length r <= Z.to_nat i + length b)%nat) by (clear - L I S; lia).
   assert (Si : Z.abs s < B ^ i).
   { apply Z.lt_le_trans with (1 := S). apply Z.pow_le_mono_r; [exact B_positive | lia]. }
   assert (Pi : 0 < B ^ i) by (apply Z.pow_pos_nonneg; [exact B_positive | lia]).
@@ -226,17 +227,17 @@ Proof.
   assert (E : s * value b + w * B ^ i * value b = (s + w * B ^ i) * value b) by ring.
   assert (Range : if w <? 0 then - B ^ (i + size b + 1) <= s * value b + w * B ^ i * value b < 0
                   else 0 <= s * value b + w * B ^ i * value b < B ^ (i + size b + 1)).
-  { replace (i + size b + 1) with (i + 1 + size b) by lia. rewrite E, Z.pow_add_r by lia.
+  { replace (i + size b + 1) with (i + 1 + size b) by lia. rewrite E, Z.pow_add_r by (clear - I0; lia).
     set (q := B ^ (i + 1)) in *. set (m := B ^ size b) in *. set (z := s + w * B ^ i) in *. clearbody q m z.
     clear - S1 S2 V NB. assert (Z.abs z * value b <= q * m) by (apply Z.mul_le_mono_nonneg; lia).
     assert (Z.abs z * value b < q * m) by (apply Z.lt_le_trans with (q * value b); [apply Z.mul_lt_mono_pos_r; lia | apply Z.mul_le_mono_nonneg_l; lia]).
     destruct (w <? 0).
     - assert (z * value b < 0) by (apply Z.mul_neg_pos; lia). rewrite Z.abs_neq in * by lia. lia.
     - rewrite Z.abs_eq in * by lia. split; [apply Z.mul_nonneg_nonneg; lia | lia]. }
-  destruct (visit_exact b low r beyond (s * value b) i w Wb EL NB H ltac:(lia) ltac:(lia) NW HW Range) as [H1 L1].
+  destruct (visit_exact b low r beyond (s * value b) i w Wb EL NB H I0 Li NW HW Range) as [H1 L1].
   rewrite E in H1. destruct (visit low b (r, beyond) (i, w)) as [r1 beyond1]. cbn [fst] in L1.
   replace (s + (w * B ^ i + total l)) with (s + w * B ^ i + total l) by ring.
-  apply (IH r1 beyond1 (s + w * B ^ i) (i + 1) stop); auto; lia.
+  apply (IH r1 beyond1 (s + w * B ^ i) (i + 1) stop); auto; clear - I I0 L1; lia.
 Qed.
 
 Theorem sparse_product_exact a b : a <> [] -> words a -> words b -> signed b <> 0 ->

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds the proofs from scratch and prints every theorem with the axioms it rests on.
+"""Builds the proofs from scratch and prints the theorems of each file with the axioms they rest on.
 
 usage: check.py BUILD_FOLDER
        check.py --names
@@ -11,8 +11,11 @@ to which tests/errbound/validation/tie_test.cpp holds the C++ code, is not what 
 compute. --names only compares names, and needs no Coq.
 """
 import concurrent.futures
+import os
 import re
+import shutil
 import sys
+import textwrap
 import time
 from pathlib import Path
 
@@ -92,15 +95,19 @@ def every_one_names(pattern, path, text, unproved):
 
 def tie_lines(build, extracted, program):
     """What a program of extracted definitions writes."""
-    (build / f"{extracted}.mli").unlink()  # which would hide types
-    checker.run(build, "ocamlfind", "ocamlopt", "-package", "zarith", "-linkpkg", "-w", "-a", "-unsafe", "-inline",
-                "100", "tie_hash.ml", f"{extracted}.ml", f"{program}.ml", "-o", program)
-    return checker.run(build, f"./{program}")
+    folder = build / program  # of its own: compilers of all ties may run at once
+    folder.mkdir()
+    sources = ["tie_hash.ml", f"{extracted}.ml", f"{program}.ml"]
+    for name in sources:  # without extracted.mli, which would hide types
+        shutil.copy(build / name, folder)
+    checker.run(folder, "ocamlfind", "ocamlopt", "-package", "zarith", "-linkpkg", "-w", "-a", "-unsafe", "-inline",
+                "100", *sources, "-o", "program")
+    return checker.run(folder, "./program")
 
 
-def check_tie(build):
+def check_tie(build, tables):
     """The table that the C++ code is held to is what the extracted definitions compute."""
-    table = "".join(tie_lines(build, *names) for names in TIE_PROGRAMS.items())
+    table = "".join(tables)
     checker.compare(table, proofs / "tie.txt", build)
     print(f"\ntie.txt: {len(table.splitlines())} hashes as the definitions compute them")
 
@@ -117,14 +124,17 @@ def main(build):
     if build is None:
         return
     checker.compile_all(proofs, build, proofs.glob("*.ml"))
-    with concurrent.futures.ThreadPoolExecutor() as pool:  # both take minutes, on one core
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:  # each on one core; what takes longest first
         compiled = pool.submit(checker.check_compiled, build, LIBRARY, dict.fromkeys(name for name, _ in found))
-        for name, theorem, used in checker.assumptions(build, LIBRARY, found):
-            short = ", ".join(axiom.rsplit(".", 1)[-1] for axiom in used)
-            print(f"{name + '.v':<18}{theorem:<34}{short or 'no axioms'}")
+        tables = [pool.submit(tie_lines, build, *names) for names in TIE_PROGRAMS.items()]
+        used = pool.submit(checker.assumptions, build, LIBRARY, found)
+        stated = pool.submit(checker.statements, build, LIBRARY, found)
+        for name, (theorems, axioms) in used.result().items():
+            short = ", ".join(axiom.rsplit(".", 1)[-1] for axiom in axioms)
+            print(textwrap.fill(f"{name}.v, {short or 'no axioms'}: {', '.join(theorems)}", 120, subsequent_indent="    "))
+        checker.compare(stated.result(), proofs / "statements.txt", build)
+        check_tie(build, [table.result() for table in tables])
         compiled.result()
-    checker.compare(checker.statements(build, LIBRARY, found), proofs / "statements.txt", build)
-    check_tie(build)
     print(ties.table())
     print(f"{len(found)} theorems checked in {time.monotonic() - start:.0f} s")
 

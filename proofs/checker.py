@@ -112,20 +112,20 @@ def compile_all(folder, build, more=()):
     run(build, "make", f"-j{os.cpu_count()}")
 
 
-def asked_of_each(build, library, found, question, *before):
-    """Coq's answer to a question about each theorem, after other commands."""
+def asked(build, library, found, subject, questions, *before):
+    """Coq's answers to questions, by what each is about; after other commands."""
     script = ["Set Printing Width 100.", *before,
               f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}."]
-    for name, theorem in found:
-        script += [f'Goal True. idtac "theorem {name}.{theorem}". exact I. Qed.', f"{question} {name}.{theorem}."]
-    (build / "asked.v").write_text("\n".join(script) + "\n")
-    printed = run(build, "coqc", "-Q", ".", library, "asked.v")
-    blocks = re.split(r"^theorem (\S+)\n", printed, flags=re.MULTILINE)
+    for about, question in questions.items():
+        script += [f'Goal True. idtac "about {about}". exact I. Qed.', question]
+    file = f"asked_{subject}.v"
+    (build / file).write_text("\n".join(script) + "\n")
+    blocks = re.split(r"^about (\S+)\n", run(build, "coqc", "-Q", ".", library, file), flags=re.MULTILINE)
     answers = dict(zip(blocks[1::2], blocks[2::2]))
-    for name, theorem in found:
-        if f"{name}.{theorem}" not in answers:
-            raise Refused(f"Coq said nothing of {name}.{theorem}")
-        yield name, theorem, answers[f"{name}.{theorem}"]
+    for about in questions:
+        if about not in answers:
+            raise Refused(f"Coq said nothing of {about}")
+    return answers
 
 
 def axioms_of(text):
@@ -148,23 +148,31 @@ def axioms_of(text):
 
 
 def assumptions(build, library, found):
-    """File, theorem, names of its axioms, which are allowed."""
-    for name, theorem, text in asked_of_each(build, library, found, "Print Assumptions"):
+    """By file, its theorems and the names of the axioms that they rest on, which are allowed. Coq is asked once of all
+    that a file has, since it looks through the libraries each time."""
+    files = {name: [theorem for of, theorem in found if of == name] for name, _ in found}
+    together = {name: ", ".join(f"@{name}.{theorem}" for theorem in theorems) for name, theorems in files.items()}
+    questions = {name: f"Definition of_{name} := ({all_}).\nPrint Assumptions of_{name}."
+                 for name, all_ in together.items()}
+    used = {}
+    for name, text in asked(build, library, found, "assumptions", questions).items():
         try:
-            used = axioms_of(text)
+            axioms = axioms_of(text)
         except Refused as why:
-            raise Refused(f"{name}.{theorem}: {why}") from None
-        for axiom, type_ in used.items():
+            raise Refused(f"{name}.v: {why}") from None
+        for axiom, type_ in axioms.items():
             if ALLOWED.get(axiom) != type_:
-                raise Refused(f"{name}.{theorem} rests on {axiom} : {type_}")
-        yield name, theorem, sorted(used)
+                raise Refused(f"{name}.v: a theorem rests on {axiom} : {type_}")
+        used[name] = files[name], sorted(axioms)
+    return used
 
 
 def statements(build, library, found):
     """What the theorems state, with what sections supposed, in the real numbers' notations and no others."""
     notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
-    return "".join(re.sub(r"^\S+\n", f"{name}.{theorem}\n", text.rstrip("\n")) + "\n\n"
-                   for name, theorem, text in asked_of_each(build, library, found, "Check", *notations))
+    names = [f"{name}.{theorem}" for name, theorem in found]
+    answers = asked(build, library, found, "statements", {name: f"Check {name}." for name in names}, *notations)
+    return "".join(re.sub(r"^\S+\n", f"{name}\n", answers[name].rstrip("\n")) + "\n\n" for name in names)
 
 
 def compare(text, path, build):
