@@ -215,24 +215,27 @@ let integers_of edges x =
 
 let put_outcome = function Separate -> put_word 0 | Collides -> put_word 1 | Undecided -> put_word 2
 
+let position d p e : position =
+  let coordinate k = d.whole.((6 * p) + (3 * e) + k) in
+  { px = Obj.magic (coordinate 0); py = Obj.magic (coordinate 1); pz = Obj.magic (coordinate 2) }
+let whole d p : moving_point = { t0 = position d p 0; t1 = position d p 1 }
+let differences d =
+  let difference i j = difference integers (whole d i) (whole d j) in
+  if d.edges then difference 1 0, difference 3 2, difference 2 0
+  else difference 2 1, difference 3 1, difference 0 1
+let steps = 100000
+
 let put_decision d =
-  let coordinate p e k = d.whole.((6 * p) + (3 * e) + k) in
-  let position p e : position =
-    { px = Obj.magic (coordinate p e 0); py = Obj.magic (coordinate p e 1); pz = Obj.magic (coordinate p e 2) } in
-  let point p e : point = { x = coordinate p e 0; y = coordinate p e 1; z0 = coordinate p e 2 } in
-  let whole p : moving_point = { t0 = position p 0; t1 = position p 1 } in
+  let point p e : point =
+    let coordinate k = d.whole.((6 * p) + (3 * e) + k) in
+    { x = coordinate 0; y = coordinate 1; z0 = coordinate 2 } in
+  let whole = whole d in
   let moving p : moving = { start = point p 0; finish = point p 1 } in
   let bits k = snd d.units.(k) in
   put_word (max (bits 0) (max (bits 1) (bits 2)));
   let extent k = Z.of_int (bits k) in
-  let y =
-    let difference a b = difference integers (whole a) (whole b) in
-    let b, c, p =
-      if d.edges then difference 1 0, difference 3 2, difference 2 0
-      else difference 2 1, difference 3 1, difference 0 1 in
-    (Obj.magic (y_form integers b c p) : Z.t list) in
+  let y = let b, c, p = differences d in (Obj.magic (y_form integers b c p) : Z.t list) in
   let refine _ _ low high bits = refined_place y low high (Z.to_int bits) in
-  let steps = 100000 in
   put_outcome (decide_once d.edges (extent 0) (extent 1) (extent 2) estimated_place refine steps
                  (moving 0) (moving 1) (moving 2) (moving 3) (whole 0) (whole 1) (whole 2) (whole 3));
   put_outcome (decide_to_the_end d.edges (extent 0) (extent 1) (extent 2) estimated_place refine steps
@@ -243,6 +246,11 @@ let put_decision d =
   touches 0 1 2;
   put_word (if vertices_contact (whole 0) (whole 1) then 1 else 0)
 
+(* What is else asked only of few: where roots nearly coincide. *)
+let put_close d =
+  let b, c, p = differences d in
+  put_outcome (close_contact d.edges b c p root_middle root_exponent estimated_pair steps)
+
 let () =
   state := 1;
   for i = 0 to 19 do
@@ -250,5 +258,6 @@ let () =
         let mode = draw 15 in
         let edges = draw 2 = 1 in
         integers_of edges (query_in_doubles mode (whole_query mode edges))) in
-    line (Printf.sprintf "integers decide.%d" i) 4000 (fun k -> put_decision queries.(k))
+    line (Printf.sprintf "integers decide.%d" i) 4000 (fun k -> put_decision queries.(k));
+    line (Printf.sprintf "integers close.%d" i) 1000 (fun k -> put_close queries.(k))
   done

@@ -9,23 +9,6 @@
 namespace ccd::detail {
 namespace {
 
-using errbound::integers::fixed_integer;
-
-/// Decides what decide_in_words leaves uncertain, which has no vertex/edge contact.
-/// Proof: proofs/CloseContact.v, decided_inside.
-template <int Words, template <class, int> class Forms>
-outcome decide_close(const Forms<fixed_integer<Words>, 1>& f) {
-    using contact = close_contact<Forms>;
-    using number = errbound::integers::long_integer<contact::coordinate_words>;
-    const auto lengthened = [](const auto& v) {
-        const auto component = [](const auto& x) {
-            return errbound::bernstein<number, 1>{{x[0], x[1]}};
-        };
-        return vector_form<number, 1>{component(v.x), component(v.y), component(v.z)};
-    };
-    return contact({lengthened(f.b), lengthened(f.c), lengthened(f.p)}).decide();
-}
-
 /// In integers of Words words.
 /// Proof: proofs/CloseContact.v, face_to_the_end_right, edges_to_the_end_right.
 template <int Words, class Query>

@@ -169,7 +169,14 @@ void put_axes(hash& h, const drawn_query& q) {
         box.widen(k, q.high[k]);
     }
     const rounded_axes::frame f(box);
-    float x[3][2][4];
+    // A loop that goes beyond the axes finds the features far apart there.
+    struct {
+        float x[3][2][4];
+        float beyond[2][4];
+    } places;
+    auto& x = places.x;
+    for (auto& end : places.beyond)
+        for (std::size_t p = 0; p < 4; ++p) end[p] = p < (q.edges ? 2 : 1) ? 0.0F : 1e6F;
     for (std::size_t p = 0; p < 4; ++p)
         for (std::size_t e = 0; e < 2; ++e)
             for (std::size_t k = 0; k < 3; ++k) {

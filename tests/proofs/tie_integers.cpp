@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ccd/exact/axis_units.hpp"
+#include "ccd/exact/close_contact.hpp"
 #include "ccd/exact/integer_decision.hpp"
 #include "ccd/exact/integers.hpp"
 #include "tests/proofs/table.hpp"
@@ -47,6 +48,18 @@ void put_decision(hash& h, const drawn_query& q) {
     put(h, in_words(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}));
 }
 
+/// What is else asked only of few: where roots nearly coincide.
+template <class Query>
+void put_close(hash& h, const Query& query) {
+    put(h, ccd::detail::decide_close<4>(forms_of(integer_units(query).converted<4>(query))));
+}
+void put_close(hash& h, const drawn_query& q) {
+    if (q.edges)
+        put_close(h, q.as<ccd::edge_edge<double>>());
+    else
+        put_close(h, q.as<ccd::vertex_face<double>>());
+}
+
 std::vector<tie::line> all_lines() {
     static std::vector<std::vector<drawn_query>> queries;
     tie::sequence numbers;
@@ -57,6 +70,8 @@ std::vector<tie::line> all_lines() {
         for (int k = 0; k < 4000; ++k) some.push_back(tie::whole_query_maker(numbers).query());
         lines.push_back({"integers decide." + std::to_string(i), some.size(),
                          [&some](hash& h, std::uint64_t k) { put_decision(h, some[k]); }});
+        lines.push_back({"integers close." + std::to_string(i), 1000,
+                         [&some](hash& h, std::uint64_t k) { put_close(h, some[k]); }});
     }
     return lines;
 }
