@@ -2,7 +2,8 @@
 
 usage: quotes_test.py SOURCE_FOLDER
 
-C++ blocks of a page stand in one of its programs (indentation and empty lines do not matter). Rows of measured tables, and figures with a unit, that pages state stand in docs/measured.md.
+C++ blocks of a page stand in one of its programs, and blocks in Coq in one of its proofs (indentation and empty lines
+do not matter). Rows of measured tables, and figures with a unit, that pages state stand in docs/measured.md.
 Relative links lead to files and folders, and to headings that are there.
 """
 import re
@@ -26,7 +27,12 @@ PROGRAMS = {
     "docs/elementary-functions.md": ["examples/functions/great_circle.cpp"],
     "docs/how-wrong.md": ["examples/explain/variance.cpp"],
     "docs/research-on-bounds.md": ["examples/research/rules_compared.cpp"],
+    "docs/one-query.md": ["examples/one_query.cpp", "include/ccd/methods/forms.hpp", "ccd/exact/stages.cpp",
+                          "ccd/exact/static_filter/subdivision.hpp"],
 }
+# Pages whose every block in Coq is of these proofs.
+PROOFS = {"docs/one-query.md": ["proofs/Contact.v", "proofs/Decisions.v", "proofs/Subdivision.v",
+                                "proofs/FilterStages.v", "proofs/Exact.v"]}
 # Pages that quote measured figures.
 QUOTING = ["README.md", "docs/collision-detection.md", "docs/architecture.md", "docs/guarantees.md"]
 MEASURED = "docs/measured.md"
@@ -60,15 +66,15 @@ def holds(source, block):
             any(source[i:i + len(code)] == code for i in range(len(source) - len(code) + 1)))
 
 
-def missing_blocks(page, programs):
+def missing_blocks(page, programs, language="cpp"):
     blocks = [lines(block)
-              for block in re.findall(r"^```cpp\n(.*?)^```", read(page), re.MULTILINE | re.DOTALL)]
-    assert blocks, f"{page} has no C++ block"
+              for block in re.findall(rf"^```{language}\n(.*?)^```", read(page), re.MULTILINE | re.DOTALL)]
+    assert blocks, f"{page} has no block of {language}"
     sources = [lines(read(program)) for program in programs]
     for block in blocks:
         if not any(holds(source, block) for source in sources):
             yield f"{page}: not in {' or '.join(programs)}:\n  " + "\n  ".join(block)
-    print(f"{page}: {len(blocks)} C++ blocks")
+    print(f"{page}: {len(blocks)} blocks of {language}")
 
 
 def missing_figures(page, measured):
@@ -113,6 +119,8 @@ def dead_links():
 errors = list(dead_links())
 for page, programs in PROGRAMS.items():
     errors += missing_blocks(page, programs)
+for page, sources in PROOFS.items():
+    errors += missing_blocks(page, sources, "coq")
 for page in QUOTING:
     errors += missing_figures(page, read(MEASURED))
 print(*errors, sep="\n")
