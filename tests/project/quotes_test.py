@@ -27,7 +27,7 @@ PROGRAMS = {
     "docs/elementary-functions.md": ["examples/functions/great_circle.cpp"],
     "docs/how-wrong.md": ["examples/explain/variance.cpp"],
     "docs/research-on-bounds.md": ["examples/research/rules_compared.cpp"],
-    "docs/one-query.md": ["examples/one_query.cpp", "include/ccd/methods/forms.hpp", "ccd/exact/stages.cpp",
+    "docs/one-query.md": ["examples/proofs/one_query.cpp", "include/ccd/methods/forms.hpp", "ccd/exact/stages.cpp",
                           "ccd/exact/static_filter/subdivision.hpp"],
 }
 # Pages whose every block in Coq is of these proofs.
