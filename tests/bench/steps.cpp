@@ -156,9 +156,9 @@ void growth_with_copies(const scene& s, const options& o, report& out) {
         std::size_t pairs = 0;
         const auto again = [&] { pairs = number_of(steps.run(frames, {.threads = 1}).pairs); };
         again();
-        const auto timings = race(
-            {[&] { run(before, after, fresh[0]); }, [&] { run(before, after, fresh[1]); }, again},
-            copies > 10 ? 3 : o.repeats());
+        const auto timings = race({[&] { run_timed(before, after, fresh[0]); },
+                                   [&] { run_timed(before, after, fresh[1]); }, again},
+                                  copies > 10 ? 3 : o.repeats());
         if (pairs != number_of(fresh[0].quickest.pairs))
             throw std::runtime_error(s.name + ": a repeated step found other pairs");
         const std::size_t heap = peak_heap([&] { keep(ccd::step(before, after, {.threads = 1})); });
