@@ -14,6 +14,7 @@ struct range {
     double low, high;  ///< of magnitudes other than zero
 };
 inline constexpr range ranges[] = {{"1e-3 to 1e3", 1e-3, 1e3},
+                                   {"2^-100 to 2^100", 0x1p-100, 0x1p100},
                                    {"all finite", 0, 0x1.fffffffffffffp1023}};
 
 bool holds(const range& within, const std::vector<double>& numbers);
