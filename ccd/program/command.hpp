@@ -7,7 +7,7 @@
 
 namespace ccd::program {
 
-enum exit_status { done = 0, bad_input = 1, broken_promise = 1, bad_usage = 2, stopped = 3 };
+enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3 };
 
 /// A command, registered with the program's command line. What it asks for lies in members, which
 /// the line is read into.

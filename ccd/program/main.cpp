@@ -6,6 +6,7 @@
 
 #include "ccd/io/store/store_reader.hpp"
 #include "ccd/program/command.hpp"
+#include "errbound/support/command_line.hpp"
 #include "errbound/support/program.hpp"
 
 namespace ccd::program {
@@ -18,7 +19,7 @@ exit_status run(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     for (const auto& c : commands)
         if (c->was_given()) return c->run();
-    throw CLI::RequiredError("A subcommand");
+    throw errbound::support::usage_error("found no command, ccd --help lists them");
 }
 
 int run_command_line(int argc, char** argv) {
@@ -32,7 +33,9 @@ int run_command_line(int argc, char** argv) {
     try {
         return run(app, argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? done : bad_usage;
+        if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
+        app.exit(error);  // prints what --help and --version ask for
+        return done;
     }
 }
 

@@ -7,6 +7,7 @@
 #include "errbound/program/explain_command.hpp"
 #include "errbound/program/validate_command.hpp"
 #include "errbound/program/validate_options.hpp"
+#include "errbound/support/command_line.hpp"
 #include "errbound/support/program.hpp"
 
 namespace errbound::validation {
@@ -25,10 +26,13 @@ int run_command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         if (explain.was_given()) return explain.run();
-        if (!validate.was_given()) throw CLI::RequiredError("A subcommand");
+        if (!validate.was_given())
+            throw support::usage_error("found no command, errbound --help lists them");
         return run_validate(validate.checked());
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? done : bad_usage;
+        if (error.get_exit_code() != 0) throw support::usage_error(error.what());
+        app.exit(error);  // prints what --help and --version ask for
+        return done;
     }
 }
 

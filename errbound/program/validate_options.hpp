@@ -11,7 +11,7 @@
 
 namespace errbound::validation {
 
-enum exit_status { done = 0, bad_input = 1, violations_found = 1, bad_usage = 2, stopped = 3 };
+enum exit_status { done = 0, bad_input = 1, violations_found = 1, stopped = 3 };
 
 struct validate_arguments {
     std::vector<rule> rules;

@@ -116,7 +116,8 @@ int run_command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
+        return app.exit(error);  // prints what --help asks for
     }
     return simulate(given);
 }

@@ -8,15 +8,14 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "ccd/io/store/store_reader.hpp"
 #include "ccd/program/command.hpp"
 #include "ccd/program/mpi/commands.hpp"
 #include "errbound/study/program.hpp"
+#include "errbound/support/command_line.hpp"
 
 namespace ccd::program {
 namespace {
@@ -38,12 +37,11 @@ exit_status run_command_line(int argc, char** argv) {
         app.parse(argc, argv);
         for (const auto& c : commands)
             if (c->was_given()) return c->run();
-        throw CLI::RequiredError("A subcommand");
+        throw errbound::support::usage_error("found no command, ccd_mpi --help lists them");
     } catch (const CLI::ParseError& error) {
-        std::ostringstream silent;
-        std::ostream& out = rank == 0 ? std::cout : silent;
-        std::ostream& err = rank == 0 ? std::cerr : silent;
-        return app.exit(error, out, err) == 0 ? done : bad_usage;
+        if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
+        if (rank == 0) app.exit(error);  // prints what --help and --version ask for
+        return done;
     }
 }
 

@@ -7,14 +7,13 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
-#include <sstream>
 #include <string>
 
 #include "ccd/io/store/store_reader.hpp"
 #include "errbound/program/mpi/validate_over_ranks.hpp"
 #include "errbound/study/options.hpp"
 #include "errbound/study/program.hpp"
+#include "errbound/support/command_line.hpp"
 
 namespace errbound::validation {
 namespace {
@@ -32,15 +31,15 @@ int run_command_line(int argc, char** argv) {
     const study::journal_option journal(validate.line());
     try {
         app.parse(argc, argv);
-        if (!validate.was_given()) throw CLI::RequiredError("A subcommand");
+        if (!validate.was_given())
+            throw support::usage_error("found no command, errbound_mpi --help lists them");
         return validate_over_ranks(MPI_COMM_WORLD, validate.checked(), journal.path());
     } catch (const CLI::ParseError& error) {
         int rank = 0;
         MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-        std::ostringstream silent;
-        std::ostream& out = rank == 0 ? std::cout : silent;
-        std::ostream& err = rank == 0 ? std::cerr : silent;
-        return app.exit(error, out, err) == 0 ? done : bad_usage;
+        if (error.get_exit_code() != 0) throw support::usage_error(error.what());
+        if (rank == 0) app.exit(error);  // prints what --help and --version ask for
+        return done;
     }
 }
 
