@@ -42,11 +42,13 @@ struct relative {
         double factors;  ///< k; infinite where nothing is known
     };
 
+    /// Proof: proofs/Relative.v, relative_exact_sound.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::is_finite(value) ? 0 : unknown};
     }
     /// Unknown unless error < |value|: a relative rule cannot say that a number is small.
+    /// Proof: proofs/Relative.v, relative_within_sound.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -54,11 +56,14 @@ struct relative {
         if (!(error > 0) || !traits::is_finite(value)) return {unknown};
         return {factors_of<T>(error, traits::abs(value))};
     }
+    /// Proof: proofs/Relative.v, relative_error_sound.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
         if (b.factors == 0) return T(0);
-        const double l = b.factors * of_one_factor<T>();
+        // What is subnormal loses more than a factor.
+        const double l = upper<double>(b.factors * of_one_factor<T>()) +
+                         std::numeric_limits<double>::denorm_min();
         if (!(l < 1.75)) return traits::infinity();
         const double r = l / (1 - l / 2) * (1 + 8 * epsilon);
         T share = static_cast<T>(r);
@@ -67,6 +72,7 @@ struct relative {
                traits::underflow_unit();
     }
     /// That of the value, wherever anything is known.
+    /// Proof: proofs/Relative.v, relative_sign_sound.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         if (!number_traits<T>::is_finite(error<T>(value, b))) return sign_type::uncertain;
@@ -74,16 +80,19 @@ struct relative {
         return value > 0 ? sign_type::positive : sign_type::negative;
     }
 
+    /// Proof: proofs/Relative.v, relative_add_sound.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, relative> a,
                                   rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, b.value, b.bound);
     }
+    /// Proof: proofs/Relative.v, relative_subtract_sound.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), b.bound);
     }
+    /// Proof: proofs/Relative.v, relative_multiply_sound.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
@@ -94,6 +103,7 @@ struct relative {
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
     }
     /// Unknown where b may be zero, which is where b's value is, or nothing is known of it.
+    /// Proof: proofs/Relative.v, relative_divide_sound.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
                                      rule_operand<T, relative> b) {
@@ -103,6 +113,7 @@ struct relative {
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors),
                              division.exact && division.value == 0);
     }
+    /// Proof: proofs/Relative.v, relative_scale_sound.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, relative> a, int e) {
         return rounded_to<T>(v, a.bound.factors,

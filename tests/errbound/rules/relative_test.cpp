@@ -121,6 +121,12 @@ TEST(Relative, CountsAreNotThoseOfASmallType) {
     EXPECT_EQ(sign_of(product), sign_type::uncertain);  // beyond e^(7/4)
 }
 
+// k·w was rounded to a subnormal number, which loses up to half the smallest one: a sixth of this.
+TEST(Relative, SubnormalCountsStandForAsMuch) {
+    const double value = std::ldexp(1.0, 1000), count = std::ldexp(1.2, -1020);
+    EXPECT_GE(relative::error<double>(value, {count}), std::ldexp(1.2, -1020 - 53 + 1000));
+}
+
 TEST(Relative, IsConstant) {
     constexpr number x = 0.1, y = x * x / number(3) - number(7);
     static_assert(sign_of(y) == sign_type::negative);
