@@ -341,6 +341,40 @@ Proof.
   - rewrite (ulp_small (fl z)) in H by auto. generalize (upper_eta_small (fl z) N F B). lra.
 Qed.
 
+(** Below its exact value, once what is rounded is normal. *)
+Lemma lower_sum_sound a b : number a -> number b -> fl (a + b) <> a + b ->
+  fl (Rabs (fl (a + b)) * fl (1 - eps)) <= Rabs (a + b).
+Proof.
+  intros A B H. generalize (smallest_normal_positive p emin) (eps_positive p). intros SP EP.
+  assert (N : smallest_normal <= Rabs (a + b)).
+  { apply Rnot_lt_le. intros C. apply H. now apply sum_exact_below; auto with typeclass_instances. }
+  assert (E : fl (1 - eps) = 1 - eps).
+  { apply rnd_exact; auto with typeclass_instances.
+    replace (1 - eps) with (IZR (2 ^ (p - 1) - 1) * bpow radix2 (1 - p)).
+    - apply number_integer; auto; [lia |].
+      assert (2 ^ p = 2 * 2 ^ (p - 1))%Z.
+      { replace p with (1 + (p - 1))%Z at 1 by lia. rewrite Z.pow_add_r by lia. reflexivity. }
+      assert (2 ^ 1 <= 2 ^ (p - 1))%Z by (apply Z.pow_le_mono_r; lia). lia.
+    - rewrite minus_IZR. change 2%Z with (radix_val radix2) at 1. rewrite IZR_Zpower by lia.
+      rewrite Rmult_minus_distr_r, <- bpow_plus. replace (p - 1 + (1 - p))%Z with 0%Z by lia.
+      unfold Format.eps. change (bpow radix2 0) with 1. ring. }
+  rewrite E. assert (S : Rabs (fl (a + b)) = fl (Rabs (a + b))).
+  { symmetry. apply round_NE_abs; auto with typeclass_instances. }
+  rewrite S. set (s := Rabs (a + b)) in *.
+  assert (V : smallest_normal <= fl s).
+  { apply rnd_above; auto with typeclass_instances. now apply number_smallest_normal. }
+  apply Rnot_lt_le. intros C.
+  assert (Y : fl s <= fl (fl s * (1 - eps))) by (apply rnd_below; auto using rnd_number with typeclass_instances; lra).
+  assert (Z : fl (fl s * (1 - eps)) <= fl s).
+  { apply rnd_below; auto using rnd_number with typeclass_instances.
+    apply Rle_trans with (fl s * 1); [apply Rmult_le_compat_l; lra | lra]. }
+  assert (T : fl (fl s * (1 - eps)) = fl s) by lra.
+  generalize (half_ulp (fl s * (1 - eps))). rewrite T. intros D.
+  assert (U : ulp (fl s) <= fl s * eps).
+  { rewrite <- (Rabs_pos_eq (fl s)) at 2 by lra. apply ulp_FLT_le. rewrite Rabs_pos_eq by lra. exact V. }
+  assert (P : 0 < fl s * eps) by (apply Rmult_lt_0_compat; lra).
+  apply Rabs_le_inv in D. lra.
+Qed.
 End Upper.
 
 (** Arithmetic of counts, in doubles. *)
@@ -1197,40 +1231,6 @@ Proof.
   change (fst (two_sum p emin a b)) with (fl (a + b)). lra.
 Qed.
 
-(** Below its exact value, once what is rounded is normal. *)
-Lemma least_sound a b : number a -> number b -> fl (a + b) <> a + b ->
-  fl (Rabs (fl (a + b)) * fl (1 - eps)) <= Rabs (a + b).
-Proof.
-  intros A B H. generalize (smallest_normal_positive p emin) (eps_positive p). intros SP EP.
-  assert (N : smallest_normal <= Rabs (a + b)).
-  { apply Rnot_lt_le. intros C. apply H. now apply sum_exact_below; auto with typeclass_instances. }
-  assert (E : fl (1 - eps) = 1 - eps).
-  { apply rnd_exact; auto with typeclass_instances.
-    replace (1 - eps) with (IZR (2 ^ (p - 1) - 1) * bpow radix2 (1 - p)).
-    - apply number_integer; auto; [lia |].
-      assert (2 ^ p = 2 * 2 ^ (p - 1))%Z.
-      { replace p with (1 + (p - 1))%Z at 1 by lia. rewrite Z.pow_add_r by lia. reflexivity. }
-      assert (2 ^ 1 <= 2 ^ (p - 1))%Z by (apply Z.pow_le_mono_r; lia). lia.
-    - rewrite minus_IZR. change 2%Z with (radix_val radix2) at 1. rewrite IZR_Zpower by lia.
-      rewrite Rmult_minus_distr_r, <- bpow_plus. replace (p - 1 + (1 - p))%Z with 0%Z by lia.
-      unfold Format.eps. change (bpow radix2 0) with 1. ring. }
-  rewrite E. assert (S : Rabs (fl (a + b)) = fl (Rabs (a + b))).
-  { symmetry. apply round_NE_abs; auto with typeclass_instances. }
-  rewrite S. set (s := Rabs (a + b)) in *.
-  assert (V : smallest_normal <= fl s).
-  { apply rnd_above; auto with typeclass_instances. now apply number_smallest_normal. }
-  apply Rnot_lt_le. intros C.
-  assert (Y : fl s <= fl (fl s * (1 - eps))) by (apply rnd_below; auto using number_fl with typeclass_instances; lra).
-  assert (Z : fl (fl s * (1 - eps)) <= fl s).
-  { apply rnd_below; auto using number_fl with typeclass_instances.
-    apply Rle_trans with (fl s * 1); [apply Rmult_le_compat_l; lra | lra]. }
-  assert (T : fl (fl s * (1 - eps)) = fl s) by lra.
-  generalize (half_ulp p emin (fl s * (1 - eps))). rewrite T. intros D.
-  assert (U : ulp radix2 (FLT_exp emin p) (fl s) <= fl s * eps).
-  { rewrite <- (Rabs_pos_eq (fl s)) at 2 by lra. apply ulp_FLT_le. rewrite Rabs_pos_eq by lra. exact V. }
-  assert (P : 0 < fl s * eps) by (apply Rmult_lt_0_compat; lra).
-  apply Rabs_le_inv in D. lra.
-Qed.
 Theorem relative_add_sound a ka x b kb y k : holds a ka x -> holds b kb y ->
   relative_add a ka b kb = Some k -> holds (fl (a + b)) k (x + y).
 Proof.
@@ -1273,7 +1273,7 @@ Proof.
     unfold rounded_sum. apply holds_rounded with (z := a + b); auto.
     apply C.
     + unfold least. case_eq is_exact; intros IE; [rewrite (X IE); lra |].
-      apply least_sound; auto. intros H. unfold is_exact in IE. revert IE.
+      apply lower_sum_sound; auto; try lia. intros H. unfold is_exact in IE. revert IE.
       case Req_bool_spec; [discriminate |]. intros S _. apply S.
       generalize (two_sum_exact p emin ltac:(lia) a b ltac:(lia) NA NB).
       change (fst (two_sum p emin a b)) with (fl (a + b)). lra.
