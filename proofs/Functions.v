@@ -1,14 +1,17 @@
-(** Functions of tracked numbers (include/errbound/functions.hpp): the bounds of a square root and of a
-    fused product and sum, as the C++ code computes them.
+(** Functions of tracked numbers (include/errbound/functions.hpp): the bounds of a square root, of a
+    fused product and sum, of linear interpolation and of a length, as the C++ code computes them.
 
     A number x is known by a value a and a bound sa, |a - x| <= sa. Results:
-        sqrt_sound, fma_sound                   rounding in any one direction, from 5 bits on;
-        sqrt_sound_nearest, fma_sound_nearest   to nearest, ties to even, from 3 bits on.
+        sqrt_sound, fma_sound, copysign_sound   rounding in any one direction, from 5 bits on;
+        lerp_sound                              likewise, from 6 bits on;
+        sqrt_sound_nearest, fma_sound_nearest, lerp_sound_nearest, copysign_sound_nearest
+                                                to nearest, ties to even, from 3 bits on;
+        hypot_sound_nearest                     likewise, from 8 bits on.
     Square roots need emin <= 2 - 2p, as it is in every IEEE format whose largest exponent is above p:
     they do not underflow there. Fused products need emin <= -p. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
-From Flocq Require Import Core.
+From Flocq Require Import Core Mult_error.
 From Errbound Require Import Format.
 From Errbound Require Tight.
 Open Scope R_scope.
@@ -54,6 +57,21 @@ Definition sqrt_error (a e : R) : R :=
 Definition fma_error (v a sa b sb sc : R) : R :=
   let products := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb))) in
   inflated (fl (rounding_of v + fl (products + fl (sc + fl (3 * eta))))).
+Definition lerp_error (v d a sa b sb t st : R) : R :=
+  let of_d := rounding_of d in
+  let size := Rabs t in
+  let from_ends := inflated (fl (fl (fl (Rabs (fl (1 - t)) + st) * sa) + fl (fl (size + st) * sb))) in
+  let from_t := inflated (fl (fl (fl (Rabs d + of_d) * st) + fl (size * of_d))) in
+  inflated (fl (rounding_of v + fl (from_ends + fl (from_t + fl (8 * eta))))).
+
+(** e: the exponent of the larger of |x| and |y|, which is not 0. *)
+Definition hypot_value (x y : R) (e : Z) : R :=
+  let a := fl (x * bpow radix2 (- e)) in
+  let b := fl (y * bpow radix2 (- e)) in
+  fl (fl (sqrt (fl (fl (a * a) + fl (b * b)))) * bpow radix2 e).
+Definition hypot_error (v sx sy : R) : R :=
+  let relative := fl (fl (3 * eps) + fl (8 * eta)) in
+  inflated (fl (fl (v * relative) + fl (fl (sx + sy) + fl (2 * eta)))).
 
 Section Proof.
 
@@ -372,6 +390,488 @@ Proof.
     assert (sc <= sc * f) by nra. assert (4 * eta - 2 * h <= (4 * eta - 2 * h) * f) by nra. lra.
 Qed.
 
+Lemma number_8_eta : number (8 * eta).
+Proof.
+  replace (8 * eta) with (bpow radix2 (3 + emin)).
+  - apply number_power; auto. lia.
+  - rewrite bpow_plus. change (bpow radix2 3) with 8. reflexivity.
+Qed.
+Lemma inflated_lower S : 0 <= S -> S * f * q - h <= inflated S.
+Proof.
+  intros P. rewrite (Tight.inflated_exact p emin direction p_3 emin_p). fold f.
+  apply rnd_lower. apply Rmult_le_pos; auto. generalize f_1. lra.
+Qed.
+Lemma inflated_number S : number (inflated S).
+Proof. apply rnd_number. Qed.
+Lemma inflated_nonnegative S : 0 <= S -> 0 <= inflated S.
+Proof.
+  intros P. rewrite (Tight.inflated_exact p emin direction p_3 emin_p). fold f.
+  apply rnd_nonnegative, Rmult_le_pos; auto. generalize f_1. lra.
+Qed.
+(** A sum of two products with factors as computed, X q^i and Y q^j, enlarged. *)
+Lemma products_lower X Y A B : 0 <= A -> 0 <= B -> 0 <= X -> 0 <= Y -> X * (q * q) <= A -> Y * (q * q) <= B ->
+  X + Y - (2 * f + 1) * h <= inflated (fl (fl A + fl B)).
+Proof.
+  intros PA PB PX PY HA HB. generalize (error_h _ _ _ _ _ E) q_8 f_1. intros HH Q8 F1.
+  generalize (rnd_lower A PA) (rnd_lower B PB) (rnd_nonnegative A PA) (rnd_nonnegative B PB).
+  fold q. intros LA LB NA NB.
+  assert (S : (fl A + fl B) * q <= fl (fl A + fl B)) by (apply sum_relative; auto; apply rnd_number).
+  assert (NS : 0 <= fl (fl A + fl B)) by (apply rnd_nonnegative; lra).
+  apply Rle_trans with (2 := inflated_lower _ NS).
+  assert (L : (X * (q * q) * q + Y * (q * q) * q - 2 * h) * q <= fl (fl A + fl B)).
+  { apply Rle_trans with (2 := S). apply Rmult_le_compat_r; [lra |].
+    assert (X * (q * q) * q <= A * q) by (apply Rmult_le_compat_r; lra).
+    assert (Y * (q * q) * q <= B * q) by (apply Rmult_le_compat_r; lra). lra. }
+  apply Rle_trans with ((X * (q * q) * q + Y * (q * q) * q - 2 * h) * q * (f * q) - h).
+  - replace ((X * (q * q) * q + Y * (q * q) * q - 2 * h) * q * (f * q) - h) with
+      ((X + Y) * (f * (q * q * q * q * q)) - 2 * h * (f * (q * q)) - h) by ring.
+    assert (X + Y <= (X + Y) * (f * (q * q * q * q * q))) by (apply no_less; [lra | apply f_q5]).
+    assert (f * (q * q) <= f).
+    { rewrite <- (Rmult_1_r f) at 2. apply Rmult_le_compat_l; [lra |].
+      rewrite <- (Rmult_1_r 1). apply Rmult_le_compat; lra. }
+    assert (2 * h * (f * (q * q)) <= 2 * h * f) by (apply Rmult_le_compat_l; lra). lra.
+  - replace (fl (fl A + fl B) * f * q) with (fl (fl A + fl B) * (f * q)) by ring.
+    apply Rplus_le_compat_r, Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
+Qed.
+
+Lemma lerp_covered a x sa b y sb t z st : (4 * f + 4) * h <= 9 * eta ->
+  number a -> number b -> number t -> number sa -> number sb -> number st ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> Rabs (t - z) <= st ->
+  let d := fl (b - a) in
+  Rabs (fl (t * d + a) - ((1 - z) * x + z * y)) <= lerp_error (fl (t * d + a)) d a sa b sb t st.
+Proof.
+  intros H9 A B T SA SB ST HA HB HT d.
+  generalize (error_h _ _ _ _ _ E) (eta_positive emin) q_8 f_1. intros HH Pe Q8 F1.
+  assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
+  assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
+  assert (PT : 0 <= st) by (generalize (Rabs_pos (t - z)); lra).
+  unfold lerp_error. cbv zeta. rewrite (Format.rnd_exact p emin direction _ number_8_eta).
+  set (v := fl (t * d + a)). set (D := rounding_of d). set (R := rounding v). set (R0 := rounding_of v).
+  set (c := fl (1 - t)).
+  assert (PD : 0 <= D) by apply rounding_of_nonnegative.
+  assert (N1 : number 1) by (change 1 with (bpow radix2 0); apply number_power; auto; lia).
+  assert (HC : Rabs (1 - t) * q <= Rabs c).
+  { generalize (Format.sum_error p emin direction r h E 1 (- t) N1 (number_opp _ _ _ T)).
+    change (1 + - t) with (1 - t). fold c. intros G.
+    assert (Rabs (1 - t) <= Rabs c + Rabs (c - (1 - t))).
+    { replace (1 - t) with (c + - (c - (1 - t))) at 1 by ring. apply Rle_trans with (1 := Rabs_triang _ _).
+      rewrite Rabs_Ropp. lra. }
+    unfold q. lra. }
+  assert (HD : Rabs (d - (b - a)) <= D).
+  { apply Rle_trans with (rounding d).
+    - apply (Format.rounding_of_sum p emin direction b (- a)); auto; [now apply number_opp |].
+      apply (Tight.rounding_factor p emin direction p_3 emin_p).
+    - apply rnd_above; [apply rnd_number | lra]. }
+  generalize (Rabs_pos (1 - t)) (Rabs_pos t) (Rabs_pos d) (Rabs_pos c). intros P1t Pt Pd Pc.
+  set (X1 := (Rabs (1 - t) + st) * sa). set (X2 := (Rabs t + st) * sb).
+  set (X3 := (Rabs d + D) * st). set (X4 := Rabs t * D).
+  assert (Q2 : 0 <= q * q <= q).
+  { split; [apply Rmult_le_pos; lra |]. rewrite <- (Rmult_1_r q) at 3. apply Rmult_le_compat_l; lra. }
+  assert (SC : (Rabs c + st) * q <= fl (Rabs c + st)).
+  { apply sum_relative; auto. apply number_abs, rnd_number. }
+  assert (STt : (Rabs t + st) * q <= fl (Rabs t + st)) by (apply sum_relative; auto; now apply number_abs).
+  assert (SD : (Rabs d + D) * q <= fl (Rabs d + D)).
+  { apply sum_relative; auto; [apply number_abs, rnd_number | apply rnd_number]. }
+  set (ends := inflated (fl (fl (fl (Rabs c + st) * sa) + fl (fl (Rabs t + st) * sb)))).
+  set (times := inflated (fl (fl (fl (Rabs d + D) * st) + fl (Rabs t * D)))).
+  assert (PX1 : 0 <= X1) by (apply Rmult_le_pos; lra). assert (PX2 : 0 <= X2) by (apply Rmult_le_pos; lra).
+  assert (PX3 : 0 <= X3) by (apply Rmult_le_pos; lra). assert (PX4 : 0 <= X4) by (apply Rmult_le_pos; lra).
+  assert (PF1 : 0 <= fl (Rabs c + st)) by (apply rnd_nonnegative; lra).
+  assert (PF2 : 0 <= fl (Rabs t + st)) by (apply rnd_nonnegative; lra).
+  assert (PF3 : 0 <= fl (Rabs d + D)) by (apply rnd_nonnegative; lra).
+  assert (LE : X1 + X2 - (2 * f + 1) * h <= ends).
+  { apply products_lower; auto; try (apply Rmult_le_pos; lra).
+    - unfold X1. replace ((Rabs (1 - t) + st) * sa * (q * q)) with ((Rabs (1 - t) + st) * (q * q) * sa) by ring.
+      apply Rmult_le_compat_r; auto. apply Rle_trans with (2 := SC).
+      replace ((Rabs (1 - t) + st) * (q * q)) with ((Rabs (1 - t) * q + st * q) * q) by ring.
+      apply Rmult_le_compat_r; [lra |].
+      assert (st * q <= st * 1) by (apply Rmult_le_compat_l; lra). lra.
+    - unfold X2. replace ((Rabs t + st) * sb * (q * q)) with ((Rabs t + st) * (q * q) * sb) by ring.
+      apply Rmult_le_compat_r; auto. apply Rle_trans with (2 := STt). apply Rmult_le_compat_l; lra. }
+  assert (LT : X3 + X4 - (2 * f + 1) * h <= times).
+  { apply products_lower; auto; try (apply Rmult_le_pos; lra).
+    - unfold X3. replace ((Rabs d + D) * st * (q * q)) with ((Rabs d + D) * (q * q) * st) by ring.
+      apply Rmult_le_compat_r; auto. apply Rle_trans with (2 := SD). apply Rmult_le_compat_l; lra.
+    - rewrite <- (Rmult_1_r (Rabs t * D)). apply Rmult_le_compat_l; [apply Rmult_le_pos; lra | lra]. }
+  assert (PE : 0 <= ends).
+  { apply inflated_nonnegative, rnd_nonnegative, Rplus_le_le_0_compat; apply rnd_nonnegative, Rmult_le_pos; lra. }
+  assert (PM : 0 <= times).
+  { apply inflated_nonnegative, rnd_nonnegative, Rplus_le_le_0_compat; apply rnd_nonnegative, Rmult_le_pos; lra. }
+  (* the exact bound *)
+  apply Rle_trans with (R + h + (X1 + X2) + (X3 + X4)).
+  { replace (v - ((1 - z) * x + z * y)) with ((v - (t * d + a)) + (t * (d - (b - a)) +
+      ((1 - z) * (a - x) + z * (b - y) + (t - z) * (b - a)))) by ring.
+    assert (G1 : Rabs (v - (t * d + a)) <= R + h) by apply (Tight.rounding_any p emin direction p_3 emin_p r h E).
+    assert (G2 : Rabs (t * (d - (b - a))) <= X4) by (rewrite Rabs_mult; apply Rmult_le_compat_l; auto).
+    assert (Z1 : Rabs (1 - z) <= Rabs (1 - t) + st).
+    { replace (1 - z) with ((1 - t) + (t - z)) by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra. }
+    assert (Z2 : Rabs z <= Rabs t + st).
+    { replace z with (t + - (t - z)) at 1 by ring. apply Rle_trans with (1 := Rabs_triang _ _).
+      rewrite Rabs_Ropp. lra. }
+    assert (G3 : Rabs ((1 - z) * (a - x)) <= X1).
+    { rewrite Rabs_mult. apply Rmult_le_compat; auto; apply Rabs_pos. }
+    assert (G4 : Rabs (z * (b - y)) <= X2) by (rewrite Rabs_mult; apply Rmult_le_compat; auto; apply Rabs_pos).
+    assert (G5 : Rabs ((t - z) * (b - a)) <= X3).
+    { rewrite Rabs_mult, Rmult_comm. apply Rmult_le_compat; auto; try apply Rabs_pos.
+      replace (b - a) with (d + - (d - (b - a))) by ring. apply Rle_trans with (1 := Rabs_triang _ _).
+      rewrite Rabs_Ropp. lra. }
+    generalize (Rabs_triang (v - (t * d + a)) (t * (d - (b - a)) +
+      ((1 - z) * (a - x) + z * (b - y) + (t - z) * (b - a))))
+      (Rabs_triang (t * (d - (b - a))) ((1 - z) * (a - x) + z * (b - y) + (t - z) * (b - a)))
+      (Rabs_triang ((1 - z) * (a - x) + z * (b - y)) ((t - z) * (b - a)))
+      (Rabs_triang ((1 - z) * (a - x)) (z * (b - y))). lra. }
+  set (U := fl (times + 8 * eta)). set (W := fl (ends + U)).
+  assert (PR : 0 <= R) by apply rounding_nonnegative.
+  assert (PR0 : 0 <= R0) by apply rounding_of_nonnegative.
+  assert (HR0 : (R + eta) * q <= R0) by apply rounding_of_lower.
+  assert (PU : 0 <= U) by (apply rnd_nonnegative; lra).
+  assert (PW : 0 <= W) by (apply rnd_nonnegative; lra).
+  assert (ALL : R + h + (X1 + X2) + (X3 + X4) + h <= R + eta + ends + times + 8 * eta) by lra.
+  apply inflated_covers; [apply rnd_nonnegative, Rplus_le_le_0_compat; auto | |].
+  - assert (LU : (times + 8 * eta) * q <= U).
+    { apply sum_relative; auto using number_8_eta; try lra. apply inflated_number. }
+    assert (LW : (ends + U) * q <= W) by (apply sum_relative; auto; [apply inflated_number | apply rnd_number]).
+    assert (LZ : (R0 + W) * q <= fl (R0 + W)) by (apply sum_relative; auto; apply rnd_number).
+    set (Y := R + eta + ends + times + 8 * eta) in *.
+    assert (LY : Y * (q * q * q) <= fl (R0 + W)).
+    { apply Rle_trans with (2 := LZ). replace (Y * (q * q * q)) with (Y * (q * q) * q) by ring.
+      apply Rmult_le_compat_r; [lra |].
+      apply Rle_trans with ((R + eta) * q + (ends + (times + 8 * eta) * q) * q).
+      - unfold Y. assert ((R + eta) * (q * q) <= (R + eta) * q) by (apply Rmult_le_compat_l; lra).
+        assert (ends * (q * q) <= ends * q) by (apply Rmult_le_compat_l; lra). lra.
+      - assert ((ends + (times + 8 * eta) * q) * q <= (ends + U) * q) by (apply Rmult_le_compat_r; lra). lra. }
+    apply Rle_trans with (Y * (f * (q * q * q * q))).
+    + apply Rle_trans with Y; [lra |]. apply no_less; [unfold Y; lra | apply f_q4].
+    + replace (Y * (f * (q * q * q * q))) with (Y * (q * q * q) * (f * q)) by ring.
+      apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
+  - intros C'. assert (C : fl (R0 + W) < smallest_normal) by exact C'. clear C'.
+    assert (L1 : R0 <= fl (R0 + W)) by (apply rnd_above; [apply rnd_number | lra]).
+    assert (L2 : W <= fl (R0 + W)) by (apply rnd_above; [apply rnd_number | lra]).
+    assert (L3 : U <= W) by (apply rnd_above; [apply rnd_number | lra]).
+    assert (E1 : fl (R0 + W) = R0 + W) by (apply sum_subnormal; auto; apply rnd_number).
+    assert (E2 : W = ends + U).
+    { apply sum_subnormal; auto; [apply inflated_number | apply rnd_number |].
+      change (W < smallest_normal). lra. }
+    assert (E3 : U = times + 8 * eta).
+    { apply sum_subnormal; auto using number_8_eta; try lra; [apply inflated_number |].
+      change (U < smallest_normal). lra. }
+    assert (E4 : R0 = R + eta).
+    { apply sum_subnormal; auto using number_eta; try lra; [apply rnd_number |].
+      change (R0 < smallest_normal). lra. }
+    assert (ES : R + eta + ends + times + 8 * eta <= fl (R0 + W)) by lra.
+    match goal with |- _ <= ?s * f => change (R + h + (X1 + X2) + (X3 + X4) + h <= fl (R0 + W) * f) end.
+    apply Rle_trans with (fl (R0 + W) * 1); [lra |]. apply Rmult_le_compat_l; lra.
+Qed.
+
+(** A size s of |X|, with a sign that may be the wrong one. *)
+Definition copysign_error (s sx : R) : R := inflated (fl (fl (2 * s) + sx)).
+Lemma copysign_covered s v X T sx : number s -> number sx -> 0 <= s -> Rabs (s - Rabs X) <= sx ->
+  Rabs v = s -> Rabs T = Rabs X -> Rabs (v - T) <= copysign_error s sx.
+Proof.
+  intros N NS P H V HT. generalize q_8 f_1 f_q2. intros Q8 F1 F2.
+  assert (PS : 0 <= sx) by (generalize (Rabs_pos (s - Rabs X)); lra).
+  assert (N2 : number (2 * s)).
+  { rewrite Rmult_comm. change 2 with (bpow radix2 1). apply Mult_error.mult_bpow_pos_exact_FLT; auto. lia. }
+  unfold copysign_error. rewrite (Format.rnd_exact p emin direction _ N2).
+  apply Rle_trans with (2 * s + sx).
+  { apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_Ropp, V, HT. apply Rabs_le_inv in H. lra. }
+  destruct (Rle_or_lt smallest_normal (fl (2 * s + sx))) as [C | C].
+  - apply inflated_covers; [apply rnd_nonnegative; lra | | lra].
+    assert (L : (2 * s + sx) * q <= fl (2 * s + sx)) by (apply sum_relative; auto; lra).
+    apply Rle_trans with ((2 * s + sx) * q * (f * q)).
+    + replace ((2 * s + sx) * q * (f * q)) with ((2 * s + sx) * (f * (q * q))) by ring. apply no_less; lra.
+    + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
+  - assert (ES : fl (2 * s + sx) = 2 * s + sx) by (apply sum_subnormal; auto; lra).
+    rewrite (Tight.inflated_exact p emin direction p_3 emin_p). fold f. rewrite ES at 1.
+    apply rnd_above; [rewrite <- ES; apply rnd_number |]. apply no_less; lra.
+Qed.
+
+(** Lengths. Of numbers whose larger one is A, scaled to at least 1/2. *)
+Hypothesis eps_128 : eps <= / 128.
+Hypothesis eta_small : eta <= / 8192.
+Hypothesis h_half : 31 / 10 * h <= 2 * eta.
+
+Lemma hypot_squares A B b : / 2 <= A < 1 -> 0 <= B <= A -> number A -> 0 <= b <= 1 -> Rabs (b - B) <= h ->
+  let s := fl (fl (A * A) + fl (b * b)) in
+  Rabs (s - (A * A + B * B)) <= (2 * r + r * r + 13 * h) * (A * A + B * B).
+Proof.
+  intros HA HB NA Hb D s. generalize (error_r _ _ _ _ _ E) (error_h _ _ _ _ _ E) (eta_positive emin).
+  intros HR HH Pe. apply Rabs_le_inv in D.
+  assert (SN : smallest_normal <= / 4).
+  { change (/ 4) with (bpow radix2 (-2)). apply bpow_le. lia. }
+  assert (A2 : / 4 <= A * A <= 1).
+  { split; [replace (/ 4) with (/ 2 * / 2) by field | rewrite <- (Rmult_1_r 1)]; apply Rmult_le_compat; lra. }
+  assert (B2 : 0 <= B * B) by (apply Rmult_le_pos; lra).
+  assert (b2 : 0 <= b * b) by (apply Rmult_le_pos; lra).
+  assert (R2 : 0 <= r * r <= r * / 128).
+  { split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_l; lra]. }
+  assert (RH : 0 <= r * h <= / 128 * h).
+  { split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_r; lra]. }
+  assert (bB : Rabs (b * b - B * B) <= 2 * h).
+  { replace (b * b - B * B) with ((b - B) * (b + B)) by ring. rewrite Rabs_mult, (Rmult_comm 2).
+    apply Rmult_le_compat; try apply Rabs_pos; apply Rabs_le; lra. }
+  apply Rabs_le_inv in bB.
+  assert (G : Rabs (fl (A * A) - A * A) <= r * (A * A)).
+  { rewrite <- (Rabs_pos_eq (A * A)) at 3 by lra. apply (error_relative _ _ _ _ _ E).
+    rewrite Rabs_pos_eq by lra. lra. }
+  assert (K : Rabs (fl (b * b) - b * b) <= r * (b * b) + h).
+  { assert (0 <= r * (b * b)) by (apply Rmult_le_pos; lra).
+    destruct (Rle_or_lt smallest_normal (Rabs (b * b))) as [N | N].
+    - apply Rle_trans with (1 := error_relative _ _ _ _ _ E _ N). rewrite Rabs_pos_eq by lra. lra.
+    - apply Rle_trans with (1 := error_absolute _ _ _ _ _ E _ N). lra. }
+  set (g := fl (A * A)) in *. set (k := fl (b * b)) in *.
+  apply Rabs_le_inv in G. apply Rabs_le_inv in K.
+  assert (rb : r * (b * b) <= r * (B * B) + 2 * (r * h)).
+  { replace (r * (B * B) + 2 * (r * h)) with (r * (B * B + 2 * h)) by ring. apply Rmult_le_compat_l; lra. }
+  set (T := A * A + B * B) in *.
+  assert (GK : Rabs (g + k - T) <= r * T + 302 / 100 * h) by (apply Rabs_le; unfold T; lra).
+  apply Rabs_le_inv in GK.
+  assert (S : Rabs (s - (g + k)) <= r * Rabs (g + k)) by (apply (Format.sum_error p emin direction r h E); apply rnd_number).
+  assert (GP : 0 <= g + k).
+  { apply Rplus_le_le_0_compat; apply rnd_nonnegative; lra. }
+  rewrite (Rabs_pos_eq (g + k)) in S by auto.
+  assert (SB : r * (g + k) <= r * T + r * r * T + 302 / 100 * (r * h)).
+  { replace (r * T + r * r * T + 302 / 100 * (r * h)) with (r * (T + (r * T + 302 / 100 * h))) by ring.
+    apply Rmult_le_compat_l; lra. }
+  apply Rabs_le_inv in S.
+  assert (HT : h <= 4 * (h * T)).
+  { apply Rle_trans with (4 * (h * / 4)); [lra |]. apply Rmult_le_compat_l; [lra |].
+    apply Rmult_le_compat_l; unfold T; lra. }
+  apply Rabs_le. lra.
+Qed.
+Lemma root_of_near S T d : 0 < T -> 0 <= d <= / 2 -> Rabs (S - T) <= d * T ->
+  Rabs (sqrt S - sqrt T) <= d / (2 - d) * sqrt T.
+Proof.
+  intros PT PD D. apply Rabs_le_inv in D.
+  assert (QT : 0 < sqrt T) by now apply sqrt_lt_R0.
+  assert (PS : 0 <= S) by nra.
+  assert (PSq : 0 <= sqrt S) by apply sqrt_pos.
+  assert (LS : (1 - d) * sqrt T <= sqrt S).
+  { rewrite <- (sqrt_Rsqr (1 - d)) by lra. rewrite <- sqrt_mult; [| apply Rle_0_sqr | lra].
+    apply sqrt_le_1_alt. unfold Rsqr. nra. }
+  replace (sqrt S - sqrt T) with ((S - T) / (sqrt S + sqrt T)).
+  2: { rewrite <- (sqrt_sqrt S) at 1 by lra. rewrite <- (sqrt_sqrt T) at 1 by lra. field. lra. }
+  unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ _)).
+  2: { left. apply Rinv_0_lt_compat. lra. }
+  apply Rle_trans with (d * T * / ((2 - d) * sqrt T)).
+  - apply Rmult_le_compat; [apply Rabs_pos | left; apply Rinv_0_lt_compat; lra | apply Rabs_le; lra |].
+    apply Rinv_le; [apply Rmult_lt_0_compat; lra | lra].
+  - right. rewrite <- (sqrt_sqrt T) at 1 by lra. field. lra.
+Qed.
+(** Lengths differ by no more than their legs. *)
+Lemma length_inherits x X y Y sx sy : Rabs (x - X) <= sx -> Rabs (y - Y) <= sy ->
+  Rabs (sqrt (x * x + y * y) - sqrt (X * X + Y * Y)) <= sx + sy.
+Proof.
+  assert (T : forall a b c d s t, Rabs (a - c) <= s -> Rabs (b - d) <= t ->
+    sqrt (a * a + b * b) <= sqrt (c * c + d * d) + (s + t)).
+  { intros a b c d s t H1 H2.
+    assert (P1 : 0 <= s) by (generalize (Rabs_pos (a - c)); lra).
+    assert (P2 : 0 <= t) by (generalize (Rabs_pos (b - d)); lra).
+    set (l := sqrt (c * c + d * d)). assert (PL : 0 <= l) by apply sqrt_pos.
+    assert (LL : l * l = c * c + d * d) by (apply sqrt_sqrt; apply Rplus_le_le_0_compat; apply Rle_0_sqr).
+    assert (C : Rabs c <= l).
+    { rewrite <- sqrt_Rsqr_abs. apply sqrt_le_1_alt. unfold Rsqr. generalize (Rle_0_sqr d). unfold Rsqr. lra. }
+    assert (D : Rabs d <= l).
+    { rewrite <- sqrt_Rsqr_abs. apply sqrt_le_1_alt. unfold Rsqr. generalize (Rle_0_sqr c). unfold Rsqr. lra. }
+    rewrite <- (sqrt_Rsqr (l + (s + t))) by lra. apply sqrt_le_1_alt. unfold Rsqr.
+    apply Rle_trans with ((Rabs c + s) * (Rabs c + s) + (Rabs d + t) * (Rabs d + t)).
+    - assert (G : forall m n k, Rabs (m - n) <= k -> m * m <= (Rabs n + k) * (Rabs n + k)).
+      { intros m n k K. assert (M : Rabs m <= Rabs n + k).
+        { replace m with (n + (m - n)) at 1 by ring. apply Rle_trans with (1 := Rabs_triang _ _). lra. }
+        replace (m * m) with (Rabs m * Rabs m) by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+        apply Rmult_le_compat; auto; apply Rabs_pos. }
+      generalize (G a c s H1) (G b d t H2). lra.
+    - assert (CC : Rabs c * Rabs c = c * c) by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+      assert (DD : Rabs d * Rabs d = d * d) by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+      assert (Rabs c * s <= l * s) by (apply Rmult_le_compat_r; auto).
+      assert (Rabs d * t <= l * t) by (apply Rmult_le_compat_r; auto).
+      assert (0 <= s * t) by (now apply Rmult_le_pos). lra. }
+  intros H1 H2. assert (H1' := H1). assert (H2' := H2). rewrite Rabs_minus_sym in H1', H2'.
+  generalize (T _ _ _ _ _ _ H1 H2) (T _ _ _ _ _ _ H1' H2'). intros. apply Rabs_le. lra.
+Qed.
+
+Lemma hypot_covered x X y Y sx sy e :
+  number x -> number y -> number sx -> number sy -> Rabs (x - X) <= sx -> Rabs (y - Y) <= sy ->
+  bpow radix2 (e - 1) <= Rmax (Rabs x) (Rabs y) < bpow radix2 e ->
+  Rabs (hypot_value x y e - sqrt (X * X + Y * Y)) <= hypot_error (hypot_value x y e) sx sy.
+Proof.
+  intros Nx Ny NSX NSY HX HY L.
+  generalize (error_r _ _ _ _ _ E) (error_h _ _ _ _ _ E) (eta_positive emin) q_8 f_1 f_q4 f_q3 f_q2.
+  intros HR HH Pe Q8 F1 F4 F3 F2.
+  assert (PX : 0 <= sx) by (generalize (Rabs_pos (x - X)); lra).
+  assert (PY : 0 <= sy) by (generalize (Rabs_pos (y - Y)); lra).
+  assert (Q128 : 127 / 128 <= q) by (unfold q; lra).
+  set (w := bpow radix2 e). assert (W : 0 < w) by apply bpow_gt_0.
+  assert (IW : bpow radix2 (- e) = / w) by apply bpow_opp.
+  (* the relative error of the computed root *)
+  set (M := sqrt (x * x + y * y)). set (d := 2 * r + r * r + 13 * h). set (p0 := d / (2 - d)).
+  assert (R2 : 0 <= r * r <= r * / 128).
+  { split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_l; lra]. }
+  assert (D : 0 <= d <= 302 / 150 * r + 13 * h /\ d <= / 50) by (unfold d; lra).
+  assert (P0 : 0 <= p0 <= 102 / 100 * r + 7 * h).
+  { unfold p0. split.
+    - unfold Rdiv. apply Rmult_le_pos; [lra |]. left. apply Rinv_0_lt_compat. lra.
+    - apply Rmult_le_reg_r with (2 - d); [lra |].
+      replace (d / (2 - d) * (2 - d)) with d by (field; lra).
+      assert ((102 / 100 * r + 7 * h) * (2 - / 50) <= (102 / 100 * r + 7 * h) * (2 - d))
+        by (apply Rmult_le_compat_l; lra). lra. }
+  assert (ROOT : exists root, number root /\ 0 <= root /\ hypot_value x y e = fl (root * w) /\
+    Rabs (root * w - M) <= (p0 + r * (1 + p0)) * M).
+  { unfold hypot_value. cbv zeta. rewrite IW.
+    set (a := fl (x * / w)). set (b := fl (y * / w)).
+    exists (fl (sqrt (fl (fl (a * a) + fl (b * b))))).
+    split; [apply rnd_number |]. split; [apply rnd_nonnegative, sqrt_pos |]. split; [reflexivity |].
+    assert (SC : forall z, number z -> Rabs (Rabs (fl (z * / w)) - Rabs (z * / w)) <= h).
+    { intros z N. apply Rle_trans with (1 := Rabs_triang_inv2 _ _). rewrite <- IW.
+      now apply (scale_error p emin direction r h E). }
+    assert (SX : forall z, number z -> bpow radix2 (e - 1) <= Rabs z -> fl (z * / w) = z * / w).
+    { intros z N H. apply (Format.rnd_exact p emin direction). rewrite <- IW. apply Mult_error.mult_bpow_exact_FLT; auto.
+      assert (e <= mag radix2 z)%Z; [| lia]. replace e with (e - 1 + 1)%Z at 1 by lia.
+      apply Zlt_le_succ, lt_bpow with radix2. apply Rle_lt_trans with (1 := H).
+      apply bpow_mag_gt. }
+    (* by sizes: the larger one is exact *)
+    assert (G : forall z t, number z -> number t -> Rabs t <= Rabs z -> bpow radix2 (e - 1) <= Rabs z < w ->
+      Rabs (fl (sqrt (fl (fl (fl (z * / w) * fl (z * / w)) + fl (fl (t * / w) * fl (t * / w))))) * w -
+            sqrt (z * z + t * t)) <= (p0 + r * (1 + p0)) * sqrt (z * z + t * t)).
+    { intros z t Nz Nt Ltz Lz. rewrite (SX z Nz (proj1 Lz)). set (c := fl (t * / w)).
+      replace (z * / w * (z * / w)) with (Rabs z * / w * (Rabs z * / w)).
+      2: { replace (Rabs z * / w * (Rabs z * / w)) with (Rabs z * Rabs z * (/ w * / w)) by ring.
+           rewrite <- Rabs_mult, Rabs_pos_eq by apply Rle_0_sqr. ring. }
+      replace (c * c) with (Rabs c * Rabs c) by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+      set (A := Rabs z * / w). set (B := Rabs t * / w).
+      assert (IP : 0 < / w) by now apply Rinv_0_lt_compat.
+      assert (HA : / 2 <= A < 1).
+      { unfold A. split.
+        - apply Rle_trans with (bpow radix2 (e - 1) * / w); [| apply Rmult_le_compat_r; lra].
+          rewrite <- IW, <- bpow_plus. replace (e - 1 + - e)%Z with (-1)%Z by lia. simpl. lra.
+        - apply Rmult_lt_reg_r with w; auto. rewrite Rmult_assoc, Rinv_l by lra. lra. }
+      assert (HB : 0 <= B <= A).
+      { unfold A, B. split; [apply Rmult_le_pos; [apply Rabs_pos | lra] | apply Rmult_le_compat_r; lra]. }
+      assert (NA : number A).
+      { unfold A. rewrite <- (Rabs_pos_eq (/ w)) by lra. rewrite <- Rabs_mult. apply number_abs.
+        rewrite <- (SX z Nz (proj1 Lz)). apply rnd_number. }
+      assert (Hc : 0 <= Rabs c <= 1).
+      { split; [apply Rabs_pos |]. apply (Format.rnd_abs_below p emin direction).
+        - change 1 with (bpow radix2 0). apply number_power; auto. lia.
+        - rewrite Rabs_mult, (Rabs_pos_eq (/ w)) by lra. fold B. lra. }
+      assert (Hd : Rabs (Rabs c - B) <= h).
+      { unfold B. rewrite <- (Rabs_pos_eq (/ w)) by lra. rewrite <- Rabs_mult. now apply SC. }
+      assert (S := hypot_squares A B (Rabs c) HA HB NA Hc Hd). cbv zeta in S. fold d in S.
+      set (s := fl (fl (A * A) + fl (Rabs c * Rabs c))) in *. set (T := A * A + B * B) in *.
+      assert (A2 : / 4 <= A * A).
+      { replace (/ 4) with (/ 2 * / 2) by field. apply Rmult_le_compat; lra. }
+      assert (B2 : 0 <= B * B) by (apply Rmult_le_pos; lra).
+      assert (PT : / 4 <= T) by (unfold T; lra).
+      assert (RN := root_of_near s T d ltac:(lra) ltac:(lra) S). fold p0 in RN.
+      assert (QT : / 2 <= sqrt T).
+      { rewrite <- (sqrt_Rsqr (/ 2)) by lra. apply sqrt_le_1_alt. unfold Rsqr. lra. }
+      assert (PM : p0 * sqrt T <= / 2 * sqrt T) by (apply Rmult_le_compat_r; lra).
+      assert (RN' := RN). apply Rabs_le_inv in RN'.
+      assert (SN : smallest_normal <= / 4).
+      { change (/ 4) with (bpow radix2 (-2)). apply bpow_le. lia. }
+      assert (RR : Rabs (fl (sqrt s) - sqrt s) <= r * sqrt s).
+      { rewrite <- (Rabs_pos_eq (sqrt s)) at 3 by apply sqrt_pos. apply (error_relative _ _ _ _ _ E).
+        rewrite Rabs_pos_eq by apply sqrt_pos. lra. }
+      assert (RS : r * sqrt s <= r * (1 + p0) * sqrt T).
+      { rewrite Rmult_assoc. apply Rmult_le_compat_l; lra. }
+      assert (FIN : Rabs (fl (sqrt s) - sqrt T) <= (p0 + r * (1 + p0)) * sqrt T).
+      { replace (fl (sqrt s) - sqrt T) with ((fl (sqrt s) - sqrt s) + (sqrt s - sqrt T)) by ring.
+        apply Rle_trans with (1 := Rabs_triang _ _). lra. }
+      assert (TW : sqrt (z * z + t * t) = sqrt T * w).
+      { rewrite <- (sqrt_Rsqr w) at 1 by lra. rewrite <- sqrt_mult; [| lra | apply Rle_0_sqr]. f_equal.
+        unfold T, A, B, Rsqr. replace (z * z) with (Rabs z * Rabs z)
+          by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+        replace (t * t) with (Rabs t * Rabs t) by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+        field. lra. }
+      rewrite TW. replace (fl (sqrt s) * w - sqrt T * w) with ((fl (sqrt s) - sqrt T) * w) by ring.
+      rewrite Rabs_mult, (Rabs_pos_eq w) by lra. rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
+    unfold a, b, M. destruct (Rle_or_lt (Rabs y) (Rabs x)) as [C | C].
+    - rewrite (Rmax_left _ _ C) in L. apply G; auto.
+    - rewrite (Rmax_right _ _ (Rlt_le _ _ C)) in L.
+      rewrite (Rplus_comm (fl (fl (x * / w) * fl (x * / w)))), (Rplus_comm (x * x)). apply G; auto. lra. }
+  destruct ROOT as (root & NR & PR & EV & HR2). set (v := hypot_value x y e) in *.
+  set (rho := p0 + r * (1 + p0)) in *.
+  assert (RHO : 0 <= rho <= 205 / 100 * eps + 72 / 10 * eta /\ rho <= / 40).
+  { assert (0 <= r * p0 <= / 128 * p0) by (split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; lra).
+    unfold rho. lra. }
+  assert (PM : 0 <= M) by apply sqrt_pos.
+  assert (PV : 0 <= v) by (rewrite EV; apply rnd_nonnegative, Rmult_le_pos; lra).
+  assert (HV : Rabs (v - root * w) <= h) by (rewrite EV; now apply (scale_error p emin direction r h E)).
+  apply Rabs_le_inv in HV. assert (HR2' := HR2). apply Rabs_le_inv in HR2'.
+  assert (RM : rho * M <= / 40 * M) by (apply Rmult_le_compat_r; lra).
+  (* in units of what was computed *)
+  set (rel := 212 / 100 * eps + 75 / 10 * eta).
+  assert (RV : rho * M <= rel * (v + h)).
+  { apply Rle_trans with (rho * (40 / 39 * (v + h))); [apply Rmult_le_compat_l; lra |].
+    replace (rho * (40 / 39 * (v + h))) with (rho * (40 / 39) * (v + h)) by ring.
+    apply Rmult_le_compat_r; [lra |]. unfold rel. lra. }
+  assert (INH : Rabs (M - sqrt (X * X + Y * Y)) <= sx + sy) by (apply length_inherits; auto).
+  assert (RELH : 0 <= rel * h <= / 10 * h).
+  { split; [apply Rmult_le_pos | apply Rmult_le_compat_r]; unfold rel; lra. }
+  (* the exact bound *)
+  apply Rle_trans with (h + rel * v + rel * h + (sx + sy)).
+  { replace (v - sqrt (X * X + Y * Y)) with
+      ((v - root * w) + ((root * w - M) + (M - sqrt (X * X + Y * Y)))) by ring.
+    apply Rle_trans with (1 := Rabs_triang _ _).
+    assert (Rabs (v - root * w) <= h) by (apply Rabs_le; lra).
+    generalize (Rabs_triang (root * w - M) (M - sqrt (X * X + Y * Y))). lra. }
+  unfold hypot_error. cbv zeta.
+  assert (N3 : number (3 * eps)).
+  { apply (number_integer p emin 3 (1 - p)); [lia |]. apply Z.le_trans with (2 ^ 3)%Z; [lia |].
+    apply Z.pow_le_mono_r; lia. }
+  assert (N2 : number (2 * eta)).
+  { change 2 with (bpow radix2 1). unfold Format.eta. rewrite <- bpow_plus. apply number_power; auto. lia. }
+  rewrite (Format.rnd_exact p emin direction _ N3), (Format.rnd_exact p emin direction _ number_8_eta),
+    (Format.rnd_exact p emin direction _ N2).
+  set (c := fl (3 * eps + 8 * eta)). set (P := fl (v * c)). set (I := fl (sx + sy)).
+  set (J := fl (I + 2 * eta)).
+  assert (PE : 0 < eps) by apply eps_positive.
+  assert (LC : (3 * eps + 8 * eta) * q <= c) by (apply sum_relative; auto using number_8_eta; lra).
+  assert (PC : 0 <= c) by (apply rnd_nonnegative; lra).
+  assert (QQ : 126 / 128 <= q * q <= 1).
+  { assert (127 / 128 * (127 / 128) <= q * q) by (apply Rmult_le_compat; lra).
+    assert (q * q <= 1 * 1) by (apply Rmult_le_compat; lra). lra. }
+  assert (LP : v * rel - h <= P).
+  { apply Rle_trans with (2 := rnd_lower (v * c) (Rmult_le_pos _ _ PV PC)). fold q.
+    apply Rplus_le_compat_r. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto.
+    apply Rle_trans with ((3 * eps + 8 * eta) * q * q); [| apply Rmult_le_compat_r; lra].
+    rewrite Rmult_assoc. apply Rle_trans with ((3 * eps + 8 * eta) * (126 / 128)); [unfold rel; lra |].
+    apply Rmult_le_compat_l; lra. }
+  assert (PP : 0 <= P) by now apply rnd_nonnegative, Rmult_le_pos.
+  assert (PI : 0 <= I) by (apply rnd_nonnegative; lra).
+  assert (PJ : 0 <= J) by (apply rnd_nonnegative; lra).
+  assert (LI : (sx + sy) * q <= I) by now apply sum_relative.
+  assert (LJ : (I + 2 * eta) * q <= J) by (apply sum_relative; auto; [apply rnd_number | lra]).
+  assert (LZ : (P + J) * q <= fl (P + J)) by (apply sum_relative; auto; apply rnd_number).
+  assert (HQ : h <= h * 1) by lra.
+  apply inflated_covers; [apply rnd_nonnegative, Rplus_le_le_0_compat; auto | |].
+  - (* P may be 0: its h is paid by what 2 eta leaves *)
+    assert (V1 : (P + h) * (f * (q * q)) >= P + h).
+    { apply Rle_ge, no_less; lra. }
+    assert (T1 : (sx + sy) * (q * q) + 2 * eta * q <= J).
+    { apply Rle_trans with (2 := LJ). replace ((sx + sy) * (q * q) + 2 * eta * q) with
+        (((sx + sy) * q + 2 * eta) * q) by ring. apply Rmult_le_compat_r; lra. }
+    apply Rle_trans with ((P + ((sx + sy) * (q * q) + 2 * eta * q)) * q * (f * q)).
+    + replace ((P + ((sx + sy) * (q * q) + 2 * eta * q)) * q * (f * q)) with
+        ((P + (2 * eta * q)) * (f * (q * q)) + (sx + sy) * (f * (q * q * q * q))) by ring.
+      assert (sx + sy <= (sx + sy) * (f * (q * q * q * q))) by (apply no_less; lra).
+      assert (EQ : 2 * eta * (127 / 128) <= 2 * eta * q) by (apply Rmult_le_compat_l; lra).
+      assert (P + 2 * eta * q <= (P + 2 * eta * q) * (f * (q * q))) by (apply no_less; lra). lra.
+    + apply Rmult_le_compat_r; [apply Rmult_le_pos; lra |].
+      apply Rle_trans with (2 := LZ). apply Rmult_le_compat_r; lra.
+  - intros C'. assert (C : fl (P + J) < smallest_normal) by exact C'. clear C'.
+    assert (L1 : J <= fl (P + J)) by (apply rnd_above; [apply rnd_number | lra]).
+    assert (L2 : I <= J) by (apply rnd_above; [apply rnd_number | lra]).
+    assert (E1 : fl (P + J) = P + J) by (apply sum_subnormal; auto; apply rnd_number).
+    assert (E2 : J = I + 2 * eta).
+    { apply sum_subnormal; auto; try lra; [apply rnd_number |]. change (J < smallest_normal). lra. }
+    assert (E3 : I = sx + sy).
+    { apply sum_subnormal; auto. change (I < smallest_normal). lra. }
+    match goal with |- _ <= ?s * f =>
+      change (h + rel * v + rel * h + (sx + sy) + h <= fl (P + J) * f) end.
+    apply Rle_trans with (fl (P + J) * 1); [lra |]. apply Rmult_le_compat_l; lra.
+Qed.
+
 End Proof.
 End Functions.
 
@@ -409,6 +909,22 @@ Proof.
   intros H. apply (fma_covered p emin direction ltac:(lia) H _ _ error (Tight.any_q6 p p_5) eps_8).
 Qed.
 
+Theorem lerp_sound a x sa b y sb t z st : (6 <= p)%Z -> (emin <= 2 - 2 * p)%Z ->
+  number a -> number b -> number t -> number sa -> number sb -> number st ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> Rabs (t - z) <= st ->
+  let d := fl (b - a) in
+  Rabs (fl (t * d + a) - ((1 - z) * x + z * y)) <= lerp_error p emin direction (fl (t * d + a)) d a sa b sb t st.
+Proof.
+  intros P H. apply (lerp_covered p emin direction ltac:(lia) ltac:(lia) _ _ error (Tight.any_q6 p p_5) eps_8 H).
+  generalize (eps_le p 6 P) (eta_positive emin). simpl. intros L PE.
+  apply Rle_trans with (9 * eta emin); [apply Rmult_le_compat_r |]; lra.
+Qed.
+Theorem copysign_sound s v X T sx : (emin <= - p)%Z -> number s -> number sx -> 0 <= s -> Rabs (s - Rabs X) <= sx ->
+  Rabs v = s -> Rabs T = Rabs X -> Rabs (v - T) <= copysign_error p emin direction s sx.
+Proof.
+  intros H. apply (copysign_covered p emin direction ltac:(lia) H _ _ error (Tight.any_q6 p p_5) eps_8).
+Qed.
+
 End Any_direction.
 
 Section To_nearest.
@@ -439,6 +955,33 @@ Theorem fma_sound_nearest a x sa b y sb c z sc : (emin <= - p)%Z ->
   Rabs (fl (a * b + c) - (x * y + z)) <= fma_error p emin nearest (fl (a * b + c)) a sa b sb sc.
 Proof.
   intros H. apply (fma_covered p emin nearest p_3 H _ _ error (Tight.nearest_q6 p p_3) u_8).
+Qed.
+
+Theorem lerp_sound_nearest a x sa b y sb t z st : (emin <= 2 - 2 * p)%Z ->
+  number a -> number b -> number t -> number sa -> number sb -> number st ->
+  Rabs (a - x) <= sa -> Rabs (b - y) <= sb -> Rabs (t - z) <= st ->
+  let d := fl (b - a) in
+  Rabs (fl (t * d + a) - ((1 - z) * x + z * y)) <= lerp_error p emin nearest (fl (t * d + a)) d a sa b sb t st.
+Proof.
+  intros H. apply (lerp_covered p emin nearest p_3 ltac:(lia) _ _ error (Tight.nearest_q6 p p_3) u_8 H).
+  generalize (eps_le p 3 p_3) (eta_positive emin). simpl. intros L PE.
+  apply Rle_trans with (16 * (eta emin / 2)); [apply Rmult_le_compat_r |]; lra.
+Qed.
+Theorem copysign_sound_nearest s v X T sx : (emin <= - p)%Z -> number s -> number sx -> 0 <= s ->
+  Rabs (s - Rabs X) <= sx -> Rabs v = s -> Rabs T = Rabs X -> Rabs (v - T) <= copysign_error p emin nearest s sx.
+Proof.
+  intros H. apply (copysign_covered p emin nearest p_3 H _ _ error (Tight.nearest_q6 p p_3) u_8).
+Qed.
+Theorem hypot_sound_nearest x X y Y sx sy e : (8 <= p)%Z -> (emin <= 2 - 2 * p)%Z ->
+  number x -> number y -> number sx -> number sy -> Rabs (x - X) <= sx -> Rabs (y - Y) <= sy ->
+  bpow radix2 (e - 1) <= Rmax (Rabs x) (Rabs y) < bpow radix2 e ->
+  let v := hypot_value p emin nearest x y e in
+  Rabs (v - sqrt (X * X + Y * Y)) <= hypot_error p emin nearest v sx sy.
+Proof.
+  intros P H. generalize (eps_le p 8 P) (eta_positive emin). simpl. intros L PE.
+  assert (SE : eta emin <= / 8192).
+  { replace (/ 8192) with (bpow radix2 (-13)) by (simpl; lra). apply bpow_le. lia. }
+  apply (hypot_covered p emin nearest p_3 ltac:(lia) _ _ error (Tight.nearest_q6 p p_3) u_8 H); auto; lra.
 Qed.
 
 End To_nearest.

@@ -161,6 +161,7 @@ constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, 
 /// + t(b − b̂) + (t − t̂)(b̂ − â), so that σa counts |1 − t| times, not once and |t| times as in
 /// a + t(b − a). Each of two partial sums has up to six roundings with that of its enlarging; four
 /// products, and three that enlarge, may lose η each.
+/// Proof: proofs/Functions.v, lerp_sound_nearest; in any direction: proofs/Functions.v, lerp_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {
@@ -188,6 +189,7 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
 /// It changes by no more than its arguments do. With the larger argument scaled to at least 1/2,
 /// two squares, their sum s >= 1/4 and its root are each rounded once, and what underflows is off
 /// by less than 3η of s: relatively 2ε + ε² + 7η, or of the result (ε <= 2^-7) less than 3ε + 8η.
+/// Proof, to nearest: proofs/Functions.v, hypot_sound_nearest.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -210,6 +212,7 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
 }
 
 /// |x| with the sign of the exact y, zero's taken for positive; of unknown sign where y's is.
+/// Proof: proofs/Functions.v, copysign_sound, copysign_sound_nearest.
 template <class T, class Rule>
 constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     const tracked<T, Rule> size = abs(x);
