@@ -2,13 +2,15 @@
 //
 //   std::cout << x;                         // 0.3000000000000000
 //   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 5.6e-17
+//   std::format("{:>20}", x);               // where the standard library has it
 //
 // A decimal that `<<` prints is within one unit of its last digit of the exact number: its digits
 // are right, or the last one is off by one. Trailing zeros are digits like others: 0.30 says more
 // than 0.3. Where no digit is certain it is a zero, 0.00 or 0e+05, which says how large the number
 // can be. An exact number is printed by the shortest decimal that reads back as its value. `?`
 // stands for a number of which nothing is known. Streams' precision has no influence, their width
-// has.
+// has; so it is with std::format, whose width and alignment are a string's and which takes no
+// precision: how many digits are certain the number says.
 #pragma once
 
 #include <array>
@@ -23,6 +25,10 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <version>
+#if defined(__cpp_lib_format)
+#include <format>
+#endif
 
 namespace errbound {
 
@@ -98,14 +104,17 @@ std::string certain_digits(T value, T error) {
     return with_exponent("0", mantissa < half ? k : k + 1);
 }
 
-/// At least x > 0 when read back, of two digits.
+/// At least x > 0 when read back, of two digits: at least the shortest decimal that reads back as
+/// x, for reading is monotone. (Read it is not: std::from_chars has no floating-point numbers in
+/// libc++ before 20.)
 template <std::floating_point T>
 std::string decimal_not_below(T x) {
-    std::string text = decimal(x, std::chars_format::scientific, 1);
-    T read = 0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), read);
-    // Out of range: too large, or (GCC's long double) a subnormal number, which is not read at all.
-    if (status == std::errc() ? read >= x : x > 1) return text;
+    const std::string text = decimal(x, std::chars_format::scientific, 1);
+    const std::string shortest = decimal(x, std::chars_format::scientific);
+    std::string mantissa = shortest.substr(0, shortest.find('e'));
+    if (mantissa.size() == 1) mantissa += ".0";
+    if (decimal_exponent(text) > decimal_exponent(shortest) || text.substr(0, 3) >= mantissa)
+        return text;
     int exponent = decimal_exponent(text);
     std::string digits = text.substr(0, 3);
     if (digits[2] != '9') {
@@ -153,3 +162,37 @@ std::string with_radius(const tracked<T, Rule>& x) {
 }
 
 }  // namespace errbound
+
+#if defined(__cpp_lib_format)
+/// As streams print it: digits that are certain. A precision is an error of the format, and does
+/// not compile where that is constant.
+template <errbound::printable_number T, class Rule>
+struct std::formatter<errbound::tracked<T, Rule>, char> : std::formatter<std::string_view, char> {
+  private:
+    using of_text = std::formatter<std::string_view, char>;
+    static constexpr bool has_precision(std::string_view specification) {
+        if (specification.size() > 1 && specification[0] != '}' &&
+            std::string_view("<>^").find(specification[1]) != std::string_view::npos)
+            specification.remove_prefix(2);  // what fills may be a full stop
+        int depth = 0;                       // of a width that is an argument
+        for (const char c : specification) {
+            if (c == '.') return true;
+            if (c == '}' && depth == 0) return false;
+            if (c == '{') ++depth;
+            if (c == '}') --depth;
+        }
+        return false;
+    }
+
+  public:
+    constexpr auto parse(std::format_parse_context& context) {
+        if (has_precision({context.begin(), context.end()}))
+            throw std::format_error("errbound: a tracked number has as many digits as are certain");
+        return of_text::parse(context);
+    }
+    template <class Context>
+    auto format(const errbound::tracked<T, Rule>& x, Context& context) const {
+        return of_text::format(errbound::certain_digits(x), context);
+    }
+};
+#endif

@@ -162,4 +162,26 @@ TEST(PrintingText, LeavesTheStreamAsItIs) {
     EXPECT_EQ(to.str(), "    3.25 0.12 2");
 }
 
+#if defined(__cpp_lib_format)
+TEST(PrintingByFormat, IsThatOfStreams) {
+    using number = errbound::tracked<double>;
+    const number x = number::within(0.3, 1e-5);
+    EXPECT_EQ(std::format("{}", x), errbound::certain_digits(x));
+    EXPECT_EQ(std::format("{}", x), "0.3000");
+    EXPECT_EQ(std::format("{}>. {:}", x, x), "0.3000>. 0.3000");
+    EXPECT_EQ(std::format("{:>10}|{:.<8}|{:^8}", x, x, x), "    0.3000|0.3000..| 0.3000 ");
+    EXPECT_EQ(std::format("{:{}}|", x, 8), "0.3000  |");
+    EXPECT_EQ(std::format("{:>5}", number::within(1, -1)), "    ?");
+    EXPECT_EQ(std::format("{}", errbound::tracked<float>(0.5F)), "0.5");
+    EXPECT_EQ(std::format("{}", errbound::with_radius(x)), errbound::with_radius(x));
+}
+TEST(PrintingByFormat, TakesNoPrecision) {
+    const errbound::tracked<double> x = 0.3;
+    int width = 8;
+    EXPECT_THROW((void)std::vformat("{:.3}", std::make_format_args(x)), std::format_error);
+    EXPECT_THROW((void)std::vformat("{:>8.3}", std::make_format_args(x)), std::format_error);
+    EXPECT_THROW((void)std::vformat("{:{}.3}", std::make_format_args(x, width)), std::format_error);
+}
+#endif
+
 }  // namespace
