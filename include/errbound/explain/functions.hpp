@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <errbound/conversion.hpp>
 #include <errbound/explain/explained.hpp>
 #include <errbound/functions.hpp>
+#include <iterator>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -153,6 +155,88 @@ tracked<T, explained<Rule, Limit>> copysign(const tracked<T, explained<Rule, Lim
                                             const tracked<T, explained<Rule, Limit>>& y) {
     return as_one_operation(
         "copysign", [](const auto& a, const auto& b) { return copysign(a, b); }, x, y);
+}
+
+namespace detail {
+
+template <class Range>
+concept explained_numbers =
+    tracked_numbers<Range> && is_explained<typename number_of<Range>::rule_type>;
+
+/// Numbers of a range as the rule that is wrapped has them, by index.
+template <class Range>
+auto unwrapped_numbers(const Range& range) {
+    return [&range](std::size_t i) {
+        return number_of<Range>::rule_type::unwrapped(number_at(range, i));
+    };
+}
+/// The same, if they were exact.
+template <class Range>
+auto exact_numbers(const Range& range) {
+    using number = number_of<Range>;
+    using plain = tracked<typename number::value_type, typename number::rule_type::wrapped_rule>;
+    return [&range](std::size_t i) { return plain(number_at(range, i).value()); };
+}
+
+/// Adds x's contributions to a function's result, times the derivative by x.
+template <class Amount, class T, class Rule, std::size_t Limit>
+void carry_times(ledger<Amount>& to, const tracked<T, Rule>& result,
+                 const tracked<T, explained<Rule, Limit>>& x, const Amount& derivative) {
+    if (number_traits<T>::is_finite(result.error()))
+        to.carry(x.bound().contributions, [&](const Amount& y) { return Amount(y * derivative); });
+    else
+        to.carry_unknown(x.bound().contributions);
+}
+
+}  // namespace detail
+
+template <detail::explained_numbers A, detail::explained_numbers B>
+requires std::same_as<detail::number_of<A>, detail::number_of<B>> detail::number_of<A> dot(
+    const A& a, const B& b) {
+    using number = detail::number_of<A>;
+    using T = typename number::value_type;
+    using rule = typename number::rule_type;
+    using amount = detail::amount_of<T>;
+    const auto count = static_cast<std::size_t>(std::size(a));
+    assert(count == static_cast<std::size_t>(std::size(b)));
+    const auto result = detail::dot_of<T, typename rule::wrapped_rule>(
+        count, detail::unwrapped_numbers(a), detail::unwrapped_numbers(b));
+    const auto own = detail::dot_of<T, typename rule::wrapped_rule>(count, detail::exact_numbers(a),
+                                                                    detail::exact_numbers(b));
+    typename rule::template ledger<T> contributions;
+    for (std::size_t i = 0; i < count; ++i) {
+        const number &x = detail::number_at(a, i), &y = detail::number_at(b, i);
+        detail::carry_times(contributions, result, x, static_cast<amount>(y.value()));
+        detail::carry_times(contributions, result, y, static_cast<amount>(x.value()));
+    }
+    return rule::closed(detail::all_sources::instance().function_named("dot"), result, own,
+                        std::move(contributions));
+}
+
+template <detail::explained_numbers C>
+detail::number_of<C> horner(const C& c, const std::type_identity_t<detail::number_of<C>>& x) {
+    using number = detail::number_of<C>;
+    using T = typename number::value_type;
+    using rule = typename number::rule_type;
+    using plain = tracked<T, typename rule::wrapped_rule>;
+    using amount = detail::amount_of<T>;
+    const auto count = static_cast<std::size_t>(std::size(c));
+    const plain result = detail::horner_of<T, typename rule::wrapped_rule>(
+        count, detail::unwrapped_numbers(c), rule::unwrapped(x));
+    const plain own = detail::horner_of<T, typename rule::wrapped_rule>(
+        count, detail::exact_numbers(c), plain(x.value()));
+    typename rule::template ledger<T> contributions;
+    const auto at = static_cast<amount>(x.value());
+    amount power(1), value(0), derivative(0);
+    for (std::size_t i = 0; i < count; ++i, power = power * at)
+        detail::carry_times(contributions, result, number(detail::number_at(c, i)), power);
+    for (std::size_t i = count; i-- > 0;) {
+        derivative = derivative * at + value;
+        value = value * at + static_cast<amount>(detail::number_at(c, i).value());
+    }
+    detail::carry_times(contributions, result, x, derivative);
+    return rule::closed(detail::all_sources::instance().function_named("horner"), result, own,
+                        std::move(contributions));
 }
 
 /// convert of conversion.hpp; a new rule is `explained`, too (without it, contributions end).

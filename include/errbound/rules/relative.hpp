@@ -120,6 +120,32 @@ struct relative {
                              e >= 0 || number_traits<T>::scale(v, -e) == a.value);
     }
 
+    /// Σ aᵢbᵢ by absolute errors, taken relatively at the end: the sum of what products are off by,
+    /// as their counts say, and of what the partial sums are, which two_sum knows. Or by the count
+    /// of operations one by one, if that is less. So partial sums may cancel, as long as the last
+    /// does not; and of n terms of one size and sign about n/2 factors are counted, not n, for most
+    /// roundings are of sums that are smaller than the last.
+    template <class T>
+    class dot_bound {
+      public:
+        constexpr void add_product(const T& product, const T& before, const T& sum,
+                                   rule_operand<T, relative> a, rule_operand<T, relative> b) {
+            using traits = number_traits<T>;
+            const bound<T> of_product = multiply<T>(product, a, b);
+            const T rounded_off = traits::abs(two_sum<T>(before, product).error);
+            off_ = upper<T>(T(off_ + upper<T>(T(error<T>(product, of_product) + rounded_off))));
+            counted_ = relative::sum<T>(sum, before, counted_, product, of_product);
+        }
+        constexpr bound<T> finished(const T& sum) const {
+            const bound<T> by_size = within<T>(sum, off_);
+            return by_size.factors < counted_.factors ? by_size : counted_;
+        }
+
+      private:
+        T off_ = T(0);
+        bound<T> counted_ = {0};
+    };
+
   private:
     static constexpr double unknown = std::numeric_limits<double>::infinity();
     static constexpr double epsilon = std::numeric_limits<double>::epsilon();

@@ -18,6 +18,10 @@
 //                                                not finite; zero only if the true value is zero
 //   correction(value, bound)                     what the rule knows of true value − value,
 //                                                signed and no larger than the error; default: 0
+//   template <class T> class dot_bound           what bounds s = 0, s += ab, s += cd, ... better
+//                                                than one operation after the other: for each step
+//                                                add_product(ab, s before, s after, a, b), at the
+//                                                end finished(s), which returns bound<T>
 //   minimal_precision                            the number of bits of T that the proof needs
 //   has_division                                 false where `divide` only says why there is none
 //   holds_in_directed_rounding                   true where the proof does not need rounding to
@@ -136,6 +140,20 @@ inline constexpr bool holds_without_subnormals = [] {
 /// Says in words what a type lacks that is taken for a rule.
 template <class Rule, class T>
 struct rule_check {
+template <class Rule, class T>
+concept rule_has_dot = requires(typename Rule::template dot_bound<T> so_far, const T& value,
+                                rule_operand<T, Rule> a) {
+    so_far.add_product(value, value, value, a, a);
+    { so_far.finished(value) } -> bound_of<Rule, T>;
+};
+/// The largest m <= 8 with (m + 6)² <= 2^bits; 0 if there is none: for how many terms of a sum one
+/// factor pays, which pays for m + 6 roundings. (With more, the last term's would be too many.)
+constexpr int terms_at_once(int bits) {
+    int m = 8;
+    while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;
+    return m;
+}
+
     static_assert(
         rule_has_bound<Rule, T>,
         "errbound: a bound rule needs a template bound<T>, what it stores beside a value");

@@ -98,6 +98,61 @@ struct sharp {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + traits::underflow_unit())};
     }
 
+    /// Σ aᵢbᵢ, a running error bound: a product p is off by at most u|p| + η/2, a partial sum
+    /// s' = fl(s + p) by no more than u|s'|, than |p| and than |s|, since s and p are numbers that
+    /// s' might have been. So what is added to something much larger counts no more than it is, and
+    /// the first term, added to 0, not at all. The arguments' errors add Σ |â|σb + σa(|b̂| + σb).
+    ///
+    /// One factor pays for the roundings of the bounds of m terms. Σ (u|p| + min(u|s'|, |p|, |s|))
+    /// has m on the way, an argument's share m + 2, m − 1 of which are the sum's; three sums and
+    /// the factor's own rounding follow: with j = m + 6, (1 + u)^−j is left, and (1 + u)^j <=
+    /// 1 + ju + (ju)² <= 1 + (⌈j/2⌉ + 1)ε where j²ε <= 4. Underflow takes at most η/2 each of m
+    /// products of the value, as many u|p|, two in an uncertain argument's share, and the last
+    /// product.
+    /// Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34) for
+    /// sums that are off by no more than a term.
+    template <class T>
+    class dot_bound {
+        static constexpr int terms_at_once = detail::terms_at_once(number_traits<T>::digits + 1);
+        static constexpr bool serves = terms_at_once > 0;
+
+      public:
+        constexpr void add_product(const T& product, const T& before, const T& sum,
+                                   rule_operand<T, sharp> a,
+                                   rule_operand<T, sharp> b) requires serves {
+            using traits = number_traits<T>;
+            if (is_zero(a) || is_zero(b)) return;  // 0 is added, or NaN, which the sum then is
+            const T smaller = least(traits::abs(product), traits::abs(before));
+            own_ = own_ + T(rounding(product) + least(rounding(sum), smaller));
+            if (!(a.bound.error == 0 && b.bound.error == 0)) {
+                inherited_ =
+                    inherited_ + T(detail::rounded_product(traits::abs(a.value), b.bound.error) +
+                                   detail::rounded_product(
+                                       a.bound.error, T(traits::abs(b.value) + b.bound.error)));
+                ++uncertain_;
+            }
+            if (++terms_ == terms_at_once) close();
+        }
+        constexpr bound<T> finished(const T& sum) {
+            if (terms_ > 0) close();
+            return {closed_ + (sum - sum)};
+        }
+
+      private:
+        static constexpr T least(const T& x, const T& y) { return y < x ? y : x; }
+        constexpr void close() {
+            using traits = number_traits<T>;
+            const T lost = static_cast<T>(terms_ + uncertain_ + 1) * traits::underflow_unit();
+            const T factor = 1 + static_cast<T>((terms_ + 7) / 2 + 1) * traits::epsilon();
+            closed_ = detail::rounded_product(T((own_ + (inherited_ + closed_)) + lost), factor);
+            own_ = inherited_ = T(0);
+            terms_ = uncertain_ = 0;
+        }
+
+        T closed_ = T(0), own_ = T(0), inherited_ = T(0);
+        int terms_ = 0, uncertain_ = 0;
+    };
+
   private:
     template <class T>
     static constexpr T rounding(const T& v) {

@@ -119,6 +119,62 @@ struct tight {
         return {lossless ? scaled + (v - v) : inflated<T>(scaled + 2 * traits::underflow_unit())};
     }
 
+    /// Σ aᵢbᵢ, a running error bound: with products pᵢ and partial sums sᵢ as computed, the sum is
+    /// off by at most Σ (|pᵢ| + |sᵢ|)·ε/(1 − ε), where s₁ = p₁ is left out, and η for each product;
+    /// the arguments' errors add Σ |â|σb + σa(|b̂| + σb). That is what operations one by one come
+    /// to, but that one factor pays for the roundings of the bounds of m terms, and not one a term
+    /// and operation.
+    ///
+    /// Of rounding(p) and rounding(s), which are at least the last places of p, if it is normal,
+    /// and of s, if it is not exact, (1 − ε)^m is left in their sum; of an argument's share
+    /// (1 − ε)^(m + 2), m − 1 of which are the sum's. Three sums and the factor's own rounding
+    /// follow: with j = m + 6, (1 − ε)^j is left, and the factor 1 + (j + 1)ε >= 1/(1 − jε) >=
+    /// (1 − ε)^−j pays for it where j²ε <= 1/2. Underflow takes less than η each of m products of
+    /// the value, of two in an uncertain argument's share, and of the last product.
+    /// Source: Higham 2002, Section 3.3 (running error analysis).
+    template <class T>
+    class dot_bound {
+        static constexpr int terms_at_once =
+            has_subnormals<T> ? detail::terms_at_once(number_traits<T>::digits - 2) : 0;
+        static constexpr bool serves = terms_at_once > 0;
+
+      public:
+        constexpr void add_product(const T& product, const T&, const T& sum,
+                                   rule_operand<T, tight> a,
+                                   rule_operand<T, tight> b) requires serves {
+            using traits = number_traits<T>;
+            if (is_zero(a) || is_zero(b)) return;  // 0 is added, or NaN, which the sum then is
+            own_ = own_ + T(rounding(product) + (first_ ? T(0) : rounding(sum)));
+            first_ = false;
+            if (!(a.bound.error == 0 && b.bound.error == 0)) {
+                inherited_ =
+                    inherited_ + T(detail::rounded_product(traits::abs(a.value), b.bound.error) +
+                                   detail::rounded_product(
+                                       a.bound.error, T(traits::abs(b.value) + b.bound.error)));
+                ++uncertain_;
+            }
+            if (++terms_ == terms_at_once) close();
+        }
+        constexpr bound<T> finished(const T& sum) {
+            if (terms_ > 0) close();
+            return {closed_ + (sum - sum)};
+        }
+
+      private:
+        constexpr void close() {
+            using traits = number_traits<T>;
+            const T lost = static_cast<T>(terms_ + 2 * uncertain_ + 1) * traits::underflow_unit();
+            const T factor = 1 + static_cast<T>(terms_ + 7) * traits::epsilon();
+            closed_ = detail::rounded_product(T((own_ + (inherited_ + closed_)) + lost), factor);
+            own_ = inherited_ = T(0);
+            terms_ = uncertain_ = 0;
+        }
+
+        T closed_ = T(0), own_ = T(0), inherited_ = T(0);
+        int terms_ = 0, uncertain_ = 0;
+        bool first_ = true;
+    };
+
   private:
     /// ε/(1 − ε) to within ε³; the factor 1 + 8ε covers the rest.
     template <class T>

@@ -233,6 +233,24 @@ class tiny_checker {
         check(max(a.x, b.x),
               both ? exact_range{std::max(a.low, b.low), std::max(a.high, b.high)} : exact_range{},
               how, "max(a, b)");
+        check_product(dot(std::array{a.x, b.x}, std::array{b.x, a.x}), {2 * a.low, 2 * a.high},
+                      {b.low, b.high}, how, "dot(std::array{a, b}, std::array{b, a})");
+        // References fit 53 bits where exponents are few.
+        if (Tiny::exponent_bits == 3 && a.as_operand.error == 0)
+            check(horner(std::array{a.x, number(1), a.x}, b.x), values_of_square(a.low, b), how,
+                  "horner(std::array{a, number(1), a}, b)");
+    }
+    /// Where c + t + ct² lies for t in a range: its values at the ends and in the middle.
+    static exact_range values_of_square(double c, const operand_range& t) {
+        exact_range values;
+        if (!std::isfinite(c) || !std::isfinite(t.low)) return values;
+        values = {std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity()};
+        for (const double x : {t.low, (t.low + t.high) / 2, t.high}) {
+            const double value = c + x + c * x * x;
+            values = {std::min(values.low, value), std::max(values.high, value)};
+        }
+        return values;
     }
     /// The operand itself, −x, |x|, √x, and x·2^e for every e that leaves something.
     void check_one(const operand_range& a) {
@@ -320,6 +338,9 @@ class tiny_checker {
             check(inner - outer, {exact - z, exact - z}, how, "d - c");
             check(outer - inner, {z - exact, z - exact}, how, "c - d");
             check(inner * outer, {exact * z, exact * z}, how, "d * c");
+            check(dot(std::array{inner, outer}, std::array{outer, number(1)}),
+                  {exact * z + z, exact * z + z}, how,
+                  "dot(std::array{d, c}, std::array{c, number(1)})");
             if constexpr (has_division<Rule>) {
                 check_quotient(inner / outer, {exact, exact}, {z, z}, how, "d / c");
                 check_quotient(outer / inner, {z, z}, {exact, exact}, how, "c / d");

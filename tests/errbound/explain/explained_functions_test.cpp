@@ -1,7 +1,9 @@
-// Elementary functions of explained numbers beside those of the rule that they wrap, on any input:
-// the same bits, and contributions that come to no less than the error.
+// Elementary functions, dot products and Horner's rule of explained numbers beside those of the
+// rule that they wrap, on any input: the same bits, and contributions that come to no less than the
+// error.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <errbound/explain/explain.hpp>
 #include <errbound/rules/affine.hpp>
@@ -35,6 +37,7 @@ class functions_beside {
             compare_exponentials();
             compare_trigonometric();
             compare_hyperbolic();
+            compare_sums();
         }
         EXPECT_GT(known_, times);
         EXPECT_GT(unknown_, times / 10);
@@ -88,6 +91,14 @@ class functions_beside {
         compare("asinh", [](auto x, auto) { return asinh(x); });
         compare("acosh", [](auto x, auto) { return acosh(x); });
         compare("atanh", [](auto x, auto) { return atanh(x); });
+    }
+    void compare_sums() {
+        compare("dot", [](auto x, auto y) {
+            return dot(std::array{x, y, x, y}, std::array{y, y, -y, x});
+        });
+        compare("dot of one", [](auto x, auto y) { return dot(std::array{x}, std::array{y}); });
+        compare("horner", [](auto x, auto y) { return horner(std::array{y, x, y, -x}, x); });
+        compare("horner of one", [](auto x, auto y) { return horner(std::array{y}, x); });
     }
 
     template <class F>

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <errbound/error_free.hpp>
+#include <errbound/functions.hpp>
 #include <errbound/predicates.hpp>
 #include <errbound/tracked.hpp>
 
@@ -63,6 +64,34 @@ void check_expression() {
     const wide bound = wide((small * tiny).error() / unit);
     expect(size((shown << 64) - wide(a) * b) <= (bound + 1) << 64, "a product that underflows");
 }
+/// Whole numbers, of which products and sums are rounded; the plain loops' products are written to
+/// memory, so that no compiler fuses them.
+template <class Rule>
+void check_sums() {
+    using number = errbound::tracked<double, Rule>;
+    std::array<number, 8> a, b;
+    const std::int64_t x = whole(8);
+    wide sum = 0, polynomial = 0;
+    double plain_sum = 0, plain_polynomial = 0;
+    for (std::size_t i = a.size(); i-- > 0;) {
+        const std::int64_t c = whole(53);
+        a[i] = double(c);
+        volatile double product = plain_polynomial * double(x);
+        plain_polynomial = product + double(c);
+        polynomial = polynomial * x + c;
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const std::int64_t c = whole(53);
+        b[i] = double(c);
+        volatile double product = a[i].value() * double(c);
+        plain_sum = plain_sum + product;
+        sum += wide(a[i].value()) * c;
+    }
+    const number found = dot(a, b), value = horner(a, number(double(x)));
+    expect(found.value() == plain_sum && value.value() == plain_polynomial, "a plain loop's value");
+    expect(size(wide(found.value()) - sum) <= wide(found.error()), Rule::name);
+    expect(size(wide(value.value()) - polynomial) <= wide(value.error()), Rule::name);
+}
 void check_signs() {
     using errbound::sign_type;
     const std::int64_t x = whole(52), y = whole(52), u = whole(52), v = whole(52);
@@ -96,6 +125,10 @@ int main() {
         check_expression<errbound::safe>();
         check_expression<errbound::interval>();
         check_expression<errbound::residual>();
+        check_sums<errbound::sharp>();
+        check_sums<errbound::tight>();
+        check_sums<errbound::interval>();
+        check_sums<errbound::residual>();
         check_signs();
     }
     std::printf("%s, other unit %s, %d wrong\n",
