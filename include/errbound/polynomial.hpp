@@ -92,6 +92,19 @@ auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits
         [&] { return real_roots<integer>(roots::staged<integer>(p), a, b, limits); });
 }
 
+/// The distinct real roots of p, ascending, each rounded to the nearest double as nearest_double of
+/// real_roots does: two of them may round to the same. Precondition, which is asserted: p is not
+/// identically zero.
+template <class Integer = void, class C>
+std::vector<double> rounded_roots(const polynomial<C>& p) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    auto roots = isolate_roots<Integer>(p, -infinity, infinity);
+    assert(!roots.everywhere());
+    std::vector<double> all(roots.size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = roots.nearest_double(k);
+    return all;
+}
+
 namespace roots {
 
 /// Throws gave_up beyond the limits.

@@ -157,6 +157,23 @@ class real_roots {
         }
     }
 
+    /// Root k rounded to the nearest double, to the even one of two; infinite from half a last
+    /// place above the largest on, and never −0. Narrows its interval.
+    double nearest_double(std::size_t k) {
+        const auto [low, high] = neighbouring_doubles(k);
+        if (low == high) return low;
+        const auto place = [](double x) {
+            const point beyond = point::power_of_two(std::numeric_limits<double>::max_exponent);
+            return std::isfinite(x) ? point::from(x) : x > 0 ? beyond : -beyond;
+        };
+        interval& root = intervals_[k];
+        const point half = middle(place(low), place(high));
+        if (root.low < half && half < root.high) exact().cut(root, half);
+        if (root.is_point() && root.low == half) return roots::order_of(low) % 2 == 0 ? low : high;
+        const bool is_below = root.is_point() ? root.low < half : !(half < root.high);
+        return is_below ? low : high;
+    }
+
     /// Root k within the bounds that floating point finds for it.
     number enclosure(std::size_t k) {
         assert(k < size());

@@ -1,4 +1,4 @@
-// The double that a root is, or the two between which it lies.
+// The double that a root is, or the two between which it lies, and which of them is nearer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,6 +42,13 @@ polynomial product(const polynomial& p, const polynomial& q) {
         for (std::size_t j = 0; j < q.coefficients().size(); ++j)
             r[i + j] += p.coefficients()[i] * q.coefficients()[j];
     return polynomial(r);
+}
+
+/// The nearer of two neighbours, finite, to a number between them, or the even one.
+double nearer(double low, double high, const rational& x) {
+    const rational off = (rational(high) - x) - (x - rational(low));
+    if (off != 0) return off > 0 ? low : high;
+    return errbound::roots::order_of(low) % 2 == 0 ? low : high;
 }
 
 TEST(double_order, neighbours_differ_by_one) {
@@ -115,9 +122,12 @@ TEST(neighbouring_doubles, of_rational_roots_hold_them) {
         std::sort(roots.begin(), roots.end());
         roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
         const auto found = brackets(p);
+        const auto rounded = errbound::rounded_roots(p);
         ASSERT_EQ(found.size(), roots.size());
+        ASSERT_EQ(rounded.size(), roots.size());
         for (std::size_t k = 0; k < roots.size(); ++k) {
             const auto [low, high] = found[k];
+            EXPECT_EQ(rounded[k], nearer(low, high, roots[k]));
             if (low == high) {
                 EXPECT_EQ(rational(low), roots[k]);
             } else {
@@ -127,6 +137,41 @@ TEST(neighbouring_doubles, of_rational_roots_hold_them) {
             }
         }
     }
+}
+
+TEST(rounded_roots, are_those_of_the_whole_line) {
+    using errbound::rounded_roots;
+    const double root = std::sqrt(2.0);
+    EXPECT_EQ(rounded_roots(polynomial{-2, 0, 1}), std::vector<double>({-root, root}));
+    EXPECT_EQ(rounded_roots<integer>(errbound::polynomial{-2.0, 0.0, 1.0}),
+              std::vector<double>({-root, root}));
+    EXPECT_EQ(rounded_roots(polynomial{1, 0, 1}), std::vector<double>());
+    EXPECT_EQ(rounded_roots(polynomial{7}), std::vector<double>());
+    EXPECT_EQ(rounded_roots(polynomial{-1, 3}), std::vector<double>({1.0 / 3}));
+    // Two that round to one.
+    const integer three_ulps = 3 * power_of_two(60);
+    EXPECT_EQ(rounded_roots(product({-three_ulps - 1, three_ulps}, {-three_ulps - 2, three_ulps})),
+              std::vector<double>({1, 1}));
+}
+TEST(rounded_roots, of_ties_are_even) {
+    const integer ulps = power_of_two(53);
+    for (int i = 1; i <= 9; i += 2) {  // halves of ulps above 1: to 0, 2, 2, 4, 4 ulps
+        const double wanted = 1 + (i + 1) / 4 * 0x1p-51;
+        EXPECT_EQ(rounded_roots(polynomial{-ulps - i, ulps}), std::vector<double>({wanted})) << i;
+    }
+    EXPECT_EQ(rounded_roots(polynomial{-1, power_of_two(1075)}), std::vector<double>({0}));
+    EXPECT_EQ(rounded_roots(polynomial{-3, power_of_two(1075)}), std::vector<double>({2 * least}));
+    EXPECT_EQ(rounded_roots(polynomial{-power_of_two(1024) + power_of_two(970), 1}),
+              std::vector<double>({infinity}));
+    EXPECT_EQ(rounded_roots(polynomial{-power_of_two(1024) + power_of_two(970) + 1, 1}),
+              std::vector<double>({most}));
+    EXPECT_EQ(rounded_roots(polynomial{power_of_two(5000), 1}), std::vector<double>({-infinity}));
+    // Irrational, and next to a tie: √(t² + 2^-200) and √(t² − 2^-200) of t = 1 + 2^-53.
+    const integer one = power_of_two(200), t = power_of_two(53) + 1;
+    const integer square = t * t * power_of_two(94);
+    const double above = std::nextafter(1.0, 2);
+    EXPECT_EQ(rounded_roots(polynomial{-square - 1, 0, one}), std::vector<double>({-above, above}));
+    EXPECT_EQ(rounded_roots(polynomial{-square + 1, 0, one}), std::vector<double>({-1, 1}));
 }
 
 }  // namespace
