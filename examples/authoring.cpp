@@ -52,12 +52,20 @@ constexpr auto by_lagrange = errbound::predicate<errbound::points<3, 3, 3, 0>>(l
 static_assert(by_lagrange.counts.roundings == 12);
 
 // With r squared by the caller: terms of degree 4 less one that counts as of degree 3.
-constexpr auto by_square = errbound::predicate<errbound::points<3, 3, 3, 0>>(
-    [](const auto& a, const auto& b, const auto& p, const auto& square) {
-        const auto dd = along(a, b, a, b), qq = along(a, p, a, p), dq = along(a, b, a, p);
-        return square * dd - (dd * qq - dq * dq);
-    });
+constexpr auto with_square = [](const auto& a, const auto& b, const auto& p, const auto& square) {
+    const auto dd = along(a, b, a, b), qq = along(a, p, a, p), dq = along(a, b, a, p);
+    return square * dd - (dd * qq - dq * dq);
+};
+constexpr auto by_square = errbound::predicate<errbound::points<3, 3, 3, 0>>(with_square);
 static_assert(by_square.counts.mixed);
+// Of degree 4, if the square counts as of degree 2.
+struct square_options : errbound::predicate_options {
+    static constexpr std::array<int, 10> degrees{1, 1, 1, 1, 1, 1, 1, 1, 1, 2};  // a, b, p, square
+};
+constexpr auto by_square_of_degree_2 =
+    errbound::predicate<errbound::points<3, 3, 3, 0>, square_options>(with_square);
+static_assert(by_square_of_degree_2(std::array{0., 0., 0.}, std::array{1., 0., 0.},
+                                    std::array{0., 1., 0.}, 1.0) == sign_type::zero);
 
 // The capsule: before a, beyond b, or between them.
 constexpr auto capsule = [](const auto& a, const auto& b, const auto& p, const auto& r) {

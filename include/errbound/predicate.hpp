@@ -73,6 +73,11 @@ struct predicate_options {
     /// without changing a sign. It is found out for all expressions but those with too many
     /// branches; a false claim does not compile.
     static constexpr bool homogeneous = false;
+    /// The degree of every coordinate, as the shape lists them, where some are not of degree 1:
+    /// {1, 1, 2, 1, 1, 2} of points<3, 3>, each x, y and a squared radius. By these degrees terms
+    /// of different degree are never added; a false claim does not compile. Coordinates far from 1
+    /// are then brought near it by powers of two, which changes no sign.
+    static constexpr std::array<int, 0> degrees{};
 };
 
 namespace filters {

@@ -16,6 +16,8 @@
 // docs/measured.md has the others. Nothing is allocated; insphere takes 40 KiB of stack.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <errbound/predicate.hpp>
 
 namespace errbound {
@@ -204,17 +206,27 @@ inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
         return forms::lifted_volume(a, b, c, d, e, forms::unweighted);
     });
 
+/// Of Count weighted points of that dimension: the last coordinate of each is a square.
+template <std::size_t Count, std::size_t Dimension>
+struct weighted_options : predicate_options {
+    static constexpr std::array<int, Count* Dimension> degrees = [] {
+        std::array<int, Count * Dimension> d{};
+        for (std::size_t i = 0; i < d.size(); ++i) d[i] = i % Dimension == Dimension - 1 ? 2 : 1;
+        return d;
+    }();
+};
+
 /// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power
 /// distance of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
-inline constexpr auto power_incircle =
-    predicate<points<3, 3, 3, 3>>([](const auto& a, const auto& b, const auto& c, const auto& d) {
+inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_options<4, 3>>(
+    [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {
             return squared - (p[2] - d[2]);
         });
     });
 
 /// insphere for weighted points x, y, z, w: spheres of squared radius w.
-inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>>(
+inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted_options<5, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, [&e](const auto& p, const auto& squared) {
             return squared - (p[3] - e[3]);

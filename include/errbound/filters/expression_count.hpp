@@ -58,8 +58,8 @@ struct counting_run {
 class expression_count {
   public:
     /// A coordinate.
-    constexpr explicit expression_count(counting_run& run)
-        : run_(&run), bits_(run.coordinate_bits), degree_(1) {}
+    constexpr explicit expression_count(counting_run& run, int degree = 1)
+        : run_(&run), bits_(run.coordinate_bits), degree_(degree) {}
     /// A whole number in the expression. No other type: 0.5 would become 0.
     template <class X>
     requires std::is_arithmetic_v<X>

@@ -77,14 +77,18 @@ template <class Shape, std::size_t Argument>
 constexpr bool has_coordinate(int i) {
     return i == 0 || (i > 0 && i < Shape::dimensions[Argument]);
 }
-/// Coordinates that only count.
+/// Coordinates that only count; `degrees`, if not null, has one for each.
 template <class Shape>
 struct counted_scalars {
     counting_run& run;
+    const int* degrees = nullptr;
     template <std::size_t Argument>
     constexpr expression_count at(int i) const {
-        if (!has_coordinate<Shape, Argument>(i)) run.lacks_coordinates = true;
-        return expression_count(run);
+        const bool is_there = has_coordinate<Shape, Argument>(i);
+        if (!is_there) run.lacks_coordinates = true;
+        if (degrees == nullptr || !is_there) return expression_count(run);
+        return expression_count(run,
+                                degrees[Shape::offset(Argument) + static_cast<std::size_t>(i)]);
     }
 };
 /// Coordinates of which only their signs are supposed.
@@ -147,11 +151,11 @@ template <class Shape, class F>
 inline constexpr bool branches =
     std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
 
-/// What the expression asks for coordinates of this many bits.
+/// What the expression asks for coordinates of this many bits, and of these degrees.
 template <class Shape, class F>
-constexpr expression_findings findings_of(int coordinate_bits) {
-    return count_expression(coordinate_bits, [](counting_run& run) {
-        const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run});
+constexpr expression_findings findings_of(int coordinate_bits, const int* degrees = nullptr) {
+    return count_expression(coordinate_bits, [degrees](counting_run& run) {
+        const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run, degrees});
         if (!branches<Shape, F> && run.asked > 0) run.number_after_signs = true;
         return conclude(x);
     });

@@ -79,6 +79,23 @@ class predicate_stages {
         return least;
     }
 
+    /// Whether the options say of which degree each coordinate is.
+    static constexpr bool has_degrees = !Options::degrees.empty();
+    static_assert(
+        !has_degrees || Options::degrees.size() == Shape::size,
+        "errbound: a predicate's options have one degree for each coordinate of its shape");
+    static constexpr bool is_of_one_degree = [] {
+        if (!has_degrees || Options::degrees.size() != Shape::size) return true;
+        for (const int degree : Options::degrees)
+            if (degree < 1) return false;
+        const expression_counts by_degrees =
+            findings_of<Shape, F>(word_bits, Options::degrees.data()).counts;
+        return by_degrees.complete && !by_degrees.mixed;
+    }();
+    static_assert(is_of_one_degree,
+                  "errbound: by the degrees of the predicate's options, each at least 1, terms of "
+                  "different degree are added, or the compiler does not see all branches");
+
     static constexpr bool mixed = !Options::homogeneous && (counts.mixed || !counts.complete);
     /// Where terms of different degree are added, 1 is one more coordinate.
     static constexpr std::size_t listed_size = Shape::size + mixed;
@@ -129,22 +146,15 @@ class predicate_stages {
                 if (certain(s)) return counted(s, tracked);
             }
         }
-        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
-        if constexpr (short_bits < word_bits) {
-            const sign_type s = by_doubles(list, largest);
-            if (certain(s)) return counted(s, exact_doubles);
-        }
-        integers::word_coordinates<listed_size> words(list, largest);
-        if (words.fit) {
-            if constexpr (short_bits >= 1) {
-                if (words.least_bits() <= short_bits)
-                    return counted(by_short(words), short_integers);
+        if constexpr (has_degrees && mixed) {
+            const coordinate_list near = near_one(list);
+            if (near != list) {
+                const sign_type s = by_filter<double>(near);
+                if (certain(s)) return counted(s, static_filter);
+                return decide_exactly(near, integers::largest_size(near), counted);
             }
-            return counted(by_words(words), word_integers);
         }
-        const sign_type s = by_two_words(list);
-        if (certain(s)) return counted(s, two_word_integers);
-        return counted(by_any(list), long_integers);
+        return decide_exactly(list, largest, counted);
     }
 
     /// The sign that one of them alone finds.
@@ -165,6 +175,49 @@ class predicate_stages {
     }
 
   private:
+    /// By integers, the first that hold the coordinates.
+    template <class Counted>
+    static constexpr sign_type decide_exactly(const coordinate_list& list, std::uint64_t largest,
+                                              const Counted& counted) {
+        using enum predicate_stage;
+        // Where two words hold all results of one-word coordinates, doubles would gain nothing.
+        if constexpr (short_bits < word_bits) {
+            const sign_type s = by_doubles(list, largest);
+            if (certain(s)) return counted(s, exact_doubles);
+        }
+        integers::word_coordinates<listed_size> words(list, largest);
+        if (words.fit) {
+            if constexpr (short_bits >= 1) {
+                if (words.least_bits() <= short_bits)
+                    return counted(by_short(words), short_integers);
+            }
+            return counted(by_words(words), word_integers);
+        }
+        const sign_type s = by_two_words(list);
+        if (certain(s)) return counted(s, two_word_integers);
+        return counted(by_any(list), long_integers);
+    }
+    /// The coordinates times 2^(−s·degree), s such that the largest is near 1. Every number whose
+    /// sign the expression asks for is then 2^(−s·d) times what it was, d its degree: its sign is
+    /// the same. Where they are near 1, or a coordinate would lose something, as they are.
+    static constexpr coordinate_list near_one(const coordinate_list& list) {
+        using traits = number_traits<double>;
+        constexpr int near = 16;
+        if (std::is_constant_evaluated()) return list;
+        constexpr auto degrees = Options::degrees;
+        int s = std::numeric_limits<int>::min();
+        for (std::size_t i = 0; i < Shape::size; ++i)
+            if (list[i] != 0) s = std::max(s, traits::exponent(list[i]) / degrees[i]);
+        if (s > -near && s < near) return list;
+        if (s == std::numeric_limits<int>::min()) return list;  // all are 0
+        coordinate_list scaled = list;
+        for (std::size_t i = 0; i < Shape::size; ++i) {
+            scaled[i] = traits::scale(list[i], -s * degrees[i]);
+            if (traits::scale(scaled[i], s * degrees[i]) != list[i]) return list;
+        }
+        return scaled;
+    }
+
     template <class T>
     [[gnu::noinline, gnu::flatten]] static constexpr sign_type by_filter(
         const coordinate_list& list) {

@@ -1,9 +1,14 @@
 // The predicates of errbound/predicates.hpp: against their oracles, on inputs of all kinds and
 // sizes, and against what is known of simple figures.
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <errbound/predicates.hpp>
+#include <random>
 #include <tuple>
 
 #include "tests/errbound/predicates/predicate_check.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -46,6 +51,45 @@ TEST(Signs, AreThoseOfThePicture) {
     EXPECT_EQ(power(0.5), negative);
     EXPECT_EQ(errbound::compare_distances2d(point2{0, 0}, point2{1, 0}, point2{0, 2}), negative);
     EXPECT_EQ(errbound::compare_distances3d(a, above, b), zero);
+}
+
+/// Weighted points, some alike, of which half are small whole numbers.
+template <std::size_t Size>
+std::array<double, Size> weighted(std::size_t dimension, std::mt19937_64& random) {
+    std::array<double, Size> x{};
+    const bool whole = random() % 2 == 0, alike = random() % 4 == 0;
+    for (std::size_t i = 0; i < Size; ++i)
+        x[i] = alike && i >= Size - dimension ? x[i - (Size - dimension)]
+               : whole                        ? static_cast<double>(random() % 9)
+                                              : static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+    return x;
+}
+// Of degree 2 are the weights: with them the plane is scaled, and no sign changes; nor is it
+// slower.
+TEST(WeightedPoints, FarFromOneAreDecidedAsThoseNearIt) {
+    std::mt19937_64 random(5);
+    errbound::predicate_report near, far;
+    const int count = support::scaled(4000);
+    for (int k = 0; k < count; ++k) {
+        const int s = static_cast<int>(random() % 900) - 450;
+        const auto ask = [&]<std::size_t Size>(std::array<double, Size> x, std::size_t dimension,
+                                               const auto& predicate) {
+            const sign_type expected = predicate(near, x);
+            for (std::size_t i = 0; i < Size; ++i)
+                x[i] = std::ldexp(x[i], i % dimension == dimension - 1 ? 2 * s : s);
+            EXPECT_EQ(predicate(far, x), expected) << s;
+        };
+        ask(weighted<12>(3, random), 3, [](auto& report, const auto& x) {
+            return errbound::power_incircle(report, &x[0], &x[3], &x[6], &x[9]);
+        });
+        ask(weighted<20>(4, random), 4, [](auto& report, const auto& x) {
+            return errbound::power_insphere(report, &x[0], &x[4], &x[8], &x[12], &x[16]);
+        });
+    }
+    using enum errbound::predicate_stage;
+    EXPECT_EQ(near.undecided + far.undecided, 0U);
+    EXPECT_GE(far[static_filter] + far[short_integers] + far[exact_doubles], near[static_filter]);
+    EXPECT_LE(far[long_integers], static_cast<unsigned>(count) / 50);
 }
 
 TEST(Signs, OfSegments) {
