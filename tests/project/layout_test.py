@@ -46,7 +46,7 @@ LAYERS = [
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
 INTERNAL = r"(errbound/(study|detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
-PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|adapters)/)?)\w+\.hpp$"
+PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|adapters)/)?)\w+\.hpp$"
 
 
 def blank(match):

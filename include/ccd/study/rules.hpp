@@ -1,0 +1,160 @@
+// Bound rules of one's own in collision detection: what they decide, and at what cost, in double
+// and in float.
+//
+//   struct mine : errbound::derived_rule<mine, errbound::tight> { ... };
+//   int main(int argc, char** argv) {
+//       return ccd::study::rules_main<mine, errbound::tight>(argc, argv);
+//   }
+//   ./mine vertex-face/*.csv
+//
+// The method is BSC (ccd/methods/bsc.hpp), whose scalar is a tracked number under the rule: only
+// the rules differ. Needs the targets errbound::ccd and, for rules_main, errbound::ccd_io.
+#pragma once
+
+#include <algorithm>
+#include <ccd/exact.hpp>
+#include <ccd/io/query_file.hpp>
+#include <ccd/kind.hpp>
+#include <ccd/methods/bsc.hpp>
+#include <ccd/methods/single_precision.hpp>
+#include <ccd/verdict.hpp>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <errbound/support/error.hpp>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ccd::study {
+
+/// What a rule said of queries, and what that cost.
+struct rule_row {
+    std::string rule, number;  ///< number: "double" or "float"
+    bool promises = false;     ///< promises_bound of the rule
+    std::size_t queries = 0;
+    std::size_t collisions = 0;  ///< reported: all that is not certainly separate
+    std::size_t false_positives = 0, false_negatives = 0, uncertain = 0;
+    std::size_t wrong = 0;    ///< `separate` or `collides` that is not the truth
+    double ns_per_query = 0;  ///< on one thread, the least of the passes
+
+    /// Whether the rule promises that certain signs are right, and they were not.
+    bool is_broken() const { return promises && wrong > 0; }
+};
+
+namespace detail {
+
+template <class Query>
+struct rule_run {
+    rule_row row;
+    void (*decide_all)(std::span<const Query>, std::span<outcome>);
+    std::vector<outcome> answers;
+};
+
+template <class Rule, class T, class Query>
+void decide_all(std::span<const Query> queries, std::span<outcome> answers) {
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        if constexpr (std::is_same_v<T, float>)
+            answers[i] = decide_bsc_in_single_precision<Rule>(queries[i]).outcome;
+        else
+            answers[i] = decide_bsc<Rule>(queries[i]).outcome;
+}
+
+/// In each number type.
+template <class Rule, class Query>
+void add_runs(std::vector<rule_run<Query>>& runs, std::size_t queries) {
+    const bool promises = errbound::promises_bound<Rule>;
+    runs.push_back({{.rule = Rule::name, .number = "double", .promises = promises},
+                    decide_all<Rule, double, Query>,
+                    std::vector<outcome>(queries)});
+    runs.push_back({{.rule = Rule::name, .number = "float", .promises = promises},
+                    decide_all<Rule, float, Query>,
+                    std::vector<outcome>(queries)});
+}
+
+inline void count(rule_row& row, outcome said, bool truth) {
+    const bool reported = said != outcome::separate;
+    ++row.queries;
+    row.collisions += reported;
+    row.uncertain += said == outcome::uncertain;
+    row.false_positives += reported && !truth;
+    row.false_negatives += !reported && truth;
+    row.wrong += said != outcome::uncertain && reported != truth;
+}
+
+}  // namespace detail
+
+/// Decides the queries, vertex_face<double> or edge_edge<double>, under each rule in double and in
+/// float, where coordinates are rounded to floats with what that loses as their bounds. truth[i]:
+/// whether query i collides. Rules take turns, `passes` >= 1 times, so that a machine that slows
+/// down slows them alike. Allocates an answer for each query, rule and number type.
+template <class... Rules, class Query>
+std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
+                                    const std::vector<bool>& truth, int passes = 5) {
+    using clock = std::chrono::steady_clock;
+    std::vector<detail::rule_run<Query>> runs;
+    (detail::add_runs<Rules>(runs, queries.size()), ...);
+    for (detail::rule_run<Query>& run : runs)
+        run.row.ns_per_query = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < passes; ++pass)
+        for (detail::rule_run<Query>& run : runs) {
+            const clock::time_point start = clock::now();
+            run.decide_all(queries, run.answers);
+            const std::chrono::duration<double, std::nano> taken = clock::now() - start;
+            run.row.ns_per_query = std::min(
+                run.row.ns_per_query,
+                taken.count() / static_cast<double>(std::max<std::size_t>(1, queries.size())));
+        }
+    std::vector<rule_row> rows;
+    for (detail::rule_run<Query>& run : runs) {
+        for (std::size_t i = 0; i < queries.size(); ++i)
+            detail::count(run.row, run.answers[i], truth[i]);
+        rows.push_back(std::move(run.row));
+    }
+    return rows;
+}
+
+/// A main program: compares the rules on stored queries, files as `ccd query` takes them, whose
+/// kind the path says and whose truth, where they have none, is that of `exact`. Prints a row for
+/// each file, rule and number type. Returns 0; 1 after bad input, or where certain answers under a
+/// rule that promises a bound were wrong; 2 without files.
+template <class... Rules>
+int rules_main(int argc, const char* const* argv) {
+    if (argc < 2) {
+        std::fprintf(stderr, "usage: %s FILE...   stored queries, as ccd query takes them\n",
+                     argc > 0 ? argv[0] : "rules");
+        return 2;
+    }
+    bool broken = false;
+    std::printf("%-12s %-7s %9s %10s %9s %9s %9s %9s %9s  %s\n", "rule", "number", "queries",
+                "collisions", "FP", "FN", "uncertain", "wrong", "ns/query", "file");
+    for (int i = 1; i < argc; ++i) try {
+            const io::query_file file = io::read_queries(argv[i], std::nullopt, false);
+            std::visit(
+                [&](const auto& queries) {
+                    std::vector<bool> truth = file.truth.value_or(std::vector<bool>());
+                    if (!file.truth)
+                        for (const auto& query : queries)
+                            truth.push_back(decide_exact(query).outcome == outcome::collides);
+                    for (const rule_row& r : compare_rules<Rules...>(queries, truth)) {
+                        std::printf("%-12s %-7s %9zu %10zu %9zu %9zu %9zu %9zu %9.1f  %s\n",
+                                    r.rule.c_str(), r.number.c_str(), r.queries, r.collisions,
+                                    r.false_positives, r.false_negatives, r.uncertain, r.wrong,
+                                    r.ns_per_query, argv[i]);
+                        broken = broken || r.is_broken();
+                    }
+                },
+                file.queries);
+        } catch (const errbound::support::file_error& error) {
+            std::fprintf(stderr, "%s\n", error.what());
+            return 1;
+        }
+    return broken ? 1 : 0;
+}
+
+}  // namespace ccd::study
