@@ -1,11 +1,12 @@
-(** The filter in doubles and the axes in single precision as a program: real numbers are OCaml's floats,
-    and a rounding to double is none, since their operations round so; a rounding to float is one. Sums and
-    products of floats are the same rounded to double before. tests/proofs/tie_floats.cpp holds the C++
-    templates to what comes out. *)
+(** The filter in doubles, the axes in single precision, and the filters of predicates' expressions as
+    programs: real numbers are OCaml's floats, and a rounding to double is none, since their operations round
+    so; a rounding to float is one. Sums and products of floats are the same rounded to double before.
+    tests/proofs/tie_floats.cpp and tie_filters.cpp hold the C++ templates to what comes out. *)
 
 From Coq Require Import Reals Qreals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZInt.
 From Flocq Require Import Core.
-From Errbound Require Format ErrorCount CcdFilter FilterStages RoundedAxes ContactPart.
+From Errbound Require Format ErrorCount CcdFilter FilterStages RoundedAxes ContactPart
+  StaticFilter SemiStatic Predicates.
 
 (** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
@@ -16,6 +17,8 @@ Extract Inlined Constant Rlt_dec => "(fun (a : float) b -> a < b)".
 Extract Inlined Constant Rle_dec => "(fun (a : float) b -> a <= b)".
 Extract Inlined Constant Rlt_bool => "(fun (a : float) b -> a < b)".
 Extract Inlined Constant Rle_bool => "(fun (a : float) b -> a <= b)".
+Extract Inlined Constant Req_bool => "(fun (a : float) b -> a = b)".
+Extract Inlined Constant INR => "float_of_int".
 Extract Inlined Constant Rabs => "abs_float".
 Extract Inlined Constant Rmax => "(fun (a : float) b -> if a <= b then b else a)".
 Extract Inlined Constant Rmin => "(fun (a : float) b -> if a <= b then a else b)".
@@ -38,3 +41,9 @@ Extraction "floats.ml" FilterStages.filter_face FilterStages.filter_edges hopele
   CcdFilter.y_relative CcdFilter.y_absolute CcdFilter.g_relative CcdFilter.g_absolute
   halves_in_doubles ContactPart.changes_sign_once RoundedAxes.separated_in_float RoundedAxes.frame_of
   RoundedAxes.rounded_point RoundedAxes.face_gap RoundedAxes.edges_gap.
+
+Extraction "filters.ml" StaticFilter.roundings StaticFilter.products StaticFilter.plain StaticFilter.value
+  StaticFilter.size StaticFilter.full StaticFilter.bound StaticFilter.machine_sign
+  SemiStatic.degree SemiStatic.mass SemiStatic.allowances SemiStatic.constants_not_zero SemiStatic.trusted
+  SemiStatic.semi_static_bound
+  Predicates.area Predicates.volume Predicates.lifted_area Predicates.lifted_volume.

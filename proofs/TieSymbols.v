@@ -1,10 +1,10 @@
-(** Bernstein sign classification, polynomials and the forms of queries as a program, over a scalar that
-    tie_symbols.ml gives: tests/proofs/tie_symbols.cpp holds the C++ templates to what comes out. No real
-    number is computed. *)
+(** Bernstein sign classification, polynomials, and the forms of queries and of predicates as a program,
+    over a scalar that tie_symbols.ml gives: tests/proofs/tie_symbols.cpp holds the C++ templates to what
+    comes out. No real number is computed. *)
 
 From Coq Require Import Reals Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZInt.
 From Errbound Require Import Sign Bernstein BscCode.
-From Errbound Require Decisions.
+From Errbound Require Decisions Predicates.
 
 (** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
@@ -16,4 +16,5 @@ Definition forms_inside_face := @Decisions.inside_face_forms.
 Definition forms_inside_edges := @Decisions.inside_edges_forms.
 
 Extraction "symbols.ml" root_with_nonnegative value_at product elevated derivative split halves sign_inside
-  sign_throughout certainly_rootless forms_difference forms_y forms_inside_face forms_inside_edges.
+  sign_throughout certainly_rootless forms_difference forms_y forms_inside_face forms_inside_edges
+  Predicates.area Predicates.volume Predicates.lifted_area Predicates.lifted_volume.

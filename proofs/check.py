@@ -36,7 +36,8 @@ UNPROVED_FUNCTIONS = {"midpoint", "pow"}
 # A function of tracked numbers, each of which must, too.
 FUNCTION = re.compile(r"^constexpr tracked<T, Rule> (\w+)\(")
 # What Coq extracts, and the program that runs it.
-TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_integers", "floats": "tie_floats"}
+TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_integers", "floats": "tie_floats",
+                "filters": "tie_filters"}
 
 
 def fail(message):

@@ -79,6 +79,18 @@ let put_forms edges =
   put (forms_y s b c p);
   List.iter put ((if edges then forms_inside_edges else forms_inside_face) s b c p)
 
+(* The expression that a predicate is the sign of. *)
+let rec named_expression = function
+  | Coordinate c -> (Obj.magic c : int)
+  | Difference (a, b) -> named 1 (Obj.magic a) (Obj.magic b)
+  | Constant n -> named 4 n 0
+  | Sum (a, b) -> named 0 (named_expression a) (named_expression b)
+  | Minus (a, b) -> named 1 (named_expression a) (named_expression b)
+  | Product (a, b) -> named 2 (named_expression a) (named_expression b)
+  | Negation a -> named 3 (named_expression a) 0
+let put_predicate expression =
+  put_both (named_expression (expression (fun k i -> Obj.magic (given ((10 * k) + i)))))
+
 let () =
   let begin_case family i = rates := List.assoc family families; seed := i in
   let once name put_case = line ("symbol " ^ name) 1 (fun i -> begin_case "exact" i; put_case ()) in
@@ -90,6 +102,10 @@ let () =
     [ 0; 1; 2; 3; 4; 7 ];
   once "vertex_face_forms" (fun () -> put_forms false);
   once "edge_edge_forms" (fun () -> put_forms true);
+  once "area" (fun () -> put_predicate (fun q -> area (q 0) (q 1) (q 2)));
+  once "volume" (fun () -> put_predicate (fun q -> volume (q 0) (q 1) (q 2) (q 3)));
+  once "lifted_area" (fun () -> put_predicate (fun q -> lifted_area (q 0) (q 1) (q 2) (q 3)));
+  once "lifted_volume" (fun () -> put_predicate (fun q -> lifted_volume (q 0) (q 1) (q 2) (q 3) (q 4)));
   List.iter (fun n -> drawn (Printf.sprintf "signs<%d>" n) 1000 (fun () -> put_signs n)) [ 1; 2; 3; 4 ];
   drawn "root_with_nonnegative<3>" 40000 (fun () -> put_root 3);
   drawn "root_with_nonnegative<4>" 40000 (fun () -> put_root 4)

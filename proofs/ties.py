@@ -21,7 +21,7 @@ TIES = {
                "include/errbound/tracked.hpp", "include/errbound/integers/fixed_integer.hpp"],
               ("tiny_float", "float", "double", "fixed_integer")),
     "symbols": (["include/errbound/sign.hpp", "include/errbound/bernstein.hpp", "include/errbound/bsc.hpp",
-                 "include/ccd/methods/forms.hpp"], ("symbol",)),
+                 "include/ccd/methods/forms.hpp", "include/errbound/predicates.hpp"], ("symbol",)),
     "integers": (["ccd/exact/axis_units.hpp", "ccd/exact/bounded_integer.hpp", "ccd/exact/close_contact.hpp",
                   "ccd/exact/common_roots.hpp", "ccd/exact/cubic_roots.hpp", "ccd/exact/features.hpp",
                   "ccd/exact/integer_decision.hpp", "ccd/exact/integers.cpp",
@@ -32,6 +32,8 @@ TIES = {
                 "ccd/exact/static_filter/whole_step.hpp", "ccd/exact/stages.cpp",
                 "ccd/batch/rounded_axes.hpp", "include/errbound/roots/control_values.hpp",
                 "include/errbound/filters/error_count.hpp"], ("filter", "rounded_axes")),
+    "filters": (["include/errbound/filters/static_filter.hpp", "include/errbound/filters/semi_static_filter.hpp"],
+                ("expression",)),
 }
 # Whose functions decide, too.
 OTHERS = ["include/errbound/rules/affine.hpp", "include/errbound/rules/relative.hpp",
@@ -44,8 +46,7 @@ OTHERS = ["include/errbound/rules/affine.hpp", "include/errbound/rules/relative.
           "include/errbound/roots/prime_field.hpp", "include/errbound/roots/real_roots.hpp",
           "include/errbound/roots/root_filter.hpp", "include/errbound/roots/root_isolation.hpp",
           "include/errbound/roots/sign_variations.hpp", "include/errbound/filters/expression_count.hpp",
-          "include/errbound/filters/predicate_stages.hpp", "include/errbound/filters/semi_static_filter.hpp",
-          "include/errbound/filters/static_filter.hpp", "include/errbound/integers/binary_double.hpp",
+          "include/errbound/filters/predicate_stages.hpp", "include/errbound/integers/binary_double.hpp",
           "include/errbound/integers/common_exponent.hpp", "include/errbound/integers/double_word.hpp",
           "include/errbound/integers/dyadic.hpp", "include/errbound/integers/long_integer.hpp",
           "include/errbound/integers/sized_integer.hpp", "include/errbound/predicate.hpp",

@@ -1,12 +1,14 @@
-// Bernstein sign classification, polynomials and the forms of queries over symbols, against the
-// proofs' definitions over the same (proofs/tie_symbols.ml): they compute the same expressions of
-// them, and decide by the same signs.
+// Bernstein sign classification, polynomials, and the forms of queries and of predicates over
+// symbols, against the proofs' definitions over the same (proofs/tie_symbols.ml): they compute the
+// same expressions of them, and decide by the same signs.
 #include <array>
 #include <ccd/methods/forms.hpp>
 #include <cstddef>
 #include <errbound/bernstein.hpp>
 #include <errbound/bsc.hpp>
+#include <errbound/predicates.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/proofs/symbol.hpp"
@@ -96,6 +98,42 @@ void put_forms(hash& h) {
     for (const auto& g : f.inside()) put(h, g);
 }
 
+/// The expression that a predicate is the sign of.
+template <std::size_t... Points>
+void put_predicate(hash& h, const auto& form, std::index_sequence<Points...>) {
+    const auto point = [](std::uint64_t k) {
+        return std::array{symbol::given(10 * k), symbol::given(10 * k + 1),
+                          symbol::given(10 * k + 2)};
+    };
+    h.put_both(form(point(Points)...).name());
+}
+void put_area(hash& h) {
+    put_predicate(
+        h, [](const auto&... p) { return errbound::forms::area(p...); },
+        std::make_index_sequence<3>());
+}
+void put_volume(hash& h) {
+    put_predicate(
+        h, [](const auto&... p) { return errbound::forms::volume(p...); },
+        std::make_index_sequence<4>());
+}
+void put_lifted_area(hash& h) {
+    put_predicate(
+        h,
+        [](const auto&... p) {
+            return errbound::forms::lifted_area(p..., errbound::forms::unweighted);
+        },
+        std::make_index_sequence<4>());
+}
+void put_lifted_volume(hash& h) {
+    put_predicate(
+        h,
+        [](const auto&... p) {
+            return errbound::forms::lifted_volume(p..., errbound::forms::unweighted);
+        },
+        std::make_index_sequence<5>());
+}
+
 std::vector<tie::line> all_lines() {
     std::vector<tie::line> lines;
     const auto once = [&](const std::string& name, void (*put_case)(hash&)) {
@@ -120,6 +158,10 @@ std::vector<tie::line> all_lines() {
     once("polynomial<7>", put_polynomial<7>);
     once("vertex_face_forms", put_forms<ccd::vertex_face<symbol>>);
     once("edge_edge_forms", put_forms<ccd::edge_edge<symbol>>);
+    once("area", put_area);
+    once("volume", put_volume);
+    once("lifted_area", put_lifted_area);
+    once("lifted_volume", put_lifted_volume);
     drawn("signs<1>", 1000, put_signs<1>);
     drawn("signs<2>", 1000, put_signs<2>);
     drawn("signs<3>", 1000, put_signs<3>);
