@@ -32,23 +32,22 @@ TIES = {
                 "ccd/exact/static_filter/whole_step.hpp", "ccd/exact/stages.cpp",
                 "ccd/batch/rounded_axes.hpp", "include/errbound/roots/control_values.hpp",
                 "include/errbound/filters/error_count.hpp"], ("filter", "rounded_axes")),
+    "roots": (["include/errbound/roots/descartes_search.hpp", "include/errbound/roots/fixed_row.hpp",
+               "include/errbound/roots/integer_polynomial.hpp", "include/errbound/roots/local_form.hpp",
+               "include/errbound/roots/prime_field.hpp", "include/errbound/roots/root_isolation.hpp",
+               "include/errbound/roots/sign_variations.hpp", "include/errbound/integers/dyadic.hpp"], ("roots",)),
     "filters": (["include/errbound/filters/static_filter.hpp", "include/errbound/filters/semi_static_filter.hpp"],
                 ("expression",)),
 }
 # Whose functions decide, too.
 OTHERS = ["include/errbound/rules/affine.hpp", "include/errbound/rules/relative.hpp",
           "include/errbound/elementary.hpp", "include/errbound/functions/function_error.hpp",
-          "include/errbound/functions/function_of_range.hpp",
-          "include/errbound/roots/descartes_search.hpp",
-          "include/errbound/roots/double_order.hpp", "include/errbound/roots/fixed_row.hpp",
-          "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/integer_polynomial.hpp",
-          "include/errbound/roots/local_form.hpp", "include/errbound/roots/polynomial_stages.hpp",
-          "include/errbound/roots/prime_field.hpp", "include/errbound/roots/real_roots.hpp",
-          "include/errbound/roots/root_filter.hpp", "include/errbound/roots/root_isolation.hpp",
-          "include/errbound/roots/sign_variations.hpp", "include/errbound/filters/expression_count.hpp",
-          "include/errbound/filters/predicate_stages.hpp", "include/errbound/integers/binary_double.hpp",
-          "include/errbound/integers/common_exponent.hpp", "include/errbound/integers/double_word.hpp",
-          "include/errbound/integers/dyadic.hpp", "include/errbound/integers/long_integer.hpp",
+          "include/errbound/functions/function_of_range.hpp", "include/errbound/roots/double_order.hpp",
+          "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/polynomial_stages.hpp",
+          "include/errbound/roots/real_roots.hpp", "include/errbound/roots/root_filter.hpp",
+          "include/errbound/filters/expression_count.hpp", "include/errbound/filters/predicate_stages.hpp",
+          "include/errbound/integers/binary_double.hpp", "include/errbound/integers/common_exponent.hpp",
+          "include/errbound/integers/double_word.hpp", "include/errbound/integers/long_integer.hpp",
           "include/errbound/integers/sized_integer.hpp", "include/errbound/predicate.hpp",
           "ccd/exact/coordinate_axes.hpp", "ccd/exact/exact.cpp", "ccd/exact/reference.cpp",
           "ccd/exact/unbounded_integers.hpp", "ccd/exact/static_filter/distance_margins.hpp",
@@ -59,8 +58,7 @@ OTHERS = ["include/errbound/rules/affine.hpp", "include/errbound/rules/relative.
           "ccd/contact/time_of_impact.cpp", "ccd/contact/time_polynomial.hpp",
           "ccd/contact/vertex_edge_time.hpp", "ccd/batch/filter_stages.hpp", "ccd/batch/pack_subdivision.hpp",
           "ccd/batch/rounded_positions.hpp", "ccd/batch/time_stage.hpp", "ccd/batch/twofold.hpp",
-          "ccd/step/box_tree.hpp", "ccd/step/search_kernels.cpp",
-          "ccd/step/swept_boxes.hpp"]
+          "ccd/step/box_tree.hpp", "ccd/step/search_kernels.cpp", "ccd/step/swept_boxes.hpp"]
 
 
 def functions(path):

@@ -1,0 +1,260 @@
+(* Writes what the proofs' definitions (roots.ml, extracted by TieRoots.v) make of what isolation of roots computes
+   with: dyadic numbers, residues, variations of signs, rows of Bernstein coefficients, polynomials, bounds of
+   roots, their refinement, polynomials near a place. tests/proofs/tie_roots.cpp does the same with the C++ code. *)
+module Whole = Z
+module Rational = Q
+open Tie_hash
+open Roots
+module Z = Whole
+module Q = Rational
+
+let z = Z.of_int
+(* Its sign, and words of 32 bits from the last. *)
+let put_whole n =
+  put_word (Z.sign n + 1);
+  let rest = ref (Z.abs n) in
+  while Z.sign !rest > 0 do
+    put_word (Z.to_int (Z.logand !rest (z 0xffffffff)));
+    rest := Z.shift_right !rest 32
+  done
+let put_int n = put_word (n land 0xffffffff)
+let put_bool b = put_word (if b then 1 else 0)
+let put_all l = put_int (List.length l); List.iter put_whole l
+let put_dyadic (n, e) = put_whole n; put_int (Z.to_int e)
+let put_double x =
+  let bits = Int64.bits_of_float (if x = 0. then 0. else x) in
+  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
+  put_word (Int64.to_int bits land 0xffffffff)
+
+(* Numbers: of so many bits, nonnegative; small, of a word, longer, and zero. *)
+let rec natural bits = if bits <= 0 then Z.zero else let upper = natural (bits - 30) in
+    Z.add (Z.shift_left upper 30) (z (draw (1 lsl 30)))
+let signed n = if draw 2 = 0 then n else Z.neg n
+let whole () = match draw 5 with
+  | 0 -> Z.zero | 1 | 2 -> z (draw 7 - 3) | 3 -> let n = natural 60 in signed n
+  | _ -> let n = natural (30 * (1 + draw 10)) in signed n
+let polynomial degree =
+  let lower = List.init degree (fun _ -> whole ()) in
+  let last = whole () in
+  lower @ [ if Z.sign last = 0 then Z.one else last ]
+let exponent () = z (draw 81 - 40)
+let point () = let n = whole () in let e = exponent () in dyadic_made n e
+let positive () = let n = natural 60 in let e = exponent () in dyadic_made (Z.succ n) e
+
+let put_order c = put_word (match c with Lt -> 0 | Eq -> 1 | Gt -> 2)
+
+let put_dyadics () =
+  let n = whole () in
+  let e = exponent () in
+  let a = dyadic_made n e in
+  let b = match draw 4 with 0 -> a | 1 -> dyadic_sum a (Z.one, exponent ()) | _ -> point () in
+  List.iter put_dyadic
+    [ a; dyadic_opposite a; dyadic_sum a b; dyadic_difference a b; dyadic_product a b; dyadic_made Z.one e;
+      dyadic_scale (dyadic_sum a b) (z (-1)) ];
+  put_dyadic (dyadic_scale a (exponent ()));
+  put_bool (dyadic_equal a b);
+  put_order (dyadic_order a b);
+  if Z.sign n <> 0 then put_int (Z.to_int (dyadic_floor_log2 a));
+  put_whole (dyadic_in_units a (Z.sub (snd a) (z (draw 50))));
+  let u = positive () in
+  let v = positive () in
+  put_dyadic (let n, e = local_quotient (z (draw 100)) u v in dyadic_made n e)
+
+let moduli = Array.map (fun k -> Z.sub (Z.shift_left Z.one 62) (z k)) [| 57; 87; 117; 143 |]
+let modulus () = match draw 8 with
+  | 4 -> z 3 | 5 -> z 5 | 6 -> Z.succ (Z.shift_left (Z.succ (z (draw (1 lsl 30)))) 1)
+  | 7 -> Z.sub (Z.shift_left (Z.succ (natural 60)) 1) (z (-1)) | k -> moduli.(k)
+let put_field () =
+  let p = modulus () in
+  let word () = match draw 5 with
+    | 0 -> Z.zero | 1 -> Z.one | 2 -> Z.pred p | _ -> Z.rem (natural 60) p in
+  let a = word () in
+  let b = word () in
+  let c = word () in
+  let d = word () in
+  List.iter put_whole
+    [ field_one p; field_add p a b; field_subtract p a b; field_multiply p a b;
+      field_multiply_and_subtract p a b c d; field_to_form p a; field_from_form p a ];
+  let n = if draw 2 = 0 then z (draw 70) else natural 60 in
+  put_whole (field_power p a n)
+let put_value_modulo () =
+  let p = moduli.(draw 4) in
+  let f = polynomial (draw 6) in
+  let n, e = point () in
+  put_whole (field_value p n e (List.rev f));
+  (* Of what is zero there: the power of two is a coefficient. *)
+  let power = Z.shift_left Z.one (abs (Z.to_int e)) in
+  put_whole (field_value p n e (if Z.sign e < 0 then [ power; Z.neg n ] else [ Z.one; Z.neg (Z.mul n power) ]))
+
+let put_variations () =
+  let count = 1 + draw 9 in
+  let seldom = 2 + draw 6 in
+  let signs = List.init count (fun _ -> z (if draw seldom = 0 then 0 else (2 * draw 2) - 1)) in
+  put_int (sign_variations signs);
+  put_int (max_sign_variations signs)
+
+(* ---- Rows ---- *)
+
+let bits_of x = Z.numbits (Z.abs x)
+let words = 4
+(* The constructor: rows of numbers of W words, cut where they are longer, longer where they are not; of zeros
+   where the error is large. *)
+let row_of b error =
+  let excess = z (List.fold_left (fun m c -> max m (bits_of c)) 0 b - ((64 * words) - 3)) in
+  let error = row_cut_error excess error in
+  if Z.lt error (Z.shift_left Z.one 60) then row_cut excess b, error else List.map (fun _ -> Z.zero) b, Z.zero
+(* As doubles, by words from the first. *)
+let nearby x =
+  let rec sum n = if Z.sign n = 0 then 0. else
+      (sum (Z.shift_right n 64) *. ldexp 1. 64) +. Z.to_float (Z.logand n (Z.pred (Z.shift_left Z.one 64))) in
+  if Z.sign x < 0 then -. sum (Z.neg x) else sum x
+let put_fixed_row (row, error) =
+  put_int (List.length row);
+  List.iter (fun x -> put_int (Z.to_int (row_sign error x)); put_double (nearby x)) row
+let put_rows () =
+  let degree = draw 9 in
+  let b = polynomial degree in
+  let b = if draw 3 = 0 then List.map (fun c -> Z.shift_left c 200) b else b in
+  let error = match draw 4 with 0 -> Z.zero | 1 -> z (draw 5) | 2 -> natural 60 | _ -> natural 270 in
+  let row = ref (row_of b error) in
+  put_fixed_row !row;
+  for _ = 1 to 1 + draw 6 do
+    let row', error = !row in
+    let error = row_error_after degree error in
+    let left = row_left degree row', error and right = row_right degree row', error in
+    put_fixed_row left; put_fixed_row right;
+    row := if draw 2 = 0 then left else right
+  done
+
+(* ---- Polynomials ---- *)
+
+let q_of (n, e) =
+  let e = Z.to_int e in
+  if e < 0 then Q.div_2exp (Q.of_bigint n) (- e) else Q.mul_2exp (Q.of_bigint n) e
+let of_q x = dyadic_made (Q.num x) (z (1 - Z.numbits (Q.den x)))
+let put_q x = put_dyadic (of_q x)
+let less a b = dyadic_order a b = Lt
+let put_exponent = function None -> put_word 0x80000000 | Some e -> put_int (Z.to_int e)
+let put_polynomial () =
+  let p = polynomial (if draw 16 = 0 then 38 + draw 6 else draw 9) in
+  put_all (form_derivative p);
+  put_all (form_mirrored p);
+  put_exponent (form_root_exponent p);
+  let x = point () in
+  let value = form_value p (q_of x) in
+  put_q value;
+  put_word (Q.sign value + 1);
+  let y = match draw 3 with 0 -> z 0, z 0 | 1 -> dyadic_sum x (Z.one, exponent ()) | _ -> point () in
+  if not (dyadic_equal x y) then begin
+    let low, high = if less x y then x, y else y, x in
+    let width = dyadic_difference high low in
+    let e = if Z.sign (fst low) = 0 then snd width else Z.min (snd low) (snd width) in
+    let weights = List.map Q.of_bigint (form_weights (List.length p - 1)) in
+    let units x = Q.of_bigint (dyadic_in_units x e) in
+    put_all (List.map Q.num (form_control_values weights e (units low) (units width) (List.map Q.of_bigint p)))
+  end
+
+(* Irreducible, by Eisenstein's criterion, so that nothing is left out of it. *)
+let irreducible degree =
+  let first = Z.succ (Z.mul (z 3) (z (draw 1000))) in
+  let first = signed first in
+  let between = List.init (degree - 1) (fun _ -> Z.mul (z 3) (whole ())) in
+  let last = signed Z.one in
+  (Z.mul (z 3) first :: between) @ [ last ]
+let put_half_lines () =
+  let p = irreducible (1 + draw 7) in
+  put_q (form_upper_bound p);
+  put_q (Q.neg (form_upper_bound (form_mirrored p)));
+  (match form_half_line p with Some (low, _) -> put_q low | None -> ());
+  (match form_half_line (form_mirrored p) with Some (low, _) -> put_q (Q.neg low) | None -> ())
+
+(* Whether refine keeps a part, or what lies beside it. *)
+let keep p i bits =
+  let value x = of_q (form_value p x) in
+  let at_low = value i.low and at_high = value i.high in
+  let unit = Z.min (snd at_low) (snd at_high) in
+  let parts = Z.shift_left Z.one bits in
+  let k = form_secant_part (Z.abs (dyadic_in_units at_low unit)) (Z.abs (dyadic_in_units at_high unit)) parts in
+  let place k = Q.add i.low (Q.mul (Q.sub i.high i.low) (Q.div_2exp (Q.of_bigint k) bits)) in
+  let left = place k and right = place (Z.succ k) in
+  let kept = form_keep_part p i left right in
+  kept, Q.leq left kept.low && Q.leq kept.high right
+let rec refine p i width bits =
+  if not (Q.lt width (Q.sub i.high i.low)) then i
+  else
+    let i, kept = keep p i bits in
+    refine p i width (if kept then 2 * bits else max 1 (bits / 2))
+let half i = Q.div_2exp (Q.sub i.high i.low) 1
+let put_interval i = put_q i.low; put_q i.high
+let put_refined () =
+  let p = irreducible (if draw 2 = 0 then 1 else 1 + draw 7) in
+  let e = draw 30 - 20 in
+  let a = draw 4000 - 2000 in
+  let b = draw 4000 - 2000 in
+  let a = q_of (z a, z e) and b = q_of (z b, z e) in
+  let i = { low = Q.min a b; high = Q.max a b } in
+  if Q.sign (form_value p i.low) * Q.sign (form_value p i.high) < 0 then begin
+    let once = refine p i (half i) 1 in
+    put_interval once;
+    put_interval (refine p once (half once) 1);
+    put_interval (refine p i (Q.div_2exp (Q.sub i.high i.low) (draw 200)) 1)
+  end
+
+(* ---- Near a place ---- *)
+
+type local = { degree : int; a : Z.t list; error : Z.t }
+let put_local f =
+  let size = List.fold_left (fun m x -> max m (bits_of x)) 0 f.a in
+  let row error a = put_all (local_row f.degree a); put_whole error in
+  row f.error f.a;
+  let bits = draw 120 in
+  let excess = z (max 0 (size - bits)) in
+  let a = local_cut excess f.a and error = local_cut_error excess f.error in
+  row error a;
+  put_all (local_coefficients f.degree a);
+  put_whole (local_coefficients_error f.degree error);
+  List.iter (fun s -> put_int (Z.to_int s)) (local_signs f.degree a error);
+  put_bool (local_rootless f.degree f.a f.error);
+  put_bool (local_low_end f.a f.error);
+  put_bool (local_high_end f.degree f.a f.error)
+(* part, and drop_small_terms, which dropped_right is about. *)
+let part f from length depth =
+  let a = local_part from length (z depth) f.a in
+  let error = local_part_error f.degree (z (List.length f.a)) f.error in
+  let rec dropped = function
+    | last :: (_ :: _ :: _ as rest) when Z.leq (Z.abs last) error -> dropped rest
+    | a -> a in
+  let kept = List.rev (dropped (List.rev a)) in
+  { f with a = kept; error = if List.length kept < List.length a then Z.shift_left error 1 else error }
+let draw_part f =
+  let depth = 1 + draw 8 in
+  let from = draw (1 lsl depth) in
+  let length = 1 + draw ((1 lsl depth) - from) in
+  part f (z from) (z length) depth
+let put_near () =
+  let degree = if draw 10 = 0 then 30 else draw 9 in
+  let p = polynomial degree in
+  let low = positive () in
+  let n = natural 30 in
+  let ratio = draw 100 - 90 in
+  let width = dyadic_made (Z.succ n) (Z.sub (Z.add (dyadic_floor_log2 low) (z ratio)) (z (Z.numbits (Z.succ n)))) in
+  let bits = [| 0; 20; 64; 256 |].(draw 4) in
+  let a, error = local_taylor p low width (z (bits + draw 10)) in
+  let f = { degree; a; error } in
+  put_local f;
+  let once = draw_part f in
+  put_local once;
+  put_local (draw_part once)
+
+let () =
+  state := 1;
+  let tied name cases put = line ("roots " ^ name) cases (fun _ -> put ()) in
+  tied "dyadic" 4000 put_dyadics;
+  tied "field" 4000 put_field;
+  tied "value_modulo" 1000 put_value_modulo;
+  tied "variations" 5000 put_variations;
+  tied "row" 1000 put_rows;
+  tied "polynomial" 2000 put_polynomial;
+  tied "half_line" 1000 put_half_lines;
+  tied "refine" 2000 put_refined;
+  tied "near" 1500 put_near
