@@ -1,9 +1,9 @@
-(** The decision in integers as a program: whole numbers, and the real numbers of definitions that compute
-    no others, are OCaml's big integers. tests/proofs/tie_integers.cpp holds the C++ code to what comes
-    out. (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
+(** The decision in integers, and integers of words, as programs: whole numbers, and the real numbers of
+    definitions that compute no others, are OCaml's big integers. tests/proofs/tie_integers.cpp and tie_words.cpp
+    hold the C++ code to what comes out. (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
 
 From Coq Require Import Reals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZBigInt.
-From Errbound Require VertexEdge InteriorContact CloseContact AxisUnits.
+From Errbound Require VertexEdge InteriorContact CloseContact AxisUnits Words WordBits SparseProduct.
 
 (** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
@@ -26,3 +26,9 @@ Definition decide_to_the_end := CloseContact.decide_to_the_end.
 Definition vertices_contact := AxisUnits.vertices_contact.
 
 Extraction "integers.ml" decide_once decide_to_the_end edge_contact vertices_contact.
+
+(** Integers of words, as long as it takes. *)
+Definition word_from_bit (x : list Z) (shift : Z) := WordBits.from_bit x shift 1.
+
+Extraction "words.ml" Words.long_sum Words.long_difference Words.sign_of Words.signed_words SparseProduct.count_filled
+  SparseProduct.any_product SparseProduct.long_product WordBits.long_bit_length WordBits.long_shifted word_from_bit.

@@ -37,7 +37,7 @@ UNPROVED_FUNCTIONS = {"midpoint", "pow"}
 FUNCTION = re.compile(r"^constexpr tracked<T, Rule> (\w+)\(")
 # What Coq extracts, and the program that runs it.
 TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_integers", "floats": "tie_floats",
-                "filters": "tie_filters", "roots": "tie_roots"}
+                "filters": "tie_filters", "roots": "tie_roots", "words": "tie_words"}
 
 
 def fail(message):
