@@ -1,6 +1,6 @@
 (** The decision in integers, and integers of words, as programs: whole numbers, and the real numbers of
-    definitions that compute no others, are OCaml's big integers. tests/proofs/tie_integers.cpp and tie_words.cpp
-    hold the C++ code to what comes out. (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
+    definitions that compute no others, are OCaml's big integers. tests/proofs/tie_integers.cpp and
+    tie_words.cpp hold the C++ code to what comes out. (`none` of roots is not the one of options: its constructors are polymorphic variants.) *)
 
 From Coq Require Import Reals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZBigInt.
 From Errbound Require VertexEdge InteriorContact CloseContact AxisUnits Words WordBits SparseProduct.

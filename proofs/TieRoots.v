@@ -1,10 +1,12 @@
-(** What isolation of roots computes with as a program: whole numbers are OCaml's big integers, and real numbers
-    rational ones, which Zarith has, too. tests/proofs/tie_roots.cpp holds the C++ code to what comes out. *)
+(** What isolation of roots computes with, and first times in integers, as programs: whole numbers are OCaml's
+    big integers, and real numbers rational ones, which Zarith has, too. tests/proofs/tie_roots.cpp and
+    tie_times.cpp hold the C++ code to what comes out. (`none` of common roots is not the one of options: its
+    constructors are polymorphic variants.) *)
 
 From Coq Require Import Reals ZArith Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZBigInt.
 From Flocq Require Import Core.
 From Errbound Require Dyadic PrimeField SignVariations ControlValues LocalForm TaylorCoefficients RootIsolation
-  RootFinder.
+  RootFinder TimeSearch VertexEdgeTime InteriorTime AxisUnits.
 
 Extraction Blacklist Q.
 (** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
@@ -12,6 +14,10 @@ Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert fals
 Extract Inlined Constant R => "Q.t".
 Extract Inlined Constant IZR => "Q.of_bigint".
 Extract Inlined Constant Rlt_dec => "Q.lt".
+Extract Inlined Constant Rle_dec => "Q.leq".
+Extract Inlined Constant Req_EM_T => "Q.equal".
+Extract Inlined Constant Rabs => "Q.abs".
+Extract Inlined Constant Rdiv => "Q.div".
 Extract Inlined Constant Rplus => "Q.add".
 Extract Inlined Constant Rminus => "Q.sub".
 Extract Inlined Constant Rmult => "Q.mul".
@@ -22,6 +28,8 @@ Extract Inlined Constant bpow =>
 (** Quicker than factor by factor. *)
 Extract Inlined Constant Z.pow => "(fun x n -> if Big_int_Z.sign_big_int n < 0 then Big_int_Z.zero_big_int
   else Big_int_Z.power_big_int_positive_big_int x n)".
+
+Extract Inductive VertexEdge.kind_of_roots => "_" [ "`None" "`One" "`Of_quadratic" "`Everywhere" ].
 
 Definition dyadic_made := Dyadic.made.
 Definition dyadic_in_units := Dyadic.in_units.
@@ -86,3 +94,10 @@ Extraction "roots.ml" dyadic_made dyadic_in_units dyadic_opposite dyadic_sum dya
   form_upper_bound form_keep_part form_secant_part
   local_taylor local_bits_of local_quotient local_part local_part_error local_cut local_cut_error local_row
   local_coefficients local_coefficients_error local_signs local_low_end local_high_end local_rootless.
+
+Definition search_between := TimeSearch.between.
+
+Extraction "times.ml" TimeSearch.double_of_order search_between VertexEdgeTime.first_vertex_edge_contact
+  VertexEdgeTime.moving_component IntegerTimes.earlier IntegerTimes.composed IntegerTimes.last_of InteriorTime.find
+  InteriorTime.inside_time InteriorContact.vertex_edge_queries AxisUnits.vertices_contact Decisions.difference
+  Decisions.y_form Bernstein.certainly_rootless.

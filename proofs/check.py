@@ -37,7 +37,7 @@ UNPROVED_FUNCTIONS = {"midpoint", "pow"}
 FUNCTION = re.compile(r"^constexpr tracked<T, Rule> (\w+)\(")
 # What Coq extracts, and the program that runs it.
 TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_integers", "floats": "tie_floats",
-                "filters": "tie_filters", "roots": "tie_roots", "words": "tie_words"}
+                "filters": "tie_filters", "roots": "tie_roots", "words": "tie_words", "times": "tie_times"}
 
 
 def fail(message):
@@ -98,7 +98,7 @@ def tie_lines(build, extracted, program):
     """What a program of extracted definitions writes."""
     folder = build / program  # of its own: compilers of all ties may run at once
     folder.mkdir()
-    sources = ["tie_hash.ml", f"{extracted}.ml", f"{program}.ml"]
+    sources = ["tie_hash.ml", "tie_queries.ml", f"{extracted}.ml", f"{program}.ml"]
     for name in sources:  # without extracted.mli, which would hide types
         shutil.copy(build / name, folder)
     checker.run(folder, "ocamlfind", "ocamlopt", "-package", "zarith", "-linkpkg", "-w", "-a", "-unsafe", "-inline",

@@ -36,6 +36,8 @@ TIES = {
                "include/errbound/roots/integer_polynomial.hpp", "include/errbound/roots/local_form.hpp",
                "include/errbound/roots/prime_field.hpp", "include/errbound/roots/root_isolation.hpp",
                "include/errbound/roots/sign_variations.hpp", "include/errbound/integers/dyadic.hpp"], ("roots",)),
+    "times": (["ccd/contact/integer_first_contact.hpp", "ccd/contact/integer_times.cpp", "ccd/contact/interior_time.hpp",
+               "ccd/contact/time_bracket.hpp", "ccd/contact/vertex_edge_time.hpp"], ("times",)),
     "words": (["include/errbound/integers/long_integer.hpp"], ("long_integer",)),
     "filters": (["include/errbound/filters/static_filter.hpp", "include/errbound/filters/semi_static_filter.hpp"],
                 ("expression",)),
@@ -53,11 +55,9 @@ OTHERS = ["include/errbound/rules/affine.hpp", "include/errbound/rules/relative.
           "ccd/exact/reference.cpp", "ccd/exact/unbounded_integers.hpp",
           "ccd/exact/static_filter/distance_margins.hpp", "ccd/contact/condition.cpp",
           "ccd/contact/control_polynomial.hpp", "ccd/contact/curve_filter.cpp",
-          "ccd/contact/feature_conditions.hpp", "ccd/contact/integer_first_contact.hpp",
-          "ccd/contact/integer_times.cpp", "ccd/contact/interior_time.hpp", "ccd/contact/reference.cpp",
-          "ccd/contact/separation.cpp", "ccd/contact/separation_filter.hpp", "ccd/contact/time_bracket.hpp",
-          "ccd/contact/time_of_impact.cpp", "ccd/contact/time_polynomial.hpp",
-          "ccd/contact/vertex_edge_time.hpp", "ccd/batch/filter_stages.hpp", "ccd/batch/pack_subdivision.hpp",
+          "ccd/contact/feature_conditions.hpp", "ccd/contact/reference.cpp", "ccd/contact/separation.cpp",
+          "ccd/contact/separation_filter.hpp", "ccd/contact/time_of_impact.cpp",
+          "ccd/contact/time_polynomial.hpp", "ccd/batch/filter_stages.hpp", "ccd/batch/pack_subdivision.hpp",
           "ccd/batch/rounded_positions.hpp", "ccd/batch/time_stage.hpp", "ccd/batch/twofold.hpp",
           "ccd/step/box_tree.hpp", "ccd/step/search_kernels.cpp", "ccd/step/swept_boxes.hpp"]
 

@@ -1,0 +1,185 @@
+(* Writes what the proofs' definitions (times.ml, extracted by TieRoots.v) tell of first contacts in integers: whether
+   there is one, and between which doubles. tests/proofs/tie_times.cpp does the same with the C++ code, on the same
+   queries. Where floating point expects roots is taken as the code has it, since theorems hold whatever it is, and
+   so is how a quadratic's roots are told apart, since quadratic_bracket is a relation: ccd/contact/time_bracket.hpp. *)
+module Whole = Z
+module Rational = Q
+open Tie_hash
+open Times
+module Z = Whole
+module Q = Rational
+open Tie_queries
+
+(* ---- Searches ---- *)
+
+(* The number of a double in their order. *)
+let order_of t =
+  let size = Z.of_int64 (Int64.bits_of_float (Float.abs t)) in
+  if t < 0. then Z.neg size else size
+let double_of n = Int64.float_of_bits (Z.to_int64 n)
+let scaled x exponent =
+  let cut = max 0 (bit_length x - 63) in
+  ldexp (Int64.to_float (Z.to_int64 (Z.shift_right x cut))) (cut + exponent)
+let sign n : sign = match Z.sign n with 0 -> Zero | 1 -> Positive | _ -> Negative
+
+type search = { p : Z.t array; unit : int; floating : float array; slope : float array }
+let search p =
+  let n = Array.length p - 1 in
+  let unit = Array.fold_left (fun m h -> max m (bit_length h)) 0 p in
+  let floating = Array.map (fun h -> scaled h (- unit)) p in
+  let times x k = if k = 1 then x else x *. float_of_int k in
+  { p; unit; floating;
+    slope = Array.init n (fun i -> times floating.(i + 1) (i + 1) -. times floating.(i) (n - i)) }
+let slope_at s t =
+  let sum = ref s.slope.(0) and power = ref t in
+  for i = 1 to Array.length s.slope - 1 do
+    sum := (!sum *. (1. -. t)) +. (s.slope.(i) *. !power);
+    power := !power *. t
+  done;
+  !sum
+(* The value, and a double near it; nothing where fixed widths cannot tell. *)
+let value s t =
+  let n = Array.length s.p - 1 in
+  if t = 0. then Some (s.p.(0), scaled s.p.(0) (- s.unit))
+  else
+    let bits = - (last_bit t) in
+    if bits > 126 then None
+    else
+      let numerator = Z.of_float (ldexp t bits) in
+      let v = value_at (Array.to_list s.p) (Z.sub (Z.shift_left Z.one bits) numerator) numerator in
+      Some (v, scaled v ((- n * bits) - s.unit))
+let between s low high before estimate =
+  let estimate =
+    if estimate > low && estimate < high then estimate
+    else
+      let step = s.floating.(0) /. -. s.slope.(0) in
+      if low = 0. && step > 0. && step < high then step else low +. ((high -. low) /. 2.) in
+  let sign_of_value n = Option.map (fun (v, _) -> sign v) (value s (double_of n)) in
+  let newton n =
+    let t = double_of n in
+    match value s t with
+    | None -> None
+    | Some (_, size) ->
+        let next = t -. (size /. slope_at s t) in
+        if Float.is_nan next then None else Some (order_of next) in
+  search_between double_of_order sign_of_value before newton 1000 (order_of low) (order_of high) (order_of estimate)
+    Z.one 0
+
+let linear_bracket p0 p1 =
+  if Z.sign p0 = 0 then Some (Q.zero, Q.zero)
+  else if Z.sign p1 = 0 then Some (Q.one, Q.one)
+  else
+    let s = search [| p0; p1 |] in
+    between s 0. 1. (sign p0) (s.floating.(0) /. (s.floating.(0) -. s.floating.(1)))
+let opposite : sign -> sign = function Positive -> Negative | Negative -> Positive | s -> s
+let estimates f =
+  let root = sqrt (Float.max 0. ((f.(1) *. f.(1)) -. (4. *. f.(0) *. f.(2)))) in
+  let q = -. (f.(1) +. (if f.(1) < 0. then -. root else root)) /. 2. in
+  let x = q /. (f.(2) +. q) and y = f.(0) /. (q +. f.(0)) in
+  (if y < x then y else x), (if x < y then y else x)
+let quadratic_bracket f which =
+  let s = search f in
+  let first = sign f.(0) in
+  let lesser, greater = estimates s.floating in
+  let twice x = Z.shift_left x 1 in
+  let beside_extreme earlier =
+    match linear_bracket (Z.sub f.(1) (twice f.(0))) (Z.sub (twice f.(2)) f.(1)) with
+    | None -> None
+    | Some (low, high) as extreme ->
+        let beside = Q.to_float (if earlier then low else high) in
+        match value s beside with
+        | None -> None
+        | Some (v, _) when Z.sign v = 0 -> let t = Q.of_float beside in Some (t, t)
+        | Some (v, _) when sign v = first -> extreme
+        | _ -> if earlier then between s 0. beside first lesser else between s beside 1. (opposite first) greater in
+  match which with
+  | Only_root_of -> between s 0. 1. first (if lesser > 0. then lesser else greater)
+  | First_root_of -> beside_extreme true
+  | Second_root_of -> beside_extreme false
+
+(* What is told of a place in time: no contact, none that can be told, or its bracket. *)
+type told = Never | Unknown | At of bracket
+let told = function None -> Unknown | Some b -> At b
+let bracket_of = function
+  | Nowhere -> Never
+  | Start_time -> At (Q.zero, Q.zero)
+  | End_time -> At (Q.one, Q.one)
+  | Linear_root (k0, k1) -> told (linear_bracket (Q.num k0) (Q.num k1))
+  | Quadratic_root (f, which) -> told (quadratic_bracket (Array.map Q.num [| f.c0; f.c1; f.c2 |]) which)
+
+(* ---- Queries ---- *)
+
+let point d p e : point =
+  let coordinate k = Q.of_bigint d.whole.((6 * p) + (3 * e) + k) in
+  { x = coordinate 0; y = coordinate 1; z0 = coordinate 2 }
+let moving d p : moving = { start = point d p 0; finish = point d p 1 }
+let position d p e : position =
+  let coordinate k = Obj.magic d.whole.((6 * p) + (3 * e) + k) in
+  { px = coordinate 0; py = coordinate 1; pz = coordinate 2 }
+let moving_point d p : moving_point = { t0 = position d p 0; t1 = position d p 1 }
+
+let inside d b c p y last =
+  let y_array = Array.of_list y in
+  let s = search y_array in
+  let whole_part_y q = List.map Q.num q.part_y in
+  let estimate q = estimated_place (Z.to_int q.level) q.index (whole_part_y q) in
+  let refine _ _ low high bits = refined_place y low high (Z.to_int bits) in
+  let part_root q =
+    let level = Z.to_int q.level in
+    let place index = ldexp (Z.to_float index) (- level) in
+    between s (place q.index) (place (Z.succ q.index)) q.roots.first
+      (ldexp (Int64.to_float (Z.to_int64 (estimate q))) (- (min (level + 48) 62))) in
+  let linear_root p0 p1 = linear_bracket (Q.num p0) (Q.num p1) in
+  let place_of t bits = Z.fdiv (Z.shift_left (Q.num t) (Z.to_int bits)) (Q.den t) in
+  let extent k = Z.of_int (snd d.units.(k)) in
+  find d.edges b c p (extent 0) (extent 1) (extent 2) estimate refine part_root linear_root place_of 100000 last
+
+let first_time d =
+  let difference i j = difference integers (moving_point d i) (moving_point d j) in
+  let b, c, p =
+    if d.edges then difference 1 0, difference 3 2, difference 2 0
+    else difference 2 1, difference 3 1, difference 0 1 in
+  let y = y_form integers b c p in
+  if certainly_rootless integers y then Never
+  else
+    let point = moving d in
+    let borders = List.map (fun ((v, e0), e1) -> bracket_of (first_vertex_edge_contact v e0 e1))
+        (vertex_edge_queries d.edges (point 0) (point 1) (point 2) (point 3)) in
+    if List.mem Unknown borders then Unknown
+    else
+      let on_border = List.fold_left (fun first border ->
+          earlier first (match border with At b -> Some b | _ -> None)) None borders in
+      let s = inside d b c p (Obj.magic y : Z.t list) (last_of on_border) in
+      if s.unplaced || s.found = Undecided then Unknown
+      else match composed on_border (inside_time s) with None -> Never | Some b -> At b
+
+let put_double x =
+  let bits = Int64.bits_of_float x in
+  put_word (Int64.to_int (Int64.shift_right_logical bits 32));
+  put_word (Int64.to_int bits land 0xffffffff)
+let put_told = function
+  | Never -> put_word 0
+  | Unknown -> put_word 2
+  | At (low, high) -> put_word 1; put_double (Q.to_float low); put_double (Q.to_float high)
+(* Where integers of two words hold all. *)
+let put_if_fitting d tell =
+  let bits = Array.fold_left (fun m (_, bits) -> max m bits) 0 d.units in
+  put_told (if bits <= 125 then tell d else Unknown)
+
+let put_times (edges, x) =
+  put_if_fitting (integers_of edges x) first_time;
+  put_if_fitting (integers_of ~count:3 edges x)
+    (fun d -> bracket_of (first_vertex_edge_contact (moving d 0) (moving d 1) (moving d 2)));
+  put_if_fitting (integers_of ~count:2 edges x) (fun d ->
+      if not (vertices_contact (moving_point d 0) (moving_point d 1)) then Never
+      else bracket_of (moving_component (moving d 0) (moving d 1)))
+
+let () =
+  state := 1;
+  for i = 0 to 9 do
+    let queries = Array.init 1000 (fun _ ->
+        let mode = draw 15 in
+        let edges = draw 2 = 1 in
+        edges, query_in_doubles mode (whole_query mode edges)) in
+    line (Printf.sprintf "times first.%d" i) 1000 (fun k -> put_times queries.(k))
+  done
