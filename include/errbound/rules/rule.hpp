@@ -129,17 +129,6 @@ concept rule_has_correction = requires(const T& value,
     { Rule::template correction<T>(value, bound) } -> std::convertible_to<T>;
 };
 
-template <class Rule>
-inline constexpr bool holds_without_subnormals = [] {
-    if constexpr (requires { Rule::holds_without_subnormals; })
-        return Rule::holds_without_subnormals;
-    else
-        return false;
-}();
-
-/// Says in words what a type lacks that is taken for a rule.
-template <class Rule, class T>
-struct rule_check {
 template <class Rule, class T>
 concept rule_has_dot = requires(typename Rule::template dot_bound<T> so_far, const T& value,
                                 rule_operand<T, Rule> a) {
@@ -154,6 +143,17 @@ constexpr int terms_at_once(int bits) {
     return m;
 }
 
+template <class Rule>
+inline constexpr bool holds_without_subnormals = [] {
+    if constexpr (requires { Rule::holds_without_subnormals; })
+        return Rule::holds_without_subnormals;
+    else
+        return false;
+}();
+
+/// Says in words what a type lacks that is taken for a rule.
+template <class Rule, class T>
+struct rule_check {
     static_assert(
         rule_has_bound<Rule, T>,
         "errbound: a bound rule needs a template bound<T>, what it stores beside a value");
