@@ -134,10 +134,11 @@ class convert final : public command {
     explicit convert(CLI::App& program)
         : command(program, "convert", "Stored queries from CSV to HDF5, and back") {
         line_
-            .add_option("FILE", files_,
-                        "Files of queries, as `ccd query` reads them, then the output: OUT.h5 or "
-                        "OUT.hdf5, a\n"
-                        "store of queries, or OUT.csv, rows of hexadecimal floats")
+            .add_option(
+                "FILE", files_,
+                "Files of queries in the forms that `ccd query` reads, then the output: OUT.h5 or "
+                "OUT.hdf5, a\n"
+                "store of queries, or OUT.csv, rows of hexadecimal floats")
             ->required()
             ->expected(2, -1);
         line_

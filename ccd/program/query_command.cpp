@@ -55,6 +55,7 @@ exit_status query::run() {
 }
 
 query::asked_for query::checked_options() const {
+    errbound::support::require_one_standard_input("FILE", files_);
     asked_for asked;
     asked.device = device_.chosen();
     asked.question = time_asked();

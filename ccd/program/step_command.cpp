@@ -380,8 +380,8 @@ class step final : public command {
         if (view_)
             for (auto& path : io::view_paths(*view_)) outputs.push_back(std::move(path));
         errbound::support::require_good_outputs(outputs, {asked_.before, asked_.after});
-        if (asked_.before == "/dev/stdin" && asked_.after == "/dev/stdin")
-            throw usage_error("FRAME0 and FRAME1: found standard input twice, expected once");
+        errbound::support::require_one_standard_input("FRAME0 and FRAME1",
+                                                      {asked_.before, asked_.after});
     }
 
     step_question asked_;

@@ -29,7 +29,9 @@ stress_run::stress_run(CLI::App& program)
                     "So many of each family, kind and value of the knob; fewer where the truth\n"
                     "takes tenths of a second")
         ->check(CLI::Range(1, 1000000));
-    line_.add_option("--seed", plan_.seed, "Same seed, same queries")->capture_default_str();
+    line_.add_option("--seed", plan_.seed, "Same seed, same queries")
+        ->check(errbound::support::checked_seed)
+        ->capture_default_str();
     add_threads_option(line_, plan_.threads,
                        "Threads that find the truth; 0: one per core. Methods are timed on one");
     line_
@@ -64,9 +66,9 @@ stress::plan stress_run::checked_plan() const {
 }
 
 void stress_run::require_good_outputs() const {
-    if (out_.json && out_.folder)
-        errbound::support::require_good_outputs(
-            {out_.json}, {*out_.folder / "stress.csv", *out_.folder / "stress.md"});
+    std::vector<std::filesystem::path> others;
+    if (out_.folder) others = {*out_.folder / "stress.csv", *out_.folder / "stress.md"};
+    errbound::support::require_good_outputs({out_.json}, std::move(others));
 }
 
 std::unique_ptr<command> stress_command(CLI::App& program) {

@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <ccd/io/query_file.hpp>
 #include <cstdint>
+#include <string>
+#include <tuple>
 
 #include "errbound/support/command_line.hpp"
 
 namespace errbound::validation {
 namespace {
+
+/// As function_error has it.
+constexpr double most_units = 1024;
 
 rule rule_named(const std::string& name) {
     return support::entry_named("--rules", name, rules(), &rule::name);
@@ -42,6 +47,7 @@ validate_options::validate_options(CLI::App& program, int threads)
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
         ->capture_default_str();
     line_.add_option("--seed", arguments_.options.seed, "Same seed, same expressions")
+        ->check(support::checked_seed)
         ->capture_default_str();
     line_
         .add_option("--operations", arguments_.options.operations,
@@ -87,11 +93,9 @@ void validate_options::add_functions() {
         ->capture_default_str();
     line_.add_flag("--every-float", arguments_.functions.every_float,
                    "With --functions: all floats, of functions of one argument: long");
-    line_
-        .add_option("--units", arguments_.functions.units,
-                    "With --functions: hold them to so many units in the last place, instead of "
-                    "function_error")
-        ->check(CLI::PositiveNumber);
+    line_.add_option("--units", arguments_.functions.units,
+                     "With --functions: hold them to so many units in the last place, instead of "
+                     "function_error");
     line_
         .add_option("--functions-csv", arguments_.functions_csv,
                     "Write the table of functions as CSV")
@@ -114,6 +118,9 @@ validate_arguments validate_options::checked() {
                line_.count("--samples") > 0) {
         throw support::usage_error("found an option of --functions without it, expected both");
     }
+    if (const auto units = all.functions.units; units && !(*units > 0 && *units <= most_units))
+        throw support::usage_error("--units: found a number that is none from above 0 to 1024");
+    support::require_one_standard_input("--queries", all.queries);
     all.functions.numbers = all.options.numbers;
     const auto has_functions = [](number_type number) {
         return number == number_type::float_type || number == number_type::double_type;
@@ -125,7 +132,23 @@ validate_arguments validate_options::checked() {
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||
                       (!all.tiny && all.queries.empty() && all.functions.functions.empty());
+    require_use_of_options(all);
     return all;
+}
+
+void validate_options::require_use_of_options(const validate_arguments& all) const {
+    const bool random = all.expressions || !all.functions.functions.empty();
+    const std::tuple<const char*, bool, const char*> needs[] = {
+        {"--kind", !all.queries.empty(), "--queries"},
+        {"--round", !all.queries.empty(), "--queries"},
+        {"--operations", all.expressions, "--expressions"},
+        {"--numbers", random, "--expressions or --functions"},
+        {"--seed", random, "--expressions or --functions"},
+        {"--csv", all.expressions || !all.queries.empty(), "--expressions or --queries"}};
+    for (const auto& [option, is_used, by] : needs)
+        if (line_.count(option) > 0 && !is_used)
+            throw support::usage_error(std::string(option) + ": found without " + by +
+                                       ", expected both");
 }
 
 }  // namespace errbound::validation

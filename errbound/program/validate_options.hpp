@@ -37,6 +37,8 @@ class validate_options {
 
   private:
     void add_functions();
+    /// Throws usage_error if an option was given that nothing asked for would use.
+    void require_use_of_options(const validate_arguments& all) const;
 
     CLI::App& line_;
     validate_arguments arguments_;

@@ -2,6 +2,9 @@
 // and outputs that nothing is lost to.
 #pragma once
 
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -55,6 +58,22 @@ const auto& entry_named(const std::string& option, const std::string& wanted,
 /// The path of an input on the command line: `-` is standard input.
 inline std::string input_named(const std::string& name) {
     return name == "-" ? "/dev/stdin" : name;
+}
+
+/// Throws usage_error where standard input is among the inputs twice.
+inline void require_one_standard_input(const std::string& option,
+                                       const std::vector<std::filesystem::path>& inputs) {
+    if (std::ranges::count(inputs, std::filesystem::path(input_named("-"))) > 1)
+        throw usage_error(option + ": found standard input twice, expected once");
+}
+
+/// For CLI11's checks: what is wrong if that is no whole number of 64 bits, as CLI11 itself would
+/// make one of others.
+inline std::string checked_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error == std::errc() && end == text.data() + text.size()) return {};
+    return "found '" + text + "', expected a whole number up to 2^64 - 1";
 }
 
 /// Where tables for people go: standard output, or standard error where an output is the former.

@@ -199,6 +199,7 @@ class Query(ProgramTest):
         self.assertIn("found 'magic', expected one of",
                       self.bad_usage("query", file, "--method", "exact,magic"))
         self.bad_usage("query", file, "--method", "exact,")
+        self.assertIn("standard input twice", self.bad_usage("query", "-", "-", "--kind", "vf"))
         out = self.directory / "out"
         self.bad_usage("query", file, "--verdicts", out)
         self.bad_usage("query", file, "--method", "exact,float", "--verdicts", out)
@@ -523,6 +524,8 @@ class Stress(ProgramTest):
                       self.bad_usage("stress", "--family", "scale,none"))
         self.bad_usage("stress", "--method", "magic")
         self.bad_usage("stress", "--queries", 0)
+        for seed in -1, 2**64, "1e3":
+            self.assertIn("expected a whole number", self.bad_usage("stress", "--seed", seed))
         self.bad_usage("stress", "--threads", -1)
         self.bad_usage("stress", "--out", self.directory / "o", "--json",
                        self.directory / "o" / "stress.csv")

@@ -128,6 +128,14 @@ class Validate(unittest.TestCase):
                           ("validate", "--functions", "erf"), ("validate", "--samples", 10),
                           ("validate", "--functions", "exp", "--numbers", "float16"),
                           ("validate", "--every-float"), ("validate", "--units", "1"),
+                          ("validate", "--functions", "sin", "--units", "nan"),
+                          ("validate", "--functions", "sin", "--units", "0"),
+                          ("validate", "--seed", "-1"), ("validate", "--seed", str(2**64)),
+                          ("validate", "--kind", "vf"), ("validate", "--round"),
+                          ("validate", "--queries", file, "--operations", "3"),
+                          ("validate", "--tiny", "--seed", "3"),
+                          ("validate", "--functions", "sin", "--csv", "out"),
+                          ("validate", "--queries", "-", "-"),
                           ("validate", "--json", "out", "--csv", "out"), ("nothing",)):
             done = self.run_program(*arguments)
             self.assertEqual(done.returncode, 2, arguments)

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/signals.hpp"
 #include "errbound/support/table.hpp"
@@ -202,8 +203,9 @@ command_line::command_line(const std::string& how, unsigned threads) {
     };
     app_.name(how);
     add_parts(app_, chosen_);
-    seed_option_ =
-        app_.add_option("--seed", seed_, "Same seed, same questions")->capture_default_str();
+    seed_option_ = app_.add_option("--seed", seed_, "Same seed, same questions")
+                       ->check(errbound::support::checked_seed)
+                       ->capture_default_str();
     app_.add_flag("--resume", resume_, "Go on where the last run stopped");
     app_.add_flag("--anew", anew_, "Forget the last run")->excludes("--resume");
     app_.add_option("--threads", options_.threads, "0: one per core; over ranks those of each")
