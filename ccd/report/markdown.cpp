@@ -239,7 +239,13 @@ std::string tightness(const summary& report) {
     std::vector<std::string> heading{"part", "quantity"};
     std::vector<std::vector<std::string>> lines;
     const auto text_of_log = [](const row& r, const char* q) {
-        return r.contains(q) ? digits(std::pow(10, r[q].get<double>())) : std::string("-");
+        if (!r.contains(q)) return std::string("-");
+        const double log10 = r[q];
+        const bool is_clamped =
+            r.contains("clamped") &&
+            (' ' + r["clamped"].get<std::string>() + ' ').find(' ' + std::string(q) + ' ') !=
+                std::string::npos;
+        return (is_clamped ? log10 < 0 ? "<=" : ">=" : "") + digits(std::pow(10, log10));
     };
     for (const row& r : report.tightness) {
         if (r["number"] != "double" || r["measure"] == "error/value") continue;
@@ -256,7 +262,8 @@ std::string tightness(const summary& report) {
     if (lines.empty()) return "";
     for (auto& line : lines) line.resize(heading.size(), "-");
     return "## Tightness\n\nBound over true error, by MPFR: median (and 99 %), in double; of rules "
-           "that estimate errors, the estimate. The "
+           "that estimate errors, the estimate; the columns claimed and observed of "
+           "tightness.csv say how often it should be no less, and is. The "
            "true error is zero or the bound unknown in further cases; tightness.csv counts them."
            "\n\n" +
            table(heading, 2, lines);

@@ -165,9 +165,9 @@ const std::vector<std::string> contact_columns{"data_set",
                                                "timed_contacts",
                                                "ns_contact_decision",
                                                "ns_contact_time"};
-const std::vector<std::string> tightness_columns{"part",  "rule",  "number",  "quantity", "measure",
-                                                 "count", "exact", "unknown", "q0",       "q1",
-                                                 "q25",   "q50",   "q75",     "q99",      "q100"};
+const std::vector<std::string> tightness_columns{
+    "part",     "rule", "number", "quantity", "measure", "count", "exact", "unknown", "claimed",
+    "observed", "q0",   "q1",     "q25",      "q50",     "q75",   "q99",   "q100",    "clamped"};
 const std::vector<std::string> stress_columns{"family",     "knob_name",       "knob",
                                               "kind",       "method",          "queries",
                                               "collisions", "false_positives", "false_negatives",

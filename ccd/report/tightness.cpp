@@ -1,5 +1,6 @@
 // How much larger bounds are than the true errors, by MPFR (errbound/validation/validation.hpp).
 #include <errbound/validation/validation.hpp>
+#include <string>
 #include <utility>
 
 #include "ccd/report/sections.hpp"
@@ -20,10 +21,18 @@ rows rows_of(const validation::report& found) {
                  {"count", t.log10.ratios()},
                  {"exact", t.log10.exact()},
                  {"unknown", t.log10.unknown()}};
-        for (const int percent : {0, 1, 25, 50, 75, 99, 100}) {
-            if (t.log10.ratios() > 0)
-                r["q" + std::to_string(percent)] = t.log10.quantile(percent / 100.0);
+        if (t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0) {
+            r["claimed"] = t.claimed;
+            r["observed"] = t.observed();
         }
+        std::string clamped;
+        for (const int percent : {0, 1, 25, 50, 75, 99, 100}) {
+            if (t.log10.ratios() == 0) continue;
+            const std::string name = "q" + std::to_string(percent);
+            r[name] = t.log10.quantile(percent / 100.0);
+            if (t.log10.is_clamped(percent / 100.0)) clamped += (clamped.empty() ? "" : " ") + name;
+        }
+        if (!clamped.empty()) r["clamped"] = clamped;
         for (const validation::violation& v : found.violations) {
             if (v.rule == t.rule && v.number == t.number && !r.contains("broken"))
                 r["broken"] = v.what;

@@ -36,20 +36,39 @@ std::string text_of_counts(const std::vector<found_part>& parts) {
     return rows.size() > 1 ? text_of(rows, 3) : std::string();
 }
 
+/// Where ratios are not told apart, marked as such.
+std::string text_of_quantile(const distribution& log10, double share) {
+    if (log10.ratios() == 0) return "-";
+    const double value = log10.quantile(share);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", value);
+    if (!log10.is_clamped(share)) return text;
+    return (value < 0 ? "<=" : ">=") + std::string(text);
+}
+/// In a hundred.
+std::string text_of_rate(double rate) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", 100 * rate);
+    return text;
+}
+/// What an estimate claims, and how often its claim was true; nothing of other rules.
+bool has_rates(const tightness& t) {
+    return t.claimed > 0 && t.log10.ratios() + t.log10.exact() > 0;
+}
+
 std::string text_of_tightness(const std::vector<found_part>& parts) {
-    table rows{{"part", "rule", "number", "quantity", "measure", "ratios", "exact", "unknown"}};
+    table rows{{"part", "rule", "number", "quantity", "measure", "ratios", "exact", "unknown",
+                "claimed", "observed"}};
     for (const named_quantile& q : quantiles) rows.front().push_back(q.name);
     for (const found_part& p : parts)
         for (const tightness& t : p.found.distributions) {
             rows.push_back({p.name, t.rule, t.number, t.quantity, t.measure,
                             std::to_string(t.log10.ratios()), std::to_string(t.log10.exact()),
-                            std::to_string(t.log10.unknown())});
-            for (const named_quantile& q : quantiles) {
-                char text[32] = "-";
-                if (t.log10.ratios() > 0)
-                    std::snprintf(text, sizeof text, "%.2f", t.log10.quantile(q.share));
-                rows.back().push_back(text);
-            }
+                            std::to_string(t.log10.unknown()),
+                            has_rates(t) ? text_of_rate(t.claimed) : "-",
+                            has_rates(t) ? text_of_rate(t.observed()) : "-"});
+            for (const named_quantile& q : quantiles)
+                rows.back().push_back(text_of_quantile(t.log10, q.share));
         }
     return rows.size() > 1 ? text_of(rows, 5) : std::string();
 }
@@ -80,6 +99,14 @@ std::string text_of_violations(const std::vector<found_part>& parts) {
     return text;
 }
 
+/// The quantiles that are clamped, by their names.
+std::string clamped(const distribution& log10) {
+    std::string names;
+    for (const named_quantile& q : quantiles)
+        if (log10.is_clamped(q.share)) names += (names.empty() ? "" : " ") + std::string(q.name);
+    return names;
+}
+
 ordered_json number_or_null(double x) {
     return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr);
 }
@@ -108,9 +135,15 @@ std::string json_of(const std::vector<found_part>& parts) {
             ordered_json entry{{"part", p.name},           {"rule", t.rule},
                                {"number", t.number},       {"quantity", t.quantity},
                                {"measure", t.measure},     {"ratios", t.log10.ratios()},
-                               {"exact", t.log10.exact()}, {"unknown", t.log10.unknown()}};
+                               {"exact", t.log10.exact()}, {"unknown", t.log10.unknown()},
+                               {"claimed", nullptr},       {"observed", nullptr}};
+            if (has_rates(t)) {
+                entry["claimed"] = t.claimed;
+                entry["observed"] = t.observed();
+            }
             for (const named_quantile& q : quantiles)
                 entry[q.name] = number_or_null(t.log10.quantile(q.share));
+            entry["clamped"] = clamped(t.log10);
             all["tightness"].push_back(std::move(entry));
         }
         for (const function_errors& f : p.found.functions)
@@ -134,22 +167,26 @@ std::string field(const std::string& text) {
     return quoted + '"';
 }
 
+std::string number_text(double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", x);
+    return text;
+}
+
 std::string csv_of(const std::vector<found_part>& parts) {
-    std::string text = "part,rule,number,quantity,measure,ratios,exact,unknown";
+    std::string text = "part,rule,number,quantity,measure,ratios,exact,unknown,claimed,observed";
     for (const named_quantile& q : quantiles) text += std::string(",") + q.name;
-    text += '\n';
+    text += ",clamped\n";
     for (const found_part& p : parts)
         for (const tightness& t : p.found.distributions) {
             text += field(p.name) + ',' + t.rule + ',' + t.number + ',' + t.quantity + ',' +
                     t.measure + ',' + std::to_string(t.log10.ratios()) + ',' +
-                    std::to_string(t.log10.exact()) + ',' + std::to_string(t.log10.unknown());
-            for (const named_quantile& q : quantiles) {
-                char number[40] = ",";
-                if (t.log10.ratios() > 0)
-                    std::snprintf(number, sizeof number, ",%.6g", t.log10.quantile(q.share));
-                text += number;
-            }
-            text += '\n';
+                    std::to_string(t.log10.exact()) + ',' + std::to_string(t.log10.unknown()) +
+                    ',' + (has_rates(t) ? number_text(t.claimed) : "") + ',' +
+                    (has_rates(t) ? number_text(t.observed()) : "");
+            for (const named_quantile& q : quantiles)
+                text += ',' + (t.log10.ratios() > 0 ? number_text(t.log10.quantile(q.share)) : "");
+            text += ',' + clamped(t.log10) + '\n';
         }
     return text;
 }

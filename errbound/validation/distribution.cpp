@@ -29,7 +29,8 @@ distribution::distribution(counts from)
                                 std::isfinite(counts_.most) && counts_.least <= counts_.most &&
                                 counts_.first_bin == bin_of(counts_.least) &&
                                 counts_.first_bin + bins.size() - 1 == bin_of(counts_.most);
-    if (!good) throw std::invalid_argument("found bins that no distribution has");
+    if (!good || counts_.covered > ratios_)
+        throw std::invalid_argument("found bins that no distribution has");
 }
 
 /// Has bins from first_bin on, as many; no fewer than there were.
@@ -53,6 +54,7 @@ void distribution::add(double log10_ratio) {
     const std::size_t bin = bin_of(log10_ratio);
     make_room(bin, 1);
     ++counts_.bins[bin - counts_.first_bin];
+    if (log10_ratio >= 0) ++counts_.covered;
     widen(log10_ratio, log10_ratio);
     ++ratios_;
 }
@@ -68,6 +70,7 @@ void distribution::merge(const distribution& other) {
     }
     counts_.exact += from.exact;
     counts_.unknown += from.unknown;
+    counts_.covered += from.covered;
 }
 
 double distribution::quantile(double share) const {
@@ -80,6 +83,13 @@ double distribution::quantile(double share) const {
     while (static_cast<double>(seen += counts_.bins[i]) < wanted) ++i;
     const auto bin = static_cast<double>(counts_.first_bin + i);
     return std::clamp(least_log + resolution * bin, counts_.least, counts_.most);
+}
+
+bool distribution::is_clamped(double share) const {
+    if (ratios_ == 0) return false;
+    const double value = quantile(share);
+    if (share <= 0 || share >= 1) return value == least_log || value == max_log;
+    return bin_of(value) == 0 || bin_of(value) == bin_of(max_log);
 }
 
 }  // namespace errbound::validation

@@ -189,9 +189,9 @@ struct study {
             {name, number, found.expressions, found.values, found.violations, found.undetermined});
         for (std::size_t i = 0; i < operation_kinds; ++i)
             if (found.log10[i].count() > 0)
-                to.distributions.push_back({name, number,
-                                            std::string(name_of(static_cast<operation_kind>(i))),
-                                            std::string(measure_of(r.error_is)), found.log10[i]});
+                to.distributions.push_back(
+                    {name, number, std::string(name_of(static_cast<operation_kind>(i))),
+                     std::string(measure_of(r.error_is)), found.log10[i], r.claimed_rate});
         for (const std::uint64_t index : found.violating)
             to.violations.push_back({name, number, index, {}, {}});
     }

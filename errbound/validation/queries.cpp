@@ -87,7 +87,8 @@ report report_of(std::span<const rule> rules, std::span<const Query> queries,
         result.counts.push_back(found.counts);
         for (auto& [name, log10] : found.quantities)
             result.distributions.push_back({std::string(r.name), "double", name,
-                                            std::string(measure_of(r.error_is)), std::move(log10)});
+                                            std::string(measure_of(r.error_is)), std::move(log10),
+                                            r.claimed_rate});
         std::ranges::move(found.violations, std::back_inserter(result.violations));
     }
     return result;

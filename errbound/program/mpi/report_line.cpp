@@ -18,8 +18,8 @@ auto members(violation& v) {
     return std::tie(v.rule, v.number, v.index, v.what, v.code);
 }
 auto members(tightness& t, distribution::counts& c) {
-    return std::tie(t.rule, t.number, t.quantity, t.measure, c.exact, c.unknown, c.first_bin,
-                    c.bins, c.least, c.most);
+    return std::tie(t.rule, t.number, t.quantity, t.measure, t.claimed, c.exact, c.unknown,
+                    c.covered, c.first_bin, c.bins, c.least, c.most);
 }
 json packed(const function_errors& f) {
     return {f.function, f.number, f.arguments, f.largest, f.at, f.assumed, f.violations};

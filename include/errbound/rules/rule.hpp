@@ -30,6 +30,8 @@
 //                                                without gradual underflow
 //   error_is                                     error_meaning::estimate or nothing, where no
 //                                                bound is promised
+//   claimed_rate                                 of an estimate: the probability, by what it is
+//                                                made for, that the error is no larger
 // All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp. A
 // rule that differs from another in a part is derived from it: rules/derived.hpp. The state may be
 // of any size, terms by source for instance: rules/affine.hpp.
@@ -63,6 +65,15 @@ inline constexpr error_meaning meaning_of_error = [] {
         return Rule::error_is;
     else
         return error_meaning::bound;
+}();
+
+/// The probability that a rule claims for its estimates; 0 where it claims none, or promises more.
+template <class Rule>
+inline constexpr double claimed_rate = [] {
+    if constexpr (requires { Rule::claimed_rate; })
+        return Rule::claimed_rate;
+    else
+        return 0.0;
 }();
 
 /// Whether the rule promises a bound at all.

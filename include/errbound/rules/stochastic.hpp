@@ -42,6 +42,7 @@ struct stochastic_of {
     static_assert(Samples >= 2 && Samples <= 8, "errbound: stochastic takes 2 to 8 samples");
     static constexpr const char* name = "stochastic";
     static constexpr error_meaning error_is = error_meaning::estimate;
+    static constexpr double claimed_rate = 0.95;
 
     template <class T>
     struct bound {

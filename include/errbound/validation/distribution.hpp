@@ -17,7 +17,7 @@ class distribution {
     /// All that a distribution is, for keeping it elsewhere. Bin i has the ratios whose log10 is
     /// nearest to least_log + i · resolution; bins[0] is bin first_bin, and its ends are not zero.
     struct counts {
-        std::uint64_t exact = 0, unknown = 0;
+        std::uint64_t exact = 0, unknown = 0, covered = 0;
         std::size_t first_bin = 0;
         std::vector<std::uint64_t> bins{};
         double least = 0, most = 0;  ///< log10 of the extremes; 0 without ratios
@@ -37,12 +37,17 @@ class distribution {
     void merge(const distribution& other);
 
     std::uint64_t ratios() const { return ratios_; }
+    /// Ratios that are at least 1.
+    std::uint64_t covered() const { return counts_.covered; }
     std::uint64_t exact() const { return counts_.exact; }
     std::uint64_t unknown() const { return counts_.unknown; }
     std::uint64_t count() const { return ratios_ + exact() + unknown(); }
     /// Of the ratios: the least log10 that at least `share` of them do not exceed, 0 <= share <= 1;
     /// 0 and 1 are the extremes themselves. NaN without ratios.
     double quantile(double share) const;
+    /// Whether that quantile is at an end or beyond, where ratios are not told apart: it is no more
+    /// than least_log, or no less than max_log. An extreme is, where it stands for 0 or infinity.
+    bool is_clamped(double share) const;
 
   private:
     void make_room(std::size_t first_bin, std::size_t bins);

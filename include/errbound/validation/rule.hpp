@@ -17,6 +17,7 @@ namespace errbound::validation {
 struct rule {
     std::string_view name;
     error_meaning error_is = error_meaning::nothing;
+    double claimed_rate = 0;  ///< of an estimate
     bool has_division = false;
     /// What it says of an expression, by number_type.
     std::array<void (*)(const expression&, claim*), number_type_count> evaluate{};
@@ -32,6 +33,7 @@ template <class Rule>
 constexpr void set_expression_checks(rule& r) {
     r.name = Rule::name;
     r.error_is = meaning_of_error<Rule>;
+    r.claimed_rate = claimed_rate<Rule>;
     r.has_division = has_division<Rule>;
     for (const named_number_type& number : number_types)
         r.evaluate[static_cast<std::size_t>(number.type)] =

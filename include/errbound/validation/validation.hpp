@@ -39,6 +39,13 @@ struct tightness {
     /// "bound/error"; under a rule that promises no bound "estimate/error" or "error/value".
     std::string measure;
     distribution log10;
+    double claimed = 0;  ///< claimed_rate of the rule
+
+    /// Of the results about which something is said: of how many the error is no larger.
+    double observed() const {
+        const std::uint64_t all = log10.ratios() + log10.exact();
+        return static_cast<double>(log10.covered() + log10.exact()) / static_cast<double>(all);
+    }
 };
 
 /// What was done under one rule and number type.

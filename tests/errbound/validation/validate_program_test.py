@@ -58,6 +58,12 @@ class Validate(unittest.TestCase):
             quantiles = [entry[q] for q in ("min", "q01", "q25", "median", "q75", "q99", "max")]
             self.assertEqual(quantiles, sorted(quantiles))
             self.assertAlmostEqual(float(row["median"]), entry["median"], places=3)
+            self.assertEqual(row["clamped"], entry["clamped"])
+            for q in entry["clamped"].split():
+                self.assertGreaterEqual(abs(entry[q]), 40)
+            self.assertEqual(entry["claimed"], 0.95 if entry["rule"] == "stochastic" else None)
+            if entry["rule"] == "stochastic":
+                self.assertAlmostEqual(float(row["observed"]), entry["observed"], places=3)
             if entry["measure"] == "bound/error":
                 self.assertGreaterEqual(entry["min"], 0)
 

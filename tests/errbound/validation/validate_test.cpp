@@ -233,9 +233,16 @@ TEST(Distribution, KeptElsewhere) {
     EXPECT_EQ(d.quantile(0.5), 0.5);
     EXPECT_EQ(d.quantile(0), -1e6);
     EXPECT_EQ(d.quantile(1), 1e6);
+    EXPECT_EQ(d.covered(), 5U);
+    // The extremes are known; what is next to them is only known to be beyond the ends.
+    EXPECT_FALSE(d.is_clamped(0) || d.is_clamped(0.5) || d.is_clamped(1));
+    EXPECT_TRUE(d.is_clamped(0.1) && d.is_clamped(0.95));
+    d.add(validation::distribution::least_log);
+    EXPECT_FALSE(d.is_clamped(0));
     using counts = validation::distribution::counts;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const counts& bad : {counts{.first_bin = 1}, counts{.least = 1}, counts{.bins = {1, 0}},
+                              counts{.covered = 2, .first_bin = 2000, .bins = {1}},
                               counts{.first_bin = 2000, .bins = {1, 0}, .least = 0, .most = 0.02},
                               counts{.first_bin = 2000, .bins = {1}, .least = 0, .most = nan},
                               counts{.first_bin = 2001, .bins = {1}, .least = 0, .most = 0},
