@@ -96,14 +96,16 @@ class input_maker {
     double middle_;
 };
 
-/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, any elementary function.
+/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, dot product, polynomial, any
+/// elementary function.
 using operation_mix = std::array<int, first_function + 1>;
-constexpr std::array<operation_mix, 6> mixes{{{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0, 0},  // polynomials
-                                              {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // sums
-                                              {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0, 0},  // products
-                                              {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4, 0},  // functions
-                                              {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1, 0},
-                                              {3, 3, 4, 0, 1, 2, 1, 1, 1, 1, 1, 8}}};
+constexpr std::array<operation_mix, 6> mixes{
+    {{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0, 2, 2, 0},  // polynomials
+     {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0},  // sums
+     {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0},  // products
+     {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4, 1, 1, 0},  // functions
+     {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0},
+     {3, 3, 4, 0, 1, 2, 1, 1, 1, 1, 1, 1, 1, 8}}};
 constexpr std::size_t mix_with_quotients = 4, mix_with_elementary_functions = 5;
 
 operation_kind kind_from(const operation_mix& mix, random_source& random) {
@@ -169,8 +171,8 @@ std::string name_of_value(std::size_t value) {
 std::string_view name_of(operation_kind kind) {
     if (is_function(kind)) return name_of(function_of(kind));
     constexpr std::array<std::string_view, first_function> names{
-        "add",  "subtract", "multiply", "divide", "negate", "scale",
-        "sqrt", "abs",      "min",      "max",    "fma"};
+        "add", "subtract", "multiply", "divide", "negate", "scale", "sqrt",
+        "abs", "min",      "max",      "fma",    "dot",    "horner"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -242,6 +244,19 @@ class multiples {
     std::array<multiple, expression::max_values> known_;
 };
 
+/// left·right + third·left.
+void set_dot(ball& result, const ball& left, const ball& right, const ball& third) {
+    ball product(mpfr_get_prec(result.middle()));
+    product.set_product(left, right);
+    result.set_fused(third, left, product);
+}
+/// third + right·left + third·left².
+void set_polynomial(ball& result, const ball& left, const ball& right, const ball& third) {
+    ball inner(mpfr_get_prec(result.middle()));
+    inner.set_fused(third, left, right);
+    result.set_fused(inner, left, third);
+}
+
 /// The result of an operation on others of the values.
 void set_result(ball& result, const expression_operation& o, const ball* values) {
     switch (o.kind) {
@@ -278,6 +293,12 @@ void set_result(ball& result, const expression_operation& o, const ball* values)
         case operation_kind::fused:
             result.set_fused(values[o.left], values[o.right], values[o.third]);
             break;
+        case operation_kind::dot:
+            set_dot(result, values[o.left], values[o.right], values[o.third]);
+            break;
+        case operation_kind::horner:
+            set_polynomial(result, values[o.left], values[o.right], values[o.third]);
+            break;
         default:
             result.set_function(function_of(o.kind), values[o.left], values[o.right]);
     }
@@ -313,7 +334,8 @@ std::string hexadecimal(double x, number_type type) {
 namespace {
 
 std::string cpp_text(const expression_operation& o) {
-    const std::string left = name_of_value(o.left), right = name_of_value(o.right);
+    const std::string left = name_of_value(o.left), right = name_of_value(o.right),
+                      third = name_of_value(o.third);
     switch (o.kind) {
         case operation_kind::add:
             return left + " + " + right;
@@ -327,11 +349,16 @@ std::string cpp_text(const expression_operation& o) {
             return "-" + left;
         case operation_kind::scale:
             return "scale(" + left + ", " + std::to_string(o.exponent) + ")";
+        case operation_kind::dot:
+            return "dot(std::array{" + left + ", " + third + "}, std::array{" + right + ", " +
+                   left + "})";
+        case operation_kind::horner:
+            return "horner(std::array{" + third + ", " + right + ", " + third + "}, " + left + ")";
         default:
             break;
     }
     return std::string(name_of(o.kind)) + "(" + left + (o.has_right() ? ", " + right : "") +
-           (o.has_third() ? ", " + name_of_value(o.third) : "") + ")";
+           (o.has_third() ? ", " + third : "") + ")";
 }
 
 }  // namespace

@@ -44,13 +44,20 @@ double size_of(double x) {
     return x == 0 ? 0 : bits_of(x) + std::abs(std::ilogb(x)) / 64.0 + (x < 0 ? 0.5 : 0);
 }
 
+/// Made of several, the first of which is left·right.
+bool is_compound(operation_kind kind) {
+    return kind == operation_kind::dot || kind == operation_kind::horner;
+}
+
 /// Falls with every accepted step: operations first, then inputs, then their digits.
 double size_of(const expression& e) {
     double size =
         1e6 * static_cast<double>(e.operation_count) + 1e4 * static_cast<double>(e.input_count);
-    for (std::size_t i = 0; i < e.operation_count; ++i)
+    for (std::size_t i = 0; i < e.operation_count; ++i) {
         if (e.operations[i].kind == operation_kind::scale)
             size += std::abs(e.operations[i].exponent);
+        if (is_compound(e.operations[i].kind)) size += 1e5;
+    }
     for (std::size_t i = 0; i < e.input_count; ++i) {
         const expression_input& in = e.inputs[i];
         size += size_of(in.value);
@@ -110,6 +117,11 @@ std::vector<expression> smaller(const expression& e, number_type type) {
         o.for_each_operand([&](std::uint8_t& v) { r.push_back(with_other(e, n, v)); });
         if (std::isfinite(plain[n].value))
             if (auto with = with_input(e, n, {.value = plain[n].value})) r.push_back(*with);
+        if (is_compound(o.kind)) {
+            expression product = e;
+            product.operations[n - e.input_count].kind = operation_kind::multiply;
+            r.push_back(cut(product, e.size() - 1));
+        }
         if (o.kind == operation_kind::scale)
             for (const int exponent : {0, o.exponent / 2, o.exponent + (o.exponent > 0 ? -1 : 1)}) {
                 r.push_back(e);

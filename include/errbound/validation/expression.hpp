@@ -31,6 +31,8 @@ enum class operation_kind : std::uint8_t {
     lesser,
     greater,
     fused,
+    dot,
+    horner,
     function  ///< and after it all others of elementary_function, in its order
 };
 inline constexpr std::size_t first_function = static_cast<std::size_t>(operation_kind::function);
@@ -51,8 +53,10 @@ struct expression_input {
     int quarters = 0;
 };
 
-/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third; a function of left, or
-/// of left and right.
+/// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third; the dot product
+/// left·right
+/// + third·left, the polynomial third + right·left + third·left²; a function of left, or of left
+/// and right.
 struct expression_operation {
     operation_kind kind = operation_kind::add;
     std::uint8_t left = 0, right = 0, third = 0;
@@ -63,7 +67,10 @@ struct expression_operation {
         return kind != operation_kind::negate && kind != operation_kind::scale &&
                kind != operation_kind::root && kind != operation_kind::absolute;
     }
-    bool has_third() const { return kind == operation_kind::fused; }
+    bool has_third() const {
+        return kind == operation_kind::fused || kind == operation_kind::dot ||
+               kind == operation_kind::horner;
+    }
     /// Calls visit with each operand's place.
     template <class Visit>
     void for_each_operand(const Visit& visit) {
@@ -179,6 +186,10 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
             return max(left, right);
         case operation_kind::fused:
             return fma(left, right, x[o.third]);
+        case operation_kind::dot:
+            return dot(std::array{left, x[o.third]}, std::array{right, left});
+        case operation_kind::horner:
+            return horner(std::array{x[o.third], right, x[o.third]}, left);
         default:
             return with_function(function_of(o.kind), [&]<elementary_function F>() {
                 if constexpr (F == elementary_function::pow)
