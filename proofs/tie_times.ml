@@ -134,11 +134,12 @@ let inside d b c p y last =
   let extent k = Z.of_int (snd d.units.(k)) in
   find d.edges b c p (extent 0) (extent 1) (extent 2) estimate refine part_root linear_root place_of 100000 last
 
-let first_time d =
+let differences d =
   let difference i j = difference integers (moving_point d i) (moving_point d j) in
-  let b, c, p =
-    if d.edges then difference 1 0, difference 3 2, difference 2 0
-    else difference 2 1, difference 3 1, difference 0 1 in
+  if d.edges then difference 1 0, difference 3 2, difference 2 0
+  else difference 2 1, difference 3 1, difference 0 1
+let first_time d =
+  let b, c, p = differences d in
   let y = y_form integers b c p in
   if certainly_rootless integers y then Never
   else
@@ -166,7 +167,24 @@ let put_if_fitting d tell =
   let bits = Array.fold_left (fun m (_, bits) -> max m bits) 0 d.units in
   put_told (if bits <= 125 then tell d else Unknown)
 
-let put_times (edges, x) =
+(* Of a part of the step where Y changes its sign, as if the filter had found contact in it: parts and how Y bends
+   there follow from the case's number. *)
+let put_part d k =
+  let depth = k mod 4 in
+  let index = k / 4 mod (1 lsl depth) in
+  let y = let b, c, p = differences d in (Obj.magic (y_form integers b c p) : Z.t list) in
+  let sign_at i = sign (value_at y (Z.of_int ((1 lsl depth) - i)) (Z.of_int i)) in
+  let before = sign_at index in
+  if before <> Zero && sign_at (index + 1) = opposite before then
+    put_if_fitting d (fun _ ->
+        let start = if before = Positive then 1. else -1. in
+        let place = estimated_root
+            [| start; 3. *. float_of_int ((k mod 5) - 2); 3. *. float_of_int ((k mod 7) - 3); -. start |] in
+        let low = ldexp (float_of_int index) (- depth) and high = ldexp (float_of_int (index + 1)) (- depth) in
+        told (between (search (Array.of_list y)) low high before (low +. (place *. (high -. low)))))
+
+let put_times (edges, x) k =
+  put_part (integers_of edges x) k;
   put_if_fitting (integers_of edges x) first_time;
   put_if_fitting (integers_of ~count:3 edges x)
     (fun d -> bracket_of (first_vertex_edge_contact (moving d 0) (moving d 1) (moving d 2)));
@@ -181,5 +199,5 @@ let () =
         let mode = draw 15 in
         let edges = draw 2 = 1 in
         edges, query_in_doubles mode (whole_query mode edges)) in
-    line (Printf.sprintf "times first.%d" i) 1000 (fun k -> put_times queries.(k))
+    line (Printf.sprintf "times first.%d" i) 1000 (fun k -> put_times queries.(k) k)
   done

@@ -44,6 +44,7 @@ let put_case () =
   if List.length (trimmed (any_product a b)) <= capacity then put_words (trimmed (long_product capacity a b));
   put_word (match sign_of a with Lt -> 0 | Eq -> 1 | Gt -> 2);
   put_word (if a = b then 1 else 0);
+  put_word (if trimmed (long_difference (trimmed (long_sum a b)) b) = a then 1 else 0);
   put_int (Z.to_int (long_bit_length a));
   put_words (word_from_bit a (z (draw (64 * (capacity + 1)))));
   let bits = draw (64 * 9) in
@@ -53,9 +54,12 @@ let put_case () =
   List.iter (fun (i, w) -> put_int (Z.to_int i); put_whole (Z.abs w); put_word (if Z.sign w < 0 then 1 else 0))
     (signed_words a Z.zero Z.zero);
   let magnitude = word 2 in
-  let shift = draw (64 * (capacity - 2)) in
+  let shift = draw (64 * capacity) in
   let negative = draw 2 = 1 in
-  put_words (trimmed (long_shifted magnitude (z shift) negative (min ((shift / 64) + 3) capacity)))
+  let wide = trimmed (long_shifted magnitude (z shift) negative ((shift / 64) + 3)) in
+  put_words wide;
+  if List.length wide <= capacity then
+    put_words (trimmed (long_shifted magnitude (z shift) negative (min ((shift / 64) + 3) capacity)))
 
 let () =
   state := 1;

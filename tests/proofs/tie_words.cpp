@@ -67,6 +67,7 @@ void put_case(hash& h, tie::sequence& s) {
     put_fitting(h, a * b, number::product(a, b));
     put_int(h, static_cast<int>(sign_of(a)));
     h.put(a == b);
+    h.put(wide_number(a) + wide_number(b) - wide_number(b) == wide_number(a));
     put_int(h, a.bit_length());
     h.put(1);
     h.put_both(static_cast<word>(a.word_from_bit(draw(s, 64 * (capacity + 1)))));
@@ -81,8 +82,11 @@ void put_case(hash& h, tie::sequence& s) {
                                                     h.put(negative);
                                                 });
     const word magnitude = drawn_word(s, 2);
-    const int shift = draw(s, 64 * (capacity - 2));
-    put(h, number(magnitude, shift, draw(s, 2) == 1));
+    const int shift = draw(s, 64 * capacity);
+    const bool negative = draw(s, 2) == 1;
+    const wide_number wide(magnitude, shift, negative);
+    put(h, wide);
+    if (wide.size() <= capacity) put(h, number(magnitude, shift, negative));
 }
 
 std::vector<tie::line> all_lines() {
