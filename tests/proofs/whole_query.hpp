@@ -1,4 +1,4 @@
-// Queries of vertex and face or of two edges in whole numbers, as proofs/tie_queries.ml draws
+// Queries of vertex and face, or of two edges in whole numbers, as proofs/tie_queries.ml draws
 // them: small and large, in a plane but for a little, that meet or almost meet inside or at a
 // border, with points that coincide, rigid but for a little, out and back; some with axes in other
 // units, and a little off.
