@@ -108,7 +108,11 @@ let homogeneous : (point array -> expression) list =
     (fun q -> Minus (Product (c q 0, whole (-7)), Product (d q 0 1, whole 16777217)));
     (fun q -> Product (Sum (Product (d q 0 0, whole 3), d q 0 1), whole 0));
     (fun q -> Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 8)));
+    (fun q -> Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 16)));
     (fun q -> Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 32)));
+    (* Whose allowances are 2^24. *)
+    (fun q ->
+       Sum (Product (Product (d q 0 0, d q 0 1), whole 2097152), Product (Product (d q 1 0, d q 1 1), whole 2097151)));
     (fun q ->
        let e = Product (Product (d q 0 0, whole 1048576), Product (d q 0 1, whole 1048576)) in
        Product (e, Product (e, d q 1 1))) ]

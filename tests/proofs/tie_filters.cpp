@@ -155,7 +155,12 @@ const auto homogeneous =
            [](const auto& p) { return c(p, 0) * -7 - d(p, 0, 1) * 16777217; },
            [](const auto& p) { return (d(p, 0, 0) * 3 + d(p, 0, 1)) * 0; },
            [](const auto& p) { return d(p, 0, 0) * 1048576 * (d(p, 0, 1) * 8); },
+           [](const auto& p) { return d(p, 0, 0) * 1048576 * (16 * d(p, 0, 1)); },
            [](const auto& p) { return d(p, 0, 0) * 1048576 * (32 * d(p, 0, 1)); },
+           // Whose allowances are 2^24.
+           [](const auto& p) {
+               return d(p, 0, 0) * d(p, 0, 1) * 2097152 + d(p, 1, 0) * d(p, 1, 1) * 2097151;
+           },
            [](const auto& p) {
                const auto e = d(p, 0, 0) * 1048576 * (d(p, 0, 1) * 1048576);
                return e * (e * d(p, 1, 1));
