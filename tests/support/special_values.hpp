@@ -11,21 +11,23 @@
 using rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
                                                boost::multiprecision::et_off>;
 
+/// Of finite numbers.
 template <class T>
 rational exactly(T x) {
     int e = 0;
-    const T m = std::ldexp(std::frexp(x, &e), std::numeric_limits<T>::digits);
-    e -= std::numeric_limits<T>::digits;
-    rational r;
-    if constexpr (std::numeric_limits<T>::digits > 63) {
-        r = rational(static_cast<std::int64_t>(m / 2)) * 2 +
-            rational(static_cast<int>(m - 2 * std::trunc(m / 2)));
-    } else {
-        r = rational(static_cast<std::int64_t>(m));
+    T rest = std::frexp(x, &e);
+    boost::multiprecision::mpz_int whole = 0;
+    // Some bits at a time: long double has 113 on some processors, more than any integer type.
+    constexpr int bits = 30;
+    for (int taken = 0; taken < std::numeric_limits<T>::digits; taken += bits, e -= bits) {
+        rest = std::ldexp(rest, bits);
+        const auto part = static_cast<std::int32_t>(rest);
+        rest -= static_cast<T>(part);
+        whole = (whole << bits) + part;
     }
     boost::multiprecision::mpz_int power = 1;
     power <<= std::abs(e);
-    return e >= 0 ? rational(r * rational(power)) : rational(r / rational(power));
+    return e >= 0 ? rational(rational(whole) * rational(power)) : rational(whole, power);
 }
 
 /// Values that find trouble: zeros, powers of two and their neighbours, subnormals, huge numbers,
