@@ -1,8 +1,8 @@
-"""./run everywhere: the library built for other processors, systems and compilers, its unit tests, and
+"""./run everywhere: the library built for other processors, systems and compilers, its tests, and
 errbound_everywhere, whose hashes must be the same on all. Prints one table.
 
 What a target needs beside its compiler is made in out/everywhere: oneTBB and GoogleTest by the distribution's
-source, and a folder of the headers that are the same for all targets.
+source, for tests GMP, too, and a folder of the headers that are the same for all targets.
 """
 import argparse
 import os
@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 
+import instructions
 from targets import TARGETS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -34,6 +35,10 @@ ARITHMETIC = {
                r"v?(?:add|sub|mul|div|cmp[a-z]*|u?comi|min|max|sqrt)s[sd]"),
 }
 LEAST_PACKED = 0.95
+# How much random tests try under an emulator (tests/support/scaled.hpp), as under valgrind.
+EMULATED_SCALE = "0.01"
+# Whose baseline kernels have packs of two doubles: instructions of the second are held against the first's.
+COUNTED = ["x86-64", "aarch64"]
 
 
 class Failed(Exception):
@@ -55,19 +60,22 @@ def link_headers():
 class Build:
     """One target's folder: log, libraries, build."""
 
-    def __init__(self, target, jobs):
+    def __init__(self, target, jobs, log=None):
         self.target, self.jobs = target, jobs
         self.folder = OUT / target.name
         self.folder.mkdir(parents=True, exist_ok=True)
-        self.log = self.folder / "log"
-        self.log.write_text("")
-        libraries = self.folder / "libraries"
+        self.log = log or self.folder / "log"
+        if log is None:
+            self.log.write_text("")
+        libraries = OUT / (target.libraries or target.name) / "libraries"
         values = {"SYSTEM": target.system, "PROCESSOR": target.processor, "TRIPLE": target.triple,
                   "CC": target.cc, "CXX": target.cxx, "FLAGS": target.flags, "CXX_FLAGS": target.cxx_flags,
                   "EMULATOR": ";".join(target.emulator), "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
         self.libraries = libraries
         self.environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(self.folder / "wine"),
                             **{"ERRBOUND_" + name: value for name, value in values.items()}}
+        if target.emulator:
+            self.environment.setdefault("ERRBOUND_TEST_SCALE", EMULATED_SCALE)
 
     def run(self, *command, why, check=True):
         """What it printed; raises Failed unless it succeeds."""
@@ -99,13 +107,42 @@ class Build:
             self.make(name, "install")
             done.touch()
 
-    def prepare(self):
-        onetbb = next((OUT / "onetbb" / "source").glob("onetbb-*/"), None)
-        if onetbb is None:
-            raise Failed("no source of oneTBB")
-        self.make_library("onetbb", onetbb, "-DTBB_STRICT=OFF", "-DTBB_TEST=OFF", "-DTBBMALLOC_BUILD=OFF",
-                          "-DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON", "-Wno-dev")
+    def make_gmp(self):
+        """Of tests alone, whose oracles it is: the library has the integers that it has without."""
+        if not self.target.triple:
+            multiarch = subprocess.run(["gcc", "-print-multiarch"], check=True, stdout=subprocess.PIPE,
+                                       text=True).stdout.strip()
+            for folder, file in (("include", "gmp.h"), ("lib", "libgmp.a")):
+                to = self.libraries / folder / file
+                if not to.exists():
+                    to.symlink_to(f"/usr/{folder}/{multiarch}/{file}")
+            return
+        done = self.libraries / ".gmp"
+        if not done.exists():
+            folder, source = self.folder / "gmp", source_of("gmp")
+            folder.mkdir(exist_ok=True)
+            # Debian leaves out the manual, whose licence is not free, which configure asks for.
+            (source / "doc").mkdir(exist_ok=True)
+            (source / "doc" / "Makefile.in").write_text("all install:\n")
+            self.run("env", "-C", folder, source / "configure", f"--host={self.target.triple}",
+                     f"--prefix={self.libraries}", "--disable-shared", "--disable-assembly",
+                     f"CC={self.target.cc}", f"CFLAGS=-O2 {self.target.flags}", why="GMP cannot be configured")
+            self.run("make", "-C", folder, f"-j{self.jobs}", "install", why="GMP does not compile")
+            done.touch()
+
+    def make_libraries(self, with_tests):
+        if self.target.libraries:
+            owner = next(t for t in TARGETS if t.name == self.target.libraries)
+            Build(owner, self.jobs, self.log).make_libraries(with_tests)
+            return
+        self.make_library("onetbb", source_of("onetbb"), "-DTBB_STRICT=OFF", "-DTBB_TEST=OFF",
+                          "-DTBBMALLOC_BUILD=OFF", "-DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON", "-Wno-dev")
         self.make_library("googletest", "/usr/src/googletest", "-DBUILD_GMOCK=OFF")
+        if with_tests:
+            self.make_gmp()
+
+    def prepare(self, with_tests):
+        self.make_libraries(with_tests)
         self.cmake(ROOT, "build", *(f"-DERRBOUND_WITH_{x}=OFF" for x in ("CUDA", "MPI", "HDF5", "MPFR", "GMP")))
 
     def refusal(self):
@@ -120,11 +157,15 @@ class Build:
             raise Failed("not refused")
         return "refused: " + said[1]
 
+    def program(self, name):
+        """Makes one of tests/everywhere; its path."""
+        self.make("build", name)
+        path = self.folder / "build" / "tests" / "everywhere" / name
+        return path if path.exists() else path.with_suffix(".exe")
+
     def hash(self):
         """The hash of all answers, and whether it is the right one."""
-        self.make("build", "errbound_everywhere")
-        path = self.folder / "build" / "tests" / "everywhere" / "errbound_everywhere"
-        program = path if path.exists() else path.with_suffix(".exe")
+        program = self.program("errbound_everywhere")
         status, text = self.run(*self.target.emulator, program, why="", check=False)
         differing = re.findall(r"^(.*?) +\d+ .*DIFFERS$", text, re.MULTILINE)
         found = re.search(r"^all .* ([0-9a-f]{16}) ", text, re.MULTILINE)
@@ -152,17 +193,26 @@ class Build:
     def tests(self, label):
         """How many of the tests with that label passed, as text, and whether all did."""
         build = self.folder / "build"
-        helper = [sys.executable, ROOT / "cmake" / "test_targets.py", build, "-L", label]
+        chosen = ["-L", label, "-LE", "^sources$"]
+        helper = [sys.executable, ROOT / "cmake" / "test_targets.py", build, *chosen]
         targets = subprocess.run(helper, env=self.environment, check=True, stdout=subprocess.PIPE,
                                  text=True).stdout.split()
         self.make("build", *targets)
         report = self.folder / "tests.xml"
-        self.run("ctest", "--test-dir", build, "--output-on-failure", "-L", label, "--output-junit", report,
+        self.run("ctest", "--test-dir", build, "--output-on-failure", *chosen, "--output-junit", report,
                  f"-j{self.jobs}", why="", check=False)
         counts = {name: int(number) for name, number in
                   re.findall(r'\b(tests|failures|skipped|disabled)="(\d+)"', report.read_text())}
         run = counts["tests"] - counts["skipped"] - counts["disabled"]
         return f"{run - counts['failures']} of {run}", counts["failures"] == 0
+
+
+def source_of(package):
+    """The distribution's, which ./run everywhere fetches."""
+    source = next((OUT / package / "source").glob(f"{package}-*/"), None)
+    if source is None:
+        raise Failed(f"no source of {package}")
+    return source
 
 
 def compiler_of(target):
@@ -188,7 +238,7 @@ def print_row(target, label, jobs):
         if target.refused:
             text = build.refusal()
         else:
-            build.prepare()
+            build.prepare(bool(label))
             text, equal = build.hash()
             packed, vectorised = build.packed()
             equal = equal and vectorised
@@ -201,23 +251,49 @@ def print_row(target, label, jobs):
     return equal and passed
 
 
+def print_instructions(jobs):
+    """True if the second of COUNTED takes hardly more instructions than the first."""
+    programs = []
+    try:
+        for target in (next(t for t in TARGETS if t.name == name) for name in COUNTED):
+            compiler_of(target)
+            build = Build(target, jobs)
+            build.prepare(False)
+            emulator = target.emulator or (f"qemu-{target.processor}",)
+            programs.append((target.name, emulator, build.program("errbound_counted_queries")))
+        return instructions.print_table(*programs)
+    except (Failed, instructions.Failed) as why:
+        print(why)
+        return False
+
+
 def main():
     parser = argparse.ArgumentParser(prog="./run everywhere", description=__doc__.split("\n\n")[0])
     parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all: " +
                         ", ".join(t.name for t in TARGETS))
-    parser.add_argument("--tests", metavar="LABEL", default="^unit$",
-                        help="of which label, a regular expression; '' for none (%(default)s)")
+    parser.add_argument("--tests", metavar="LABEL", default="^(unit|property)$",
+                        help="of which label, a regular expression; '' for none (%(default)s); those of the "
+                        "label `sources`, which are the same for all, are left out")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--instructions", action="store_true",
+                        help=f"instead of rows, instructions per query of the kernels of {' and '.join(COUNTED)}")
     parser.add_argument("--packages", action="store_true", help="prints what must be installed, no more")
+    parser.add_argument("--sources", action="store_true", help="prints of which packages it takes the source, no more")
     arguments = parser.parse_args()
     unknown = set(arguments.targets) - {t.name for t in TARGETS}
     if unknown:
         parser.error("no target " + ", ".join(sorted(unknown)))
-    chosen = [t for t in TARGETS if t.name in arguments.targets or not arguments.targets]
+    names = COUNTED if arguments.instructions else arguments.targets
+    chosen = [t for t in TARGETS if t.name in names or not names]
     if arguments.packages:
         print(*sorted({p for t in chosen for p in t.packages}), sep="\n")
         return 0
+    if arguments.sources:
+        print("onetbb", *["gmp"] * bool(arguments.tests and not arguments.instructions))
+        return 0
     link_headers()
+    if arguments.instructions:
+        return 0 if print_instructions(arguments.jobs) else 1
     print(ROW.format("target", "compiler", "tests", "packed", "time", "hash"), flush=True)
     rows = [print_row(t, arguments.tests, arguments.jobs) for t in chosen]
     return 0 if all(rows) else 1

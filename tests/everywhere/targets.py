@@ -18,6 +18,7 @@ class Target:
     options: tuple = ()  # more of CMake's
     missing: str = ""  # why it cannot be run
     refused: bool = False  # the headers must say that they do not compile for it, and why
+    libraries: str = ""  # the target whose oneTBB, GoogleTest and GMP it takes, else its own
 
 
 def cross(name, processor, triple, qemu, **more):
@@ -28,11 +29,11 @@ def cross(name, processor, triple, qemu, **more):
 
 
 def gcc(name, **more):
-    return Target(name, "g++", "gcc", **more)
+    return Target(name, "g++", "gcc", libraries="x86-64", **more)
 
 
 def clang(name, **more):
-    return Target(name, "clang++", "clang", packages=("clang", *more.pop("packages", ())), **more)
+    return Target(name, "clang++", "clang", packages=("clang",), libraries="x86-64", **more)
 
 
 TARGETS = [
@@ -43,7 +44,7 @@ TARGETS = [
     cross("armhf", "armv7l", "arm-linux-gnueabihf", "qemu-arm"),
     cross("riscv64", "riscv64", "riscv64-linux-gnu", "qemu-riscv64"),
     cross("ppc64le", "ppc64le", "powerpc64le-linux-gnu", "qemu-ppc64le"),
-    gcc("x86-64"),
+    Target("x86-64", "g++", "gcc"),
     gcc("x86-64-O0", level="-O0"),
     gcc("x86-64-O3", level="-O3"),
     gcc("x86-64-lto", options=("-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON",)),
