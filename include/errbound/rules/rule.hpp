@@ -146,13 +146,6 @@ concept rule_has_dot = requires(typename Rule::template dot_bound<T> so_far, con
     so_far.add_product(value, value, value, a, a);
     { so_far.finished(value) } -> bound_of<Rule, T>;
 };
-/// The largest m <= 8 with (m + 6)² <= 2^bits; 0 if there is none: for how many terms of a sum one
-/// factor pays, which pays for m + 6 roundings. (With more, the last term's would be too many.)
-constexpr int terms_at_once(int bits) {
-    int m = 8;
-    while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;
-    return m;
-}
 
 template <class Rule>
 inline constexpr bool holds_without_subnormals = [] {

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <errbound/detail/rounded.hpp>
+#include <errbound/detail/running_bound.hpp>
 #include <errbound/rules/rule.hpp>
 
 namespace errbound {
@@ -133,45 +134,26 @@ struct tight {
     /// the value, of two in an uncertain argument's share, and of the last product.
     /// Source: Higham 2002, Section 3.3 (running error analysis).
     template <class T>
-    class dot_bound {
-        static constexpr int terms_at_once =
-            has_subnormals<T> ? detail::terms_at_once(number_traits<T>::digits - 2) : 0;
-        static constexpr bool serves = terms_at_once > 0;
+    class dot_bound : detail::running_bound<T, dot_bound<T>,
+                                            has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {
+        static constexpr bool serves = dot_bound::pays;
 
       public:
         constexpr void add_product(const T& product, const T&, const T& sum,
                                    rule_operand<T, tight> a,
                                    rule_operand<T, tight> b) requires serves {
-            using traits = number_traits<T>;
             if (is_zero(a) || is_zero(b)) return;  // 0 is added, or NaN, which the sum then is
-            own_ = own_ + T(rounding(product) + (first_ ? T(0) : rounding(sum)));
+            this->add_term(T(rounding(product) + (first_ ? T(0) : rounding(sum))), a, b);
             first_ = false;
-            if (!(a.bound.error == 0 && b.bound.error == 0)) {
-                inherited_ =
-                    inherited_ + T(detail::rounded_product(traits::abs(a.value), b.bound.error) +
-                                   detail::rounded_product(
-                                       a.bound.error, T(traits::abs(b.value) + b.bound.error)));
-                ++uncertain_;
-            }
-            if (++terms_ == terms_at_once) close();
         }
-        constexpr bound<T> finished(const T& sum) {
-            if (terms_ > 0) close();
-            return {closed_ + (sum - sum)};
+        constexpr bound<T> finished(const T& sum) { return {this->closed() + (sum - sum)}; }
+
+        static constexpr int factor_units(int terms) { return terms + 7; }
+        static constexpr int underflows(int terms, int uncertain) {
+            return terms + 2 * uncertain + 1;
         }
 
       private:
-        constexpr void close() {
-            using traits = number_traits<T>;
-            const T lost = static_cast<T>(terms_ + 2 * uncertain_ + 1) * traits::underflow_unit();
-            const T factor = 1 + static_cast<T>(terms_ + 7) * traits::epsilon();
-            closed_ = detail::rounded_product(T((own_ + (inherited_ + closed_)) + lost), factor);
-            own_ = inherited_ = T(0);
-            terms_ = uncertain_ = 0;
-        }
-
-        T closed_ = T(0), own_ = T(0), inherited_ = T(0);
-        int terms_ = 0, uncertain_ = 0;
         bool first_ = true;
     };
 

@@ -1,0 +1,65 @@
+// What running error bounds of dot products have in common, whatever a rounding counts: sums over
+// some terms, closed by one factor. Internal; for the rules `tight` and `sharp`.
+#pragma once
+
+#include <errbound/number_traits.hpp>
+#include <errbound/rules/rule.hpp>
+
+namespace errbound::detail {
+
+/// The largest m <= 8 with (m + 6)² <= 2^bits; 0 if there is none: for how many terms of a sum one
+/// factor pays, which pays for m + 6 roundings. (With more, the last term's would be too many.)
+constexpr int terms_at_once(int bits) {
+    int m = 8;
+    while (bits < 8 && m > 0 && (m + 6) * (m + 6) > (1 << bits)) --m;
+    return m;
+}
+
+/// Per term what its own roundings lose and what its arguments are off by, Σ |â|σb + σa(|b̂| + σb),
+/// in sums that are closed every terms_at_once(Bits) terms. Derived, the rule's dot_bound, says for
+/// a number of terms, and of those among them whose arguments are uncertain,
+///   factor_units(terms): the factor that pays for the roundings of these sums, less 1, in ε;
+///   underflows(terms, uncertain): how many times η is lost.
+/// Why these are enough is derived where the rule says them.
+template <class T, class Derived, int Bits>
+class running_bound {
+    static constexpr int most = terms_at_once(Bits);
+
+  protected:
+    /// Whether a factor pays for a term at all.
+    static constexpr bool pays = most > 0;
+
+    template <class Operand>
+    constexpr void add_term(const T& own, const Operand& a, const Operand& b) {
+        own_ = own_ + own;
+        if (!(a.bound.error == 0 && b.bound.error == 0)) {
+            inherited_ =
+                inherited_ + T(rounded_product(number_traits<T>::abs(a.value), b.bound.error) +
+                               rounded_product(a.bound.error,
+                                               T(number_traits<T>::abs(b.value) + b.bound.error)));
+            ++uncertain_;
+        }
+        if (++terms_ == most) close();
+    }
+    /// The bound of all terms.
+    constexpr T closed() {
+        if (terms_ > 0) close();
+        return closed_;
+    }
+
+  private:
+    constexpr void close() {
+        const T lost = static_cast<T>(Derived::underflows(terms_, uncertain_)) *
+                       number_traits<T>::underflow_unit();
+        const T factor =
+            1 + static_cast<T>(Derived::factor_units(terms_)) * number_traits<T>::epsilon();
+        closed_ = rounded_product(T((own_ + (inherited_ + closed_)) + lost), factor);
+        own_ = inherited_ = T(0);
+        terms_ = uncertain_ = 0;
+    }
+
+    T closed_ = T(0), own_ = T(0), inherited_ = T(0);
+    int terms_ = 0, uncertain_ = 0;
+};
+
+}  // namespace errbound::detail
