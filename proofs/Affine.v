@@ -13,7 +13,7 @@
 
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool List.
 From Flocq Require Import Core.
-From Errbound Require Import Format ErrorFree Relative.
+From Errbound Require Import Format ErrorFree Upper.
 From Errbound Require Residual.
 Import ListNotations.
 Open Scope R_scope.
