@@ -2,8 +2,8 @@
 // some terms, closed by one factor. Internal; for the rules `tight` and `sharp`.
 #pragma once
 
+#include <errbound/detail/rounded.hpp>
 #include <errbound/number_traits.hpp>
-#include <errbound/rules/rule.hpp>
 
 namespace errbound::detail {
 
