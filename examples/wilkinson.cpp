@@ -3,23 +3,20 @@
 //
 // Wilkinson's: (x − 1)(x − 2)···(x − 20) with the coefficient −210 of x^19 less by 2^-23. Ten of
 // the twenty roots are then complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
 #include <cstdio>
-#include <errbound/multiprecision.hpp>
 #include <errbound/polynomial.hpp>
 #include <limits>
 #include <string>
 #include <vector>
 
-using integer = boost::multiprecision::cpp_int;
-using rational = boost::multiprecision::cpp_rational;
+using errbound::integer;
 
 // Sign changes between neighbours on [0, 25] in steps of 1e-5, each value by Horner's rule in
 // double: what one would try first. Near roots the signs are those of rounding errors.
-int sign_changes_in_double(const std::vector<rational>& p) {
+int sign_changes_in_double(const std::vector<integer>& p) {
     std::vector<double> c;
-    for (const rational& x : p) c.push_back(x.convert_to<double>());
+    for (const integer& x : p) c.push_back(static_cast<double>(x));
     int changes = 0, last = 0;
     for (int k = 0; k <= 2500000; ++k) {
         double value = 0;
@@ -32,16 +29,17 @@ int sign_changes_in_double(const std::vector<rational>& p) {
 }
 
 int main() {
-    std::vector<rational> c{1};  // ascending
+    std::vector<integer> c{1};  // ascending
     for (int k = 1; k <= 20; ++k) {
         c.insert(c.begin(), 0);
         for (std::size_t i = 0; i + 1 < c.size(); ++i) c[i] -= k * c[i + 1];
     }
-    c[19] -= rational(1, 1 << 23);
+    for (integer& x : c) x <<= 23;  // a multiple, so that all coefficients are whole
+    c[19] -= 1;
 
     std::printf("Values in double change sign %d times\n", sign_changes_in_double(c));
 
-    const errbound::polynomial<rational> p(c);
+    const errbound::polynomial p(c);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     auto roots = errbound::isolate_roots(p, -infinity, infinity);
     std::printf("Real roots: %zu\n", roots.size());
@@ -54,10 +52,10 @@ int main() {
     const std::size_t last = roots.size() - 1;
     roots.refine(last, 1e-31);
     const auto& low = roots[last].low;
-    integer digits = low.numerator() * boost::multiprecision::pow(integer(10), 30);
-    digits =
-        low.exponent() < 0 ? integer(digits >> -low.exponent()) : integer(digits << low.exponent());
-    std::string text = digits.str();
+    integer digits = low.numerator();
+    for (int k = 0; k < 30; ++k) digits *= 10;
+    digits = low.exponent() < 0 ? digits >> -low.exponent() : digits << low.exponent();
+    std::string text = to_string(digits);
     std::printf("The largest: %s\n", text.insert(text.size() - 30, ".").c_str());
 
     // Another polynomial's sign there; and whether it vanishes, which no number of digits tells.

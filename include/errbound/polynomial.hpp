@@ -1,18 +1,20 @@
 // Real roots and signs of polynomials of any degree, always exact.
 //
-//   using integer = boost::multiprecision::cpp_int;  // or GMP's; with errbound/multiprecision.hpp
-//   const errbound::polynomial p{-2.0, 0.0, 1.0};    // x² − 2: coefficients ascend
-//   auto roots = errbound::isolate_roots<integer>(p, 0, 10);
-//   roots.refine(0, 1e-30);                          // roots[0].low < √2 < roots[0].high
+//   const errbound::polynomial p{-2.0, 0.0, 1.0};       // x² − 2: coefficients ascend
+//   auto roots = errbound::isolate_roots(p, 0, 10);
+//   roots.refine(0, 1e-30);                             // roots[0].low < √2 < roots[0].high
 //   roots.sign_at(errbound::polynomial{-1.5, 1.0}, 0);  // of x − 1.5 at √2: negative
 //
-// Coefficients: double or float, which are exact numbers; integers or rationals of unbounded size;
-// or tracked numbers, with answers that say so where the coefficients' errors leave them open.
+// Coefficients: double or float, which are exact numbers; built-in integers; integers or rationals
+// of unbounded size, errbound::integer or Boost.Multiprecision's; or tracked numbers, with answers
+// that say so where the coefficients' errors leave them open.
 // Intervals are closed; their ends are doubles, also infinite ones, or the same number twice.
 // Preconditions, which are asserted: coefficients are finite, and a <= b (no NaN, and not both the
 // same infinity). refine throws std::invalid_argument unless its width is positive and finite.
 //
-// Each question is asked in floating point with certified bounds first, then in integers.
+// Each question is asked in floating point with certified bounds first, then in integers: in
+// errbound::integer, in the coefficients' own where these are of unbounded size, or in a type that
+// is named, as in count_roots<mpz_int>(p, a, b) with errbound/multiprecision.hpp.
 // Allocates; throws only std::bad_alloc, after which roots that were found can be asked on. (GMP's
 // integers end the program instead.) Time and memory are bounded by degree and size of the
 // coefficients; where the first stage decides, by some hundred additions times degree².
@@ -28,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <errbound/bsc.hpp>
+#include <errbound/integers/integer.hpp>
 #include <errbound/roots/polynomial_stages.hpp>
 #include <errbound/roots/real_roots.hpp>
 #include <limits>
@@ -41,20 +44,20 @@ namespace errbound {
 
 namespace roots {
 
-/// The integer type to decide in: the one named, or that of the coefficients.
+/// The integer type to decide in: the one named, that of exact coefficients, or the library's own.
 template <class Named, class C>
 struct integer_for {
     static_assert(exact_number<Named>,
-                  "errbound: the integer type to decide in never overflows: Boost.Multiprecision's "
-                  "cpp_int, or GMP's, by errbound/multiprecision.hpp");
+                  "errbound: the integer type to decide in never overflows: errbound::integer, or "
+                  "Boost.Multiprecision's cpp_int or GMP's, by errbound/multiprecision.hpp");
     using type = Named;
 };
 template <class C>
 struct integer_for<void, C> {
-    static_assert(
-        exact_number<C>,
-        "errbound: name the integer type to decide in, as in count_roots<integer>(p, a, b), with "
-        "using integer = boost::multiprecision::cpp_int");
+    using type = errbound::integer;
+};
+template <exact_number C>
+struct integer_for<void, C> {
     static auto of(const C& c) {
         if constexpr (std::numeric_limits<C>::is_integer)
             return c;

@@ -41,11 +41,7 @@ def _coefficients(name: str, p: Coefficients) -> Doubles | list[str]:
         raise ValueError(f"{name}: found {p!r}, expected finite numbers")
     exact = [Fraction(int(c) if isinstance(c, np.integer) else c) for c in p]
     unit = math.lcm(*(c.denominator for c in exact))
-    return [_text(int(c * unit)) for c in exact]
-
-
-def _text(x: int) -> str:
-    return f"{'-' if x < 0 else ''}0x{abs(x):x}"
+    return [f"{int(c * unit):x}" for c in exact]
 
 
 def _interval(a: float, b: float) -> tuple[float, float]:

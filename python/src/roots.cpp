@@ -5,9 +5,8 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
-#include <errbound/multiprecision.hpp>
+#include <errbound/integers/integer.hpp>
 #include <errbound/polynomial.hpp>
 #include <string>
 #include <tuple>
@@ -22,18 +21,15 @@
 namespace errbound::python {
 namespace {
 
-using integer = boost::multiprecision::cpp_int;
 /// Coefficients that ascend: doubles, or whole numbers in hexadecimal digits.
 using coefficients = std::variant<input<double, -1>, std::vector<std::string>>;
 using roots_type = real_roots<integer>;
 
 integer integer_of(const std::string& hexadecimal) {
-    return hexadecimal.starts_with('-') ? integer(-integer(hexadecimal.substr(1)))
-                                        : integer(hexadecimal);
+    return integer::from_string(hexadecimal, 16);
 }
 std::string text_of(const integer& x) {
-    const std::string digits = integer(abs(x)).str(0, std::ios_base::hex);
-    return x < 0 ? "-" + digits : digits;
+    return to_string(x, 16);
 }
 
 polynomial<double> polynomial_of(const input<double, -1>& c) {

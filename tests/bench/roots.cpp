@@ -1,6 +1,7 @@
 // ns per polynomial for counting and isolating real roots, by family and degree, beside FLINT's
 // count of them and arb's isolation. FLINT 2.9 counts exactly, by Sturm's theorem, but does not
-// isolate; arb, its companion, isolates all complex roots.
+// isolate; arb, its companion, isolates all complex roots. What integers open parts are decided in
+// is compared too: errbound's own, Boost's cpp_int and GMP's.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -23,24 +24,25 @@
 namespace {
 
 using polynomial_families::family;
-using polynomial_families::integer;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Polynomials with coefficients in the type that users would have them in, and FLINT's.
-struct contest {
-    std::vector<errbound::polynomial<integer>> whole = {};
+using gmp_integer = polynomial_families::integer;
+using boost_integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                                    boost::multiprecision::et_off>;
+
+/// Polynomials with coefficients in the type that users would have them in.
+template <class Integer>
+struct by_integers {
+    std::vector<errbound::polynomial<Integer>> whole = {};
     std::vector<errbound::polynomial<double>> doubles = {};
-    std::vector<std::unique_ptr<flint_polynomial>> others = {};
 
     void add(const polynomial_families::sample& s) {
         if (s.doubles.empty())
-            whole.emplace_back(s.whole);
+            whole.emplace_back(polynomial_families::in<Integer>(s.whole));
         else
             doubles.emplace_back(s.doubles);
-        others.push_back(std::make_unique<flint_polynomial>(s.whole));
     }
-
     template <class Ask>
     std::function<void()> pass(const Ask& ask) const {
         return [this, ask] {
@@ -50,12 +52,27 @@ struct contest {
     }
     std::function<void()> counted() const {
         return pass(
-            [](const auto& p) { return errbound::count_roots<integer>(p, -infinity, infinity); });
+            [](const auto& p) { return errbound::count_roots<Integer>(p, -infinity, infinity); });
     }
     std::function<void()> isolated() const {
         return pass([](const auto& p) {
-            return errbound::isolate_roots<integer>(p, -infinity, infinity).size();
+            return errbound::isolate_roots<Integer>(p, -infinity, infinity).size();
         });
+    }
+};
+
+/// The same polynomials in all types of integers, and FLINT's.
+struct contest {
+    by_integers<errbound::integer> own = {};
+    by_integers<boost_integer> boost = {};
+    by_integers<gmp_integer> gmp = {};
+    std::vector<std::unique_ptr<flint_polynomial>> others = {};
+
+    void add(const polynomial_families::sample& s) {
+        own.add(s);
+        boost.add(s);
+        gmp.add(s);
+        others.push_back(std::make_unique<flint_polynomial>(s.whole));
     }
     bench::cell nanoseconds(const bench::timing& t) const {
         return bench::number(1e9 * t.minimum / static_cast<double>(others.size()), 0);
@@ -64,7 +81,7 @@ struct contest {
     /// ns per polynomial: counted, isolated, counted by FLINT; and the ratio of the counts.
     std::vector<bench::cell> cells(int repeats) const {
         if (others.empty()) return {bench::none(), bench::none(), bench::none(), bench::none()};
-        const auto timings = bench::race({counted(), isolated(),
+        const auto timings = bench::race({own.counted(), own.isolated(),
                                           [this] {
                                               for (const auto& p : others)
                                                   bench::keep(p->distinct_real_roots());
@@ -73,11 +90,22 @@ struct contest {
         return {nanoseconds(timings[0]), nanoseconds(timings[1]), nanoseconds(timings[2]),
                 bench::number(timings[2].minimum / timings[0].minimum, 1)};
     }
+    /// How long isolation takes by Boost's integers and by GMP's, by errbound's 1: of the least
+    /// times and of the medians.
+    std::vector<bench::cell> integer_cells(int repeats) const {
+        const auto t = bench::race({own.isolated(), boost.isolated(), gmp.isolated()}, repeats);
+        std::vector<bench::cell> ratios;
+        for (const auto& other : {t[1], t[2]}) {
+            ratios.push_back(bench::number(other.minimum / t[0].minimum, 2));
+            ratios.push_back(bench::number(other.median / t[0].median, 2));
+        }
+        return ratios;
+    }
 #ifdef ERRBOUND_HAS_ARB
     /// ns per polynomial isolated by arb, and how often that isolated by errbound.
     std::vector<bench::cell> arb_cells(int repeats) const {
         if (others.empty()) return {bench::none(), bench::none()};
-        const auto timings = bench::race({isolated(),
+        const auto timings = bench::race({own.isolated(),
                                           [this] {
                                               for (const auto& p : others)
                                                   bench::keep(isolate_by_arb(*p));
@@ -89,11 +117,12 @@ struct contest {
 };
 
 bool decided_by_filter(const polynomial_families::sample& s) {
-    const errbound::polynomial whole(s.whole);
-    const errbound::polynomial doubles(s.doubles);
-    return (s.doubles.empty() ? errbound::isolate_roots<integer>(whole, -infinity, infinity)
-                              : errbound::isolate_roots<integer>(doubles, -infinity, infinity))
-        .decided_by_filter();
+    const auto is_decided = [](const auto& p) {
+        return errbound::isolate_roots(p, -infinity, infinity).decided_by_filter();
+    };
+    return s.doubles.empty() ? is_decided(errbound::polynomial(
+                                   polynomial_families::in<errbound::integer>(s.whole)))
+                             : is_decided(errbound::polynomial(s.doubles));
 }
 
 void run(bool quick) {
@@ -119,6 +148,7 @@ void run(bool quick) {
             const int repeats = quick ? 1 : 5;
             for (const contest* c : {&decided, &all})
                 for (auto& cell : c->cells(repeats)) row.push_back(cell);
+            for (auto& cell : all.integer_cells(quick ? 1 : 7)) row.push_back(cell);
 #ifdef ERRBOUND_HAS_ARB
             for (auto& cell : few.arb_cells(1)) row.push_back(cell);
 #endif
@@ -131,7 +161,9 @@ void run(bool quick) {
         {"decided_isolate", "isolate"},   {"decided_flint", "FLINT count"},
         {"decided_ratio", "FLINT/count"}, {"count", "all: count"},
         {"isolate", "isolate"},           {"flint", "FLINT count"},
-        {"ratio", "FLINT/count"}};
+        {"ratio", "FLINT/count"},         {"boost", "by cpp_int/isolate"},
+        {"boost_median", "medians"},      {"gmp", "by GMP/isolate"},
+        {"gmp_median", "medians"}};
 #ifdef ERRBOUND_HAS_ARB
     columns.push_back({"arb", "arb isolates"});
     columns.push_back({"arb_ratio", "arb/isolate"});
@@ -171,27 +203,34 @@ std::vector<hard_case> hard_cases(bool quick) {
     return cases;
 }
 template <class Integer>
-bench::cell milliseconds(const errbound::polynomial<double>& p, int repeats) {
-    const auto isolate = [&p] {
-        bench::keep(errbound::isolate_roots<Integer>(p, -infinity, infinity).size());
-    };
-    return bench::number(1e3 * bench::race({isolate}, repeats)[0].minimum, 1);
+std::function<void()> isolated(const errbound::polynomial<double>& p) {
+    return [&p] { bench::keep(errbound::isolate_roots<Integer>(p, -infinity, infinity).size()); };
 }
 void run_hard_cases(bool quick) {
     bench::report out;
     std::vector<std::vector<bench::cell>> rows;
     for (const hard_case& c : hard_cases(quick)) {
         const errbound::polynomial<double> p(c.doubles);
-        const std::size_t roots = errbound::count_roots<integer>(p, -infinity, infinity);
-        const int repeats = quick ? 1 : 3;
-        rows.push_back({bench::word(c.name), bench::count(roots), milliseconds<integer>(p, repeats),
-                        milliseconds<boost::multiprecision::cpp_int>(p, repeats)});
+        const std::size_t roots = errbound::count_roots(p, -infinity, infinity);
+        std::vector<bench::cell> row{bench::word(c.name), bench::count(roots)};
+        for (const auto& t : bench::race({isolated<errbound::integer>(p),
+                                          isolated<boost_integer>(p), isolated<gmp_integer>(p)},
+                                         quick ? 1 : 3)) {
+            row.push_back(bench::number(1e3 * t.minimum, 1));
+            row.push_back(bench::number(1e3 * t.median, 1));
+        }
+        rows.push_back(row);
     }
-    out.table("hard_roots", {}, "hard cases, isolated on the whole line, ms (least of some passes)",
+    out.table("hard_roots", {},
+              "hard cases, isolated on the whole line, ms (least and median of some passes)",
               {{"polynomial", "polynomial", true},
                {"roots", "roots"},
-               {"gmp", "GMP's integers"},
-               {"boost", "Boost's"}},
+               {"own", "errbound's integers"},
+               {"own_median", "median"},
+               {"boost", "Boost's"},
+               {"boost_median", "median"},
+               {"gmp", "GMP's"},
+               {"gmp_median", "median"}},
               rows);
 }
 

@@ -1,9 +1,12 @@
-// Polynomials and predicates without memory, over integers that take it from operator new.
+// Integers, polynomials and predicates without memory, over integers that take it from operator
+// new.
 #include <boost/multiprecision/cpp_int.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/polynomial.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,8 +16,17 @@ namespace {
 
 using namespace errbound;
 using faults::try_every_allocation;
-using integer = boost::multiprecision::cpp_int;
-using roots_of_doubles = decltype(isolate_roots<integer>(polynomial<double>(), 0, 0));
+
+template <class Integer>
+struct RootFaults : ::testing::Test {};
+using integer_types = ::testing::Types<integer, boost::multiprecision::cpp_int>;
+struct integer_names {
+    template <class Integer>
+    static std::string GetName(int) {
+        return std::is_same_v<Integer, integer> ? "integer" : "cpp_int";
+    }
+};
+TYPED_TEST_SUITE(RootFaults, integer_types, integer_names);
 
 /// (x - 1) ... (x - 6) near and x^2 - 2; a double root; huge coefficients: filter, then integers.
 const std::vector<polynomial<double>>& polynomials() {
@@ -27,50 +39,54 @@ const std::vector<polynomial<double>>& polynomials() {
     return all;
 }
 
-auto ends_of(const roots_of_doubles& roots) {
-    std::vector<std::pair<roots_of_doubles::point, roots_of_doubles::point>> ends;
+template <class Integer>
+auto ends_of(const real_roots<Integer>& roots) {
+    std::vector<std::pair<dyadic<Integer>, dyadic<Integer>>> ends;
     for (std::size_t k = 0; k < roots.size(); ++k) ends.emplace_back(roots[k].low, roots[k].high);
     return ends;
 }
 
 /// Where the roots are, to the nearest float: intervals may be narrower than asked for.
-std::vector<float> places_of(const roots_of_doubles& roots) {
+template <class Integer>
+std::vector<float> places_of(const real_roots<Integer>& roots) {
     std::vector<float> places;
     for (const auto& [low, high] : ends_of(roots)) {
-        EXPECT_TRUE(high - low <= roots_of_doubles::point::power_of_two(-80));
+        EXPECT_TRUE(high - low <= dyadic<Integer>::power_of_two(-80));
         places.push_back(static_cast<float>(nearby_double(low.numerator(), low.exponent())));
     }
     return places;
 }
 
-TEST(RootFaults, Polynomials) {
+TYPED_TEST(RootFaults, Polynomials) {
+    using Integer = TypeParam;
     for (std::size_t i = 0; i < polynomials().size(); ++i) {
         const polynomial<double>& p = polynomials()[i];
         const polynomial<double>& other = polynomials()[1];
         const std::string of = ", polynomial " + std::to_string(i);
-        try_every_allocation("count_roots" + of, [&] { return count_roots<integer>(p, -3, 10); });
+        try_every_allocation("count_roots" + of, [&] { return count_roots<Integer>(p, -3, 10); });
         try_every_allocation("isolate_roots" + of,
-                             [&] { return ends_of(isolate_roots<integer>(p, -3, 10)); });
-        try_every_allocation("sign_on" + of, [&] { return sign_on<integer>(p, -3, 10); });
+                             [&] { return ends_of(isolate_roots<Integer>(p, -3, 10)); });
+        try_every_allocation("sign_on" + of, [&] { return sign_on<Integer>(p, -3, 10); });
         try_every_allocation("common_factor" + of,
-                             [&] { return common_factor<integer>(p, other).coefficients(); });
+                             [&] { return common_factor<Integer>(p, other).coefficients(); });
         try_every_allocation("common_roots" + of,
-                             [&] { return common_roots<integer>(p, other, -3, 10).size(); });
+                             [&] { return common_roots<Integer>(p, other, -3, 10).size(); });
         try_every_allocation("root_where_nonnegative" + of, [&] {
-            return root_where_nonnegative<integer>(p, {other, polynomials()[0]}, -3, 10);
+            return root_where_nonnegative<Integer>(p, {other, polynomials()[0]}, -3, 10);
         });
     }
 }
 
-TEST(RootFaults, RootsThatWereFound) {
+TYPED_TEST(RootFaults, RootsThatWereFound) {
+    using Integer = TypeParam;
     for (std::size_t i = 0; i < polynomials().size(); ++i) {
-        const auto isolated = [&] { return isolate_roots<integer>(polynomials()[i], -3, 10); };
+        const auto isolated = [&] { return isolate_roots<Integer>(polynomials()[i], -3, 10); };
         const std::string of = ", polynomial " + std::to_string(i);
-        try_every_allocation("real_roots::refine" + of, isolated, [](roots_of_doubles& roots) {
+        try_every_allocation("real_roots::refine" + of, isolated, [](real_roots<Integer>& roots) {
             for (std::size_t k = 0; k < roots.size(); ++k) roots.refine(k, 0x1p-80);
             return places_of(roots);
         });
-        try_every_allocation("real_roots::sign_at" + of, isolated, [](roots_of_doubles& roots) {
+        try_every_allocation("real_roots::sign_at" + of, isolated, [](real_roots<Integer>& roots) {
             std::vector<sign_type> signs;
             for (std::size_t k = 0; k < roots.size(); ++k)
                 for (const auto& q : polynomials()) signs.push_back(roots.sign_at(q, k));
@@ -79,7 +95,54 @@ TEST(RootFaults, RootsThatWereFound) {
     }
 }
 
-TEST(RootFaults, Predicates) {
+/// Of each operation, the number whose place the result takes; and that it is whole after a
+/// failure.
+TEST(IntegerFaults, OperationsInPlace) {
+    const auto of_words = [](int n, int seed) {
+        integer x = seed;
+        for (int i = 0; i < n; ++i)
+            x = (x << 64U) + 0x9e3779b97f4a7c15U * static_cast<unsigned>(i + seed);
+        return x;
+    };
+    const auto try_all = [](const std::string& of, const integer& a, const integer& b) {
+        const auto in_place = [&](const std::string& name, const auto& change) {
+            try_every_allocation(
+                name + of,
+                [&a] {
+                    return std::pair{a, a};
+                },
+                [&](std::pair<integer, integer>& of_two) {
+                    auto& [x, before] = of_two;
+                    integer again = before;  // what x becomes without allocating
+                    try {
+                        change(x);
+                    } catch (...) {
+                        faults::stop();  // comparing allocates nothing, reporting does
+                        EXPECT_TRUE(x == before) << name << " left another number";
+                        throw;
+                    }
+                    std::swap(x, again);
+                    return again;
+                });
+        };
+        in_place("integer +=", [&](integer& x) { x += b; });
+        in_place("integer -=", [&](integer& x) { x -= b; });
+        in_place("integer *=", [&](integer& x) { x *= b; });
+        in_place("integer *= itself", [](integer& x) { x *= x; });
+        in_place("integer /=", [&](integer& x) { x /= b; });
+        in_place("integer %=", [&](integer& x) { x %= b; });
+        in_place("integer <<=", [](integer& x) { x <<= 1000U; });
+        in_place("integer >>=", [](integer& x) { x >>= 67U; });
+        in_place("integer =", [&](integer& x) { x = b; });
+        in_place("integer, divisor", [&](integer& x) { x = gcd(x, b); });
+        in_place("integer, text", [&](integer& x) { x = integer::from_string(to_string(b)); });
+    };
+    try_all(", few words", of_words(4, 3), of_words(6, -5));
+    try_all(", by one", -(integer(1) << 256U), integer(-1));
+    try_all(", many words", of_words(90, -7), of_words(70, 11));
+}
+
+TEST(PredicateFaults, Predicates) {
     using point = std::array<double, 3>;
     const std::vector<point> a{{0, 0, 0}, {0x1p-900, 1, 0}, {0x1p-1074, 0, 0}},
         b{{1, 0, 0}, {1, 0x1p900, 0}, {0, 0x1p1023, 0}}, c{{0, 1, 0}, {0, 1, 0x1p-900}, {1, 1, 1}},

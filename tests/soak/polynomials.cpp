@@ -81,24 +81,45 @@ std::vector<source_of_polynomials> all_sources() {
 
 constexpr int polynomials_per_block = 5;  // of each source
 
-template <class C>
-void compare(const polynomial<C>& p, const flint_polynomial& truth,
-             std::vector<std::uint64_t>& counts, const std::string& name, findings& out) {
-    const std::size_t on_line = truth.distinct_real_roots();
-    const std::size_t positive = truth.distinct_nonnegative_roots();
-    const auto roots = errbound::isolate_roots<integer>(p, -infinity, infinity);
-    const std::size_t counted = errbound::count_roots<integer>(p, -infinity, infinity);
-    const std::size_t counted_positive = errbound::count_roots<integer>(p, 0, infinity);
+struct root_counts {
+    std::size_t on_line, positive;
+
+    friend bool operator==(const root_counts&, const root_counts&) = default;
+    std::string text() const {
+        return std::to_string(on_line) + ", not negative " + std::to_string(positive);
+    }
+};
+
+/// Decided in one type of integers; whether the filter did it alone.
+template <class Integer>
+bool compare_by(const std::string& integers, const sample& s, const root_counts& truth,
+                std::uint64_t& differences, const std::string& name, findings& out) {
+    const auto compare = [&](const auto& p) {
+        const auto roots = errbound::isolate_roots<Integer>(p, -infinity, infinity);
+        const root_counts counted{errbound::count_roots<Integer>(p, -infinity, infinity),
+                                  errbound::count_roots<Integer>(p, 0, infinity)};
+        if (roots.size() != truth.on_line || counted != truth) {
+            ++differences;
+            out.differ({name + ": by " + integers + " isolated " + std::to_string(roots.size()) +
+                        " roots, counted " + counted.text() + "; FLINT " + truth.text()});
+        }
+        return roots.decided_by_filter();
+    };
+    return s.doubles.empty() ? compare(polynomial(polynomial_families::in<Integer>(s.whole)))
+                             : compare(polynomial(s.doubles));
+}
+
+void compare(const sample& s, std::vector<std::uint64_t>& counts, const std::string& name,
+             findings& out) {
+    const flint_polynomial flint(s.whole);
+    const root_counts truth{flint.distinct_real_roots(), flint.distinct_nonnegative_roots()};
     ++counts[0];
-    counts[1] += on_line;
-    counts[2] += roots.decided_by_filter();
-    out.stir(on_line);
-    out.stir(positive);
-    if (roots.size() == on_line && counted == on_line && counted_positive == positive) return;
-    ++counts[3];
-    out.differ({name + ": isolated " + std::to_string(roots.size()) + " roots, counted " +
-                std::to_string(counted) + ", not negative " + std::to_string(counted_positive) +
-                "; FLINT " + std::to_string(on_line) + " and " + std::to_string(positive)});
+    counts[1] += truth.on_line;
+    out.stir(truth.on_line);
+    out.stir(truth.positive);
+    counts[2] +=
+        compare_by<errbound::integer>("errbound's integers", s, truth, counts[3], name, out);
+    compare_by<integer>("GMP's integers", s, truth, counts[3], name, out);
 }
 
 findings compare_block(std::uint64_t seed, std::uint64_t block) {
@@ -112,12 +133,7 @@ findings compare_block(std::uint64_t seed, std::uint64_t block) {
             const sample s = source.make(make, index);
             std::string name = source.name + ", coefficients";
             for (const integer& c : s.whole) name += " " + c.str();
-            auto& counts = out.table("polynomials")[source.name];
-            if (s.doubles.empty())
-                compare(polynomial<integer>(s.whole), flint_polynomial(s.whole), counts, name, out);
-            else
-                compare(polynomial<double>(s.doubles), flint_polynomial(s.whole), counts, name,
-                        out);
+            compare(s, out.table("polynomials")[source.name], name, out);
         }
     }
     return out;

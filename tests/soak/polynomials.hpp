@@ -6,7 +6,8 @@
 namespace soak {
 
 /// Polynomials of every family of tests/errbound/roots, and with roots that nearly coincide:
-/// isolate_roots and count_roots, on the line and on its positive half, against FLINT's counts.
+/// isolate_roots and count_roots by errbound's own integers and by GMP's, on the line and on its
+/// positive half, against FLINT's counts.
 part polynomial_part();
 
 }  // namespace soak

@@ -40,6 +40,19 @@ constexpr int count_filled(const word* x, int n) {
     return count;
 }
 
+/// r −= a·b for a magnitude of n words; returns what is to be taken from the words beyond.
+/// Proof, as part of the product: proofs/SparseProduct.v, sparse_product_exact.
+[[gnu::always_inline]] constexpr word subtract_multiple(word* r, word a, const word* b, int n) {
+    word carry = 0;
+    for (int j = 0; j < n; ++j) {
+        const auto product = double_word(a) * b[j] + carry;
+        const word difference = r[j] - static_cast<word>(product);
+        carry = static_cast<word>(product >> 64) + (difference > r[j]);
+        r[j] = difference;
+    }
+    return carry;
+}
+
 /// r = a·b, for two's complement numbers of m and n words, b not zero, and an r of m + n. By the
 /// signed words of a.
 /// Proof: proofs/SparseProduct.v, sparse_product_exact.
@@ -56,14 +69,7 @@ constexpr int count_filled(const word* x, int n) {
         for (; end <= i + n; ++end) r[end] = beyond;
         word* const sum = r + i;
         if (negative) {
-            word carry = 0;
-            for (int j = low; j < n; ++j) {
-                const auto product = double_word(factor) * b[j] + carry;
-                const word difference = sum[j] - static_cast<word>(product);
-                carry = static_cast<word>(product >> 64) + (difference > sum[j]);
-                sum[j] = difference;
-            }
-            sum[n] -= carry;
+            sum[n] -= subtract_multiple(sum + low, factor, b + low, n - low);
         } else {
             sum[n] += add_multiple(sum + low, factor, b + low, n - low);
         }

@@ -156,7 +156,7 @@ staged_polynomial<Integer> staged(const polynomial<C>& p) {
         static_assert(
             exact_number<C>,
             "errbound: coefficients are float, double or exact numbers; tracked ones go to "
-            "count_roots(p, a, b), which names no type");
+            "count_roots(p, a, b)");
         Integer common = 1;
         for (const C& x : c) common = lcm(common, Integer(denominator(x)));
         integer_form<Integer> whole;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/integers/integer.hpp>
 #include <errbound/multiprecision.hpp>
 #include <errbound/roots/integer_polynomial.hpp>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 namespace polynomial_families {
@@ -22,6 +24,19 @@ struct sample {
     std::vector<integer> whole;
     std::vector<double> doubles = {};
 };
+
+/// The same coefficients in another type of integers.
+template <class Integer>
+std::vector<Integer> in(const std::vector<integer>& whole) {
+    std::vector<Integer> c;
+    for (const integer& x : whole) {
+        if constexpr (std::is_same_v<Integer, errbound::integer>)
+            c.push_back(Integer::from_string(x.str()));
+        else
+            c.emplace_back(x);
+    }
+    return c;
+}
 
 enum class family {
     random,     ///< uniform coefficients

@@ -18,11 +18,18 @@ using namespace errbound::roots;
 using polynomial_families::degree_of_sample;
 using polynomial_families::family;
 using polynomial_families::generator;
-using polynomial_families::integer;
+using polynomial_families::sample;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Flint : public testing::TestWithParam<family> {};
+
+/// Decided in the library's own integers.
+auto isolated(const sample& s) {
+    return s.doubles.empty() ? isolate_roots(polynomial(polynomial_families::in<integer>(s.whole)),
+                                             -infinity, infinity)
+                             : isolate_roots(polynomial(s.doubles), -infinity, infinity);
+}
 
 int polynomials() {
     return support::scaled(300);
@@ -34,14 +41,12 @@ TEST_P(Flint, CountsAgree) {
     for (int k = 0; k < polynomials(); ++k) {
         const auto s = make.make(GetParam(), degree_of_sample(GetParam(), k, 30));
         const flint_polynomial truth(s.whole);
-        const auto roots =
-            s.doubles.empty()
-                ? isolate_roots(polynomial<integer>(s.whole), -infinity, infinity)
-                : isolate_roots<integer>(polynomial<double>(s.doubles), -infinity, infinity);
+        const auto roots = isolated(s);
         ASSERT_EQ(roots.size(), truth.distinct_real_roots()) << "polynomial " << k;
         const std::size_t positive =
-            s.doubles.empty() ? count_roots(polynomial<integer>(s.whole), 0, infinity)
-                              : count_roots<integer>(polynomial<double>(s.doubles), 0, infinity);
+            s.doubles.empty()
+                ? count_roots(polynomial(polynomial_families::in<integer>(s.whole)), 0, infinity)
+                : count_roots(polynomial(s.doubles), 0, infinity);
         ASSERT_EQ(positive, truth.distinct_nonnegative_roots()) << "polynomial " << k;
         decided += roots.decided_by_filter();
     }
@@ -58,11 +63,8 @@ TEST_P(Flint, SignsAtRootsAgree) {
         if (k % 4 == 0) g.whole = generator::product(g.whole, errbound::roots::derivative(s.whole));
         if (k % 8 == 1) g.whole = generator::product(g.whole, s.whole);
         errbound::roots::trim(g.whole);
-        auto roots =
-            s.doubles.empty()
-                ? isolate_roots(polynomial<integer>(s.whole), -infinity, infinity)
-                : isolate_roots<integer>(polynomial<double>(s.doubles), -infinity, infinity);
-        auto staged_g = staged<integer>(polynomial<integer>(g.whole));
+        auto roots = isolated(s);
+        auto staged_g = staged<integer>(polynomial(polynomial_families::in<integer>(g.whole)));
         int sum = 0;
         std::size_t zeros = 0;
         for (std::size_t i = 0; i < roots.size(); ++i) {
