@@ -29,6 +29,17 @@ static_assert(sizeof(0.1) == sizeof(double) && 0.1 != static_cast<double>(0.1F),
               "errbound: constants must be doubles; compile without -fsingle-precision-constant");
 
 namespace errbound {
+namespace detail {
+
+/// A pair of doubles, as long double is on some PowerPC, is none: its operations are not rounded
+/// once. libstdc++ says that it is; by its digits it is told from all formats of IEEE 754.
+template <class T>
+constexpr bool is_ieee_format = [] {
+    constexpr int digits_of_pair = 2 * std::numeric_limits<double>::digits;
+    return std::numeric_limits<T>::is_iec559 && std::numeric_limits<T>::digits != digits_of_pair;
+}();
+
+}  // namespace detail
 
 /// What the calling thread's floating-point environment does, and what the compiler made of the
 /// unit that asks. Compilers do not tell of every flag, and flush-to-zero is set at start-up by
@@ -128,7 +139,7 @@ static inline environment_report floating_point_environment() {
     using namespace detail;
     const auto of_all = [](const auto& ask) {
         bool all = ask(float()) && ask(double());
-        if constexpr (std::numeric_limits<long double>::is_iec559) all = all && ask(0.0L);
+        if constexpr (is_ieee_format<long double>) all = all && ask(0.0L);
         return all;
     };
     return {has_gradual_underflow<float>() && has_gradual_underflow<double>(),

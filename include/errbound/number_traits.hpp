@@ -14,13 +14,12 @@ template <class T>
 struct number_traits {
     static_assert(std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer,
                   "errbound: specialise errbound::number_traits for this number type");
-    static_assert(!std::is_floating_point_v<T> || std::numeric_limits<T>::is_iec559,
+    static_assert(!std::is_floating_point_v<T> || detail::is_ieee_format<T>,
                   "errbound: not an IEEE 754 binary format, as long double on some PowerPC");
     static_assert(
         std::numeric_limits<T>::radix == 2 &&
             std::numeric_limits<T>::digits < std::numeric_limits<int>::max() &&
-            std::numeric_limits<T>::round_style == std::round_to_nearest &&
-            (!std::is_floating_point_v<T> || std::numeric_limits<T>::is_iec559),
+            std::numeric_limits<T>::round_style == std::round_to_nearest,
         "errbound: numbers must be binary, of a precision that the type says, and rounded "
         "to nearest");
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cfenv>
+#include <cfloat>
 #include <errbound/environment.hpp>
 #include <thread>
 #if defined(__SSE2__)
@@ -13,6 +14,9 @@ namespace {
 
 using errbound::environment_report;
 using errbound::floating_point_environment;
+
+// Of two doubles' bits, wherever it is a pair of doubles.
+static_assert(errbound::detail::is_ieee_format<long double> == (LDBL_MANT_DIG != 106));
 
 TEST(Environment, TheTestsRunInASoundOne) {
     EXPECT_TRUE(floating_point_environment().sound());

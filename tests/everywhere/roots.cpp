@@ -1,8 +1,6 @@
 // Real roots of polynomials.
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstddef>
-#include <errbound/multiprecision.hpp>
 #include <errbound/polynomial.hpp>
 #include <limits>
 #include <string>
@@ -15,7 +13,6 @@ namespace everywhere {
 namespace {
 
 using ccd::stress::source;
-using integer = boost::multiprecision::cpp_int;
 using coefficients = std::vector<double>;
 
 /// The product with x − root.
@@ -54,8 +51,8 @@ coefficients any_polynomial(source& random) {
 }
 
 void record_roots_on(recorder& to, const errbound::polynomial<double>& p, double a, double b) {
-    to.add(errbound::count_roots<integer>(p, a, b));
-    auto roots = errbound::isolate_roots<integer>(p, a, b);
+    to.add(errbound::count_roots(p, a, b));
+    auto roots = errbound::isolate_roots(p, a, b);
     to.add(roots.everywhere());
     for (std::size_t k = 0; k < roots.size(); ++k) {
         to.add(roots[k].multiplicity);
@@ -63,7 +60,7 @@ void record_roots_on(recorder& to, const errbound::polynomial<double>& p, double
         to.add(low);
         to.add(high);
     }
-    const errbound::occurring_signs signs = errbound::sign_on<integer>(p, a, b);
+    const errbound::occurring_signs signs = errbound::sign_on(p, a, b);
     for (const bool s : {signs.negative, signs.zero, signs.positive}) to.add(s);
 }
 
