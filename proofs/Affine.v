@@ -51,9 +51,7 @@ Definition radius_of (B : builder) : R :=
 Fixpoint least (t : Z * R) (l : terms) : (Z * R) * terms :=
   match l with
   | [] => (t, [])
-  | x :: l' =>
-    if Rlt_bool (Rabs (snd x)) (Rabs (snd t)) then let (m, r) := least x l' in (m, t :: r)
-    else let (m, r) := least t l' in (m, x :: r)
+  | x :: l' => let (m, r) := least x l' in if Rlt_bool (Rabs (snd m)) (Rabs (snd t)) then (m, t :: r) else (t, l)
   end.
 Fixpoint shorten (limit fuel : nat) (B : builder) : builder :=
   match fuel, snd B with
@@ -300,13 +298,11 @@ Lemma least_terms_sound t l : let (m, r) := least t l in
 Proof.
   revert t. induction l as [| x l IH]; intros t; simpl.
   - split; [ring | auto].
-  - case Rlt_bool_spec; intros _.
-    + specialize (IH x). destruct (least x l) as [m r]. destruct IH as [E F]. simpl in E. split.
-      * simpl. rewrite E. ring.
-      * intros P T H. inversion H. subst. destruct (F P); auto.
-    + specialize (IH t). destruct (least t l) as [m r]. destruct IH as [E F]. simpl in E. split.
-      * simpl. rewrite Rplus_comm, Rplus_assoc, (Rplus_comm (sum_of e l)), E. ring.
-      * intros P T H. inversion H. subst. destruct (F P); auto.
+  - specialize (IH x). destruct (least x l) as [m r]. destruct IH as [E F].
+    case Rlt_bool_spec; intros _; [| now split; [| intros P T H]].
+    split.
+    + simpl in *. rewrite E. ring.
+    + intros P T H. inversion H. subst. destruct (F P); auto.
 Qed.
 Lemma shorten_sound limit fuel B d : accounts d B -> accounts d (shorten limit fuel B).
 Proof.

@@ -77,6 +77,16 @@ Theorem vertex_edge_units k v e0 e1 : units k -> let in_units := stretched_motio
   vertex_edge_collides (in_units v) (in_units e0) (in_units e1) <-> vertex_edge_collides v e0 e1.
 Proof. intros K. apply sometime_same. intros t. rewrite !place_stretched. now apply segment_stretched. Qed.
 
+Lemma query_units k edges m0 m1 m2 m3 : units k -> let in_units := stretched_motion k in
+  query_collides edges (in_units m0) (in_units m1) (in_units m2) (in_units m3) <-> query_collides edges m0 m1 m2 m3.
+Proof. destruct edges; [exact (edges_units k m0 m1 m2 m3) | exact (face_units k m0 m1 m2 m3)]. Qed.
+Lemma query_border_units k edges m0 m1 m2 m3 : units k -> let in_units := stretched_motion k in
+  query_border edges (in_units m0) (in_units m1) (in_units m2) (in_units m3) <-> query_border edges m0 m1 m2 m3.
+Proof.
+  intros K. unfold query_border, edges_border_collides, face_border_collides.
+  destruct edges; cbv zeta; now rewrite !(vertex_edge_units k).
+Qed.
+
 (** What moves as m, in integers. *)
 Definition in_integers (k : point) (m : moving) (i : @moving_point integers) : Prop :=
   exact_motion i = stretched_motion k m.

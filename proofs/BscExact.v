@@ -704,110 +704,61 @@ Proof.
   split; intros H g I; now apply A, H.
 Qed.
 
-Lemma face_decision v f0 f1 f2 border :
-  border = true <->
-    face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2) ->
-  let b := difference f1 f0 in let c := difference f2 f0 in let p := difference v f0 in
-  decision (y_form b c p) (inside_face_forms b c p) border = true <-> face_collides v f0 f1 f2.
+Lemma query_decision edges (q0 q1 q2 q3 : moving_point) border :
+  let m0 := exact_motion q0 in let m1 := exact_motion q1 in let m2 := exact_motion q2 in let m3 := exact_motion q3 in
+  border = true <-> query_border edges m0 m1 m2 m3 ->
+  let b := side_b edges difference q0 q1 q2 q3 in let c := side_c edges difference q0 q1 q2 q3 in
+  let p := side_p edges difference q0 q1 q2 q3 in
+  decision (y_form b c p) (inside_forms edges b c p) border = true <-> query_collides edges m0 m1 m2 m3.
 Proof.
-  intros Border b c p. unfold decision. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp). fold b c p
-    in Db, Dc, Dp.
-  destruct (forms_y b c p 0 Db Dc Dp) as (_ & L). destruct (forms_weights b c p 0 Db Dc Dp) as (_ & _ &
-    F & _).
-  assert (Y : forall t, det (vector_at b t) (vector_at c t) (vector_at p t) = form_at (y_form b c p) t)
-    by (intros t; now rewrite (proj1 (forms_y b c p t Db Dc Dp))).
-  assert (G : forall t, all_positive (inside_face_forms b c p) t <->
-    inside_face (place (exact_motion v) t) (place (exact_motion f0) t) (place (exact_motion f1) t)
-      (place (exact_motion f2) t)).
-  { intros t. unfold inside_face. rewrite <- !difference_at. fold b c p.
-    destruct (forms_weights b c p t Db Dc Dp) as (W & _). unfold all_positive.
-    rewrite <- (Forall_map (fun g => form_at g t) (Rlt 0)), W, !Forall_cons_iff. intuition. }
-  destruct (root_with_nonnegative (y_form b c p) (inside_face_forms b c p)) eqn:E.
-  - split; [easy | intros H; now apply bsc_face_separate in E].
-  - split; [intros _; now apply bsc_face_collides | easy].
-  - unfold face_collides. rewrite face_coplanar, orb_true_iff, (all_at_start _ F), Border, G; [easy |].
-    intros t _. rewrite <- !difference_at. fold b c p. rewrite Y. now apply (bsc_exact_root _ _ t L F).
-  - destruct (bsc_exact_inside _ _ L F E) as (_ & N). split; [intros H; now apply face_border_collision,
-    Border |].
-    destruct border; [easy |]. intros H. exfalso. apply face_inside in H; [| rewrite <- Border; easy].
-    destruct H as (t & T & Z & I). rewrite <- !difference_at in Z. fold b c p in Z. rewrite Y in Z.
-    apply (N t T Z). apply Forall_forall. now apply G.
-Qed.
-
-Lemma edges_decision a0 a1 b0 b1 border :
-  border = true <->
-    edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1) ->
-  let b := difference a1 a0 in let c := difference b1 b0 in let p := difference b0 a0 in
-  decision (y_form b c p) (inside_edges_forms b c p) border = true <-> edges_collide a0 a1 b0 b1.
-Proof.
-  intros Border b c p. unfold decision. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp). fold b c
-    p in Db, Dc, Dp.
-  destruct (forms_y b c p 0 Db Dc Dp) as (_ & L). destruct (forms_weights b c p 0 Db Dc Dp) as (_ & _ &
-    _ & F).
-  assert (Y : forall t, det (vector_at b t) (vector_at c t) (vector_at p t) = form_at (y_form b c p) t)
-    by (intros t; now rewrite (proj1 (forms_y b c p t Db Dc Dp))).
-  assert (G : forall t, all_positive (inside_edges_forms b c p) t <->
-    inside_edges (place (exact_motion a0) t) (place (exact_motion a1) t) (place (exact_motion b0) t)
-      (place (exact_motion b1) t)).
-  { intros t. unfold inside_edges. rewrite <- !difference_at. fold b c p.
-    destruct (forms_weights b c p t Db Dc Dp) as (_ & W & _). unfold all_positive.
-    rewrite <- (Forall_map (fun g => form_at g t) (Rlt 0)), W, !Forall_cons_iff. intuition. }
-  destruct (root_with_nonnegative (y_form b c p) (inside_edges_forms b c p)) eqn:E.
-  - split; [easy | intros H; now apply bsc_edges_separate in E].
-  - split; [intros _; now apply bsc_edges_collide | easy].
-  - unfold edges_collide. rewrite edges_coplanar, orb_true_iff, (all_at_start _ F), Border, G; [easy |].
-    intros t _. rewrite <- !difference_at. fold b c p. rewrite Y. now apply (bsc_exact_root _ _ t L F).
-  - destruct (bsc_exact_inside _ _ L F E) as (_ & N). split; [intros H; now apply
-    edges_border_collision, Border |].
-    destruct border; [easy |]. intros H. exfalso. apply edges_inside in H; [| rewrite <- Border; easy].
-    destruct H as (t & T & Z & I). rewrite <- !difference_at in Z. fold b c p in Z. rewrite Y in Z.
-    apply (N t T Z). apply Forall_forall. now apply G.
+  intros m0 m1 m2 m3 Border b c p. unfold decision. destruct (query_lengths edges q0 q1 q2 q3) as (L & F).
+  pose proof (query_sides_at edges q0 q1 q2 q3) as Sides. pose proof (query_forms_at edges q0 q1 q2 q3) as Forms.
+  cbv zeta in Forms. fold b c p m0 m1 m2 m3 in L, F, Sides, Forms.
+  assert (G : forall t, all_positive (inside_forms edges b c p) t <-> query_inside_at edges m0 m1 m2 m3 t).
+  { intros t. destruct (Sides t) as (Eb & Ec & Ep). rewrite <- query_inside_same, <- Eb, <- Ec, <- Ep.
+    apply (query_weights_at _ _ _ _ _ (Rlt 0)). }
+  destruct (root_with_nonnegative (y_form b c p) (inside_forms edges b c p)) eqn:E.
+  - split; [easy | intros H; now apply query_bsc_separate in E].
+  - split; [intros _; now apply query_bsc_collides | easy].
+  - rewrite query_coplanar, orb_true_iff, (all_at_start _ F), Border, G; [easy |].
+    intros t _. destruct (Sides t) as (<- & <- & <-). rewrite <- (proj1 (Forms t)).
+    now apply (bsc_exact_root _ _ t L F).
+  - destruct (bsc_exact_inside _ _ L F E) as (_ & N). split; [intros H; now apply query_border_collision, Border |].
+    destruct border; [easy |]. intros H. exfalso. apply query_inside in H; [| rewrite <- Border; easy].
+    destruct H as (t & T & Z & I). destruct (Sides t) as (Eb & Ec & Ep). rewrite <- Eb, <- Ec, <- Ep in *.
+    rewrite <- (proj1 (Forms t)) in Z. apply (N t T Z). apply Forall_forall. now apply G.
 Qed.
 
 End Exact.
 
 (** ** The decision in integers *)
 
-Definition bsc_exact_decides_face (finder : root_finder) (v f0 f1 f2 : given) : bool :=
-  let i := to_integers [v; f0; f1; f2] in
-  let b := difference (i f1) (i f0) in
-  let c := difference (i f2) (i f0) in
-  let p := difference (i v) (i f0) in
-  decision (y_form b c p) (inside_face_forms b c p) (face_border finder v f0 f1 f2).
-Definition bsc_exact_decides_edges (finder : root_finder) (a0 a1 b0 b1 : given) : bool :=
-  let i := to_integers [a0; a1; b0; b1] in
-  let b := difference (i a1) (i a0) in
-  let c := difference (i b1) (i b0) in
-  let p := difference (i b0) (i a0) in
-  decision (y_form b c p) (inside_edges_forms b c p) (edges_border finder a0 a1 b0 b1).
+Definition bsc_exact_decides (edges : bool) (finder : root_finder) (q0 q1 q2 q3 : given) : bool :=
+  let i := to_integers [q0; q1; q2; q3] in
+  let b := side_b edges difference (i q0) (i q1) (i q2) (i q3) in
+  let c := side_c edges difference (i q0) (i q1) (i q2) (i q3) in
+  let p := side_p edges difference (i q0) (i q1) (i q2) (i q3) in
+  decision (y_form b c p) (inside_forms edges b c p) (query_border_touched finder edges q0 q1 q2 q3).
+Definition bsc_exact_decides_face : root_finder -> given -> given -> given -> given -> bool := bsc_exact_decides false.
+Definition bsc_exact_decides_edges : root_finder -> given -> given -> given -> given -> bool := bsc_exact_decides true.
 
 Lemma integers_exact (n : integers) : sign_of n <> uncertain.
 Proof. apply integer_tells. Qed.
 
+Lemma query_bsc_exact edges finder q0 q1 q2 q3 : query_border_meets finder edges (promises finder) q0 q1 q2 q3 ->
+  bsc_exact_decides edges finder q0 q1 q2 q3 = true <->
+  query_collides edges (given_motion q0) (given_motion q1) (given_motion q2) (given_motion q3).
+Proof.
+  intros Border. destruct (query_in_integers q0 q1 q2 q3) as (K & E0 & E1 & E2 & E3).
+  unfold in_integers in *. rewrite <- (query_units _ edges _ _ _ _ K), <- E0, <- E1, <- E2, <- E3.
+  apply query_decision; [apply integers_exact |]. rewrite query_border_right by exact Border.
+  rewrite E0, E1, E2, E3. symmetry. now apply query_border_units.
+Qed.
 Theorem bsc_exact_face finder v f0 f1 f2 : face_border_meets finder (promises finder) v f0 f1 f2 ->
   bsc_exact_decides_face finder v f0 f1 f2 = true <->
   vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
-Proof.
-  intros Border. unfold bsc_exact_decides_face. set (q := [v; f0; f1; f2]).
-  assert (In v q /\ In f0 q /\ In f1 q /\ In f2 q) as (I & I0 & I1 & I2) by (simpl; tauto).
-  destruct (to_integers_right q v I) as (K & E). destruct (to_integers_right q f0 I0) as (_ & E0).
-  destruct (to_integers_right q f1 I1) as (_ & E1). destruct (to_integers_right q f2 I2) as (_ & E2).
-  unfold in_integers in *. rewrite <- (face_units (unit_of q)) by exact K. rewrite <- E, <- E0, <- E1,
-    <- E2.
-  apply face_decision; [apply integers_exact |]. rewrite face_border_right by exact Border. unfold face_border_collides.
-  now rewrite E, E0, E1, E2, !(vertex_edge_units (unit_of q)).
-Qed.
+Proof. exact (query_bsc_exact false finder v f0 f1 f2). Qed.
 Theorem bsc_exact_edges finder a0 a1 b0 b1 : edges_border_meets finder (promises finder) a0 a1 b0 b1 ->
   bsc_exact_decides_edges finder a0 a1 b0 b1 = true <->
   edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
-Proof.
-  intros Border. unfold bsc_exact_decides_edges. set (q := [a0; a1; b0; b1]).
-  assert (In a0 q /\ In a1 q /\ In b0 q /\ In b1 q) as (I0 & I1 & I2 & I3) by (simpl; tauto).
-  destruct (to_integers_right q a0 I0) as (K & E0). destruct (to_integers_right q a1 I1) as (_ & E1).
-  destruct (to_integers_right q b0 I2) as (_ & E2). destruct (to_integers_right q b1 I3) as (_ & E3).
-  unfold in_integers in *. rewrite <- (edges_units (unit_of q)) by exact K. rewrite <- E0, <- E1, <- E2,
-    <- E3.
-  apply edges_decision; [apply integers_exact |]. rewrite edges_border_right by exact Border. unfold
-    edges_border_collides.
-  now rewrite E0, E1, E2, E3, !(vertex_edge_units (unit_of q)).
-Qed.
+Proof. exact (query_bsc_exact true finder a0 a1 b0 b1). Qed.

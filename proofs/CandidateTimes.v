@@ -165,24 +165,23 @@ Proof.
   - intros t c _ [<- | []]. apply vertex_edge_met.
 Qed.
 (** Y = 0 throughout: the condition inside has no candidates. *)
+Lemma query_planar_time_of edges m0 m1 m2 m3 parts o : (forall s, 0 <= s <= 1 -> query_y edges m0 m1 m2 m3 s = 0) ->
+  0 <= last <= 1 -> ~ query_touches edges m0 m1 m2 m3 0 -> parts_of (query_border_asked edges m0 m1 m2 m3) parts ->
+  loop None parts o -> told_until (query_touches edges m0 m1 m2 m3) o.
+Proof.
+  intros Y L N. apply time_of; auto.
+  - apply query_first.
+  - intros t. now apply query_planar_candidate.
+  - intros t c _ I M. apply query_times. right. apply query_border_met. eauto.
+Qed.
 Theorem face_planar_time_of v f0 f1 f2 parts o : (forall s, 0 <= s <= 1 -> face_y v f0 f1 f2 s = 0) ->
   0 <= last <= 1 -> ~ face_touches v f0 f1 f2 0 -> parts_of (face_border_asked v f0 f1 f2) parts ->
   loop None parts o -> told_until (face_touches v f0 f1 f2) o.
-Proof.
-  intros Y L N. apply time_of; auto.
-  - apply face_first.
-  - intros t. now apply face_planar_candidate.
-  - intros t c _ I M. apply face_times. right. apply face_border_met. eauto.
-Qed.
+Proof. exact (query_planar_time_of false v f0 f1 f2 parts o). Qed.
 Theorem edges_planar_time_of a0 a1 b0 b1 parts o : (forall s, 0 <= s <= 1 -> edges_y a0 a1 b0 b1 s = 0) ->
   0 <= last <= 1 -> ~ edges_touch a0 a1 b0 b1 0 -> parts_of (edges_border_asked a0 a1 b0 b1) parts ->
   loop None parts o -> told_until (edges_touch a0 a1 b0 b1) o.
-Proof.
-  intros Y L N. apply time_of; auto.
-  - apply edges_first.
-  - intros t. now apply edges_planar_candidate.
-  - intros t c _ I M. apply edges_times. right. apply edges_border_met. eauto.
-Qed.
+Proof. exact (query_planar_time_of true a0 a1 b0 b1 parts o). Qed.
 
 Lemma near_sound D t cs ks (near_then : Prop) c : Forall2 (asks D t) cs ks ->
   (near_then <-> Exists (holds D) ks) -> In c cs -> is_met c t -> near_then.
@@ -199,42 +198,34 @@ Proof.
   - intros t F T. exists (corner_asked D v w). split; [now left | now apply vertices_near_candidate].
   - intros t c _ [<- | []] M. now apply corner_holds, (asks_met D t _ _ (asks_corner D v w t)).
 Qed.
+Ltac near_time_of candidates within conditions union :=
+  intros L N; apply time_of; auto;
+  [ eapply some_first; apply within
+  | intros t; apply candidates
+  | intros t c _; eapply near_sound with (ks := conditions t); [| apply union];
+    repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_face, asks_edges |]); apply Forall2_nil ].
 Theorem vertex_edge_near_time_of D v e0 e1 parts o : 0 <= last <= 1 ->
   ~ vertex_edge_near D (place v 0) (place e0 0) (place e1 0) -> parts_of (vertex_edge_near_asked D v e0 e1) parts ->
   loop None parts o -> told_until (fun t => vertex_edge_near D (place v t) (place e0 t) (place e1 t)) o.
 Proof.
-  intros L N. apply time_of; auto.
-  - eapply some_first. apply vertex_edge_first_within.
-  - intros t. apply vertex_edge_near_candidate.
-  - intros t c _. apply near_sound with (D := D) (ks := vertex_edge_conditions (place v t) (place e0 t) (place e1 t));
-      [| apply vertex_edge_within].
-    repeat (apply Forall2_cons; [auto using asks_corner, asks_edge |]). apply Forall2_nil.
+  near_time_of vertex_edge_near_candidate vertex_edge_first_within
+    (fun t => vertex_edge_conditions (place v t) (place e0 t) (place e1 t)) vertex_edge_within.
 Qed.
 Theorem face_near_time_of D v f0 f1 f2 parts o : 0 <= last <= 1 ->
   ~ face_near D (place v 0) (place f0 0) (place f1 0) (place f2 0) ->
   parts_of (all_face_near_asked D v f0 f1 f2) parts -> loop None parts o ->
   told_until (fun t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t)) o.
 Proof.
-  intros L N. apply time_of; auto.
-  - eapply some_first. apply face_first_within.
-  - intros t. apply face_near_candidate.
-  - intros t c _.
-    apply near_sound with (D := D) (ks := face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t));
-      [| apply face_within_union].
-    repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_face |]). apply Forall2_nil.
+  near_time_of face_near_candidate face_first_within
+    (fun t => face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t)) face_within_union.
 Qed.
 Theorem edges_near_time_of D a0 a1 b0 b1 parts o : 0 <= last <= 1 ->
   ~ edges_near D (place a0 0) (place a1 0) (place b0 0) (place b1 0) ->
   parts_of (all_edges_near_asked D a0 a1 b0 b1) parts -> loop None parts o ->
   told_until (fun t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t)) o.
 Proof.
-  intros L N. apply time_of; auto.
-  - eapply some_first. apply edges_first_within.
-  - intros t. apply edges_near_candidate.
-  - intros t c _.
-    apply near_sound with (D := D) (ks := edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t));
-      [| apply edges_within_union].
-    repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_edges |]). apply Forall2_nil.
+  near_time_of edges_near_candidate edges_first_within
+    (fun t => edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t)) edges_within_union.
 Qed.
 
 End Doubles.

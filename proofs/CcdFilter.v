@@ -85,8 +85,6 @@ Fixpoint shape (e : counted) : counted :=
 Notation count := (count p emin).
 Lemma count_shape e : count (shape e) = count e.
 Proof. induction e; simpl; congruence. Qed.
-Lemma height_shape e : height (shape e) = height e.
-Proof. induction e; simpl; congruence. Qed.
 
 Section CcdFilter.
 

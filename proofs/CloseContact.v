@@ -58,8 +58,6 @@ Lemma discriminant_substituted y s0 s1 t0 t1 : length y = 4%nat ->
 Proof. intros L. four y L. unfold discriminant, hessian, substituted. cbn [c0 c1 c2]. ring. Qed.
 Lemma discriminant_part y a b : length y = 4%nat -> discriminant (part_of y a b) = (b - a) ^ 6 * discriminant y.
 Proof. intros L. unfold part_of. rewrite discriminant_substituted by easy. f_equal. f_equal. ring. Qed.
-Lemma discriminant_scaled k y : length y = 4%nat -> discriminant (map (Rmult k) y) = k ^ 4 * discriminant y.
-Proof. intros L. four y L. unfold discriminant, hessian. cbn [map c0 c1 c2]. ring. Qed.
 Lemma changes_scaled k y : 0 < k -> inner_sign_changes (map (Rmult k) y) = inner_sign_changes y.
 Proof.
   intros K. unfold inner_sign_changes. rewrite map_map. f_equal. apply map_ext. intros x.
@@ -132,18 +130,7 @@ Proof.
   assert (0 < (1 - u) * (b - a)) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 
-(** ** Two parts of a part change their signs no more often together, and once less if they part at a simple root *)
-
-Definition parts_change_no_more : bool :=
-  let all := [negative; zero; positive] in
-  forallb (fun a => forallb (fun b => forallb (fun c => forallb (fun d =>
-    forallb (fun ab => forallb (fun bc => forallb (fun cd =>
-      forallb (fun abc => forallb (fun bcd => forallb (fun m =>
-        Nat.leb (count (changes_of [a; ab; abc; m]) + count (changes_of [m; bcd; cd; d]) +
-            (if same_sign m zero && negb (same_sign abc zero) then 1 else 0))
-          (count (changes_of [a; b; c; d])))
-      (signs_between abc bcd)) (signs_between bc cd)) (signs_between ab bc))
-    (signs_between c d)) (signs_between b c)) (signs_between a b)) all) all) all) all.
+(** ** Parts of a part change their signs no more often together, and once less if they part at a simple root *)
 
 Lemma split_changes y p : length y = 4%nat -> 0 < p < 1 ->
   (count (changes_in y 0 p) + count (changes_in y p 1) <= count (inner_sign_changes y))%nat /\
@@ -165,27 +152,11 @@ Proof.
     replace (discriminant [y0; ab; 0; 0]) with 0 in D0 by (unfold discriminant, hessian; cbn [c0 c1 c2]; ring).
     assert (0 < (p - 0) ^ 6 * discriminant [y0; y1; y2; y3]) by (apply Rmult_lt_0_compat; auto; apply pow_lt; lra).
     lra. }
-  rewrite El, Er, Em. unfold inner_sign_changes. cbn [map]. clear El Er Em D0.
-  assert (All : forall x, In (sign_of_real x) [negative; zero; positive]).
-  { intros x. cases_of_sign x; simpl; auto. }
-  assert (C : parts_change_no_more = true) by (vm_compute; reflexivity).
-  unfold parts_change_no_more in C.
-  assert (E : forall (P : sign -> bool) l x, forallb P l = true -> In x l -> P x = true)
-    by (intros Pr l x F; now apply (proj1 (forallb_forall Pr l) F)).
-  pose proof (E _ _ _ C (All y0)) as C1. pose proof (E _ _ _ C1 (All y1)) as C2.
-  pose proof (E _ _ _ C2 (All y2)) as C3. pose proof (E _ _ _ C3 (All y3)) as C4. clear C C1 C2 C3.
-  cbv beta in C4.
-  assert (B : forall k l a b c, 0 < k -> 0 < l -> c = k * a + l * b ->
-    In (sign_of_real c) (signs_between (sign_of_real a) (sign_of_real b)))
-    by (intros; apply sign_between; eauto 6).
-  pose proof (E _ _ _ C4 (B (3 * v) p y0 y1 ab ltac:(lra) P eq_refl)) as C5. clear C4. cbv beta in C5.
-  pose proof (E _ _ _ C5 (B v p y1 y2 bc Pv P eq_refl)) as C6. clear C5. cbv beta in C6.
-  pose proof (E _ _ _ C6 (B v (3 * p) y2 y3 cd Pv ltac:(lra) eq_refl)) as C7. clear C6. cbv beta in C7.
-  pose proof (E _ _ _ C7 (B v p ab bc abc Pv P eq_refl)) as C8. clear C7. cbv beta in C8.
-  pose proof (E _ _ _ C8 (B v p bc cd bcd Pv P eq_refl)) as C9. clear C8. cbv beta in C9.
-  pose proof (E _ _ _ C9 (B (v / 3) (p / 3) abc bcd m ltac:(lra) ltac:(lra) eq_refl)) as C10.
-  apply Nat.leb_le in C10. clear C9 All E B. split; [lia |]. intros D Zm. specialize (Ed Zm D).
-  rewrite (sign_zero m Zm) in *. clearbody abc. cases_of_sign abc; try contradiction; cbn [same_sign negb andb] in C10; lia.
+  assert (C := parts_change y0 y1 y2 y3 ab bc cd abc bcd m). rewrite El, Er, Em. clear El Er Em D0.
+  repeat match type of C with positive_sum ?a ?b _ -> _ =>
+    specialize (C ltac:(eexists _, _; split; [| split; [| reflexivity]]; lra)) end.
+  split; [lia |]. intros D Zm. specialize (Ed Zm D). rewrite (sign_zero m Zm) in *. clearbody abc.
+  cases_of_sign abc; try contradiction; cbn [same_sign negb andb] in C; lia.
 Qed.
 
 Lemma parts_changes y a m b : length y = 4%nat -> a < m < b ->
@@ -512,7 +483,7 @@ Hypotheses (degree_b : degree b 1) (degree_c : degree c 1) (degree_p : degree p 
 (** What extent_limit says of four words. *)
 Hypotheses (below_b : below 253 b) (below_c : below 253 c) (below_p : below 253 p).
 Let y : list R := map IZR (y_form b c p).
-Let Inside (t : R) : Prop := inside edges (vector_at b t) (vector_at c t) (vector_at p t).
+Let Inside (t : R) : Prop := weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t).
 Let y_length : length y = 4%nat := InteriorContact.y_length b c p degree_b degree_c degree_p.
 
 Definition close_known (low bits : Z) (width : option Z) (v : @vector_form integers) : known_vector :=
@@ -763,33 +734,36 @@ Proof.
     rewrite orb_true_r in S. discriminate. }
   apply (as_many_changes y (close_start q) (close_start r) (close_end r) (close_end q)); auto. lra.
 Qed.
-Lemma narrowed_right q r : close_good q -> can_be_narrowed q = true -> any_root three (close_roots q) = true ->
-  narrowed three q = Some r -> narrower q r /\
-  forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t.
+Lemma narrowed_narrower q r : close_good q -> can_be_narrowed q = true -> narrowed three q = Some r ->
+  narrower q r /\ (if is_single three (close_roots q) then opposite (close_roots r)
+                   else Nat.eqb (count (close_roots r)) (count (close_roots q))) = true.
 Proof.
-  intros G C A. unfold narrowed. cbv zeta. destruct (is_single three (close_roots q)) eqn:S.
-  { intros F. apply find_some in F. destruct F as (I & O).
-    assert (Nr : narrower q r)
-      by (destruct I as [<- | [<- | [<- | []]]]; apply around_narrower; auto; lia).
-    split; auto. now apply single_narrowed. }
-  assert (Tell : forall s, narrower q s -> Nat.eqb (count (close_roots s)) (count (close_roots q)) = true ->
-    Some s = Some r -> narrower q r /\
-    forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t).
-  { intros s Ns E I. injection I as <-. split; auto. now apply counted_narrowed. }
+  intros G C. unfold narrowed. cbv zeta. destruct (is_single three (close_roots q)).
+  { intros F. apply find_some in F. destruct F as (I & O). split; [| exact O].
+    destruct I as [<- | [<- | [<- | []]]]; apply around_narrower; auto; lia. }
   set (n := Z.min (- root_exponent (close_y q)) 60). set (m := Z.min (- root_exponent (rev (close_y q))) 60).
   destruct ((1 <? n)%Z && _) eqn:E0.
-  { apply andb_prop in E0. destruct E0 as (L & E0). apply Z.ltb_lt in L. apply Tell; auto.
+  { apply andb_prop in E0. destruct E0 as (L & E0). apply Z.ltb_lt in L. intros I. injection I as <-.
+    split; [| exact E0].
     assert (2 ^ 1 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
     apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
   destruct ((1 <? m)%Z && _) eqn:E1.
-  { apply andb_prop in E1. destruct E1 as (L & E1). apply Z.ltb_lt in L. apply Tell; auto.
+  { apply andb_prop in E1. destruct E1 as (L & E1). apply Z.ltb_lt in L. intros I. injection I as <-.
+    split; [| exact E1].
     assert (2 ^ 1 <= 2 ^ m)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
     apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
   destruct (Nat.eqb (count (close_roots q)) 2); [| discriminate].
   destruct (estimated_pair (close_y q)) as [[middle exponent] |]; [| discriminate].
   destruct ((exponent <? -5)%Z && _) eqn:E2; [| discriminate].
-  apply andb_prop in E2. destruct E2 as (L & E2). apply Z.ltb_lt in L. apply Tell; auto.
+  apply andb_prop in E2. destruct E2 as (L & E2). apply Z.ltb_lt in L. intros I. injection I as <-. split; [| exact E2].
   apply around_narrower; auto. lia.
+Qed.
+Lemma narrowed_right q r : close_good q -> can_be_narrowed q = true -> any_root three (close_roots q) = true ->
+  narrowed three q = Some r -> narrower q r /\
+  forall t, close_start q < t < close_end q -> at_ y t = 0 -> close_start r < t < close_end r \/ told t.
+Proof.
+  intros G C A F. destruct (narrowed_narrower q r G C F) as (Nr & O). split; auto.
+  destruct (is_single three (close_roots q)) eqn:S; [now apply single_narrowed | now apply counted_narrowed].
 Qed.
 
 (** Where the halves meet. *)
@@ -923,25 +897,6 @@ Qed.
 
 (** ** The parts that wait *)
 
-Lemma narrowed_narrower three q r : close_good q -> can_be_narrowed q = true -> narrowed three q = Some r -> narrower q r.
-Proof.
-  intros G C. unfold narrowed. cbv zeta. destruct (is_single three (close_roots q)).
-  { intros F. apply find_some in F. destruct F as ([<- | [<- | [<- | []]]] & _); apply around_narrower; auto; lia. }
-  set (n := Z.min (- root_exponent (close_y q)) 60). set (m := Z.min (- root_exponent (rev (close_y q))) 60).
-  destruct ((1 <? n)%Z && _) eqn:E0.
-  { apply andb_prop in E0. destruct E0 as (L & _). apply Z.ltb_lt in L. intros I. injection I as <-.
-    assert (2 ^ 1 <= 2 ^ n)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
-    apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
-  destruct ((1 <? m)%Z && _) eqn:E1.
-  { apply andb_prop in E1. destruct E1 as (L & _). apply Z.ltb_lt in L. intros I. injection I as <-.
-    assert (2 ^ 1 <= 2 ^ m)%Z by (apply Z.pow_le_mono_r; lia). change (2 ^ 1)%Z with 2%Z in *.
-    apply sub_part_narrower; auto. change (2 ^ 0)%Z with 1%Z. lia. }
-  destruct (Nat.eqb (count (close_roots q)) 2); [| discriminate].
-  destruct (estimated_pair (close_y q)) as [[middle exponent] |]; [| discriminate].
-  destruct ((exponent <? -5)%Z && _) eqn:E2; [| discriminate].
-  apply andb_prop in E2. destruct E2 as (L & _). apply Z.ltb_lt in L. intros I. injection I as <-.
-  apply around_narrower; auto. lia.
-Qed.
 Definition all_changes (parts : list close_part) : nat := list_sum (map (fun q => count (close_roots q)) parts).
 Lemma all_changes_cons q l : all_changes (q :: l) = (count (close_roots q) + all_changes l)%nat.
 Proof. reflexivity. Qed.
@@ -954,7 +909,7 @@ Proof.
   destruct (if ask then _ else undecided); try discriminate. destruct (ask && _); [discriminate |].
   destruct (can_be_narrowed asked) eqn:C; cbn [negb]; [| discriminate].
   destruct (narrowed three asked) as [r |] eqn:E.
-  { apply narrowed_narrower, Na in E; auto. intros I. injection I as <-. split; [constructor; auto |].
+  { apply narrowed_narrower in E; auto. apply proj1, Na in E. intros I. injection I as <-. split; [constructor; auto |].
     split; [simpl; lia |]. rewrite all_changes_cons. destruct E as (_ & _ & _ & _ & E). cbn. lia. }
   destruct ((_ =? 0)%Z && _); [discriminate |]. intros I. injection I as <-.
   pose proof H as (_ & _ & (W & U & _) & _).
@@ -1079,7 +1034,7 @@ Let y_at t : at_ y t = det (vector_at b t) (vector_at c t) (vector_at p t) :=
 Theorem close_contact_right steps :
   (contact steps = collides -> contact_inside edges b c p) /\
   (contact steps = separate -> forall t, 0 < t < 1 -> at_ y t = 0 -> ~ multiple_root y t ->
-    ~ inside edges (vector_at b t) (vector_at c t) (vector_at p t)).
+    ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t)).
 Proof.
   destruct (classic (Forall (eq 0) y)) as [F | N].
   { assert (M : forall t, multiple_root y t).
@@ -1109,7 +1064,8 @@ Qed.
 (** What interior_contact knows where it is uncertain. *)
 Lemma uncertain_interior extent_x extent_y extent_z estimate refine steps :
   interior_contact edges b c p extent_x extent_y extent_z estimate refine steps = undecided ->
-  (forall t, t = 0 \/ t = 1 -> at_ y t = 0 -> ~ inside edges (vector_at b t) (vector_at c t) (vector_at p t)) /\
+  (forall t, t = 0 \/ t = 1 -> at_ y t = 0 ->
+    ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t)) /\
   known_roots edges b c p (distinct_flag b c p) (three_flag b c p).
 Proof.
   unfold interior_contact. fold y.
@@ -1145,7 +1101,7 @@ Proof.
   split; [apply close_contact_right |]. intros E.
   pose proof (close_contact_answers edges b c p degree_b degree_c degree_p below_b below_c below_p
     estimated_root root_exponent estimated_pair
-    (fun t => ~ inside edges (vector_at b t) (vector_at c t) (vector_at p t)) more K) as A.
+    (fun t => ~ weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t)) more K) as A.
   fold contact in A. rewrite E in A. intros (t & T & Z & I). rewrite <- y_at in Z.
   destruct (Req_dec t 0) as [-> |]; [now apply (Ends 0 (or_introl eq_refl)) |].
   destruct (Req_dec t 1) as [-> |]; [now apply (Ends 1 (or_intror eq_refl)) |].
@@ -1162,9 +1118,9 @@ Definition decide_to_the_end (edges : bool) (extent_x extent_y extent_z : Z)
     (estimated_root : list Z -> Z -> Z) (root_exponent : list Z -> Z)
     (estimated_pair : list Z -> option ((Z -> Z) * Z)) (more : nat)
     (m0 m1 m2 m3 : moving) (q0 q1 q2 q3 : integer_motion) : outcome :=
-  let b := if edges then difference q1 q0 else difference q2 q1 in
-  let c := if edges then difference q3 q2 else difference q3 q1 in
-  let p := if edges then difference q2 q0 else difference q0 q1 in
+  let b := side_b edges difference q0 q1 q2 q3 in
+  let c := side_c edges difference q0 q1 q2 q3 in
+  let p := side_p edges difference q0 q1 q2 q3 in
   match contact_of edges extent_x extent_y extent_z estimate refine steps m0 m1 m2 m3 q0 q1 q2 q3 with
   | undecided => close_contact edges b c p estimated_root root_exponent estimated_pair more
   | found => found
@@ -1184,50 +1140,37 @@ Variable estimated_pair : list Z -> option ((Z -> Z) * Z).
 Let decide edges := decide_to_the_end edges extent_x extent_y extent_z estimate refine steps
   estimated_root root_exponent estimated_pair more.
 
+Lemma query_to_the_end_right edges m0 m1 m2 m3 q0 q1 q2 q3 : in_integers unit m0 q0 -> in_integers unit m1 q1 ->
+  in_integers unit m2 q2 -> in_integers unit m3 q3 -> below 253 (side_b edges difference q0 q1 q2 q3) ->
+  below 253 (side_c edges difference q0 q1 q2 q3) -> below 253 (side_p edges difference q0 q1 q2 q3) ->
+  let found := decide edges m0 m1 m2 m3 q0 q1 q2 q3 in
+  (found = collides -> query_collides edges m0 m1 m2 m3) /\ (found = separate -> ~ query_collides edges m0 m1 m2 m3).
+Proof.
+  intros I0 I1 I2 I3 Bb Bc Bp. cbv zeta. unfold decide, decide_to_the_end. cbv zeta.
+  pose proof (query_decision_right unit U extent_x extent_y extent_z estimate refine steps edges m0 m1 m2 m3 q0 q1 q2 q3
+    I0 I1 I2 I3) as R.
+  cbv beta zeta in R. destruct (contact_of _ _ _ _ _ _ _ _ _ _ _ _ _ _ _) eqn:E; [exact R | exact R |]. clear R.
+  unfold contact_of in E. cbv zeta in E. destruct (certainly_rootless _); [discriminate |].
+  pose proof (queries_contact unit U edges m0 m1 m2 m3 q0 q1 q2 q3 I0 I1 I2 I3) as Border.
+  destruct (existsb _ _); [discriminate |]. destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp).
+  destruct (decided_inside edges _ _ _ Db Dc Dp Bb Bc Bp estimated_root root_exponent estimated_pair
+    extent_x extent_y extent_z estimate refine steps more E) as (Yes & No).
+  rewrite <- (query_border_units unit) in Border by easy. rewrite <- (query_units unit) by easy.
+  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in *.
+  rewrite <- query_contact_inside by (intros H; now apply Border in H). auto.
+Qed.
 Theorem face_to_the_end_right m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
   in_integers unit m2 f1 -> in_integers unit m3 f2 ->
   below 253 (difference f1 f0) -> below 253 (difference f2 f0) -> below 253 (difference v f0) ->
   let found := decide false m0 m1 m2 m3 v f0 f1 f2 in
   (found = collides -> vertex_face_collides m0 m1 m2 m3) /\ (found = separate -> ~ vertex_face_collides m0 m1 m2 m3).
-Proof.
-  intros I0 I1 I2 I3 Bb Bc Bp. cbv zeta. unfold decide, decide_to_the_end. cbv iota zeta.
-  pose proof (face_decision_right unit U extent_x extent_y extent_z estimate refine steps m0 m1 m2 m3 v f0 f1 f2 I0 I1 I2 I3) as R.
-  cbv beta zeta in R. destruct (contact_of _ _ _ _ _ _ _ _ _ _ _ _ _ _ _) eqn:E; [exact R | exact R |]. clear R.
-  unfold contact_of in E. cbv iota zeta in E. destruct (certainly_rootless _); [discriminate |].
-  pose proof (face_edges unit U m0 m1 m2 m3 v f0 f1 f2 I0 I1 I2 I3) as Border.
-  destruct (existsb _ _); [discriminate |]. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp).
-  destruct (decided_inside false _ _ _ Db Dc Dp Bb Bc Bp estimated_root root_exponent estimated_pair
-    extent_x extent_y extent_z estimate refine steps more E) as (Yes & No).
-  assert (Given : vertex_face_collides m0 m1 m2 m3 <->
-    vertex_face_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
-  { unfold in_integers in *. rewrite I0, I1, I2, I3. symmetry. now apply face_units. }
-  assert (N : ~ face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
-  { intros H. enough (false = true) by discriminate. apply Border. revert H. unfold in_integers, face_border_collides in *.
-    now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
-  rewrite Given, <- (face_contact_inside v f0 f1 f2 N). auto.
-Qed.
+Proof. exact (query_to_the_end_right false m0 m1 m2 m3 v f0 f1 f2). Qed.
 Theorem edges_to_the_end_right m0 m1 m2 m3 a0 a1 b0 b1 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
   in_integers unit m2 b0 -> in_integers unit m3 b1 ->
   below 253 (difference a1 a0) -> below 253 (difference b1 b0) -> below 253 (difference b0 a0) ->
   let found := decide true m0 m1 m2 m3 a0 a1 b0 b1 in
   (found = collides -> edge_edge_collides m0 m1 m2 m3) /\ (found = separate -> ~ edge_edge_collides m0 m1 m2 m3).
-Proof.
-  intros I0 I1 I2 I3 Bb Bc Bp. cbv zeta. unfold decide, decide_to_the_end. cbv iota zeta.
-  pose proof (edges_decision_right unit U extent_x extent_y extent_z estimate refine steps m0 m1 m2 m3 a0 a1 b0 b1 I0 I1 I2 I3) as R.
-  cbv beta zeta in R. destruct (contact_of _ _ _ _ _ _ _ _ _ _ _ _ _ _ _) eqn:E; [exact R | exact R |]. clear R.
-  unfold contact_of in E. cbv iota zeta in E. destruct (certainly_rootless _); [discriminate |].
-  pose proof (edges_edges unit U m0 m1 m2 m3 a0 a1 b0 b1 I0 I1 I2 I3) as Border.
-  destruct (existsb _ _); [discriminate |]. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp).
-  destruct (decided_inside true _ _ _ Db Dc Dp Bb Bc Bp estimated_root root_exponent estimated_pair
-    extent_x extent_y extent_z estimate refine steps more E) as (Yes & No).
-  assert (Given : edge_edge_collides m0 m1 m2 m3 <->
-    edge_edge_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
-  { unfold in_integers in *. rewrite I0, I1, I2, I3. symmetry. now apply edges_units. }
-  assert (N : ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
-  { intros H. enough (false = true) by discriminate. apply Border. revert H. unfold in_integers, edges_border_collides in *.
-    now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
-  rewrite Given, <- (edges_contact_inside a0 a1 b0 b1 N). auto.
-Qed.
+Proof. exact (query_to_the_end_right true m0 m1 m2 m3 a0 a1 b0 b1). Qed.
 
 End Decisions.
 

@@ -51,12 +51,6 @@ Proof.
   intros Z. induction f as [| a f IH]; [easy |]. change (poly (a :: f) r) with (IZR a + r * poly f r)%R.
   rewrite IH by (intros i; apply (Z (S i))). pose proof (Z 0%nat) as E. unfold coefficient in E. simpl in E. rewrite E. ring.
 Qed.
-Lemma same_at f g r : same f g -> poly f r = poly g r.
-Proof.
-  intros E. assert (H : poly (sum f (multiple (-1) g)) r = 0%R).
-  { apply zero_at. intros i. rewrite coefficient_sum, coefficient_multiple, E. ring. }
-  rewrite sum_at, multiple_at in H. lra.
-Qed.
 
 (** ** Degrees modulo p, which is prime or 0 *)
 

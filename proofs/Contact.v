@@ -8,9 +8,11 @@
         vertex_face_union, edge_edge_union   contact where the normal is not zero, or vertex/edge
           contact
         face_inside, edges_inside       where there is no vertex/edge contact: all weights positive
-        face_coplanar, edges_coplanar   Y = 0 throughout: the same at t = 0, or vertex/edge contact *)
+        face_coplanar, edges_coplanar   Y = 0 throughout: the same at t = 0, or vertex/edge contact
+        query_...       the same of either query *)
 
-From Coq Require Import Reals Lra Psatz FunctionalExtensionality.
+From Coq Require Import Reals Lra Psatz List FunctionalExtensionality.
+Import ListNotations.
 Open Scope R_scope.
 
 (** ** Space *)
@@ -229,6 +231,29 @@ Proof.
     apply same_point; cbn [x y z]; lra. }
   rewrite Ep. clearbody B C. unfold det, on_a, on_b, square_normal. destruct B, C. coordinates. repeat
     split; ring.
+Qed.
+
+(** In contact Y = 0 and no weight is negative. *)
+Lemma touching_conditions p a b c : in_triangle p a b c ->
+  let B := minus b a in let C := minus c a in let P := minus p a in
+  det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B C P.
+Proof.
+  intros (u & w & U & W & UW & E) B C P. destruct (weights_of a b c p u w E) as (Y & W1 & W2).
+  fold B C P in Y, W1, W2. unfold weight_0. fold (square_normal B C). rewrite W1, W2.
+  assert (0 <= square_normal B C) by (unfold square_normal, dot; nra).
+  assert (0 <= (1 - u - w) * square_normal B C) by (apply Rmult_le_pos; lra).
+  repeat split; auto; nra.
+Qed.
+Lemma meeting_conditions a0 a1 b0 b1 : segments_meet a0 a1 b0 b1 ->
+  let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in
+  det B C P = 0 /\ 0 <= on_a B C P /\ 0 <= square_normal B C - on_a B C P /\
+  0 <= on_b B C P /\ 0 <= square_normal B C - on_b B C P.
+Proof.
+  intros M B C P. destruct M as (q & (s & S & Ea) & (t & T & Eb)).
+  destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |].
+  fold B C P in Y, Oa, Ob. rewrite Oa, Ob.
+  assert (0 <= square_normal B C) by (unfold square_normal, dot; nra).
+  repeat split; auto; nra.
 Qed.
 
 (** On a line, with edge a from 0 to 1 and edge b from m to m + k. *)
@@ -616,7 +641,7 @@ Proof.
 Qed.
 Ltac continuous := unfold on_a, on_b, square_normal, weight_0, weight_1, weight_2;
   repeat (apply cont_min || apply cont_dot || apply smooth_cross || apply smooth_difference || apply
-    cont_minus).
+    cont_minus || apply cont_const).
 
 (** A plane that parts two moving points at one time does so for a while. *)
 Lemma stays_separated n p q s : 0 < dot n (minus (place q s) (place p s)) ->
@@ -784,73 +809,154 @@ Proof.
   - left. unfold inside_edges. fold B C P. fold n2. repeat split; lra.
 Qed.
 
+(** ** Either query: q0 to q3 are a vertex and the vertices of a face, or the ends of two edges *)
+
+(** What B, C and P are differences of. *)
+Definition side_b {A V : Type} (edges : bool) (minus : A -> A -> V) (q0 q1 q2 q3 : A) : V :=
+  if edges then minus q1 q0 else minus q2 q1.
+Definition side_c {A V : Type} (edges : bool) (minus : A -> A -> V) (q0 q1 q2 q3 : A) : V :=
+  if edges then minus q3 q2 else minus q3 q1.
+Definition side_p {A V : Type} (edges : bool) (minus : A -> A -> V) (q0 q1 q2 q3 : A) : V :=
+  if edges then minus q2 q0 else minus q0 q1.
+
+(** inside() of vertex_face_forms and of edge_edge_forms, of degree 0. *)
+Definition weights (edges : bool) (b c p : point) : list R :=
+  if edges then [on_a b c p; square_normal b c - on_a b c p; on_b b c p; square_normal b c - on_b b c p]
+  else [weight_2 b c p; weight_1 b c p; weight_0 b c p].
+Definition weights_positive (edges : bool) (b c p : point) : Prop := Forall (Rlt 0) (weights edges b c p).
+
+Definition least_weight (l : list R) : R := fold_right Rmin 1 l.
+Lemma least_weight_right l : (0 < least_weight l <-> Forall (Rlt 0) l) /\ (0 <= least_weight l -> Forall (Rle 0) l).
+Proof.
+  induction l as [| w l (Lt & Le)]; cbn [least_weight fold_right].
+  - split; [split; [constructor | lra] | constructor].
+  - rewrite !Forall_cons_iff, <- Lt. fold (least_weight l). pose proof (Rmin_l w (least_weight l)).
+    pose proof (Rmin_r w (least_weight l)).
+    split; [split; [lra | intros (W & L); now apply Rmin_glb_lt] | intros; split; [lra | apply Le; lra]].
+Qed.
+
+Section Query.
+
+Variable edges : bool.
+Variables m0 m1 m2 m3 : moving.
+Let B (t : R) := side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+Let C (t : R) := side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+Let P (t : R) := side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+
+Definition query_touches (t : R) : Prop :=
+  (if edges then segments_meet else in_triangle) (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+Definition query_collides : Prop := sometime query_touches.
+Definition query_border_at (t : R) : Prop :=
+  (if edges then edges_border else face_border) (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+Definition query_border : Prop := (if edges then edges_border_collides else face_border_collides) m0 m1 m2 m3.
+Definition query_regular_at (t : R) : Prop := (if edges then edges_regular_at else face_regular_at) m0 m1 m2 m3 t.
+
+Definition query_inside_at (t : R) : Prop :=
+  (if edges then inside_edges else inside_face) (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+
+Lemma query_regular t : query_regular_at t <->
+  cross (B t) (C t) <> origin /\ det (B t) (C t) (P t) = 0 /\ Forall (Rle 0) (weights edges (B t) (C t) (P t)).
+Proof.
+  unfold query_regular_at, B, C, P. destruct edges; cbn [side_b side_c side_p weights];
+    rewrite !Forall_cons_iff; unfold edges_regular_at, regular_edges, face_regular_at, regular_face; intuition.
+Qed.
+Lemma query_inside_same t : weights_positive edges (B t) (C t) (P t) <-> query_inside_at t.
+Proof.
+  unfold weights_positive, query_inside_at, B, C, P. destruct edges; cbn [side_b side_c side_p weights];
+    rewrite !Forall_cons_iff; unfold inside_edges, inside_face; intuition.
+Qed.
+Lemma query_inside_regular t : det (B t) (C t) (P t) = 0 -> query_inside_at t -> query_regular_at t.
+Proof.
+  unfold query_inside_at, query_regular_at, B, C, P.
+  destruct edges; [apply inside_edges_regular | apply inside_face_regular].
+Qed.
+Lemma query_at_a_time t : query_touches t <-> query_regular_at t \/ query_border_at t.
+Proof.
+  unfold query_touches, query_regular_at, query_border_at.
+  destruct edges; [apply edges_at_a_time | apply face_at_a_time].
+Qed.
+Lemma query_regular_border t : query_regular_at t -> query_inside_at t \/ query_border_at t.
+Proof.
+  unfold query_regular_at, query_inside_at, query_border_at.
+  destruct edges; [apply regular_edges_border | apply regular_face_border].
+Qed.
+Lemma query_border_collides t : 0 <= t <= 1 -> query_border_at t -> query_border.
+Proof.
+  intros T. unfold query_border_at, query_border. destruct edges.
+  - intros [H | [H | [H | H]]]; [left | right; left | right; right; left | right; right; right]; exists t; now split.
+  - intros [H | [H | H]]; [left | right; left | right; right]; exists t; now split.
+Qed.
+Lemma query_union : query_collides <-> sometime query_regular_at \/ query_border.
+Proof.
+  unfold query_collides, query_touches, query_regular_at, query_border.
+  destruct edges; [exact (edge_edge_union m0 m1 m2 m3) | exact (vertex_face_union m0 m1 m2 m3)].
+Qed.
+Lemma query_border_collision : query_border -> query_collides.
+Proof. intros H. apply query_union. now right. Qed.
+Lemma query_inside : ~ query_border ->
+  (query_collides <-> sometime (fun t => det (B t) (C t) (P t) = 0 /\ query_inside_at t)).
+Proof.
+  intros N. split.
+  - intros H. apply query_union in H. destruct H as [(t & T & H) | H]; [| easy]. exists t. split; auto.
+    split; [now apply query_regular in H |]. apply query_regular_border in H. destruct H as [| H]; auto.
+    now apply query_border_collides in H.
+  - intros (t & T & Y & I). exists t. split; auto. apply query_at_a_time. left. now apply query_inside_regular.
+Qed.
+
+Lemma query_closed s b : s < b -> cross (B s) (C s) = origin -> (forall t, s < t <= b -> query_touches t) ->
+  query_touches s.
+Proof. unfold B, C, query_touches. destruct edges; [apply edges_closed | apply face_closed]. Qed.
+Lemma query_coplanar : (forall t, 0 <= t <= 1 -> det (B t) (C t) (P t) = 0) ->
+  (query_collides <-> query_inside_at 0 \/ query_border).
+Proof.
+  intros Y. split.
+  2: { intros [I | H]; [| now apply query_border_collision]. exists 0. split; [lra |].
+       apply query_at_a_time. left. apply query_inside_regular; auto. apply Y. lra. }
+  assert (Either : forall t, 0 <= t <= 1 -> query_touches t -> query_inside_at t \/ query_border).
+  { intros t T H. apply query_at_a_time in H. destruct H as [H | H]; [| right; now apply query_border_collides in H].
+    apply query_regular_border in H. destruct H as [H | H]; [now left | right; now apply query_border_collides in H]. }
+  intros (b & Hb & H). destruct (Either b Hb H) as [I |]; [| now right].
+  set (f := fun t => least_weight (weights edges (B t) (C t) (P t))).
+  assert (F : forall t, 0 < f t <-> query_inside_at t) by (intros t; rewrite <- query_inside_same;
+    apply least_weight_right).
+  destruct (Rlt_or_le 0 (f 0)) as [F0 | F0]; [left; now apply F | right].
+  destruct (begins f query_touches b) as (s & S & Z & K); auto.
+  - unfold f, least_weight, B, C, P. destruct edges; cbn [weights fold_right side_b side_c side_p]; continuous.
+  - now apply F.
+  - intros t T G. apply query_at_a_time. left. apply query_inside_regular; [now apply Y | now apply F].
+  - intros s S Z After. destruct (origin_dec (cross (B s) (C s))) as [E | N]; [apply query_closed with b; auto; lra |].
+    apply query_at_a_time. left. apply query_regular. split; auto. split; [apply Y; lra |].
+    apply least_weight_right. unfold f in Z. lra.
+  - destruct (Either s S K) as [I' |]; auto. apply F in I'. lra.
+Qed.
+
+(** In contact Y vanishes and no weight is negative. *)
+Lemma query_conditions t : query_touches t ->
+  det (B t) (C t) (P t) = 0 /\ Forall (Rle 0) (weights edges (B t) (C t) (P t)).
+Proof.
+  unfold query_touches, B, C, P.
+  destruct edges; cbn [side_b side_c side_p weights]; intros H; rewrite !Forall_cons_iff;
+    [apply meeting_conditions in H | apply touching_conditions in H]; intuition.
+Qed.
+
+End Query.
+
 Section Face.
 
 Variables v f0 f1 f2 : moving.
 Let B (t : R) := minus (place f1 t) (place f0 t).
 Let C (t : R) := minus (place f2 t) (place f0 t).
 Let P (t : R) := minus (place v t) (place f0 t).
-Let touches (t : R) := in_triangle (place v t) (place f0 t) (place f1 t) (place f2 t).
 Let inside (t : R) := inside_face (place v t) (place f0 t) (place f1 t) (place f2 t).
-
-Lemma face_border_at t : 0 <= t <= 1 -> face_border (place v t) (place f0 t) (place f1 t) (place f2 t)
-  ->
-  face_border_collides v f0 f1 f2.
-Proof.
-  intros T [H | [H | H]]; [left | right; left | right; right]; exists t; now split.
-Qed.
-Lemma face_border_collision : face_border_collides v f0 f1 f2 -> vertex_face_collides v f0 f1 f2.
-Proof. intros H. apply vertex_face_union. now right. Qed.
 
 (** For a query without vertex/edge contact: contact is Y = 0 with all weights positive. *)
 Theorem face_inside : ~ face_border_collides v f0 f1 f2 ->
   (vertex_face_collides v f0 f1 f2 <-> sometime (fun t => det (B t) (C t) (P t) = 0 /\ inside t)).
-Proof.
-  intros N. split.
-  - intros H. apply vertex_face_union in H. destruct H as [(t & T & H) | H]; [| easy]. exists t. split;
-      auto.
-    split; [apply H |]. apply regular_face_border in H. destruct H as [| H]; auto. now apply
-      face_border_at in H.
-  - intros (t & T & Y & I). exists t. split; auto. apply face_at_a_time. left. now apply
-      inside_face_regular.
-Qed.
-
+Proof. exact (query_inside false v f0 f1 f2). Qed.
 (** Y = 0 throughout: t = 0 alone is to be asked. *)
 Theorem face_coplanar : (forall t, 0 <= t <= 1 -> det (B t) (C t) (P t) = 0) ->
   (vertex_face_collides v f0 f1 f2 <-> inside 0 \/ face_border_collides v f0 f1 f2).
-Proof.
-  intros Y. split.
-  2: { intros [I | H]; [| now apply face_border_collision]. exists 0. split; [lra |].
-       apply face_at_a_time. left. apply inside_face_regular; auto. apply Y. lra. }
-  intros (b & Hb & H). apply face_at_a_time in H. destruct H as [H | H]; [| right; now apply
-    face_border_at in H].
-  apply regular_face_border in H. destruct H as [I | H]; [| right; now apply face_border_at in H].
-  set (f := fun t => Rmin (weight_2 (B t) (C t) (P t)) (Rmin (weight_1 (B t) (C t) (P t)) (weight_0 (B
-    t) (C t) (P t)))).
-  assert (F : forall t, 0 < f t <-> inside t).
-  { intros t. unfold f, inside, inside_face. fold (B t) (C t) (P t). split.
-    - intros G. apply Rmin_Rgt_l in G. destruct G as (G & G'). apply Rmin_Rgt_l in G'. tauto.
-    - intros (G2 & G1 & G0). now repeat apply Rmin_glb_lt. }
-  destruct (Rlt_or_le 0 (f 0)) as [F0 | F0]; [left; now apply F | right].
-  assert (Regular : forall t, 0 <= t <= 1 -> 0 < f t -> touches t).
-  { intros t T G. apply face_at_a_time. left. apply inside_face_regular; [now apply Y | now apply F]. }
-  destruct (begins f touches b) as (s & S & Z & K); auto.
-  - unfold f, B, C, P. continuous.
-  - now apply F.
-  - intros s S Z After. destruct (origin_dec (cross (B s) (C s))) as [E | N].
-    + apply face_closed with b; auto. lra.
-    + apply face_at_a_time. left. split; auto. split; [apply Y; lra |].
-      fold (B s) (C s) (P s). unfold f in Z.
-      pose proof (Rmin_l (weight_2 (B s) (C s) (P s)) (Rmin (weight_1 (B s) (C s) (P s)) (weight_0 (B s)
-        (C s) (P s)))).
-      pose proof (Rmin_r (weight_2 (B s) (C s) (P s)) (Rmin (weight_1 (B s) (C s) (P s)) (weight_0 (B s)
-        (C s) (P s)))).
-      pose proof (Rmin_l (weight_1 (B s) (C s) (P s)) (weight_0 (B s) (C s) (P s))).
-      pose proof (Rmin_r (weight_1 (B s) (C s) (P s)) (weight_0 (B s) (C s) (P s))). repeat split; lra.
-  - apply face_at_a_time in K. destruct K as [K | K]; [| now apply face_border_at in K].
-    apply regular_face_border in K. destruct K as [K | K]; [| now apply face_border_at in K].
-    apply (F s) in K. lra.
-Qed.
+Proof. exact (query_coplanar false v f0 f1 f2). Qed.
 
 End Face.
 
@@ -860,66 +966,13 @@ Variables a0 a1 b0 b1 : moving.
 Let B (t : R) := minus (place a1 t) (place a0 t).
 Let C (t : R) := minus (place b1 t) (place b0 t).
 Let P (t : R) := minus (place b0 t) (place a0 t).
-Let touches (t : R) := segments_meet (place a0 t) (place a1 t) (place b0 t) (place b1 t).
 Let inside (t : R) := inside_edges (place a0 t) (place a1 t) (place b0 t) (place b1 t).
-
-Lemma edges_border_at t : 0 <= t <= 1 -> edges_border (place a0 t) (place a1 t) (place b0 t) (place b1
-  t) ->
-  edges_border_collides a0 a1 b0 b1.
-Proof.
-  intros T [H | [H | [H | H]]]; [left | right; left | right; right; left | right; right; right]; exists
-    t; now split.
-Qed.
-Lemma edges_border_collision : edges_border_collides a0 a1 b0 b1 -> edge_edge_collides a0 a1 b0 b1.
-Proof. intros H. apply edge_edge_union. now right. Qed.
 
 Theorem edges_inside : ~ edges_border_collides a0 a1 b0 b1 ->
   (edge_edge_collides a0 a1 b0 b1 <-> sometime (fun t => det (B t) (C t) (P t) = 0 /\ inside t)).
-Proof.
-  intros N. split.
-  - intros H. apply edge_edge_union in H. destruct H as [(t & T & H) | H]; [| easy]. exists t. split;
-      auto.
-    split; [apply H |]. apply regular_edges_border in H. destruct H as [| H]; auto. now apply
-      edges_border_at in H.
-  - intros (t & T & Y & I). exists t. split; auto. apply edges_at_a_time. left. now apply
-      inside_edges_regular.
-Qed.
-
+Proof. exact (query_inside true a0 a1 b0 b1). Qed.
 Theorem edges_coplanar : (forall t, 0 <= t <= 1 -> det (B t) (C t) (P t) = 0) ->
   (edge_edge_collides a0 a1 b0 b1 <-> inside 0 \/ edges_border_collides a0 a1 b0 b1).
-Proof.
-  intros Y. split.
-  2: { intros [I | H]; [| now apply edges_border_collision]. exists 0. split; [lra |].
-       apply edges_at_a_time. left. apply inside_edges_regular; auto. apply Y. lra. }
-  intros (b & Hb & H). apply edges_at_a_time in H. destruct H as [H | H]; [| right; now apply
-    edges_border_at in H].
-  apply regular_edges_border in H. destruct H as [I | H]; [| right; now apply edges_border_at in H].
-  set (ga := fun t => on_a (B t) (C t) (P t)). set (gb := fun t => on_b (B t) (C t) (P t)).
-  set (n2 := fun t => square_normal (B t) (C t)).
-  set (f := fun t => Rmin (Rmin (ga t) (n2 t - ga t)) (Rmin (gb t) (n2 t - gb t))).
-  assert (F : forall t, 0 < f t <-> inside t).
-  { intros t. unfold f, inside, inside_edges. fold (B t) (C t) (P t). fold (ga t) (gb t) (n2 t). split.
-    - intros G. apply Rmin_Rgt_l in G. destruct G as (G & G'). apply Rmin_Rgt_l in G, G'. tauto.
-    - intros (G2 & G1 & G0 & G3). now repeat apply Rmin_glb_lt. }
-  destruct (Rlt_or_le 0 (f 0)) as [F0 | F0]; [left; now apply F | right].
-  assert (Regular : forall t, 0 <= t <= 1 -> 0 < f t -> touches t).
-  { intros t T G. apply edges_at_a_time. left. apply inside_edges_regular; [now apply Y | now apply F].
-      }
-  destruct (begins f touches b) as (s & S & Z & K); auto.
-  - unfold f, ga, gb, n2, B, C, P. continuous.
-  - now apply F.
-  - intros s S Z After. destruct (origin_dec (cross (B s) (C s))) as [E | N].
-    + apply edges_closed with b; auto. lra.
-    + apply edges_at_a_time. left. split; auto. split; [apply Y; lra |].
-      fold (B s) (C s) (P s). fold (ga s) (gb s) (n2 s). unfold f in Z.
-      pose proof (Rmin_l (Rmin (ga s) (n2 s - ga s)) (Rmin (gb s) (n2 s - gb s))).
-      pose proof (Rmin_r (Rmin (ga s) (n2 s - ga s)) (Rmin (gb s) (n2 s - gb s))).
-      pose proof (Rmin_l (ga s) (n2 s - ga s)). pose proof (Rmin_r (ga s) (n2 s - ga s)).
-      pose proof (Rmin_l (gb s) (n2 s - gb s)). pose proof (Rmin_r (gb s) (n2 s - gb s)). repeat split;
-        lra.
-  - apply edges_at_a_time in K. destruct K as [K | K]; [| now apply edges_border_at in K].
-    apply regular_edges_border in K. destruct K as [K | K]; [| now apply edges_border_at in K].
-    apply (F s) in K. lra.
-Qed.
+Proof. exact (query_coplanar true a0 a1 b0 b1). Qed.
 
 End Edges.

@@ -281,6 +281,30 @@ Proof.
         [specialize (A L) | specialize (B L)]; rewrite E, Zt in *; lra.
 Qed.
 
+Lemma query_part_bracket edges m0 m1 m2 m3 Y Gs k l low high p before b : 0 < k -> 0 < l ->
+  (forall t, control_at Y t = k * query_y edges m0 m1 m2 m3 t) ->
+  (forall t, map (fun G => control_at G t) Gs = map (Rmult l) (weights edges
+     (side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+     (side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+     (side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t)))) ->
+  part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before * query_y edges m0 m1 m2 m3 low ->
+  search double (query_y edges m0 m1 m2 m3) before low high b ->
+  exists r, first (query_touches edges m0 m1 m2 m3) r /\ low < r < high /\ holds_time double b r.
+Proof.
+  intros K L E W.
+  assert (Scaled : forall (Q : R -> Prop) t, (forall w, Q (l * w) <-> Q w) -> (forall G, In G Gs ->
+    Q (control_at G t)) <->
+    Forall Q (weights edges (side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+      (side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+      (side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t)))).
+  { intros Q t Same. rewrite <- Forall_forall, <- (Forall_map (fun G => control_at G t)), W, Forall_map.
+    split; apply Forall_impl; intros w; apply Same. }
+  apply (part_bracket _ (query_inside_at edges m0 m1 m2 m3)) with (k := k); auto.
+  - intros t T. destruct (query_conditions _ _ _ _ _ _ T) as (Yt & F). split; [exact Yt |].
+    apply (Scaled (Rle 0)); [| exact F]. intros w. split; intros H; nra.
+  - intros t Yt Pos. apply query_times. left. split; auto. apply query_inside_same, (Scaled (Rlt 0)); [| exact Pos].
+    intros w. split; intros H; nra.
+Qed.
 Theorem face_part_bracket v f0 f1 f2 Y Gs k l low high p before b : 0 < k -> 0 < l ->
   (forall t, control_at Y t = k * face_y v f0 f1 f2 t) ->
   (forall t, map (fun G => control_at G t) Gs = map (Rmult l)
@@ -289,18 +313,7 @@ Theorem face_part_bracket v f0 f1 f2 Y Gs k l low high p before b : 0 < k -> 0 <
   part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before * face_y v f0 f1 f2 low ->
   search double (face_y v f0 f1 f2) before low high b ->
   exists r, first (face_touches v f0 f1 f2) r /\ low < r < high /\ holds_time double b r.
-Proof.
-  intros K L E W. apply (part_bracket _ (face_inside_at v f0 f1 f2)) with (k := k); auto.
-  - intros t T. destruct (face_contact_root _ _ _ _ T) as (Yt & W2 & W1 & W0). split; [exact Yt |].
-    enough (Forall (fun w => 0 <= w) (map (fun G => control_at G t) Gs)) as F.
-    { intros G I. rewrite Forall_map, Forall_forall in F. now apply F. }
-    rewrite W. repeat apply Forall_cons; try apply Forall_nil; apply Rmult_le_pos; auto; lra.
-  - intros t Yt Pos. apply face_times. left. split; auto.
-    assert (F : Forall (Rlt 0) (map (fun G => control_at G t) Gs)) by (rewrite Forall_map, Forall_forall; exact Pos).
-    rewrite W in F. cbn [map] in F. inversion_clear F as [| ? ? G2 F']. inversion_clear F' as [| ? ? G1 F].
-    inversion_clear F as [| ? ? G0 _]. unfold face_inside_at, inside_face.
-    assert (D : forall w, 0 < l * w -> 0 < w) by (intros w Q; nra). repeat split; now apply D.
-Qed.
+Proof. exact (query_part_bracket false v f0 f1 f2 Y Gs k l low high p before b). Qed.
 Theorem edges_part_bracket a0 a1 b0 b1 Y Gs k l low high p before b : 0 < k -> 0 < l ->
   (forall t, control_at Y t = k * edges_y a0 a1 b0 b1 t) ->
   (forall t, map (fun G => control_at G t) Gs = map (Rmult l)
@@ -310,17 +323,6 @@ Theorem edges_part_bracket a0 a1 b0 b1 Y Gs k l low high p before b : 0 < k -> 0
   part_is Y Gs low high p -> changes_sign_once sign_y p = true -> 0 < before * edges_y a0 a1 b0 b1 low ->
   search double (edges_y a0 a1 b0 b1) before low high b ->
   exists r, first (edges_touch a0 a1 b0 b1) r /\ low < r < high /\ holds_time double b r.
-Proof.
-  intros K L E W. apply (part_bracket _ (edges_inside_at a0 a1 b0 b1)) with (k := k); auto.
-  - intros t T. destruct (edges_contact_root _ _ _ _ T) as (Yt & W3 & W2 & W1 & W0). split; [exact Yt |].
-    enough (Forall (fun w => 0 <= w) (map (fun G => control_at G t) Gs)) as F.
-    { intros G I. rewrite Forall_map, Forall_forall in F. now apply F. }
-    rewrite W. repeat apply Forall_cons; try apply Forall_nil; apply Rmult_le_pos; auto; lra.
-  - intros t Yt Pos. apply edges_times. left. split; auto.
-    assert (F : Forall (Rlt 0) (map (fun G => control_at G t) Gs)) by (rewrite Forall_map, Forall_forall; exact Pos).
-    rewrite W in F. cbn [map] in F. inversion_clear F as [| ? ? G3 F']. inversion_clear F' as [| ? ? G2 F].
-    inversion_clear F as [| ? ? G1 F']. inversion_clear F' as [| ? ? G0 _]. unfold edges_inside_at, inside_edges.
-    assert (D : forall w, 0 < l * w -> 0 < w) by (intros w Q; nra). repeat split; now apply D.
-Qed.
+Proof. exact (query_part_bracket true a0 a1 b0 b1 Y Gs k l low high p before b). Qed.
 
 End Part.

@@ -604,56 +604,60 @@ Definition signs_between (a b : sign) : list sign :=
   | negative, positive | positive, negative => [negative; zero; positive]
   | s, _ => [s]
   end.
-Lemma sign_between a b c : (exists k l, 0 < k /\ 0 < l /\ c = k * a + l * b) ->
+Definition positive_sum (a b c : R) : Prop := exists k l, 0 < k /\ 0 < l /\ c = k * a + l * b.
+Lemma sign_between a b c : positive_sum a b c ->
   In (sign_of_real c) (signs_between (sign_of_real a) (sign_of_real b)).
 Proof.
   intros (k & l & K & L & ->).
   cases_of_sign a; cases_of_sign b; simpl; cases_of_sign (k * a + l * b); auto; exfalso; nra.
 Qed.
-Definition halves_change_no_more : bool :=
+
+(** Two parts of a part change their signs no more often together, and once less if they part at a simple root. *)
+Definition parts_change_no_more : bool :=
   let all := [negative; zero; positive] in
   forallb (fun a => forallb (fun b => forallb (fun c => forallb (fun d =>
     forallb (fun ab => forallb (fun bc => forallb (fun cd =>
       forallb (fun abc => forallb (fun bcd => forallb (fun m =>
-        Nat.leb (count (changes_of [a; ab; abc; m]) + count (changes_of [m; bcd; cd; d]))
+        Nat.leb (count (changes_of [a; ab; abc; m]) + count (changes_of [m; bcd; cd; d]) +
+            (if same_sign m zero && negb (same_sign abc zero) then 1 else 0))
           (count (changes_of [a; b; c; d])))
       (signs_between abc bcd)) (signs_between bc cd)) (signs_between ab bc))
     (signs_between c d)) (signs_between b c)) (signs_between a b)) all) all) all) all.
+Ltac among C H := apply (fun F => proj1 (forallb_forall _ _) F _ H) in C; cbv beta in C.
+Lemma parts_change a b c d ab bc cd abc bcd m : positive_sum a b ab -> positive_sum b c bc -> positive_sum c d cd ->
+  positive_sum ab bc abc -> positive_sum bc cd bcd -> positive_sum abc bcd m ->
+  (count (inner_sign_changes [a; ab; abc; m]) + count (inner_sign_changes [m; bcd; cd; d]) +
+    (if same_sign (sign_of_real m) zero && negb (same_sign (sign_of_real abc) zero) then 1 else 0) <=
+   count (inner_sign_changes [a; b; c; d]))%nat.
+Proof.
+  intros Ab Bc Cd Abc Bcd M. unfold inner_sign_changes. cbn [map].
+  assert (All : forall x, In (sign_of_real x) [negative; zero; positive]).
+  { intros x. cases_of_sign x; simpl; auto. }
+  assert (C : parts_change_no_more = true) by (vm_compute; reflexivity). unfold parts_change_no_more in C.
+  among C (All a). among C (All b). among C (All c). among C (All d).
+  among C (sign_between _ _ _ Ab). among C (sign_between _ _ _ Bc). among C (sign_between _ _ _ Cd).
+  among C (sign_between _ _ _ Abc). among C (sign_between _ _ _ Bcd). among C (sign_between _ _ _ M).
+  now apply Nat.leb_le.
+Qed.
 
 (** So parts that wait have no more changes together than the whole. *)
 Theorem halves_changes y : length y = 4%nat ->
   (count (inner_sign_changes (left_half_of y)) + count (inner_sign_changes (right_half_of y)) <=
    count (inner_sign_changes y))%nat.
 Proof.
-  intros L. four y L. destruct (halves_of_four y0 y1 y2 y3) as (-> & ->). unfold inner_sign_changes.
-    cbn [map].
-  assert (All : forall x, In (sign_of_real x) [negative; zero; positive]).
-  { intros x. cases_of_sign x; simpl; auto. }
-  assert (Same : forall k a, 0 < k -> sign_of_real (k * a) = sign_of_real a).
-  { intros k a K. rewrite sign_product, (sign_positive k K). cases_of_sign a; easy. }
-  assert (C : halves_change_no_more = true) by (vm_compute; reflexivity).
-  unfold halves_change_no_more in C.
-  assert (E : forall (P : sign -> bool) l x, forallb P l = true -> In x l -> P x = true)
-    by (intros P l x F; now apply (proj1 (forallb_forall P l) F)).
-  pose proof (E _ _ _ C (All y0)) as C1. pose proof (E _ _ _ C1 (All y1)) as C2.
-  pose proof (E _ _ _ C2 (All y2)) as C3. pose proof (E _ _ _ C3 (All y3)) as C4. clear C C1 C2 C3.
-    cbv beta in C4.
-  assert (B : forall k l a b c, 0 < k -> 0 < l -> c = k * a + l * b ->
-    In (sign_of_real c) (signs_between (sign_of_real a) (sign_of_real b)))
-    by (intros; apply sign_between; eauto 6).
-  pose proof (E _ _ _ C4 (B 12 4 y0 y1 _ ltac:(lra) ltac:(lra) eq_refl)) as C5. clear C4. cbv beta in C5.
-  pose proof (E _ _ _ C5 (B 1 1 y1 y2 _ ltac:(lra) ltac:(lra) eq_refl)) as C6. clear C5. cbv beta in C6.
-  pose proof (E _ _ _ C6 (B 4 12 y2 y3 (12 * y3 + 4 * y2) ltac:(lra) ltac:(lra) ltac:(ring))) as C7.
-    clear C6. cbv beta in C7.
-  pose proof (E _ _ _ C7 (B (/ 2) 2 (12 * y0 + 4 * y1) (1 * y1 + 1 * y2) (6 * y0 + 4 * y1 + 2 * y2)
-    ltac:(lra) ltac:(lra) ltac:(field))) as C8.
-  clear C7. cbv beta in C8.
-  pose proof (E _ _ _ C8 (B 2 (/ 2) (1 * y1 + 1 * y2) (12 * y3 + 4 * y2) (6 * y3 + 4 * y2 + 2 * y1)
-    ltac:(lra) ltac:(lra) ltac:(field))) as C9.
-  clear C8. cbv beta in C9.
-  pose proof (E _ _ _ C9 (B (/ 6) (/ 6) (6 * y0 + 4 * y1 + 2 * y2) (6 * y3 + 4 * y2 + 2 * y1) (y0 + y1 + y2
-    + y3) ltac:(lra) ltac:(lra) ltac:(field))) as C10.
-  rewrite !(Same 8) by lra. now apply Nat.leb_le.
+  intros L. four y L. destruct (halves_of_four y0 y1 y2 y3) as (-> & ->).
+  assert (Same : forall a, sign_of_real (8 * a) = sign_of_real a).
+  { intros a. rewrite sign_product, (sign_positive 8) by lra. cases_of_sign a; easy. }
+  assert (C := parts_change y0 y1 y2 y3 (12 * y0 + 4 * y1) (y1 + y2) (12 * y3 + 4 * y2)
+    (6 * y0 + 4 * y1 + 2 * y2) (6 * y3 + 4 * y2 + 2 * y1) (y0 + y1 + y2 + y3)).
+  unfold inner_sign_changes in *. cbn [map] in *. rewrite !Same.
+  eapply Nat.le_trans; [apply Nat.le_add_r | apply C].
+  - exists 12, 4. lra.
+  - exists 1, 1. lra.
+  - exists 4, 12. lra.
+  - exists (/ 2), 2. lra.
+  - exists 2, (/ 2). lra.
+  - exists (/ 6), (/ 6). lra.
 Qed.
 
 (** ** Crossings *)
@@ -763,10 +767,6 @@ Proof.
   intros N L. apply power_positive in N. unfold over. apply Rmult_le_compat_r; [left;
     now apply Rinv_0_lt_compat |].
   now apply IZR_le.
-Qed.
-Lemma over_eq a b n : (0 <= n)%Z -> over a n = over b n -> a = b.
-Proof.
-  intros N E. destruct (Z.lt_trichotomy a b) as [L | [L | L]]; auto; apply (over_less _ _ n N) in L; lra.
 Qed.
 Lemma over_finer a n m : (0 <= n <= m)%Z -> over (a * 2 ^ (m - n)) m = over a n.
 Proof.

@@ -13,30 +13,6 @@ From Errbound Require Import Sign Bernstein Bsc Contact.
 Import ListNotations.
 Open Scope R_scope.
 
-(** ** Necessary conditions *)
-
-Lemma face_conditions p a b c : in_triangle p a b c ->
-  let B := minus b a in let C := minus c a in let P := minus p a in
-  det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B C P.
-Proof.
-  intros (u & w & U & W & UW & E) B C P. destruct (weights_of a b c p u w E) as (Y & W1 & W2).
-  fold B C P in Y, W1, W2. unfold weight_0. fold (square_normal B C). rewrite W1, W2.
-  assert (0 <= square_normal B C) by (unfold square_normal, dot; nra).
-  assert (0 <= (1 - u - w) * square_normal B C) by (apply Rmult_le_pos; lra).
-  repeat split; auto; nra.
-Qed.
-Lemma edges_conditions a0 a1 b0 b1 : segments_meet a0 a1 b0 b1 ->
-  let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in
-  det B C P = 0 /\ 0 <= on_a B C P /\ 0 <= square_normal B C - on_a B C P /\
-  0 <= on_b B C P /\ 0 <= square_normal B C - on_b B C P.
-Proof.
-  intros M B C P. destruct M as (q & (s & S & Ea) & (t & T & Eb)).
-  destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & Oa & Ob); [now rewrite <- Ea |].
-  fold B C P in Y, Oa, Ob. rewrite Oa, Ob.
-  assert (0 <= square_normal B C) by (unfold square_normal, dot; nra).
-  repeat split; auto; nra.
-Qed.
-
 (** ** The forms *)
 
 Section Forms.
@@ -196,6 +172,76 @@ Qed.
 
 (** ** Decisions *)
 
+Definition inside_forms (edges : bool) (b c p : vector_form) : list (list S) :=
+  if edges then inside_edges_forms b c p else inside_face_forms b c p.
+
+Section Query.
+
+Variable edges : bool.
+Variables q0 q1 q2 q3 : moving_point.
+Let b := side_b edges difference q0 q1 q2 q3.
+Let c := side_c edges difference q0 q1 q2 q3.
+Let p := side_p edges difference q0 q1 q2 q3.
+Let m0 := exact_motion q0.
+Let m1 := exact_motion q1.
+Let m2 := exact_motion q2.
+Let m3 := exact_motion q3.
+
+Lemma query_degrees : degree b 1 /\ degree c 1 /\ degree p 1.
+Proof. unfold b, c, p. destruct edges; now repeat split. Qed.
+Lemma query_sides_at t :
+  vector_at b t = side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t) /\
+  vector_at c t = side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t) /\
+  vector_at p t = side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t).
+Proof. unfold b, c, p. destruct edges; repeat split; apply difference_at. Qed.
+Lemma query_forms_at t : let B := vector_at b t in let C := vector_at c t in let P := vector_at p t in
+  form_at (y_form b c p) t = det B C P /\ map (fun g => form_at g t) (inside_forms edges b c p) = weights edges B C P.
+Proof.
+  destruct query_degrees as (Db & Dc & Dp). split; [apply (forms_y b c p t Db Dc Dp) |].
+  unfold inside_forms, weights. destruct edges; apply (forms_weights b c p t Db Dc Dp).
+Qed.
+Lemma query_lengths : length (y_form b c p) = 4%nat /\ Forall (fun g => length g = 5%nat) (inside_forms edges b c p).
+Proof.
+  destruct query_degrees as (Db & Dc & Dp). split; [apply (forms_y b c p 0 Db Dc Dp) |].
+  unfold inside_forms. destruct edges; apply (forms_weights b c p 0 Db Dc Dp).
+Qed.
+(** Q is Rlt 0 or Rle 0. *)
+Lemma query_weights_at (Q : R -> Prop) t : Forall (fun g => Q (form_at g t)) (inside_forms edges b c p) <->
+  Forall Q (weights edges (vector_at b t) (vector_at c t) (vector_at p t)).
+Proof. rewrite <- (proj2 (query_forms_at t)), Forall_map. reflexivity. Qed.
+
+(** At a collision Y vanishes and no weight is negative. *)
+Lemma query_collision : query_collides edges m0 m1 m2 m3 -> exists t, 0 <= t <= 1 /\ form_at (y_form b c p) t = 0 /\
+  Forall (fun g => 0 <= form_at g t) (inside_forms edges b c p).
+Proof.
+  intros (t & T & H). exists t. split; auto. apply query_conditions in H. destruct (query_sides_at t) as (Eb & Ec & Ep).
+  rewrite <- Eb, <- Ec, <- Ep in H. rewrite (proj1 (query_forms_at t)). split; [apply H | now apply query_weights_at].
+Qed.
+Lemma query_bsc_separate : root_with_nonnegative (y_form b c p) (inside_forms edges b c p) = no ->
+  ~ query_collides edges m0 m1 m2 m3.
+Proof.
+  intros E H. destruct (query_collision H) as (t & T & Z & G). destruct query_lengths as (L & F).
+  destruct (bsc_no _ _ t L F E T Z) as (g & I & N). rewrite Forall_forall in G. specialize (G g I). lra.
+Qed.
+Lemma query_bsc_collides : root_with_nonnegative (y_form b c p) (inside_forms edges b c p) = yes ->
+  query_collides edges m0 m1 m2 m3.
+Proof.
+  intros E. destruct query_lengths as (L & F). destruct (bsc_yes _ _ L F E) as (t & T & Z & G). exists t. split; auto.
+  apply Forall_forall, query_weights_at in G. rewrite (proj1 (query_forms_at t)) in Z.
+  destruct (query_sides_at t) as (Eb & Ec & Ep). rewrite Eb, Ec, Ep in *.
+  apply query_at_a_time. left. now apply query_inside_regular, query_inside_same.
+Qed.
+Lemma query_rootless_separate : certainly_rootless (y_form b c p) = true -> ~ query_collides edges m0 m1 m2 m3.
+Proof. intros E H. destruct (query_collision H) as (t & T & Z & _). now apply (rootless_hull _ t E T). Qed.
+Lemma query_outside_separate g : In g (inside_forms edges b c p) -> sign_throughout g = negative ->
+  ~ query_collides edges m0 m1 m2 m3.
+Proof.
+  intros I E H. destruct (query_collision H) as (t & T & _ & G). rewrite Forall_forall in G. specialize (G g I).
+  pose proof (sign_throughout_right g t T) as R. rewrite E in R. simpl in R. lra.
+Qed.
+
+End Query.
+
 Section Face.
 
 Variables v f0 f1 f2 : moving_point.
@@ -205,56 +251,14 @@ Let p := difference v f0.
 Definition face_collides : Prop :=
   vertex_face_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2).
 
-Lemma degrees_face : degree b 1 /\ degree c 1 /\ degree p 1.
-Proof. now repeat split. Qed.
-
-(** At a collision Y vanishes and no weight is negative. *)
-Lemma face_collision : face_collides -> exists t, 0 <= t <= 1 /\ form_at (y_form b c p) t = 0 /\
-  Forall (fun g => 0 <= form_at g t) (inside_face_forms b c p).
-Proof.
-  intros (t & T & H). exists t. split; auto. destruct degrees_face as (Db & Dc & Dp).
-  apply face_conditions in H. cbv zeta in H. rewrite <- !difference_at in H. fold b c p in H.
-  destruct (forms_y b c p t Db Dc Dp) as (Y & _). destruct (forms_weights b c p t Db Dc Dp) as (W & _).
-  rewrite Y. split; [apply H |]. apply Forall_map with (f := fun g => form_at g t) (P := Rle 0).
-  rewrite W. repeat apply Forall_cons; try apply Forall_nil; apply H.
-Qed.
-
-Theorem bsc_face_separate : root_with_nonnegative (y_form b c p) (inside_face_forms b c p) = no -> ~
-  face_collides.
-Proof.
-  intros E H. destruct (face_collision H) as (t & T & Z & G). destruct degrees_face as (Db & Dc & Dp).
-  destruct (forms_y b c p t Db Dc Dp) as (_ & L). destruct (forms_weights b c p t Db Dc Dp) as (_ & _ &
-    F & _).
-  destruct (bsc_no _ _ t L F E T Z) as (g & I & N). rewrite Forall_forall in G. specialize (G g I). lra.
-Qed.
-Theorem bsc_face_collides : root_with_nonnegative (y_form b c p) (inside_face_forms b c p) = yes ->
-  face_collides.
-Proof.
-  intros E. destruct degrees_face as (Db & Dc & Dp).
-  destruct (forms_y b c p 0 Db Dc Dp) as (_ & L). destruct (forms_weights b c p 0 Db Dc Dp) as (_ & _ &
-    F & _).
-  destruct (bsc_yes _ _ L F E) as (t & T & Z & G). exists t. split; auto.
-  destruct (forms_y b c p t Db Dc Dp) as (Y & _). destruct (forms_weights b c p t Db Dc Dp) as (W & _).
-  apply face_at_a_time. left. apply inside_face_regular; [rewrite <- !difference_at; fold b c p; now
-    rewrite <- Y |].
-  assert (Q : Forall (Rlt 0) (map (fun g => form_at g t) (inside_face_forms b c p)))
-    by (apply Forall_map, Forall_forall; exact G).
-  rewrite W in Q. unfold inside_face. rewrite <- !difference_at. fold b c p.
-  inversion_clear Q as [| ? ? Q2 Q']. inversion_clear Q' as [| ? ? Q1 Q'']. inversion_clear Q'' as [| ?
-    ? Q0 _]. now repeat split.
-Qed.
-
+Theorem bsc_face_separate : root_with_nonnegative (y_form b c p) (inside_face_forms b c p) = no -> ~ face_collides.
+Proof. exact (query_bsc_separate false v f0 f1 f2). Qed.
+Theorem bsc_face_collides : root_with_nonnegative (y_form b c p) (inside_face_forms b c p) = yes -> face_collides.
+Proof. exact (query_bsc_collides false v f0 f1 f2). Qed.
 Theorem face_rootless_separate : certainly_rootless (y_form b c p) = true -> ~ face_collides.
-Proof.
-  intros E H. destruct (face_collision H) as (t & T & Z & _). now apply (rootless_hull _ t E T).
-Qed.
-Theorem face_outside_separate g : In g (inside_face_forms b c p) -> sign_throughout g = negative -> ~
-  face_collides.
-Proof.
-  intros I E H. destruct (face_collision H) as (t & T & _ & G). rewrite Forall_forall in G. specialize
-    (G g I).
-  pose proof (sign_throughout_right g t T) as R. rewrite E in R. simpl in R. lra.
-Qed.
+Proof. exact (query_rootless_separate false v f0 f1 f2). Qed.
+Theorem face_outside_separate g : In g (inside_face_forms b c p) -> sign_throughout g = negative -> ~ face_collides.
+Proof. exact (query_outside_separate false v f0 f1 f2 g). Qed.
 
 End Face.
 
@@ -267,58 +271,14 @@ Let p := difference b0 a0.
 Definition edges_collide : Prop :=
   edge_edge_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1).
 
-Lemma degrees_edges : degree b 1 /\ degree c 1 /\ degree p 1.
-Proof. now repeat split. Qed.
-
-Lemma edges_collision : edges_collide -> exists t, 0 <= t <= 1 /\ form_at (y_form b c p) t = 0 /\
-  Forall (fun g => 0 <= form_at g t) (inside_edges_forms b c p).
-Proof.
-  intros (t & T & H). exists t. split; auto. destruct degrees_edges as (Db & Dc & Dp).
-  apply edges_conditions in H. cbv zeta in H. rewrite <- !difference_at in H. fold b c p in H.
-  destruct (forms_y b c p t Db Dc Dp) as (Y & _). destruct (forms_weights b c p t Db Dc Dp) as (_ & W &
-    _).
-  rewrite Y. split; [apply H |]. apply Forall_map with (f := fun g => form_at g t) (P := Rle 0).
-  rewrite W. repeat apply Forall_cons; try apply Forall_nil; apply H.
-Qed.
-
-Theorem bsc_edges_separate : root_with_nonnegative (y_form b c p) (inside_edges_forms b c p) = no -> ~
-  edges_collide.
-Proof.
-  intros E H. destruct (edges_collision H) as (t & T & Z & G). destruct degrees_edges as (Db & Dc & Dp).
-  destruct (forms_y b c p t Db Dc Dp) as (_ & L). destruct (forms_weights b c p t Db Dc Dp) as (_ & _ &
-    _ & F).
-  destruct (bsc_no _ _ t L F E T Z) as (g & I & N). rewrite Forall_forall in G. specialize (G g I). lra.
-Qed.
-Theorem bsc_edges_collide : root_with_nonnegative (y_form b c p) (inside_edges_forms b c p) = yes ->
-  edges_collide.
-Proof.
-  intros E. destruct degrees_edges as (Db & Dc & Dp).
-  destruct (forms_y b c p 0 Db Dc Dp) as (_ & L). destruct (forms_weights b c p 0 Db Dc Dp) as (_ & _ &
-    _ & F).
-  destruct (bsc_yes _ _ L F E) as (t & T & Z & G). exists t. split; auto.
-  destruct (forms_y b c p t Db Dc Dp) as (Y & _). destruct (forms_weights b c p t Db Dc Dp) as (_ & W &
-    _).
-  apply edges_at_a_time. left. apply inside_edges_regular; [rewrite <- !difference_at; fold b c p; now
-    rewrite <- Y |].
-  assert (Q : Forall (Rlt 0) (map (fun g => form_at g t) (inside_edges_forms b c p)))
-    by (apply Forall_map, Forall_forall; exact G).
-  rewrite W in Q. unfold inside_edges. rewrite <- !difference_at. fold b c p.
-  inversion_clear Q as [| ? ? Q0 Q']. inversion_clear Q' as [| ? ? Q1 Q'']. inversion_clear Q'' as [| ?
-    ? Q2 Q'].
-  inversion_clear Q' as [| ? ? Q3 _]. now repeat split.
-Qed.
-
+Theorem bsc_edges_separate : root_with_nonnegative (y_form b c p) (inside_edges_forms b c p) = no -> ~ edges_collide.
+Proof. exact (query_bsc_separate true a0 a1 b0 b1). Qed.
+Theorem bsc_edges_collide : root_with_nonnegative (y_form b c p) (inside_edges_forms b c p) = yes -> edges_collide.
+Proof. exact (query_bsc_collides true a0 a1 b0 b1). Qed.
 Theorem edges_rootless_separate : certainly_rootless (y_form b c p) = true -> ~ edges_collide.
-Proof.
-  intros E H. destruct (edges_collision H) as (t & T & Z & _). now apply (rootless_hull _ t E T).
-Qed.
-Theorem edges_outside_separate g : In g (inside_edges_forms b c p) -> sign_throughout g = negative -> ~
-  edges_collide.
-Proof.
-  intros I E H. destruct (edges_collision H) as (t & T & _ & G). rewrite Forall_forall in G. specialize
-    (G g I).
-  pose proof (sign_throughout_right g t T) as R. rewrite E in R. simpl in R. lra.
-Qed.
+Proof. exact (query_rootless_separate true a0 a1 b0 b1). Qed.
+Theorem edges_outside_separate g : In g (inside_edges_forms b c p) -> sign_throughout g = negative -> ~ edges_collide.
+Proof. exact (query_outside_separate true a0 a1 b0 b1 g). Qed.
 
 End Edges.
 

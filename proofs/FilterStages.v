@@ -750,7 +750,7 @@ Proof.
     exact (SeparatingAxis.separated_face_separate direction _ N P v f0 f1 f2 V F0 F1 F2 (sizes_cover f1 f0 f2 f0 v f0)).
   - intros moving B C P. split; [now apply vertex_face_inside_fit | now apply error_of_vertex_face_sound].
   - discriminate.
-  - intros (t & T & H). exists t. apply Decisions.face_conditions in H. cbv zeta in H.
+  - intros (t & T & H). exists t. apply Contact.touching_conditions in H. cbv zeta in H.
     destruct H as (Y & W2 & W1 & W0). split; [exact T |]. split; [rewrite cubic_at, Y; ring |].
     apply (in_quartics (Rle 0) _ _ _ (proj1 (quartics_at f1 f0 f2 f0 v f0 t))).
     repeat apply Forall_cons; try apply Forall_nil; lra.
@@ -775,7 +775,7 @@ Proof.
       a0)).
   - intros moving B C P. split; [now apply edge_edge_inside_fit | now apply error_of_edge_edge_sound].
   - discriminate.
-  - intros (t & T & H). exists t. apply Decisions.edges_conditions in H. cbv zeta in H.
+  - intros (t & T & H). exists t. apply Contact.meeting_conditions in H. cbv zeta in H.
     destruct H as (Y & W3 & W2 & W1 & W0). split; [exact T |]. split; [rewrite cubic_at, Y; ring |].
     apply (in_quartics (Rle 0) _ _ _ (proj2 (quartics_at a1 a0 b1 b0 b0 a0 t))).
     repeat apply Forall_cons; try apply Forall_nil; lra.

@@ -129,10 +129,6 @@ Definition edges_weights (a0 a1 b0 b1 : moving) : list (R -> R) :=
    fun t => square_normal (from a1 a0 t) (from b1 b0 t) - on_b (from a1 a0 t) (from b1 b0 t) (from b0 a0 t)].
 Definition face_normal (f0 f1 f2 : moving) (t : R) : point := cross (from f1 f0 t) (from f2 f0 t).
 Definition edges_normal (a0 a1 b0 b1 : moving) (t : R) : point := cross (from a1 a0 t) (from b1 b0 t).
-Definition face_asked (v f0 f1 f2 : moving) : asked :=
-  Asked [] (face_weights v f0 f1 f2) (components (face_normal f0 f1 f2)) false.
-Definition edges_asked (a0 a1 b0 b1 : moving) : asked :=
-  Asked [] (edges_weights a0 a1 b0 b1) (components (edges_normal a0 a1 b0 b1)) false.
 
 Lemma smooth_from p q : smooth (from p q).
 Proof. apply smooth_difference. Qed.
@@ -176,30 +172,6 @@ Proof.
   - apply components_continuous in H; auto. from_continuous.
   - from_continuous.
 Qed.
-Lemma face_met v f0 f1 f2 t : face_y v f0 f1 f2 t = 0 ->
-  is_met (face_asked v f0 f1 f2) t <-> face_regular_at v f0 f1 f2 t.
-Proof.
-  intros Y. unfold is_met, sides_hold, face_regular_at, regular_face. fold (face_normal f0 f1 f2 t).
-  cbn [vanishing nonnegative not_all_zero also_below face_asked]. rewrite components_not_0. split.
-  - intros (_ & N & E). repeat split; [exact E | exact Y | | |].
-    + apply (N _ (or_introl eq_refl)).
-    + apply (N _ (or_intror (or_introl eq_refl))).
-    + apply (N _ (or_intror (or_intror (or_introl eq_refl)))).
-  - intros (E & _ & W2 & W1 & W0). split; [easy |]. split; [| exact E]. intros p [<- | [<- | [<- | []]]]; auto.
-Qed.
-Lemma edges_met a0 a1 b0 b1 t : edges_y a0 a1 b0 b1 t = 0 ->
-  is_met (edges_asked a0 a1 b0 b1) t <-> edges_regular_at a0 a1 b0 b1 t.
-Proof.
-  intros Y. unfold is_met, sides_hold, edges_regular_at, regular_edges. fold (edges_normal a0 a1 b0 b1 t).
-  cbn [vanishing nonnegative not_all_zero also_below edges_asked]. rewrite components_not_0. split.
-  - intros (_ & N & E). repeat split; [exact E | exact Y | | | |].
-    + apply (N _ (or_introl eq_refl)).
-    + apply (N _ (or_intror (or_introl eq_refl))).
-    + apply (N _ (or_intror (or_intror (or_introl eq_refl)))).
-    + apply (N _ (or_intror (or_intror (or_intror (or_introl eq_refl))))).
-  - intros (E & _ & W2 & W1 & W0 & W3). split; [easy |]. split; [| exact E].
-    intros p [<- | [<- | [<- | [<- | []]]]]; auto.
-Qed.
 
 Lemma same_first_time (H G : R -> Prop) t : (forall s, 0 <= s <= 1 -> (H s <-> G s)) -> first H t -> first G t.
 Proof.
@@ -234,44 +206,38 @@ Definition face_border_asked (v f0 f1 f2 : moving) : list asked :=
   [vertex_edge_asked v f0 f1; vertex_edge_asked v f1 f2; vertex_edge_asked v f2 f0].
 Definition edges_border_asked (a0 a1 b0 b1 : moving) : list asked :=
   [vertex_edge_asked a0 b0 b1; vertex_edge_asked a1 b0 b1; vertex_edge_asked b0 a0 a1; vertex_edge_asked b1 a0 a1].
-Lemma face_border_met v f0 f1 f2 t :
-  (exists c, In c (face_border_asked v f0 f1 f2) /\ is_met c t) <-> on_face_border v f0 f1 f2 t.
+Definition query_border_asked (edges : bool) : moving -> moving -> moving -> moving -> list asked :=
+  if edges then edges_border_asked else face_border_asked.
+Lemma query_border_asked_of edges m0 m1 m2 m3 c : In c (query_border_asked edges m0 m1 m2 m3) ->
+  exists v e0 e1, c = vertex_edge_asked v e0 e1.
+Proof. destruct edges; intros I; repeat (destruct I as [<- | I]; [eauto |]); destruct I. Qed.
+Lemma query_border_met edges m0 m1 m2 m3 t :
+  (exists c, In c (query_border_asked edges m0 m1 m2 m3) /\ is_met c t) <-> query_on_border edges m0 m1 m2 m3 t.
 Proof.
-  unfold on_face_border. rewrite <- !vertex_edge_met. unfold face_border_asked. split.
-  - intros (c & [<- | [<- | [<- | []]]] & H); auto.
-  - intros [H | [H | H]]; eexists; (split; [| exact H]); simpl; auto.
+  unfold query_on_border, on_edges_border, on_face_border. destruct edges; rewrite <- !vertex_edge_met;
+    (split; [intros (c & I & H); repeat (destruct I as [<- | I]; [auto |]); destruct I |]);
+    intros H; repeat (destruct H as [H | H]; [eexists; (split; [| exact H]); simpl; auto |]);
+    eexists; (split; [| exact H]); simpl; auto 6.
 Qed.
-Lemma edges_border_met a0 a1 b0 b1 t :
-  (exists c, In c (edges_border_asked a0 a1 b0 b1) /\ is_met c t) <-> on_edges_border a0 a1 b0 b1 t.
+Lemma query_planar_candidate edges m0 m1 m2 m3 t : (forall s, 0 <= s <= 1 -> query_y edges m0 m1 m2 m3 s = 0) ->
+  first (query_touches edges m0 m1 m2 m3) t -> t <> 0 ->
+  exists c, In c (query_border_asked edges m0 m1 m2 m3) /\ candidate c t.
 Proof.
-  unfold on_edges_border. rewrite <- !vertex_edge_met. unfold edges_border_asked. split.
-  - intros (c & [<- | [<- | [<- | [<- | []]]]] & H); auto.
-  - intros [H | [H | [H | H]]]; eexists; (split; [| exact H]); simpl; auto.
+  intros Y F N. assert (B : query_on_border edges m0 m1 m2 m3 t)
+    by (destruct (query_planar_first edges m0 m1 m2 m3 t Y F); easy).
+  pose proof (query_border_asked_of edges m0 m1 m2 m3) as Asked. apply first_is_candidate; auto.
+  - intros c p I. destruct (Asked c I) as (v & e0 & e1 & ->). apply vertex_edge_asked_continuous.
+  - destruct F as (T & _ & Before). split; auto. split; [now apply query_border_met |].
+    intros s S Q. apply query_border_met in Q. apply (Before s S), query_times. now right.
+  - intros c I _ E. destruct (Asked c I) as (v & e0 & e1 & ->). discriminate.
+  - intros c I. destruct (Asked c I) as (v & e0 & e1 & ->). now apply not_below.
 Qed.
 Theorem face_planar_candidate v f0 f1 f2 t : (forall s, 0 <= s <= 1 -> face_y v f0 f1 f2 s = 0) ->
   first (face_touches v f0 f1 f2) t -> t <> 0 -> exists c, In c (face_border_asked v f0 f1 f2) /\ candidate c t.
-Proof.
-  intros Y F N. assert (B : on_face_border v f0 f1 f2 t)
-    by (destruct (face_planar_first v f0 f1 f2 t Y F); easy).
-  apply first_is_candidate; auto.
-  - intros c p [<- | [<- | [<- | []]]]; apply vertex_edge_asked_continuous.
-  - destruct F as (T & _ & Before). split; auto. split; [now apply face_border_met |].
-    intros s S Q. apply face_border_met in Q. apply (Before s S), face_times. now right.
-  - intros c [<- | [<- | [<- | []]]] _ E; discriminate.
-  - intros c [<- | [<- | [<- | []]]]; now apply not_below.
-Qed.
+Proof. exact (query_planar_candidate false v f0 f1 f2 t). Qed.
 Theorem edges_planar_candidate a0 a1 b0 b1 t : (forall s, 0 <= s <= 1 -> edges_y a0 a1 b0 b1 s = 0) ->
   first (edges_touch a0 a1 b0 b1) t -> t <> 0 -> exists c, In c (edges_border_asked a0 a1 b0 b1) /\ candidate c t.
-Proof.
-  intros Y F N. assert (B : on_edges_border a0 a1 b0 b1 t)
-    by (destruct (edges_planar_first a0 a1 b0 b1 t Y F); easy).
-  apply first_is_candidate; auto.
-  - intros c p [<- | [<- | [<- | [<- | []]]]]; apply vertex_edge_asked_continuous.
-  - destruct F as (T & _ & Before). split; auto. split; [now apply edges_border_met |].
-    intros s S Q. apply edges_border_met in Q. apply (Before s S), edges_times. now right.
-  - intros c [<- | [<- | [<- | [<- | []]]]] _ E; discriminate.
-  - intros c [<- | [<- | [<- | [<- | []]]]]; now apply not_below.
-Qed.
+Proof. exact (query_planar_candidate true a0 a1 b0 b1 t). Qed.
 
 (** ** Distance: distance_condition of ccd/contact/feature_conditions.hpp *)
 
@@ -312,35 +278,20 @@ Proof.
   split; [| split; [easy | eexists; split; reflexivity]]. unfold sides_hold. cbn. split; [easy |].
   intros _. split; [easy | now left].
 Qed.
+Ltac asks_sides := split; [| split; [easy | eexists; split; reflexivity]]; unfold sides_hold;
+  cbn [nonnegative not_all_zero edge_asked face_near_asked edges_near_asked
+    sides edge_condition face_condition edges_condition];
+  unfold face_weights, edges_weights; rewrite <- Forall_forall, !Forall_cons_iff, components_not_0;
+  unfold face_normal, edges_normal, from; intuition.
 Lemma asks_edge D v e0 e1 t :
   asks D t (edge_asked D v e0 e1) (edge_condition (place v t) (place e0 t) (place e1 t)).
-Proof.
-  split; [| split; [easy | eexists; split; reflexivity]]. unfold sides_hold.
-  cbn [nonnegative not_all_zero edge_asked sides edge_condition]. rewrite components_not_0. unfold from. split.
-  - intros (N & E). split; auto. split; [apply (N _ (or_introl eq_refl)) | apply (N _ (or_intror (or_introl eq_refl)))].
-  - intros (E & A & B). split; auto. intros p [<- | [<- | []]]; auto.
-Qed.
+Proof. asks_sides. Qed.
 Lemma asks_face D v f0 f1 f2 t : asks D t (face_near_asked D v f0 f1 f2)
   (face_condition (place v t) (place f0 t) (place f1 t) (place f2 t)).
-Proof.
-  split; [| split; [easy | eexists; split; reflexivity]]. unfold sides_hold.
-  cbn [nonnegative not_all_zero face_near_asked sides face_condition]. rewrite components_not_0. split.
-  - intros (N & E). split; [exact E |].
-    split; [apply (N _ (or_introl eq_refl)) | split; [apply (N _ (or_intror (or_introl eq_refl))) |]].
-    apply (N _ (or_intror (or_intror (or_introl eq_refl)))).
-  - intros (E & A & B & C). split; [| exact E]. intros p [<- | [<- | [<- | []]]]; auto.
-Qed.
+Proof. asks_sides. Qed.
 Lemma asks_edges D a0 a1 b0 b1 t : asks D t (edges_near_asked D a0 a1 b0 b1)
   (edges_condition (place a0 t) (place a1 t) (place b0 t) (place b1 t)).
-Proof.
-  split; [| split; [easy | eexists; split; reflexivity]]. unfold sides_hold.
-  cbn [nonnegative not_all_zero edges_near_asked sides edges_condition]. rewrite components_not_0. split.
-  - intros (N & E). split; [exact E |].
-    split; [apply (N _ (or_introl eq_refl)) | split; [apply (N _ (or_intror (or_introl eq_refl))) | split]].
-    + apply (N _ (or_intror (or_intror (or_introl eq_refl)))).
-    + apply (N _ (or_intror (or_intror (or_intror (or_introl eq_refl))))).
-  - intros (E & A & B & C & G). split; [| exact E]. intros p [<- | [<- | [<- | [<- | []]]]]; auto.
-Qed.
+Proof. asks_sides. Qed.
 
 Definition all_continuous (c : asked) : Prop := forall p,
   In p (vanishing c) \/ In p (nonnegative c) \/ In p (not_all_zero c) -> continuity p.
@@ -422,36 +373,33 @@ Proof.
   - intros s. unfold vertices_conditions. rewrite Exists_cons, Exists_nil, corner_holds. tauto.
   - apply vertices_first_within.
 Qed.
+Ltac near_candidate_of asked_at union within :=
+  intros F N; eapply near_candidate with (5 := F) (conditions := asked_at);
+  [ repeat (apply Forall_cons;
+      [auto using corner_continuous, edge_continuous, face_continuous, edges_continuous |]); apply Forall_nil
+  | intros s; repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_face, asks_edges |]);
+      apply Forall2_nil
+  | intros s; apply union
+  | apply within
+  | exact N ].
 Theorem vertex_edge_near_candidate D v e0 e1 t :
   first (fun s => vertex_edge_near D (place v s) (place e0 s) (place e1 s)) t -> t <> 0 ->
   exists c, In c (vertex_edge_near_asked D v e0 e1) /\ candidate c t.
 Proof.
-  intros F N. apply near_candidate with (5 := F) (D := D)
-    (conditions := fun s => vertex_edge_conditions (place v s) (place e0 s) (place e1 s)); auto.
-  - repeat (apply Forall_cons; [auto using corner_continuous, edge_continuous |]). apply Forall_nil.
-  - intros s. repeat (apply Forall2_cons; [auto using asks_corner, asks_edge |]). apply Forall2_nil.
-  - intros s. apply vertex_edge_within.
-  - apply vertex_edge_first_within.
+  near_candidate_of (fun s => vertex_edge_conditions (place v s) (place e0 s) (place e1 s))
+    vertex_edge_within vertex_edge_first_within.
 Qed.
 Theorem face_near_candidate D v f0 f1 f2 t :
   first (fun s => face_near D (place v s) (place f0 s) (place f1 s) (place f2 s)) t -> t <> 0 ->
   exists c, In c (all_face_near_asked D v f0 f1 f2) /\ candidate c t.
 Proof.
-  intros F N. apply near_candidate with (5 := F) (D := D)
-    (conditions := fun s => face_conditions (place v s) (place f0 s) (place f1 s) (place f2 s)); auto.
-  - repeat (apply Forall_cons; [auto using corner_continuous, edge_continuous, face_continuous |]). apply Forall_nil.
-  - intros s. repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_face |]). apply Forall2_nil.
-  - intros s. apply face_within_union.
-  - apply face_first_within.
+  near_candidate_of (fun s => face_conditions (place v s) (place f0 s) (place f1 s) (place f2 s))
+    face_within_union face_first_within.
 Qed.
 Theorem edges_near_candidate D a0 a1 b0 b1 t :
   first (fun s => edges_near D (place a0 s) (place a1 s) (place b0 s) (place b1 s)) t -> t <> 0 ->
   exists c, In c (all_edges_near_asked D a0 a1 b0 b1) /\ candidate c t.
 Proof.
-  intros F N. apply near_candidate with (5 := F) (D := D)
-    (conditions := fun s => edges_conditions (place a0 s) (place a1 s) (place b0 s) (place b1 s)); auto.
-  - repeat (apply Forall_cons; [auto using corner_continuous, edge_continuous, edges_continuous |]). apply Forall_nil.
-  - intros s. repeat (apply Forall2_cons; [auto using asks_corner, asks_edge, asks_edges |]). apply Forall2_nil.
-  - intros s. apply edges_within_union.
-  - apply edges_first_within.
+  near_candidate_of (fun s => edges_conditions (place a0 s) (place a1 s) (place b0 s) (place b1 s))
+    edges_within_union edges_first_within.
 Qed.

@@ -18,23 +18,12 @@ Open Scope R_scope.
 Theorem face_contact_root p a b c : in_triangle p a b c ->
   let B := minus b a in let C := minus c a in let P := minus p a in
   det B C P = 0 /\ 0 <= weight_2 B C P /\ 0 <= weight_1 B C P /\ 0 <= weight_0 B C P.
-Proof.
-  intros (u & v & U & V & W & E) B C P. destruct (weights_of a b c p u v E) as (Y & W1 & W2). fold B C P in Y, W1, W2.
-  split; auto. unfold weight_0. fold (square_normal B C). rewrite W1, W2.
-  assert (0 <= square_normal B C) by apply square_nonnegative.
-  repeat split; try (now apply Rmult_le_pos).
-  replace (square_normal B C - _ - _) with ((1 - u - v) * square_normal B C) by ring. apply Rmult_le_pos; lra.
-Qed.
+Proof. exact (touching_conditions p a b c). Qed.
 Theorem edges_contact_root a0 a1 b0 b1 : segments_meet a0 a1 b0 b1 ->
   let B := minus a1 a0 in let C := minus b1 b0 in let P := minus b0 a0 in
   det B C P = 0 /\ 0 <= on_a B C P /\ 0 <= square_normal B C - on_a B C P /\ 0 <= on_b B C P /\
   0 <= square_normal B C - on_b B C P.
-Proof.
-  intros (p & (s & S & Ea) & (t & T & Eb)) B C P.
-  destruct (weights_at_meeting a0 a1 b0 b1 s t) as (Y & A & O); [congruence |]. fold B C P in Y, A, O.
-  rewrite A, O. assert (0 <= square_normal B C) by apply square_nonnegative.
-  split; auto. repeat split; nra.
-Qed.
+Proof. exact (meeting_conditions a0 a1 b0 b1). Qed.
 
 (** ** Times *)
 
@@ -58,22 +47,27 @@ Definition edges_y (a0 a1 b0 b1 : moving) (t : R) : R :=
   det (minus (place a1 t) (place a0 t)) (minus (place b1 t) (place b0 t)) (minus (place b0 t) (place a0 t)).
 
 (** The inside strictly, and with Y = 0. *)
+Definition query_y (edges : bool) (m0 m1 m2 m3 : moving) (t : R) : R :=
+  det (side_b edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+    (side_c edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t))
+    (side_p edges minus (place m0 t) (place m1 t) (place m2 t) (place m3 t)).
+Definition query_on_border (edges : bool) : moving -> moving -> moving -> moving -> R -> Prop :=
+  if edges then on_edges_border else on_face_border.
+Lemma query_times edges m0 m1 m2 m3 t : query_touches edges m0 m1 m2 m3 t <->
+  (query_y edges m0 m1 m2 m3 t = 0 /\ query_inside_at edges m0 m1 m2 m3 t) \/ query_on_border edges m0 m1 m2 m3 t.
+Proof.
+  assert (Same : query_border_at edges m0 m1 m2 m3 t = query_on_border edges m0 m1 m2 m3 t) by now destruct edges.
+  rewrite query_at_a_time, Same. split.
+  - intros [H | H]; [| now right]. assert (Y := proj1 (proj2 (proj1 (query_regular _ _ _ _ _ t) H))).
+    apply query_regular_border in H. rewrite Same in H. destruct H as [H | H]; [left; now split | now right].
+  - intros [(Y & H) | H]; [left; now apply query_inside_regular | now right].
+Qed.
 Theorem face_times v f0 f1 f2 t : face_touches v f0 f1 f2 t <->
   (face_y v f0 f1 f2 t = 0 /\ face_inside_at v f0 f1 f2 t) \/ on_face_border v f0 f1 f2 t.
-Proof.
-  unfold face_touches, face_y, face_inside_at, on_face_border, vertex_on_edge. rewrite face_at_a_time.
-  fold (face_border (place v t) (place f0 t) (place f1 t) (place f2 t)). split.
-  - intros [H | H]; [| now right]. pose proof H as (_ & Y & _). apply regular_face_border in H. tauto.
-  - intros [(Y & H) | H]; [| now right]. left. now apply inside_face_regular.
-Qed.
+Proof. exact (query_times false v f0 f1 f2 t). Qed.
 Theorem edges_times a0 a1 b0 b1 t : edges_touch a0 a1 b0 b1 t <->
   (edges_y a0 a1 b0 b1 t = 0 /\ edges_inside_at a0 a1 b0 b1 t) \/ on_edges_border a0 a1 b0 b1 t.
-Proof.
-  unfold edges_touch, edges_y, edges_inside_at, on_edges_border, vertex_on_edge. rewrite edges_at_a_time.
-  fold (edges_border (place a0 t) (place a1 t) (place b0 t) (place b1 t)). split.
-  - intros [H | H]; [| now right]. pose proof H as (_ & Y & _). apply regular_edges_border in H. tauto.
-  - intros [(Y & H) | H]; [| now right]. left. now apply inside_edges_regular.
-Qed.
+Proof. exact (query_times true a0 a1 b0 b1 t). Qed.
 
 (** Contact is distance 0. *)
 Lemma near_0 p q : near 0 p q <-> p = q.
@@ -132,6 +126,9 @@ Proof.
     [intros t; apply edges_near_0 |].
   intros H. destruct (edges_first_within a0 a1 b0 b1 0 H) as (t & F & _). eauto.
 Qed.
+Lemma query_first edges m0 m1 m2 m3 :
+  query_collides edges m0 m1 m2 m3 -> exists t, first (query_touches edges m0 m1 m2 m3) t.
+Proof. destruct edges; [exact (edges_first m0 m1 m2 m3) | exact (face_first m0 m1 m2 m3)]. Qed.
 Theorem face_times_closed v f0 f1 f2 s : ~ face_touches v f0 f1 f2 s ->
   exists e, 0 < e /\ forall t, Rabs (t - s) < e -> ~ face_touches v f0 f1 f2 t.
 Proof.
@@ -158,52 +155,43 @@ Definition until (b : R) (m : moving) : moving := Moving (start m) (place m b).
 Lemma place_until b m t : place (until b m) t = place m (b * t).
 Proof. unfold until, place. cbn [start finish x y z]. apply same_point; cbn [x y z]; ring. Qed.
 
+Lemma query_planar edges m0 m1 m2 m3 b : 0 <= b <= 1 -> (forall t, 0 <= t <= b -> query_y edges m0 m1 m2 m3 t = 0) ->
+  query_touches edges m0 m1 m2 m3 b ->
+  query_inside_at edges m0 m1 m2 m3 0 \/ exists s, 0 <= s <= b /\ query_on_border edges m0 m1 m2 m3 s.
+Proof.
+  intros B Y H. pose proof (query_coplanar edges (until b m0) (until b m1) (until b m2) (until b m3)) as C.
+  assert (At : forall t, query_y edges (until b m0) (until b m1) (until b m2) (until b m3) t = query_y edges m0 m1 m2
+    m3 (b * t))
+    by (intros t; unfold query_y; now rewrite !place_until).
+  destruct (proj1 (C (fun t T => eq_trans (At t) (Y (b * t) ltac:(nra))))) as [I | I].
+  - exists 1. split; [lra |]. unfold query_touches in *. rewrite !place_until, Rmult_1_r. exact H.
+  - left. unfold query_inside_at in *. rewrite !place_until, Rmult_0_r in I. exact I.
+  - right. unfold query_border, edges_border_collides, face_border_collides, vertex_edge_collides, sometime in I.
+    unfold query_on_border, on_edges_border, on_face_border, vertex_on_edge.
+    destruct edges; repeat (destruct I as [(t & T & S) | I] || destruct I as (t & T & S)); rewrite !place_until in S;
+      exists (b * t); (split; [nra | auto]).
+Qed.
 Theorem face_planar v f0 f1 f2 b : 0 <= b <= 1 -> (forall t, 0 <= t <= b -> face_y v f0 f1 f2 t = 0) ->
   face_touches v f0 f1 f2 b ->
   face_inside_at v f0 f1 f2 0 \/ exists s, 0 <= s <= b /\ on_face_border v f0 f1 f2 s.
-Proof.
-  intros B Y H. pose proof (face_coplanar (until b v) (until b f0) (until b f1) (until b f2)) as C. cbv zeta in C.
-  assert (Planar : forall t, 0 <= t <= 1 -> det (minus (place (until b f1) t) (place (until b f0) t))
-    (minus (place (until b f2) t) (place (until b f0) t)) (minus (place (until b v) t) (place (until b f0) t)) = 0).
-  { intros t T. rewrite !place_until. apply (Y (b * t)). nra. }
-  destruct (proj1 (C Planar)) as [I | I].
-  - exists 1. split; [lra |]. rewrite !place_until, Rmult_1_r. exact H.
-  - left. unfold face_inside_at. rewrite !place_until, Rmult_0_r in I. exact I.
-  - right. unfold face_border_collides, vertex_edge_collides, sometime in I.
-    destruct I as [(t & T & S) | [(t & T & S) | (t & T & S)]]; rewrite !place_until in S; exists (b * t);
-      (split; [nra |]); unfold on_face_border, vertex_on_edge; auto.
-Qed.
+Proof. exact (query_planar false v f0 f1 f2 b). Qed.
 Theorem edges_planar a0 a1 b0 b1 b : 0 <= b <= 1 -> (forall t, 0 <= t <= b -> edges_y a0 a1 b0 b1 t = 0) ->
   edges_touch a0 a1 b0 b1 b ->
   edges_inside_at a0 a1 b0 b1 0 \/ exists s, 0 <= s <= b /\ on_edges_border a0 a1 b0 b1 s.
-Proof.
-  intros B Y H. pose proof (edges_coplanar (until b a0) (until b a1) (until b b0) (until b b1)) as C. cbv zeta in C.
-  assert (Planar : forall t, 0 <= t <= 1 -> det (minus (place (until b a1) t) (place (until b a0) t))
-    (minus (place (until b b1) t) (place (until b b0) t)) (minus (place (until b b0) t) (place (until b a0) t)) = 0).
-  { intros t T. rewrite !place_until. apply (Y (b * t)). nra. }
-  destruct (proj1 (C Planar)) as [I | I].
-  - exists 1. split; [lra |]. rewrite !place_until, Rmult_1_r. exact H.
-  - left. unfold edges_inside_at. rewrite !place_until, Rmult_0_r in I. exact I.
-  - right. unfold edges_border_collides, vertex_edge_collides, sometime in I.
-    destruct I as [(t & T & S) | [(t & T & S) | [(t & T & S) | (t & T & S)]]]; rewrite !place_until in S;
-      exists (b * t); (split; [nra |]); unfold on_edges_border, vertex_on_edge; auto.
-Qed.
+Proof. exact (query_planar true a0 a1 b0 b1 b). Qed.
 
+Lemma query_planar_first edges m0 m1 m2 m3 t : (forall s, 0 <= s <= 1 -> query_y edges m0 m1 m2 m3 s = 0) ->
+  first (query_touches edges m0 m1 m2 m3) t -> t = 0 \/ query_on_border edges m0 m1 m2 m3 t.
+Proof.
+  intros Y (T & H & Before).
+  destruct (query_planar edges m0 m1 m2 m3 t T) as [I | (s & S & I)]; auto; [intros s S; apply Y; lra | |].
+  - left. destruct (Req_dec t 0); auto. exfalso. apply (Before 0); [lra |]. apply query_times. left.
+    split; auto. apply Y. lra.
+  - right. destruct (Req_dec s t) as [<- |]; auto. exfalso. apply (Before s); [lra |]. apply query_times. now right.
+Qed.
 Theorem face_planar_first v f0 f1 f2 t : (forall s, 0 <= s <= 1 -> face_y v f0 f1 f2 s = 0) ->
   first (face_touches v f0 f1 f2) t -> t = 0 \/ on_face_border v f0 f1 f2 t.
-Proof.
-  intros Y (T & H & Before).
-  destruct (face_planar v f0 f1 f2 t T) as [I | (s & S & I)]; auto; [intros s S; apply Y; lra | |].
-  - left. destruct (Req_dec t 0); auto. exfalso. apply (Before 0); [lra |]. apply face_times. left.
-    split; auto. apply Y. lra.
-  - right. destruct (Req_dec s t) as [<- |]; auto. exfalso. apply (Before s); [lra |]. apply face_times. now right.
-Qed.
+Proof. exact (query_planar_first false v f0 f1 f2 t). Qed.
 Theorem edges_planar_first a0 a1 b0 b1 t : (forall s, 0 <= s <= 1 -> edges_y a0 a1 b0 b1 s = 0) ->
   first (edges_touch a0 a1 b0 b1) t -> t = 0 \/ on_edges_border a0 a1 b0 b1 t.
-Proof.
-  intros Y (T & H & Before).
-  destruct (edges_planar a0 a1 b0 b1 t T) as [I | (s & S & I)]; auto; [intros s S; apply Y; lra | |].
-  - left. destruct (Req_dec t 0); auto. exfalso. apply (Before 0); [lra |]. apply edges_times. left.
-    split; auto. apply Y. lra.
-  - right. destruct (Req_dec s t) as [<- |]; auto. exfalso. apply (Before s); [lra |]. apply edges_times. now right.
-Qed.
+Proof. exact (query_planar_first true a0 a1 b0 b1 t). Qed.

@@ -391,11 +391,7 @@ Proof.
 Qed.
 
 Lemma number_8_eta : number (8 * eta).
-Proof.
-  replace (8 * eta) with (bpow radix2 (3 + emin)).
-  - apply number_power; auto. lia.
-  - rewrite bpow_plus. change (bpow radix2 3) with 8. reflexivity.
-Qed.
+Proof. exact (number_eta_times p emin 3 ltac:(lia)). Qed.
 Lemma inflated_lower S : 0 <= S -> S * f * q - h <= inflated S.
 Proof.
   intros P. rewrite (Tight.inflated_exact p emin direction p_3 emin_p). fold f.

@@ -44,6 +44,8 @@ Definition floats : arithmetic float := {|
   largest := Bmax_float;
   infinity := B754_infinity false
 |}.
+(** That for which 1/2 <= |x| / 2^e < 1. *)
+Definition exponent (x : float) : Z := snd (Bfrexp x).
 
 Notation emin := (3 - emax - p)%Z.
 Notation fl := (Format.rnd p emin Format.nearest).
@@ -145,6 +147,17 @@ Lemma p_emax : (p < emax)%Z.
 Proof. exact p_below. Qed.
 Lemma emin_p : (emin <= - p)%Z.
 Proof. generalize p_emax. lia. Qed.
+
+Lemma exponent_value x : finite x -> B2R x <> 0 ->
+  bpow radix2 (exponent x - 1) <= Rabs (B2R x) < bpow radix2 (exponent x).
+Proof.
+  intros X N. assert (S : is_finite_strict x = true) by now destruct x.
+  generalize (Bfrexp_correct p emax _ x S) (bpow_gt_0 radix2 (exponent x)). unfold exponent.
+  destruct (Bfrexp x) as [z e]. cbn [snd]. intros [-> H] P.
+  destruct H as [H _]; [generalize p_emax; lia |].
+  rewrite Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by lra. unfold Zminus. rewrite bpow_plus.
+  change (bpow radix2 (-(1))) with (/ 2). nra.
+Qed.
 
 Lemma integer_value n : (Z.abs n <= 8)%Z -> finite (integer _ floats n) /\ B2R (integer _ floats n) = IZR n.
 Proof.

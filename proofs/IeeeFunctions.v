@@ -59,24 +59,14 @@ Record promises (B : Type) (rule : rule float B) (holds : float -> B -> R -> Pro
   promise_sign a b x : holds a b x -> right_sign (rule_sign _ _ rule a b) x
 }.
 
+Ltac known_promises subtract :=
+  split; cbn [tight_rule sharp_rule rule_exact rule_within rule_error rule_subtract rule_negate rule_sign]; auto;
+  [ now apply tight_exact_known | now apply tight_within_known | intros; now apply subtract | apply tight_negate_known
+  | now apply sign_of_known ].
 Theorem tight_promises : promises _ (tight_rule _ F) known.
-Proof.
-  split; cbn [tight_rule rule_exact rule_within rule_error rule_subtract rule_negate rule_sign]; auto.
-  - now apply tight_exact_known.
-  - now apply tight_within_known.
-  - intros. now apply tight_subtract_known.
-  - apply tight_negate_known.
-  - now apply sign_of_known.
-Qed.
+Proof. known_promises tight_subtract_known. Qed.
 Theorem sharp_promises : promises _ (sharp_rule _ F) known.
-Proof.
-  split; cbn [sharp_rule rule_exact rule_within rule_error rule_subtract rule_negate rule_sign]; auto.
-  - now apply tight_exact_known.
-  - now apply tight_within_known.
-  - intros. now apply sharp_subtract_known.
-  - apply tight_negate_known.
-  - now apply sign_of_known.
-Qed.
+Proof. known_promises sharp_subtract_known. Qed.
 Theorem safe_promises : promises _ (safe_rule _ F) (IeeeSafe.safe_known p emax).
 Proof.
   split; cbn [safe_rule rule_exact rule_within rule_error rule_subtract rule_negate rule_sign].
@@ -160,14 +150,16 @@ Proof. apply (promise_negate _ _ _ Rule). Qed.
 (** A number within an error that is not finite is known whatever it is, so that its error is not finite. *)
 Lemma nothing_known v e : ~ finite e -> forall r, tracked_known (tracked_within _ _ rule v e) r.
 Proof. intros N r. apply (promise_within _ _ _ Rule). intros H. contradiction. Qed.
-Lemma nothing_error v e : ~ finite e -> ~ finite (error_of (tracked_within _ _ rule v e)).
+(** What may be any number has no finite error. *)
+Lemma any_number_error x : (forall r, tracked_known x r) -> ~ finite (error_of x).
 Proof.
-  intros N H. assert (K := nothing_known v e N). set (x := tracked_within _ _ _ _ _) in *. clearbody x.
-  set (s := B2R (error_of x)).
+  intros K H. set (s := B2R (error_of x)).
   destruct (proj2 (error_of_known _ _ (K (B2R (fst x) + (Rabs s + 1)))) H) as [_ D]. fold s in D.
   generalize (Rle_abs s) (Rabs_pos s) (Rle_abs (- (B2R (fst x) - (B2R (fst x) + (Rabs s + 1))))).
   rewrite Rabs_Ropp. lra.
 Qed.
+Lemma nothing_error v e : ~ finite e -> ~ finite (error_of (tracked_within _ _ rule v e)).
+Proof. intros N. apply any_number_error. intros r. now apply nothing_known. Qed.
 
 Theorem sqrt_known x r : tracked_known x r ->
   tracked_known (tracked_sqrt _ F fused _ rule x) (sqrt r) /\

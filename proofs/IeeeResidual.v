@@ -44,9 +44,6 @@ Definition residual_known (v : float) (b : float * float) (x : R) : Prop :=
   nonnegative (snd b) /\
   (finite (fst b) -> finite (snd b) -> finite v /\ holds (B2R v) (B2R (fst b)) (B2R (snd b)) x).
 
-Lemma zero_finite : finite (integer _ F 0).
-Proof. apply (zero_value p emax p_3). Qed.
-
 Lemma inflated_finite b : finite (residual_inflated _ F b) ->
   finite b /\ B2R (residual_inflated _ F b) = Residual.inflated p emin (B2R b).
 Proof. unfold residual_inflated, Residual.inflated. intros H. parts. split; auto. now values. Qed.

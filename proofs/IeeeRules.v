@@ -79,7 +79,7 @@ Proof.
   destruct (K FS) as [_ B]. rewrite A, S in B. apply Tight.within_0 in B. lra.
 Qed.
 
-(** Tight's definitions are what Code.v computes. *)
+(** The rules' definitions over the real numbers are what Code.v computes. *)
 Lemma tight_rounding_finite v : finite (tight_rounding _ F v) ->
   finite v /\ B2R (tight_rounding _ F v) = Tight.rounding p emin Format.nearest (B2R v).
 Proof. unfold tight_rounding, Tight.rounding. intros H. parts. split; auto. values. reflexivity. Qed.
@@ -95,12 +95,38 @@ Proof.
   values. reflexivity.
 Qed.
 
-Lemma nonnegative_tight_rounding v : nonnegative (tight_rounding _ F v).
-Proof. unfold tight_rounding. positive. Qed.
-Lemma nonnegative_tight_inflated b : nonnegative b -> nonnegative (tight_inflated _ F b).
-Proof. intros. unfold tight_inflated. positive. Qed.
-Lemma nonnegative_infinity : nonnegative (infinity _ F).
-Proof. reflexivity. Qed.
+Lemma sharp_rounding_finite v : finite (sharp_rounding _ F v) ->
+  finite v /\ B2R (sharp_rounding _ F v) = Sharp.rounding p emin (B2R v).
+Proof. unfold sharp_rounding, Sharp.rounding. intros H. parts. split; auto. now values. Qed.
+Lemma sharp_inflated_finite b : finite (sharp_inflated _ F b) ->
+  finite b /\ B2R (sharp_inflated _ F b) = Sharp.inflated p emin (B2R b).
+Proof. unfold sharp_inflated, Sharp.inflated. intros H. parts. split; auto. now values. Qed.
+Lemma sharp_add_finite v sa sb : finite (sharp_add _ F v sa sb) ->
+  finite v /\ finite sa /\ finite sb /\
+  B2R (sharp_add _ F v sa sb) = Sharp.sharp_add p emin (B2R v) (B2R sa) (B2R sb).
+Proof.
+  unfold sharp_add. intros H. parts.
+  match goal with H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H end.
+  repeat split; auto. now values.
+Qed.
+
+(** Both rules' bounds are taken apart alike: none is below zero, and finite ones are what they are over the real
+    numbers. *)
+Ltac positive_bound := unfold tight_add, tight_inflated, tight_rounding, sharp_add, sharp_inflated, sharp_rounding;
+  positive.
+Ltac rounded := match goal with
+  | H : finite (tight_rounding _ _ _) |- _ => apply tight_rounding_finite in H; destruct H
+  | H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H
+  end.
+Ltac inflated := match goal with
+  | H : finite (tight_inflated _ _ _) |- _ => apply tight_inflated_finite in H; destruct H
+  | H : finite (sharp_inflated _ _ _) |- _ => apply sharp_inflated_finite in H; destruct H
+  end.
+Ltac sum_known as_reals sound :=
+  intros [PA KA] [PB KB]; split; [positive_bound |];
+  intros H; apply as_reals in H; destruct H as (FV & FA & FB & E); split; auto;
+  destruct (KA FA) as [A HA], (KB FB) as [B HB]; rewrite E; parts; values;
+  apply sound; auto using number_B2R; apply emin_p.
 
 Theorem tight_exact_known a : known a (tight_exact _ F a) (B2R a).
 Proof.
@@ -126,26 +152,10 @@ Qed.
 
 Theorem tight_add_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊕ b) (tight_add _ F (a ⊕ b) sa sb) (x + y).
-Proof.
-  intros [PA KA] [PB KB]. split.
-  - apply nonnegative_tight_inflated. apply nonnegative_plus; auto.
-    + apply nonnegative_tight_rounding.
-    + now apply nonnegative_plus.
-  - intros H. apply tight_add_finite in H. destruct H as (FV & FA & FB & E). split; auto.
-    destruct (KA FA) as [A HA], (KB FB) as [B HB]. rewrite E. parts. values.
-    apply Tight.tight_add_sound_nearest; auto using number_B2R. apply emin_p.
-Qed.
+Proof. sum_known tight_add_finite Tight.tight_add_sound_nearest. Qed.
 Theorem tight_subtract_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊖ b) (tight_add _ F (a ⊖ b) sa sb) (x - y).
-Proof.
-  intros [PA KA] [PB KB]. split.
-  - apply nonnegative_tight_inflated. apply nonnegative_plus; auto.
-    + apply nonnegative_tight_rounding.
-    + now apply nonnegative_plus.
-  - intros H. apply tight_add_finite in H. destruct H as (FV & FA & FB & E). split; auto.
-    destruct (KA FA) as [A HA], (KB FB) as [B HB]. rewrite E. parts. values.
-    apply Tight.tight_subtract_sound_nearest; auto using number_B2R. apply emin_p.
-Qed.
+Proof. sum_known tight_add_finite Tight.tight_subtract_sound_nearest. Qed.
 
 (** A product with an exact zero. *)
 Lemma zero_times a b : finite (a ⊗ b) -> B2R a = 0 \/ B2R b = 0 -> B2R (a ⊗ b) = 0.
@@ -164,26 +174,26 @@ Proof.
     + rewrite (known_zero _ _ _ KB C). ring.
 Qed.
 
+Ltac product_known sound :=
+  intros KA KB; generalize KA KB; intros [PA LA] [PB LB];
+  match goal with |- known _ (if is_zero _ F ?a ?sa || is_zero _ F ?b ?sb then _ else _) (?x * ?y) =>
+    generalize (sound (B2R a) x (B2R sa) (B2R b) y (B2R sb)); unfold Tight.tight_multiply, Sharp.sharp_multiply;
+    case_eq (is_zero _ F a sa || is_zero _ F b sb)
+  end; intros Zero T; cbv zeta in *; split;
+  [ positive_bound
+  | intros H; rounded; split; [assumption |];
+    destruct (product_with_zero _ _ _ _ _ _ KA KB ltac:(eassumption) Zero) as [V Z];
+    match goal with E : B2R (_ _ F _) = _ |- _ => rewrite E, V, Z end;
+    unfold Tight.rounding, Sharp.rounding; rewrite Rminus_0_r, Rabs_R0, Rmult_0_l, rnd_0; lra
+  | positive_bound
+  | intros H; inflated; parts; rounded; split; [assumption |];
+    destruct (LA ltac:(assumption)) as [_ HA], (LB ltac:(assumption)) as [_ HB];
+    rewrite <- !is_zero_value, Zero in T by assumption;
+    values; parts; values; apply T; auto using number_B2R ].
 Theorem tight_multiply_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊗ b) (tight_multiply _ F (a ⊗ b) a sa b sb) (x * y).
-Proof.
-  intros KA KB. generalize KA KB. intros [PA LA] [PB LB]. unfold tight_multiply.
-  destruct (is_zero _ F a sa || is_zero _ F b sb) eqn:C; cbv zeta; split.
-  - apply nonnegative_tight_rounding.
-  - intros H. apply tight_rounding_finite in H. destruct H as [H E]. split; auto.
-    destruct (product_with_zero _ _ _ _ _ _ KA KB H C) as [V Z]. rewrite E, V, Z.
-    unfold Tight.rounding. rewrite Rminus_0_r, Rabs_R0, Rmult_0_l, rnd_0.
-    lra.
-  - apply nonnegative_tight_inflated. positive.
-  - intros H. apply tight_inflated_finite in H. destruct H as [H E].
-    parts. match goal with H : finite (tight_rounding _ _ _) |- _ =>
-      apply tight_rounding_finite in H; destruct H end. split; auto.
-    destruct (LA ltac:(assumption)) as [_ HA], (LB ltac:(assumption)) as [_ HB].
-    assert (T := Tight.tight_multiply_sound_nearest p emin emin_p p_3 (B2R a) x (B2R sa)
-                   (B2R b) y (B2R sb)).
-    unfold Tight.tight_multiply in T. rewrite <- !is_zero_value, C in T by assumption.
-    cbv zeta in T. rewrite E. values. parts. values. apply T; auto using number_B2R.
-Qed.
+Proof. unfold tight_multiply. product_known (Tight.tight_multiply_sound_nearest p emin emin_p p_3). Qed.
+
 (** A divisor that is not zero: both are finite, and so is its distance from zero. *)
 Lemma abs_finite_intro x : finite x -> finite (abs _ F x).
 Proof.
@@ -231,52 +241,42 @@ Proof.
   unfold Rdiv. rewrite Rmult_0_l. apply rnd_0.
 Qed.
 
+Ltac quotient_known sound :=
+  intros KA KB; generalize KA KB; intros [PA LA] [PB LB]; cbv zeta;
+  match goal with
+  | _ : known ?a ?sa ?x, _ : known ?b ?sb ?y |- known (?a ⊘ ?b) (if negb ?far then _ else _) (?x / ?y) /\ _ =>
+    generalize (sound (B2R a) x (B2R sa) (B2R b) y (B2R sb)); unfold Tight.tight_divide, Sharp.sharp_divide;
+    case_eq far
+  end; intros Far T; cbn [negb]; [| split; [split; [reflexivity |] |]; discriminate];
+  generalize (distance_positive _ _ _ KB Far); intros (FB & FS & FD & D & NB & NY); split; [| auto];
+  match goal with |- known _ (if ?zero then _ else _) _ => case_eq zero end; intros Zero; split;
+  [ positive_bound
+  | intros H; rounded; split; [assumption |]; rewrite (known_zero _ _ _ KA Zero);
+    match goal with E : B2R (_ _ F _) = _ |- _ => rewrite E end; apply is_zero_true in Zero;
+    rewrite zero_over by (auto; tauto); unfold Tight.rounding, Sharp.rounding, Rdiv;
+    rewrite Rmult_0_l, Rminus_0_r, Rabs_R0, Rmult_0_l, rnd_0; lra
+  | match goal with |- context [if ?lossy then ?lost else ?none] =>
+      assert (nonnegative (if lossy then lost else none)) by (destruct lossy; positive) end;
+    positive_bound; apply nonnegative_over; auto; [positive | apply nonnegative_intro; auto; lra | lra]
+  | intros H; inflated; destruct (minus_finite _ _ _ _ FD) as (FM & _ & EM);
+    apply (abs_finite p emax p_3) in FM; destruct FM as [_ EB];
+    match type of D with 0 < B2R ?distance => set (d := distance) in *; clearbody d end;
+    parts; rounded; inflated;
+    match goal with H : finite (_ ⊘ ?d), D : 0 < B2R ?d |- _ => apply over_finite in H;
+      [destruct H | assumption | lra] end;
+    parts; inflated; split; [assumption |];
+    destruct (LA ltac:(assumption)) as [FA HA], (LB FS) as [_ HB], (zero_value p emax p_3) as [FZ VZ];
+    cbv zeta in T; rewrite <- is_zero_value, Zero in T by assumption;
+    rewrite Rlt_bool_true in T by (now rewrite EM, EB in D); cbn [negb] in T; parts;
+    match goal with H : finite (_ ⊘ _) |- _ => apply over_finite in H; [destruct H | assumption | assumption] end;
+    values; rewrite less_finite, VZ in * by assumption;
+    match goal with |- context [Rlt_bool 0 ?s] => destruct (Rlt_bool 0 s) end; parts; values; apply T;
+      auto using number_B2R ].
 Theorem tight_divide_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊘ b) (tight_divide _ F (a ⊘ b) a sa b sb) (x / y) /\
   (finite (tight_divide _ F (a ⊘ b) a sa b sb) -> y <> 0).
-Proof.
-  intros KA KB. generalize KA KB. intros [PA LA] [PB LB]. unfold tight_divide. cbv zeta.
-  destruct (less _ F (integer _ F 0) (abs _ F b ⊖ sb)) eqn:C; cbn [negb];
-    [| split; [split; [reflexivity |] |]; discriminate].
-  generalize (distance_positive _ _ _ KB C). intros (FB & FS & FD & D & NB & NY). split; auto.
-  destruct (is_zero _ F a sa) eqn:Z; split.
-  - apply nonnegative_tight_rounding.
-  - intros H. apply tight_rounding_finite in H. destruct H as [H E]. split; auto.
-    rewrite (known_zero _ _ _ KA Z), E. apply is_zero_true in Z.
-    rewrite (zero_over a b) by (auto; tauto). unfold Tight.rounding, Rdiv.
-    rewrite Rmult_0_l, Rminus_0_r, Rabs_R0, Rmult_0_l, rnd_0. lra.
-  - assert (nonnegative (if less _ F (integer _ F 0) sb then integer _ F 4 ⊗ underflow_unit _ F
-                         else integer _ F 0)).
-    { destruct (less _ F (integer _ F 0) sb); positive. }
-    apply nonnegative_tight_inflated. positive. apply nonnegative_over; auto.
-    + positive.
-    + apply nonnegative_intro; auto. lra.
-    + lra.
-  - intros H. apply tight_inflated_finite in H. destruct H as [H E].
-    destruct (minus_finite _ _ _ _ FD) as (FM & _ & EM).
-    apply (abs_finite p emax p_3) in FM. destruct FM as [_ EB].
-    set (d := abs _ F b ⊖ sb) in *. clearbody d. parts.
-    match goal with H : finite (tight_rounding _ _ _) |- _ => apply tight_rounding_finite in H; destruct H end.
-    match goal with H : finite (tight_inflated _ _ _) |- _ => apply tight_inflated_finite in H; destruct H as [H ?] end.
-    match goal with H : finite (_ ⊘ d) |- _ => apply over_finite in H; [destruct H | assumption | lra] end.
-    parts.
-    match goal with H : finite (tight_inflated _ _ _) |- _ => apply tight_inflated_finite in H; destruct H as [H ?] end.
-    split; auto.
-    destruct (LA ltac:(assumption)) as [FA HA], (LB FS) as [_ HB].
-    assert (T := Tight.tight_divide_sound_nearest p emin emin_p p_3 (B2R a) x (B2R sa)
-                   (B2R b) y (B2R sb)).
-    unfold Tight.tight_divide in T. cbv zeta in T.
-    destruct (zero_value p emax p_3) as [FZ VZ].
-    rewrite <- is_zero_value, Z in T by assumption.
-    rewrite Rlt_bool_true in T.
-    2: now rewrite EM, EB in D.
-    cbn [negb] in T.
-    assert (FV := H). apply over_finite in FV; auto. destruct FV as [_ EV].
-    rewrite E. values.
-    rewrite less_finite, VZ in * by assumption.
-    destruct (Rlt_bool 0 (B2R sb)); parts; values;
-    apply T; auto using number_B2R.
-Qed.
+Proof. unfold tight_divide. quotient_known (Tight.tight_divide_sound_nearest p emin emin_p p_3). Qed.
+
 (** Scaling, of rules whose bound is an error. *)
 Lemma scale_down_finite a e : finite a -> (e < 0)%Z -> finite (scale _ F a e).
 Proof.
@@ -363,105 +363,19 @@ Proof.
 Qed.
 
 (** The rule sharp. *)
-Lemma sharp_rounding_finite v : finite (sharp_rounding _ F v) ->
-  finite v /\ B2R (sharp_rounding _ F v) = Sharp.rounding p emin (B2R v).
-Proof. unfold sharp_rounding, Sharp.rounding. intros H. parts. split; auto. now values. Qed.
-Lemma sharp_inflated_finite b : finite (sharp_inflated _ F b) ->
-  finite b /\ B2R (sharp_inflated _ F b) = Sharp.inflated p emin (B2R b).
-Proof. unfold sharp_inflated, Sharp.inflated. intros H. parts. split; auto. now values. Qed.
-Lemma sharp_add_finite v sa sb : finite (sharp_add _ F v sa sb) ->
-  finite v /\ finite sa /\ finite sb /\
-  B2R (sharp_add _ F v sa sb) = Sharp.sharp_add p emin (B2R v) (B2R sa) (B2R sb).
-Proof.
-  unfold sharp_add. intros H. parts.
-  match goal with H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H end.
-  repeat split; auto. now values.
-Qed.
-Lemma nonnegative_sharp_add v sa sb : nonnegative sa -> nonnegative sb ->
-  nonnegative (sharp_add _ F v sa sb).
-Proof. intros. unfold sharp_add. positive. Qed.
-
 Theorem sharp_add_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊕ b) (sharp_add _ F (a ⊕ b) sa sb) (x + y).
-Proof.
-  intros [PA KA] [PB KB]. split; [now apply nonnegative_sharp_add |].
-  intros H. apply sharp_add_finite in H. destruct H as (FV & FA & FB & E). split; auto.
-  destruct (KA FA) as [A HA], (KB FB) as [B HB]. rewrite E. parts. values.
-  apply Sharp.sharp_add_sound; auto using number_B2R. apply emin_p.
-Qed.
+Proof. sum_known sharp_add_finite Sharp.sharp_add_sound. Qed.
 Theorem sharp_subtract_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊖ b) (sharp_add _ F (a ⊖ b) sa sb) (x - y).
-Proof.
-  intros [PA KA] [PB KB]. split; [now apply nonnegative_sharp_add |].
-  intros H. apply sharp_add_finite in H. destruct H as (FV & FA & FB & E). split; auto.
-  destruct (KA FA) as [A HA], (KB FB) as [B HB]. rewrite E. parts. values.
-  apply Sharp.sharp_subtract_sound; auto using number_B2R. apply emin_p.
-Qed.
+Proof. sum_known sharp_add_finite Sharp.sharp_subtract_sound. Qed.
 Theorem sharp_multiply_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊗ b) (sharp_multiply _ F (a ⊗ b) a sa b sb) (x * y).
-Proof.
-  intros KA KB. generalize KA KB. intros [PA LA] [PB LB]. unfold sharp_multiply.
-  destruct (is_zero _ F a sa || is_zero _ F b sb) eqn:C; cbv zeta; split.
-  - unfold sharp_rounding. positive.
-  - intros H. apply sharp_rounding_finite in H. destruct H as [H E]. split; auto.
-    destruct (product_with_zero _ _ _ _ _ _ KA KB H C) as [V Z]. rewrite E, V, Z.
-    unfold Sharp.rounding. rewrite Rminus_0_r, Rabs_R0, Rmult_0_l, rnd_0. lra.
-  - positive.
-  - intros H. apply sharp_inflated_finite in H. destruct H as [H E].
-    parts. match goal with H : finite (sharp_rounding _ _ _) |- _ =>
-      apply sharp_rounding_finite in H; destruct H end. split; auto.
-    destruct (LA ltac:(assumption)) as [_ HA], (LB ltac:(assumption)) as [_ HB].
-    assert (T := Sharp.sharp_multiply_sound p emin p_3 emin_p (B2R a) x (B2R sa)
-                   (B2R b) y (B2R sb)).
-    unfold Sharp.sharp_multiply in T. rewrite <- !is_zero_value, C in T by assumption.
-    cbv zeta in T. rewrite E. values. parts. values. apply T; auto using number_B2R.
-Qed.
+Proof. unfold sharp_multiply. product_known (Sharp.sharp_multiply_sound p emin p_3 emin_p). Qed.
 Theorem sharp_divide_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊘ b) (sharp_divide _ F (a ⊘ b) a sa b sb) (x / y) /\
   (finite (sharp_divide _ F (a ⊘ b) a sa b sb) -> y <> 0).
-Proof.
-  intros KA KB. generalize KA KB. intros [PA LA] [PB LB]. unfold sharp_divide. cbv zeta.
-  destruct (less _ F (integer _ F 0) (abs _ F b ⊖ sb)) eqn:C; cbn [negb];
-    [| split; [split; [reflexivity |] |]; discriminate].
-  generalize (distance_positive _ _ _ KB C). intros (FB & FS & FD & D & NB & NY). split; auto.
-  destruct (is_zero _ F a sa) eqn:Z; split.
-  - unfold sharp_rounding. positive.
-  - intros H. apply sharp_rounding_finite in H. destruct H as [H E]. split; auto.
-    rewrite (known_zero _ _ _ KA Z), E. apply is_zero_true in Z.
-    rewrite (zero_over a b) by (auto; tauto). unfold Sharp.rounding, Rdiv.
-    rewrite Rmult_0_l, Rminus_0_r, Rabs_R0, Rmult_0_l, rnd_0. lra.
-  - assert (nonnegative (if less _ F (integer _ F 0) sb then underflow_unit _ F
-                         else integer _ F 0)).
-    { destruct (less _ F (integer _ F 0) sb); positive. }
-    positive. apply nonnegative_over; auto.
-    + positive.
-    + apply nonnegative_intro; auto. lra.
-    + lra.
-  - intros H. apply sharp_inflated_finite in H. destruct H as [H E].
-    destruct (minus_finite _ _ _ _ FD) as (FM & _ & EM).
-    apply (abs_finite p emax p_3) in FM. destruct FM as [_ EB].
-    set (d := abs _ F b ⊖ sb) in *. clearbody d. parts.
-    match goal with H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H end.
-    match goal with H : finite (sharp_inflated _ _ _) |- _ => apply sharp_inflated_finite in H; destruct H as [H ?] end.
-    match goal with H : finite (_ ⊘ d) |- _ => apply over_finite in H; [destruct H | assumption | lra] end.
-    parts.
-    match goal with H : finite (sharp_inflated _ _ _) |- _ => apply sharp_inflated_finite in H; destruct H as [H ?] end.
-    split; auto.
-    destruct (LA ltac:(assumption)) as [FA HA], (LB FS) as [_ HB].
-    assert (T := Sharp.sharp_divide_sound p emin p_3 emin_p (B2R a) x (B2R sa)
-                   (B2R b) y (B2R sb)).
-    unfold Sharp.sharp_divide in T. cbv zeta in T.
-    destruct (zero_value p emax p_3) as [FZ VZ].
-    rewrite <- is_zero_value, Z in T by assumption.
-    rewrite Rlt_bool_true in T.
-    2: now rewrite EM, EB in D.
-    cbn [negb] in T. parts.
-    assert (FV : finite (a ⊘ b)) by assumption. apply over_finite in FV; auto. destruct FV as [_ EV].
-    rewrite E. values.
-    rewrite less_finite, VZ in * by assumption.
-    destruct (Rlt_bool 0 (B2R sb)); parts; values;
-    apply T; auto using number_B2R.
-Qed.
+Proof. unfold sharp_divide. quotient_known (Sharp.sharp_divide_sound p emin p_3 emin_p). Qed.
 Theorem sharp_scale_known a sa x e : known a sa x ->
   known (scale _ F a e) (sharp_scale _ F (scale _ F a e) a sa e) (x * bpow radix2 e).
 Proof.

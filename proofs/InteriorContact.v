@@ -21,17 +21,11 @@ Open Scope R_scope.
 
 (** ** Weights at a time *)
 
-(** inside() of vertex_face_forms and of edge_edge_forms, of degree 0. *)
-Definition weights (edges : bool) (b c p : point) : list R :=
-  if edges then [on_a b c p; square_normal b c - on_a b c p; on_b b c p; square_normal b c - on_b b c p]
-  else [weight_2 b c p; weight_1 b c p; weight_0 b c p].
 Definition all_positive (edges : bool) (b c p : point) : bool :=
   forallb (fun w => same_sign (sign_of_real w) positive) (weights edges b c p).
-Definition inside (edges : bool) (b c p : point) : Prop := Forall (Rlt 0) (weights edges b c p).
-
-Lemma all_positive_true edges b c p : all_positive edges b c p = true <-> inside edges b c p.
+Lemma all_positive_true edges b c p : all_positive edges b c p = true <-> weights_positive edges b c p.
 Proof.
-  unfold all_positive, inside. rewrite forallb_forall, Forall_forall.
+  unfold all_positive, weights_positive. rewrite forallb_forall, Forall_forall.
   split; intros H w I; specialize (H w I).
   - pose proof (sign_of_real_right w) as S. destruct (sign_of_real w); try discriminate. easy.
   - now rewrite sign_positive.
@@ -275,7 +269,7 @@ Let B (t : R) : point := vector_at b t.
 Let C (t : R) : point := vector_at c t.
 Let P (t : R) : point := vector_at p t.
 (** All G_i > 0. *)
-Let Inside (t : R) : Prop := inside edges (B t) (C t) (P t).
+Let Inside (t : R) : Prop := weights_positive edges (B t) (C t) (P t).
 
 Lemma y_length : length y = 4%nat.
 Proof. unfold y. rewrite map_length. apply (forms_y b c p 0); auto. Qed.
@@ -311,7 +305,7 @@ Proof.
 Qed.
 Lemma positive_at_right s t : 0 < s + t -> positive_at s t = true <-> Inside (t / (s + t)).
 Proof.
-  intros S. unfold positive_at. rewrite all_positive_true. unfold inside.
+  intros S. unfold positive_at. rewrite all_positive_true. unfold weights_positive.
   rewrite !vector_value_at by (auto; lra). rewrite weights_homogeneous, inside_scaled by (now apply pow_lt).
     easy.
 Qed.
@@ -349,7 +343,7 @@ Proof.
   destruct (weights_stretched edges (k extent_x) (k extent_y) (k extent_z) (B t) (C t) (P t)) as (f & Pf &
     E); auto.
   unfold B, C, P in E. rewrite E in F. destruct (conclusion_right _ _ collides F) as (Yes & No).
-  unfold throughout, Inside, inside. split; intros O.
+  unfold throughout, Inside, weights_positive. split; intros O.
   - destruct (Yes O) as (_ & W). now apply (inside_scaled f).
   - intros W. destruct (No O) as [| N]; [discriminate |]. apply N. now apply inside_scaled.
 Qed.
@@ -431,7 +425,7 @@ Proof.
       + exists t. split; auto. apply normal_at, Same; auto. lra. }
   destruct N as (t & T & N). exists t. split; auto. split.
   - rewrite y_at. unfold det. rewrite N. unfold dot, origin. cbn [x Contact.y z]. ring.
-  - unfold Inside, inside, weights, weight_0, weight_1, weight_2, on_a, on_b, square_normal. rewrite N.
+  - unfold Inside, weights_positive, weights, weight_0, weight_1, weight_2, on_a, on_b, square_normal. rewrite N.
     assert (Z : forall v, dot v origin = 0) by (intros; unfold dot, origin; cbn [x Contact.y z]; ring).
     rewrite !Z. intros F. destruct edges; inversion F; lra.
 Qed.
@@ -482,10 +476,14 @@ Proof.
   rewrite Z.log2_pow2 in * by lia. pose proof (Z.log2_nonneg w). rewrite <- Z.add_1_r in *. lia.
 Qed.
 
-Theorem near_right distinct more T q place bits o : is_part y q -> (level q <= bits)%Z ->
+(** `collides` is of a root inside the part. *)
+Lemma near_told distinct more T q place bits o : is_part y q -> (level q <= bits)%Z ->
   opposite (roots q) = true ->
   crosses_once (part_start q) (part_end q) (at_ y) (fun t => ~ Inside t /\ distinct = false) ->
-  near distinct more T q place bits = Some o -> answers (part_start q) (part_end q) o.
+  near distinct more T q place bits = Some o -> match o with
+    | collides => exists t, part_start q < t < part_end q /\ at_ y t = 0 /\ Inside t
+    | _ => answers (part_start q) (part_end q) o
+  end.
 Proof.
   intros H Hb O One. revert T place bits o Hb. induction more as [| more IH]; intros T place bits o Hb;
     cbn [near].
@@ -497,7 +495,7 @@ Proof.
   all: destruct (Z.eqb_spec low high) as [Eq | Ne].
   1, 3: destruct K as [(_ & In & Z) | (N & _)]; [| lia]; intros X; injection X as <-;
     pose proof (positive_over low bits Hp) as Pos; destruct (positive_at _ _);
-    [exists (over low bits); split; [lra |]; split; auto; now apply Pos |];
+    [exists (over low bits); split; [exact In |]; split; auto; now apply Pos |];
     destruct distinct; [| easy]; intros t T' Zt Ins;
     destruct (part_signs y q H) as (A & _);
     destruct (only_crossing _ _ _ _ _ t (over low bits) One A T' In Zt Z) as [-> | [(_ & D) | (_ & D)]];
@@ -521,35 +519,20 @@ Proof.
     apply (IH _ _ _ o') in E'; auto. lia.
 Qed.
 
-(** And `collides` is of a root inside the part. *)
+Theorem near_right distinct more T q place bits o : is_part y q -> (level q <= bits)%Z ->
+  opposite (roots q) = true ->
+  crosses_once (part_start q) (part_end q) (at_ y) (fun t => ~ Inside t /\ distinct = false) ->
+  near distinct more T q place bits = Some o -> answers (part_start q) (part_end q) o.
+Proof.
+  intros H Hb O One N. pose proof (part_inside y q H). apply near_told in N; auto. destruct o; auto.
+  destruct N as (t & T' & Z). exists t. split; auto. lra.
+Qed.
 Theorem near_here distinct more T q place bits : is_part y q -> (level q <= bits)%Z ->
   opposite (roots q) = true ->
   crosses_once (part_start q) (part_end q) (at_ y) (fun t => ~ Inside t /\ distinct = false) ->
   near distinct more T q place bits = Some collides ->
   exists t, part_start q < t < part_end q /\ at_ y t = 0 /\ Inside t.
-Proof.
-  intros H Hb O One. revert T place bits Hb. induction more as [| more IH]; intros T place bits Hb;
-    cbn [near].
-  all: destruct (bracket_near y q place bits) as [[low high] |] eqn:E; [| discriminate].
-  all: destruct (bracket_near_right y q _ place bits low high y_length H Hb O One E) as
-    ((L & Lh & W) & Ps & Pe & K).
-  all: assert (Hp : (0 <= bits)%Z) by (destruct H as (_ & _ & (? & _) & _); lia).
-  all: destruct (Z.eqb_spec low high) as [Eq | Ne].
-  1, 3: destruct K as [(_ & In & Z) | (N & _)]; [| lia];
-    pose proof (positive_over low bits Hp) as Pos; destruct (positive_at _ _);
-    [intros _; exists (over low bits); split; [exact In |]; split; auto; now apply Pos |
-     destruct distinct; discriminate].
-  all: destruct K as [(N & _) | (Lt & r & Hr & Zr & Only)]; [lia |].
-  all: destruct (bit_width_bounds (high - low) ltac:(lia)) as (Bw & B0).
-  all: destruct (throughout_right T low bits (BoundedInteger.bit_width (high - low)) (high - low) r Hp) as
-    (Yes & No);
-    [lia | replace (low + (high - low))%Z with high by lia; lra | exact Zr |].
-  all: destruct (throughout T low bits (BoundedInteger.bit_width (high - low))); try discriminate.
-  1, 3: intros _; exists r; split; [lra | auto].
-  all: destruct ((T =? 2)%Z && distinct && normal_vanishes low high bits); try discriminate.
-  destruct (near distinct more (T + 1) q _ _) as [o' |] eqn:E'; [| discriminate].
-  intros X. injection X as ->. apply IH in E'; auto. lia.
-Qed.
+Proof. intros H Hb O One N. now apply near_told in N. Qed.
 
 (** Whether there are roots that are not a double root. *)
 Definition any_root (three : bool) (changes : sign_changes) : bool :=
@@ -1041,9 +1024,9 @@ Definition edge_contact (query : moving * moving * moving * (integer_motion * in
 Definition contact_of (edges : bool) (extent_x extent_y extent_z : Z)
     (estimate : part -> Z) (refine : Z -> part -> Z -> Z -> Z -> Z) (steps : nat)
     (m0 m1 m2 m3 : moving) (q0 q1 q2 q3 : integer_motion) : outcome :=
-  let b := if edges then difference q1 q0 else difference q2 q1 in
-  let c := if edges then difference q3 q2 else difference q3 q1 in
-  let p := if edges then difference q2 q0 else difference q0 q1 in
+  let b := side_b edges difference q0 q1 q2 q3 in
+  let c := side_c edges difference q0 q1 q2 q3 in
+  let p := side_p edges difference q0 q1 q2 q3 in
   if certainly_rootless (y_form b c p) then separate
   else if existsb edge_contact
       (combine (vertex_edge_queries edges m0 m1 m2 m3) (vertex_edge_queries edges q0 q1 q2 q3)) then collides
@@ -1066,115 +1049,58 @@ Proof.
   rewrite andb_true_iff, negb_true_iff, contact_right, (vertex_edge_units unit) by easy.
   split; [tauto |]. intros H. split; auto. destruct (separated m0 m1 m2) eqn:P; auto. now apply separated_right in P.
 Qed.
-Lemma face_edges m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
-  in_integers unit m2 f1 -> in_integers unit m3 f2 ->
-  existsb edge_contact (combine (vertex_edge_queries false m0 m1 m2 m3) (vertex_edge_queries false v f0 f1 f2)) = true
-  <-> face_border_collides m0 m1 m2 m3.
+Lemma queries_contact edges m0 m1 m2 m3 q0 q1 q2 q3 : in_integers unit m0 q0 -> in_integers unit m1 q1 ->
+  in_integers unit m2 q2 -> in_integers unit m3 q3 ->
+  existsb edge_contact (combine (vertex_edge_queries edges m0 m1 m2 m3) (vertex_edge_queries edges q0 q1 q2 q3)) = true
+  <-> query_border edges m0 m1 m2 m3.
 Proof.
-  intros. unfold face_border_collides. cbn [vertex_edge_queries combine existsb].
-  rewrite !orb_true_iff, !vertex_edge_decision_right by easy. intuition discriminate.
-Qed.
-Lemma edges_edges m0 m1 m2 m3 a0 a1 b0 b1 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
-  in_integers unit m2 b0 -> in_integers unit m3 b1 ->
-  existsb edge_contact (combine (vertex_edge_queries true m0 m1 m2 m3) (vertex_edge_queries true a0 a1 b0 b1)) = true
-  <-> edges_border_collides m0 m1 m2 m3.
-Proof.
-  intros. unfold edges_border_collides. cbn [vertex_edge_queries combine existsb].
-  rewrite !orb_true_iff, !vertex_edge_decision_right by easy. intuition discriminate.
-Qed.
-
-Lemma face_inside_same (v f0 f1 f2 : integer_motion) t : inside false (vector_at (difference f1 f0) t)
-    (vector_at (difference f2 f0) t) (vector_at (difference v f0) t) <->
-  inside_face (place (exact_motion v) t) (place (exact_motion f0) t) (place (exact_motion f1) t)
-    (place (exact_motion f2) t).
-Proof.
-  rewrite !(@difference_at integers). unfold inside, inside_face, weights. rewrite !Forall_cons_iff.
-    intuition auto.
-Qed.
-Lemma edges_inside_same (a0 a1 b0 b1 : integer_motion) t : inside true (vector_at (difference a1 a0) t)
-    (vector_at (difference b1 b0) t) (vector_at (difference b0 a0) t) <->
-  inside_edges (place (exact_motion a0) t) (place (exact_motion a1) t) (place (exact_motion b0) t)
-    (place (exact_motion b1) t).
-Proof.
-  rewrite !(@difference_at integers). unfold inside, inside_edges, weights. rewrite !Forall_cons_iff.
-    intuition auto.
+  intros. unfold query_border, edges_border_collides, face_border_collides.
+  destruct edges; cbn [vertex_edge_queries combine existsb];
+    rewrite !orb_true_iff, !vertex_edge_decision_right by easy; intuition discriminate.
 Qed.
 
 (** Without contact at a border. *)
-Lemma face_contact_inside (v f0 f1 f2 : integer_motion) :
-  ~ face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2) ->
-  contact_inside false (difference f1 f0) (difference f2 f0) (difference v f0) <->
-  vertex_face_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2).
+Lemma query_contact_inside edges (q0 q1 q2 q3 : integer_motion) :
+  ~ query_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3) ->
+  contact_inside edges (side_b edges difference q0 q1 q2 q3) (side_c edges difference q0 q1 q2 q3)
+    (side_p edges difference q0 q1 q2 q3) <->
+  query_collides edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3).
 Proof.
-  intros N. rewrite face_inside by easy. unfold contact_inside, sometime.
-  split; intros (t & T & Z & I); exists t; (split; [easy |]); split.
-  - now rewrite !(@difference_at integers) in Z.
-  - now apply face_inside_same.
-  - now rewrite !(@difference_at integers).
-  - now apply face_inside_same.
-Qed.
-Lemma edges_contact_inside (a0 a1 b0 b1 : integer_motion) :
-  ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1) ->
-  contact_inside true (difference a1 a0) (difference b1 b0) (difference b0 a0) <->
-  edge_edge_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1).
-Proof.
-  intros N. rewrite edges_inside by easy. unfold contact_inside, sometime.
-  split; intros (t & T & Z & I); exists t; (split; [easy |]); split.
-  - now rewrite !(@difference_at integers) in Z.
-  - now apply edges_inside_same.
-  - now rewrite !(@difference_at integers).
-  - now apply edges_inside_same.
+  intros N. rewrite query_inside by easy. apply sometime_same. intros t.
+  destruct (query_sides_at edges q0 q1 q2 q3 t) as (Eb & Ec & Ep). now rewrite Eb, Ec, Ep, query_inside_same.
 Qed.
 
+Lemma query_decision_right edges m0 m1 m2 m3 q0 q1 q2 q3 : in_integers unit m0 q0 -> in_integers unit m1 q1 ->
+  in_integers unit m2 q2 -> in_integers unit m3 q3 -> let found := decide edges m0 m1 m2 m3 q0 q1 q2 q3 in
+  (found = collides -> query_collides edges m0 m1 m2 m3) /\ (found = separate -> ~ query_collides edges m0 m1 m2 m3).
+Proof.
+  intros I0 I1 I2 I3. cbv zeta. pose proof (queries_contact edges m0 m1 m2 m3 q0 q1 q2 q3 I0 I1 I2 I3) as Border.
+  rewrite <- (query_border_units unit) in Border by easy. rewrite <- (query_units unit) by easy.
+  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in *.
+  unfold decide, contact_of. cbv zeta. destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp).
+  destruct (certainly_rootless _) eqn:R.
+  { split; [discriminate |]. intros _. now apply (query_rootless_separate edges q0 q1 q2 q3). }
+  destruct (existsb _ _).
+  { split; [intros _ | discriminate]. now apply query_border_collision, Border. }
+  assert (N : ~ query_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3)).
+  { intros H. now apply Border in H. }
+  destruct (interior_contact_right edges _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
+    (Yes & No).
+  pose proof (query_contact_inside edges q0 q1 q2 q3 N) as E.
+  split; intros O; [now apply E, Yes |]. destruct (No O) as [(I & Z) | I]; [| now rewrite <- E].
+  intros H. apply query_coplanar in H.
+  - destruct H as [H | H]; [| easy]. apply I. destruct (query_sides_at edges q0 q1 q2 q3 0) as (-> & -> & ->).
+    now apply query_inside_same.
+  - intros t T. specialize (Z t T). cbv beta in Z. destruct (query_sides_at edges q0 q1 q2 q3 t) as (Eb & Ec & Ep).
+    now rewrite Eb, Ec, Ep in Z.
+Qed.
 Theorem face_decision_right m0 m1 m2 m3 v f0 f1 f2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
   in_integers unit m2 f1 -> in_integers unit m3 f2 -> let found := decide false m0 m1 m2 m3 v f0 f1 f2 in
   (found = collides -> vertex_face_collides m0 m1 m2 m3) /\ (found = separate -> ~ vertex_face_collides m0 m1 m2 m3).
-Proof.
-  intros I0 I1 I2 I3. cbv zeta. pose proof (face_units unit m0 m1 m2 m3 U) as Same. cbv zeta in Same.
-  pose proof (face_edges m0 m1 m2 m3 v f0 f1 f2 I0 I1 I2 I3) as Border.
-  assert (Given : face_border_collides m0 m1 m2 m3 <->
-    face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
-  { unfold face_border_collides. now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
-  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in Same. rewrite <- Same. rewrite Given in Border.
-  clear Same Given. unfold decide, contact_of. cbv iota zeta. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp).
-  destruct (certainly_rootless _) eqn:R.
-  { split; [discriminate |]. intros _. now apply (face_rootless_separate v f0 f1 f2). }
-  destruct (existsb _ _).
-  { split; [intros _ | discriminate]. now apply face_border_collision, Border. }
-  assert (N : ~ face_border_collides (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)).
-  { intros H. now apply Border in H. }
-  destruct (interior_contact_right false _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
-    (Yes & No).
-  pose proof (face_contact_inside v f0 f1 f2 N) as E.
-  split; intros O; [now apply E, Yes |]. destruct (No O) as [(I & Z) | I]; [| now rewrite <- E].
-  intros H. apply face_coplanar in H.
-  - destruct H as [H | H]; [| easy]. now apply I, face_inside_same.
-  - intros t T. specialize (Z t T). now rewrite !(@difference_at integers) in Z.
-Qed.
+Proof. exact (query_decision_right false m0 m1 m2 m3 v f0 f1 f2). Qed.
 Theorem edges_decision_right m0 m1 m2 m3 a0 a1 b0 b1 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
   in_integers unit m2 b0 -> in_integers unit m3 b1 -> let found := decide true m0 m1 m2 m3 a0 a1 b0 b1 in
   (found = collides -> edge_edge_collides m0 m1 m2 m3) /\ (found = separate -> ~ edge_edge_collides m0 m1 m2 m3).
-Proof.
-  intros I0 I1 I2 I3. cbv zeta. pose proof (edges_units unit m0 m1 m2 m3 U) as Same. cbv zeta in Same.
-  pose proof (edges_edges m0 m1 m2 m3 a0 a1 b0 b1 I0 I1 I2 I3) as Border.
-  assert (Given : edges_border_collides m0 m1 m2 m3 <->
-    edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
-  { unfold edges_border_collides. now rewrite I0, I1, I2, I3, !(vertex_edge_units unit). }
-  unfold in_integers in *. rewrite <- I0, <- I1, <- I2, <- I3 in Same. rewrite <- Same. rewrite Given in Border.
-  clear Same Given. unfold decide, contact_of. cbv iota zeta. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp).
-  destruct (certainly_rootless _) eqn:R.
-  { split; [discriminate |]. intros _. now apply (edges_rootless_separate a0 a1 b0 b1). }
-  destruct (existsb _ _).
-  { split; [intros _ | discriminate]. now apply edges_border_collision, Border. }
-  assert (N : ~ edges_border_collides (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)).
-  { intros H. now apply Border in H. }
-  destruct (interior_contact_right true _ _ _ Db Dc Dp extent_x extent_y extent_z estimate refine steps) as
-    (Yes & No).
-  pose proof (edges_contact_inside a0 a1 b0 b1 N) as E.
-  split; intros O; [now apply E, Yes |]. destruct (No O) as [(I & Z) | I]; [| now rewrite <- E].
-  intros H. apply edges_coplanar in H.
-  - destruct H as [H | H]; [| easy]. now apply I, edges_inside_same.
-  - intros t T. specialize (Z t T). now rewrite !(@difference_at integers) in Z.
-Qed.
+Proof. exact (query_decision_right true m0 m1 m2 m3 a0 a1 b0 b1). Qed.
 
 End Decisions.

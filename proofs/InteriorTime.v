@@ -28,7 +28,7 @@ Variables extent_x extent_y extent_z : Z.
 Variable estimate : part -> Z.
 Variable refine : Z -> part -> Z -> Z -> Z -> Z.
 Let y : list R := map IZR (y_form b c p).
-Let Inside (t : R) : Prop := InteriorContact.inside edges (vector_at b t) (vector_at c t) (vector_at p t).
+Let Inside (t : R) : Prop := weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t).
 Let positive_at : R -> R -> bool := positive_at edges b c p.
 Let near := near edges b c p extent_x extent_y extent_z refine.
 Let good := good b c p.
@@ -438,7 +438,7 @@ Notation find edges b c p := (find edges b c p extent_x extent_y extent_z estima
 Lemma wanted_first edges b c p touches border inside_at :
   (forall t, touches t <-> (det (vector_at b t) (vector_at c t) (vector_at p t) = 0 /\ inside_at t) \/ border t) ->
   degree b 1 -> degree c 1 -> degree p 1 ->
-  (forall t, InteriorContact.inside edges (vector_at b t) (vector_at c t) (vector_at p t) <-> inside_at t) ->
+  (forall t, weights_positive edges (vector_at b t) (vector_at c t) (vector_at p t) <-> inside_at t) ->
   (sometime touches -> exists t, first touches t) ->
   (forall t, zero_throughout b c p -> first touches t -> t = 0 \/ border t) -> forall o, told double border o ->
   let s := find edges b c p (last_of o) in unplaced s = false -> found s <> undecided ->
@@ -457,6 +457,29 @@ Proof.
     + left. split; [now apply I | easy].
 Qed.
 
+Lemma query_time_right edges m0 m1 m2 m3 q0 q1 q2 q3 o : in_integers unit m0 q0 -> in_integers unit m1 q1 ->
+  in_integers unit m2 q2 -> in_integers unit m3 q3 ->
+  told double (query_on_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3)) o ->
+  let s := find edges (side_b edges Decisions.difference q0 q1 q2 q3) (side_c edges Decisions.difference q0 q1 q2 q3)
+    (side_p edges Decisions.difference q0 q1 q2 q3) (last_of o) in
+  unplaced s = false -> found s <> undecided ->
+    told double (query_touches edges m0 m1 m2 m3) (composed o (inside_time s)).
+Proof.
+  intros I0 I1 I2 I3 Border s Un O. pose proof (query_sides_at edges q0 q1 q2 q3) as Sides.
+  apply (told_same double (query_touches edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion
+    q3))).
+  { intros t. unfold in_integers, query_touches in *. rewrite I0, I1, I2, I3, !place_stretched.
+    destruct edges; [now apply segments_stretched | now apply triangle_stretched]. }
+  destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp).
+  apply wanted_first with (inside_at := query_inside_at edges (exact_motion q0) (exact_motion q1) (exact_motion q2)
+    (exact_motion q3))
+    (border := query_on_border edges (exact_motion q0) (exact_motion q1) (exact_motion q2) (exact_motion q3)); auto.
+  - intros t. destruct (Sides t) as (-> & -> & ->). apply query_times.
+  - intros t. destruct (Sides t) as (-> & -> & ->). apply query_inside_same.
+  - apply query_first.
+  - intros t Z F. apply query_planar_first; auto. intros r R0. specialize (Z r R0). cbv beta in Z.
+    destruct (Sides r) as (Eb & Ec & Ep). now rewrite Eb, Ec, Ep in Z.
+Qed.
 Theorem face_time_right m0 m1 m2 m3 v f0 f1 f2 o0 o1 o2 : in_integers unit m0 v -> in_integers unit m1 f0 ->
   in_integers unit m2 f1 -> in_integers unit m3 f2 ->
   border_time m0 m1 m2 v f0 f1 o0 -> border_time m0 m2 m3 v f1 f2 o1 -> border_time m0 m3 m1 v f2 f0 o2 ->
@@ -464,19 +487,11 @@ Theorem face_time_right m0 m1 m2 m3 v f0 f1 f2 o0 o1 o2 : in_integers unit m0 v 
   let s := find false (Decisions.difference f1 f0) (Decisions.difference f2 f0) (Decisions.difference v f0) (last_of o) in
   unplaced s = false -> found s <> undecided -> told double (face_touches m0 m1 m2 m3) (composed o (inside_time s)).
 Proof.
-  intros I0 I1 I2 I3 B0 B1 B2 o s Un O. apply (border_told _ _ _ _ _ _ _ I0 I1 I2) in B0.
+  intros I0 I1 I2 I3 B0 B1 B2 o. apply (border_told _ _ _ _ _ _ _ I0 I1 I2) in B0.
   apply (border_told _ _ _ _ _ _ _ I0 I2 I3) in B1. apply (border_told _ _ _ _ _ _ _ I0 I3 I1) in B2.
-  apply (told_same double (face_touches (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2))).
-  { intros t. unfold in_integers, face_touches in *. rewrite I0, I1, I2, I3, !place_stretched. now apply triangle_stretched. }
-  destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp).
-  apply wanted_first with (border := on_face_border (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2))
-    (inside_at := face_inside_at (exact_motion v) (exact_motion f0) (exact_motion f1) (exact_motion f2)); auto.
-  - intros t. rewrite !(@difference_at integers). apply face_times.
-  - intros t. apply face_inside_same.
-  - apply face_first.
-  - intros t Z F. apply face_planar_first; auto. intros r R0. specialize (Z r R0). now rewrite !(@difference_at integers) in Z.
-  - eapply (told_same double); [| unfold o; repeat eapply earlier_right; eassumption].
-    intros t. unfold either, on_face_border. tauto.
+  refine (query_time_right false m0 m1 m2 m3 v f0 f1 f2 o I0 I1 I2 I3 _).
+  eapply (told_same double); [| unfold o; repeat eapply earlier_right; eassumption].
+  intros t. unfold either, query_on_border, on_face_border. tauto.
 Qed.
 Theorem edges_time_right m0 m1 m2 m3 a0 a1 b0 b1 o0 o1 o2 o3 : in_integers unit m0 a0 -> in_integers unit m1 a1 ->
   in_integers unit m2 b0 -> in_integers unit m3 b1 ->
@@ -486,20 +501,12 @@ Theorem edges_time_right m0 m1 m2 m3 a0 a1 b0 b1 o0 o1 o2 o3 : in_integers unit 
   let s := find true (Decisions.difference a1 a0) (Decisions.difference b1 b0) (Decisions.difference b0 a0) (last_of o) in
   unplaced s = false -> found s <> undecided -> told double (edges_touch m0 m1 m2 m3) (composed o (inside_time s)).
 Proof.
-  intros I0 I1 I2 I3 B0 B1 B2 B3 o s Un O. apply (border_told _ _ _ _ _ _ _ I0 I2 I3) in B0.
+  intros I0 I1 I2 I3 B0 B1 B2 B3 o. apply (border_told _ _ _ _ _ _ _ I0 I2 I3) in B0.
   apply (border_told _ _ _ _ _ _ _ I1 I2 I3) in B1. apply (border_told _ _ _ _ _ _ _ I2 I0 I1) in B2.
   apply (border_told _ _ _ _ _ _ _ I3 I0 I1) in B3.
-  apply (told_same double (edges_touch (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1))).
-  { intros t. unfold in_integers, edges_touch in *. rewrite I0, I1, I2, I3, !place_stretched. now apply segments_stretched. }
-  destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp).
-  apply wanted_first with (border := on_edges_border (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1))
-    (inside_at := edges_inside_at (exact_motion a0) (exact_motion a1) (exact_motion b0) (exact_motion b1)); auto.
-  - intros t. rewrite !(@difference_at integers). apply edges_times.
-  - intros t. apply edges_inside_same.
-  - apply edges_first.
-  - intros t Z F. apply edges_planar_first; auto. intros r R0. specialize (Z r R0). now rewrite !(@difference_at integers) in Z.
-  - eapply (told_same double); [| unfold o; repeat eapply earlier_right; eassumption].
-    intros t. unfold either, on_edges_border. tauto.
+  refine (query_time_right true m0 m1 m2 m3 a0 a1 b0 b1 o I0 I1 I2 I3 _).
+  eapply (told_same double); [| unfold o; repeat eapply earlier_right; eassumption].
+  intros t. unfold either, query_on_border, on_edges_border. tauto.
 Qed.
 
 End Kinds.

@@ -137,36 +137,26 @@ Qed.
 
 (** ** The decisions *)
 
-Definition reference_decides_face (v f0 f1 f2 : given) : bool :=
-  let i := to_integers [v; f0; f1; f2] in
-  let b := difference (i f1) (i f0) in
-  let c := difference (i f2) (i f0) in
-  let p := difference (i v) (i f0) in
-  regular_contact (y_form b c p) (inside_face_forms b c p) (normal_squared b c) || face_border finder v
-    f0 f1 f2.
-Definition reference_decides_edges (a0 a1 b0 b1 : given) : bool :=
-  let i := to_integers [a0; a1; b0; b1] in
-  let b := difference (i a1) (i a0) in
-  let c := difference (i b1) (i b0) in
-  let p := difference (i b0) (i a0) in
-  regular_contact (y_form b c p) (inside_edges_forms b c p) (normal_squared b c) || edges_border finder
-    a0 a1 b0 b1.
+Definition reference_decides (edges : bool) (q0 q1 q2 q3 : given) : bool :=
+  let i := to_integers [q0; q1; q2; q3] in
+  let b := side_b edges difference (i q0) (i q1) (i q2) (i q3) in
+  let c := side_c edges difference (i q0) (i q1) (i q2) (i q3) in
+  let p := side_p edges difference (i q0) (i q1) (i q2) (i q3) in
+  regular_contact (y_form b c p) (inside_forms edges b c p) (normal_squared b c) ||
+  query_border_touched finder edges q0 q1 q2 q3.
+Definition reference_decides_face : given -> given -> given -> given -> bool := reference_decides false.
+Definition reference_decides_edges : given -> given -> given -> given -> bool := reference_decides true.
 
 (** What they ask of the finder. *)
-Definition reference_face_meets (d : demands) (v f0 f1 f2 : given) : Prop :=
-  let i := to_integers [v; f0; f1; f2] in
-  let b := difference (i f1) (i f0) in
-  let c := difference (i f2) (i f0) in
-  let p := difference (i v) (i f0) in
-  regular_meets d (y_form b c p) (inside_face_forms b c p) (normal_squared b c) /\
-  face_border_meets finder d v f0 f1 f2.
-Definition reference_edges_meets (d : demands) (a0 a1 b0 b1 : given) : Prop :=
-  let i := to_integers [a0; a1; b0; b1] in
-  let b := difference (i a1) (i a0) in
-  let c := difference (i b1) (i b0) in
-  let p := difference (i b0) (i a0) in
-  regular_meets d (y_form b c p) (inside_edges_forms b c p) (normal_squared b c) /\
-  edges_border_meets finder d a0 a1 b0 b1.
+Definition reference_meets (edges : bool) (d : demands) (q0 q1 q2 q3 : given) : Prop :=
+  let i := to_integers [q0; q1; q2; q3] in
+  let b := side_b edges difference (i q0) (i q1) (i q2) (i q3) in
+  let c := side_c edges difference (i q0) (i q1) (i q2) (i q3) in
+  let p := side_p edges difference (i q0) (i q1) (i q2) (i q3) in
+  regular_meets d (y_form b c p) (inside_forms edges b c p) (normal_squared b c) /\
+  query_border_meets finder edges d q0 q1 q2 q3.
+Definition reference_face_meets : demands -> given -> given -> given -> given -> Prop := reference_meets false.
+Definition reference_edges_meets : demands -> given -> given -> given -> given -> Prop := reference_meets true.
 
 Lemma normal_form (b c : @vector_form integers) t : degree b 1 -> degree c 1 ->
   form_at (normal_squared b c) t = square_normal (vector_at b t) (vector_at c t) /\ length
@@ -180,111 +170,53 @@ Proof.
   unfold square_normal. split; intros N E; apply N; [now apply square_origin | now apply square_0].
 Qed.
 
-Lemma decides_face (v f0 f1 f2 : @moving_point integers) border :
-  let v' := exact_motion v in let f0' := exact_motion f0 in let f1' := exact_motion f1 in let f2' :=
-    exact_motion f2 in
-  border = true <-> face_border_collides v' f0' f1' f2' ->
-  let b := difference f1 f0 in let c := difference f2 f0 in let p := difference v f0 in
-  regular_meets (promises finder) (y_form b c p) (inside_face_forms b c p) (normal_squared b c) ->
-  regular_contact (y_form b c p) (inside_face_forms b c p) (normal_squared b c) || border = true <->
-  vertex_face_collides v' f0' f1' f2'.
+Lemma query_decides edges (q0 q1 q2 q3 : @moving_point integers) border :
+  let m0 := exact_motion q0 in let m1 := exact_motion q1 in let m2 := exact_motion q2 in let m3 := exact_motion q3 in
+  border = true <-> query_border edges m0 m1 m2 m3 ->
+  let b := side_b edges difference q0 q1 q2 q3 in let c := side_c edges difference q0 q1 q2 q3 in
+  let p := side_p edges difference q0 q1 q2 q3 in
+  regular_meets (promises finder) (y_form b c p) (inside_forms edges b c p) (normal_squared b c) ->
+  regular_contact (y_form b c p) (inside_forms edges b c p) (normal_squared b c) || border = true <->
+  query_collides edges m0 m1 m2 m3.
 Proof.
-  intros v' f0' f1' f2' Border b c p Asked. destruct (degrees_face v f0 f1 f2) as (Db & Dc & Dp). fold b c p
-    in Db, Dc, Dp.
-  destruct (forms_y b c p 0 Db Dc Dp) as (_ & L). destruct (forms_weights b c p 0 Db Dc Dp) as (_ & _ &
-    F & _).
-  destruct (normal_form b c 0 Db Dc) as (_ & N).
+  intros m0 m1 m2 m3 Border b c p Asked.
+  destruct (query_degrees edges q0 q1 q2 q3) as (Db & Dc & Dp), (query_lengths edges q0 q1 q2 q3) as (L & F).
+  fold b c p in Db, Dc, Dp, L, F. destruct (normal_form b c 0 Db Dc) as (_ & N).
   destruct (regular_contact_right _ _ _ Asked L F N) as (To & From).
-  assert (R : forall t, regular_at (y_form b c p) (inside_face_forms b c p) (normal_squared b c) t <->
-    face_regular_at v' f0' f1' f2' t).
-  { intros t. unfold regular_at, face_regular_at, regular_face, v', f0', f1', f2'. rewrite <-
-    !difference_at. fold b c p.
+  pose proof (query_sides_at edges q0 q1 q2 q3) as Sides. fold b c p m0 m1 m2 m3 in Sides.
+  assert (R : forall t, regular_at (y_form b c p) (inside_forms edges b c p) (normal_squared b c) t <->
+    query_regular_at edges m0 m1 m2 m3 t).
+  { intros t. destruct (Sides t) as (Eb & Ec & Ep). rewrite query_regular, <- Eb, <- Ec, <- Ep. unfold regular_at.
     rewrite (proj1 (normal_form b c t Db Dc)), normal_vanishes, (proj1 (forms_y b c p t Db Dc Dp)).
-    rewrite <- (Forall_map (fun g => form_at g t) (Rle 0)), (proj1 (forms_weights b c p t Db Dc Dp)),
-      !Forall_cons_iff.
-    intuition. }
-  rewrite orb_true_iff, Border, vertex_face_union. split.
-  - intros [H | H]; [left | now right]. destruct (To H) as (t & T & H'). exists t. split; auto. now
-    apply R.
-  - intros [(t & T & H) | H]; [| now right]. apply R in H. destruct (From t T H) as [| (_ & Z)]; [now
-    left |].
-    assert (Y : forall u, 0 <= u <= 1 -> det (minus (place f1' u) (place f0' u)) (minus (place f2' u)
-      (place f0' u))
-      (minus (place v' u) (place f0' u)) = 0).
-    { intros u _. unfold v', f0', f1', f2'. rewrite <- !difference_at. fold b c p. now rewrite <- (proj1
-      (forms_y b c p u Db Dc Dp)). }
-    assert (C : vertex_face_collides v' f0' f1' f2') by (apply vertex_face_union; left; exists t; split;
-      auto; now apply R).
-    apply (face_coplanar v' f0' f1' f2' Y) in C. destruct C as [I | B]; [left | now right].
-    destruct (From 0 ltac:(lra)) as [| (X & _)]; auto; [| lra].
-    apply R, inside_face_regular; auto. apply Y. lra.
+    unfold b, c, p at 2. rewrite (query_weights_at edges q0 q1 q2 q3 (Rle 0) t). tauto. }
+  rewrite orb_true_iff, Border, query_union. split.
+  - intros [H | H]; [left | now right]. destruct (To H) as (t & T & H'). exists t. split; auto. now apply R.
+  - intros [(t & T & H) | H]; [| now right]. apply R in H. destruct (From t T H) as [| (_ & Z)]; [now left |].
+    assert (Y : forall u, det (side_b edges minus (place m0 u) (place m1 u) (place m2 u) (place m3 u))
+      (side_c edges minus (place m0 u) (place m1 u) (place m2 u) (place m3 u))
+      (side_p edges minus (place m0 u) (place m1 u) (place m2 u) (place m3 u)) = 0).
+    { intros u. destruct (Sides u) as (<- & <- & <-). now rewrite <- (proj1 (forms_y b c p u Db Dc Dp)). }
+    assert (C : query_collides edges m0 m1 m2 m3) by (apply query_union; left; exists t; split; auto; now apply R).
+    apply query_coplanar in C; [| easy]. destruct C as [I | B]; [left | now right].
+    destruct (From 0 ltac:(lra)) as [| (X & _)]; auto; [| lra]. now apply R, query_inside_regular.
 Qed.
-Lemma decides_edges (a0 a1 b0 b1 : @moving_point integers) border :
-  let a0' := exact_motion a0 in let a1' := exact_motion a1 in let b0' := exact_motion b0 in let b1' :=
-    exact_motion b1 in
-  border = true <-> edges_border_collides a0' a1' b0' b1' ->
-  let b := difference a1 a0 in let c := difference b1 b0 in let p := difference b0 a0 in
-  regular_meets (promises finder) (y_form b c p) (inside_edges_forms b c p) (normal_squared b c) ->
-  regular_contact (y_form b c p) (inside_edges_forms b c p) (normal_squared b c) || border = true <->
-  edge_edge_collides a0' a1' b0' b1'.
+Lemma query_reference edges (q0 q1 q2 q3 : given) : reference_meets edges (promises finder) q0 q1 q2 q3 ->
+  reference_decides edges q0 q1 q2 q3 = true <->
+  query_collides edges (given_motion q0) (given_motion q1) (given_motion q2) (given_motion q3).
 Proof.
-  intros a0' a1' b0' b1' Border b c p Asked. destruct (degrees_edges a0 a1 b0 b1) as (Db & Dc & Dp). fold b c
-    p in Db, Dc, Dp.
-  destruct (forms_y b c p 0 Db Dc Dp) as (_ & L). destruct (forms_weights b c p 0 Db Dc Dp) as (_ & _ &
-    _ & F).
-  destruct (normal_form b c 0 Db Dc) as (_ & N).
-  destruct (regular_contact_right _ _ _ Asked L F N) as (To & From).
-  assert (R : forall t, regular_at (y_form b c p) (inside_edges_forms b c p) (normal_squared b c) t <->
-    edges_regular_at a0' a1' b0' b1' t).
-  { intros t. unfold regular_at, edges_regular_at, regular_edges, a0', a1', b0', b1'. rewrite <-
-    !difference_at. fold b c p.
-    rewrite (proj1 (normal_form b c t Db Dc)), normal_vanishes, (proj1 (forms_y b c p t Db Dc Dp)).
-    rewrite <- (Forall_map (fun g => form_at g t) (Rle 0)), (proj1 (proj2 (forms_weights b c p t Db Dc
-      Dp))), !Forall_cons_iff.
-    intuition. }
-  rewrite orb_true_iff, Border, edge_edge_union. split.
-  - intros [H | H]; [left | now right]. destruct (To H) as (t & T & H'). exists t. split; auto. now
-    apply R.
-  - intros [(t & T & H) | H]; [| now right]. apply R in H. destruct (From t T H) as [| (_ & Z)]; [now
-    left |].
-    assert (Y : forall u, 0 <= u <= 1 -> det (minus (place a1' u) (place a0' u)) (minus (place b1' u)
-      (place b0' u))
-      (minus (place b0' u) (place a0' u)) = 0).
-    { intros u _. unfold a0', a1', b0', b1'. rewrite <- !difference_at. fold b c p. now rewrite <-
-      (proj1 (forms_y b c p u Db Dc Dp)). }
-    assert (C : edge_edge_collides a0' a1' b0' b1') by (apply edge_edge_union; left; exists t; split;
-      auto; now apply R).
-    apply (edges_coplanar a0' a1' b0' b1' Y) in C. destruct C as [I | B]; [left | now right].
-    destruct (From 0 ltac:(lra)) as [| (X & _)]; auto; [| lra].
-    apply R, inside_edges_regular; auto. apply Y. lra.
+  intros (Regular & Border). destruct (query_in_integers q0 q1 q2 q3) as (K & E0 & E1 & E2 & E3).
+  unfold in_integers in *. rewrite <- (query_units _ edges _ _ _ _ K), <- E0, <- E1, <- E2, <- E3.
+  apply query_decides; [| exact Regular]. rewrite query_border_right by exact Border.
+  rewrite E0, E1, E2, E3. symmetry. now apply query_border_units.
 Qed.
-
 Theorem reference_face (v f0 f1 f2 : given) : reference_face_meets (promises finder) v f0 f1 f2 ->
   reference_decides_face v f0 f1 f2 = true <->
   vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
-Proof.
-  intros (Regular & Border). unfold reference_decides_face. set (q := [v; f0; f1; f2]).
-  assert (In v q /\ In f0 q /\ In f1 q /\ In f2 q) as (I & I0 & I1 & I2) by (simpl; tauto).
-  destruct (to_integers_right q v I) as (K & E). destruct (to_integers_right q f0 I0) as (_ & E0).
-  destruct (to_integers_right q f1 I1) as (_ & E1). destruct (to_integers_right q f2 I2) as (_ & E2).
-  unfold in_integers in *. rewrite <- (face_units (unit_of q)) by exact K. rewrite <- E, <- E0, <- E1,
-    <- E2.
-  apply decides_face; [| exact Regular]. rewrite face_border_right by exact Border. unfold face_border_collides.
-  now rewrite E, E0, E1, E2, !(vertex_edge_units (unit_of q)).
-Qed.
+Proof. exact (query_reference false v f0 f1 f2). Qed.
 Theorem reference_edges (a0 a1 b0 b1 : given) : reference_edges_meets (promises finder) a0 a1 b0 b1 ->
   reference_decides_edges a0 a1 b0 b1 = true <->
   edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
-Proof.
-  intros (Regular & Border). unfold reference_decides_edges. set (q := [a0; a1; b0; b1]).
-  assert (In a0 q /\ In a1 q /\ In b0 q /\ In b1 q) as (I0 & I1 & I2 & I3) by (simpl; tauto).
-  destruct (to_integers_right q a0 I0) as (K & E0). destruct (to_integers_right q a1 I1) as (_ & E1).
-  destruct (to_integers_right q b0 I2) as (_ & E2). destruct (to_integers_right q b1 I3) as (_ & E3).
-  unfold in_integers in *. rewrite <- (edges_units (unit_of q)) by exact K. rewrite <- E0, <- E1, <- E2,
-    <- E3.
-  apply decides_edges; [| exact Regular]. rewrite edges_border_right by exact Border. unfold edges_border_collides.
-  now rewrite E0, E1, E2, E3, !(vertex_edge_units (unit_of q)).
-Qed.
+Proof. exact (query_reference true a0 a1 b0 b1). Qed.
 
 Definition reference_decides_vertex_edge (v e0 e1 : given) : bool :=
   edge_contact finder [v; e0; e1] v e0 e1.

@@ -928,9 +928,9 @@ Definition rounded_to (v k : R) (is_exact : bool) : option R :=
   if is_exact then Some k
   else if Rle_bool smallest_normal (Rabs v) then Some (count_sum k 1) else None.
 Definition rounded_sum (k : R) (is_exact : bool) : R := if is_exact then k else count_sum k 1.
-Definition relative_add (a ka b kb : R) : option R :=
+(** `is_exact`: what error_free.hpp's transformations tell of the rounded sum; so of products and quotients. *)
+Definition relative_add (a ka b kb : R) (is_exact : bool) : option R :=
   let v := fl (a + b) in
-  let is_exact := Req_bool (snd (two_sum p emin a b)) 0 in
   let k := if Rlt_bool ka kb then kb else ka in
   if Req_bool k 0 || (Rle_bool 0 a && Rle_bool 0 b) || (Rle_bool a 0 && Rle_bool b 0)
   then Some (rounded_sum k is_exact)
@@ -947,9 +947,8 @@ Definition relative_add (a ka b kb : R) : option R :=
       else None
     | _, _ => None
     end.
-Definition relative_subtract (a ka b kb : R) : option R := relative_add a ka (- b) kb.
+Definition relative_subtract (a ka b kb : R) (is_exact : bool) : option R := relative_add a ka (- b) kb is_exact.
 Definition is_zero (a ka : R) : bool := Req_bool a 0 && Req_bool ka 0.
-(** `is_exact`: what error_free.hpp's transformations tell of v, the rounded product or quotient. *)
 Definition relative_multiply (v a ka b kb : R) (is_exact : bool) : option R :=
   if is_zero a ka || is_zero b kb then Some 0 else rounded_to v (count_sum ka kb) is_exact.
 Definition relative_divide (v a ka b kb : R) (is_exact : bool) : option R :=
@@ -1099,20 +1098,12 @@ Proof.
   - destruct (Rle_or_lt 0 x) as [H | H]; auto. assert (0 < - v * x) by (apply Rmult_lt_0_compat; lra). lra.
 Qed.
 
-Lemma two_sum_tells a b : number a -> number b -> snd (two_sum p emin a b) = 0 -> fl (a + b) = a + b.
+Theorem relative_add_sound a ka x b kb y (is_exact : bool) k : holds a ka x -> holds b kb y ->
+  (is_exact = true -> fl (a + b) = a + b) ->
+  relative_add a ka b kb is_exact = Some k -> holds (fl (a + b)) k (x + y).
 Proof.
-  intros A B H. generalize (two_sum_exact p emin ltac:(lia) a b ltac:(lia) A B). rewrite H.
-  change (fst (two_sum p emin a b)) with (fl (a + b)). lra.
-Qed.
-
-Theorem relative_add_sound a ka x b kb y k : holds a ka x -> holds b kb y ->
-  relative_add a ka b kb = Some k -> holds (fl (a + b)) k (x + y).
-Proof.
-  intros HA HB. assert (HA' := HA). assert (HB' := HB).
+  intros HA HB X. assert (HA' := HA). assert (HB' := HB).
   destruct HA' as (NA & DA & PA & CA), HB' as (NB & DB & PB & CB). unfold relative_add.
-  set (is_exact := Req_bool (snd (two_sum p emin a b)) 0).
-  assert (X : is_exact = true -> fl (a + b) = a + b).
-  { unfold is_exact. case Req_bool_spec; [| discriminate]. intros H _. now apply two_sum_tells. }
   assert (W := w_positive). assert (CR := close_rounded_sum a b NA NB).
   set (m := if Rlt_bool ka kb then kb else ka).
   assert (M : ka <= m /\ kb <= m /\ double m).
@@ -1147,16 +1138,18 @@ Proof.
     unfold rounded_sum. apply holds_rounded with (z := a + b); auto.
     apply C.
     + unfold least. case_eq is_exact; intros IE; [rewrite (X IE); lra |].
-      apply lower_sum_sound; auto; try lia. intros H. unfold is_exact in IE. revert IE.
-      case Req_bool_spec; [discriminate |]. intros S _. apply S.
-      generalize (two_sum_exact p emin ltac:(lia) a b ltac:(lia) NA NB).
-      change (fst (two_sum p emin a b)) with (fl (a + b)). lra.
+      destruct (Req_dec (fl (a + b)) (a + b)) as [S | S]; [| apply lower_sum_sound; auto; lia].
+      rewrite S. apply rnd_below; auto with typeclass_instances; [rewrite <- S; apply number_abs, number_fl |].
+      rewrite <- (Rmult_1_r (Rabs (a + b))) at 2. apply Rmult_le_compat_l; [apply Rabs_pos |].
+      apply rnd_below; auto with typeclass_instances; [| generalize (eps_positive p); lra].
+      change 1 with (bpow radix2 0). apply number_power; auto. lia.
     + replace (a + b - (x + y)) with ((a - x) + (b - y)) by ring.
       apply Rle_trans with (1 := Rabs_triang _ _). lra.
 Qed.
 
-Theorem relative_subtract_sound a ka x b kb y k : holds a ka x -> holds b kb y ->
-  relative_subtract a ka b kb = Some k -> holds (fl (a - b)) k (x - y).
+Theorem relative_subtract_sound a ka x b kb y (is_exact : bool) k : holds a ka x -> holds b kb y ->
+  (is_exact = true -> fl (a - b) = a - b) ->
+  relative_subtract a ka b kb is_exact = Some k -> holds (fl (a - b)) k (x - y).
 Proof.
   intros HA HB. unfold relative_subtract, Rminus. apply relative_add_sound; auto.
   now apply relative_negate_sound.

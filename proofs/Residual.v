@@ -142,19 +142,7 @@ Proof.
   - lra.
 Qed.
 Lemma number_factor : number (1 + bpow radix2 (4 - p)).
-Proof.
-  destruct (Z.eq_dec p 3) as [P | P].
-  { replace (1 + bpow radix2 (4 - p)) with (IZR 3 * bpow radix2 0) by (rewrite P; simpl; lra).
-    apply number_integer; auto; [lia |]. rewrite P. simpl. lia. }
-  replace (1 + bpow radix2 (4 - p)) with (IZR (2 ^ (p - 4) + 1) * bpow radix2 (4 - p)).
-  - apply number_integer; auto; try lia.
-    assert (1 <= 2 ^ (p - 4))%Z by (apply (Z.pow_le_mono_r 2 0); lia).
-    rewrite Z.abs_eq by lia. replace p with (p - 4 + 4)%Z at 2 by lia.
-    rewrite Z.pow_add_r by lia. simpl (2 ^ 4)%Z. lia.
-  - rewrite plus_IZR, Rmult_plus_distr_r.
-    change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus.
-    replace (p - 4 + (4 - p))%Z with 0%Z by lia. simpl. lra.
-Qed.
+Proof. apply number_1_power; auto; lia. Qed.
 Lemma inflated_exact x : inflated x = fl (x * (1 + 16 * u)).
 Proof.
   unfold inflated. replace (8 * eps) with (bpow radix2 (4 - p)).
@@ -283,34 +271,14 @@ Proof.
   generalize u_8 (eta_positive emin). intros U P. unfold half_ulp. set (v := fl s).
   assert (W : 0 <= fl (Rabs v * u)) by (apply rnd_nonnegative, Rmult_le_pos; [apply Rabs_pos | lra]).
   destruct (Rle_or_lt (bpow radix2 (p + emin)) (Rabs v)) as [C | C].
-  - apply Rle_trans with (fl (Rabs v * u)).
-    2: { apply rnd_above; [apply rnd_number | lra]. }
-    apply Rle_trans with (/ 2 * ulp radix2 (FLT_exp emin p) v).
-    { apply error_le_half_ulp_round; auto with typeclass_instances. }
-    assert (NZ : v <> 0).
-    { intros Z. rewrite Z, Rabs_R0 in C. generalize (bpow_gt_0 radix2 (p + emin)). lra. }
-    apply rnd_above.
-    + rewrite ulp_neq_0; auto. replace (/ 2) with (bpow radix2 (-1)) by reflexivity.
-      rewrite <- bpow_plus. apply number_power; auto.
-      assert (p + emin < mag radix2 v)%Z by (apply mag_gt_bpow; auto).
-      unfold cexp, FLT_exp. lia.
-    + assert (ulp radix2 (FLT_exp emin p) v <= Rabs v * bpow radix2 (1 - p)).
-      { apply ulp_FLT_le; auto. apply Rle_trans with (2 := C). apply bpow_le. lia. }
-      change (bpow radix2 (1 - p)) with eps in *. rewrite eps_2u in *. lra.
+  - apply Rle_trans with (fl (Rabs v * u)); [now apply error_of_large | apply rnd_above; [apply rnd_number | lra]].
   - apply Rle_trans with eta; [| apply rnd_above; [now apply number_eta | lra]].
-    apply Rle_trans with (eta / 2); [| lra].
-    replace (eta / 2) with (/ 2 * ulp radix2 (FLT_exp emin p) v).
-    + apply error_le_half_ulp_round; auto with typeclass_instances.
-    + rewrite ulp_FLT_small; auto. unfold Format.eta. field. rewrite Z.add_comm. exact C.
+    generalize (error_of_small p emin s C). fold v. lra.
 Qed.
 
 (** What the roundings of two products and of two sums take at most. *)
 Lemma number_4_eta : number (4 * eta).
-Proof.
-  replace (4 * eta) with (bpow radix2 (2 + emin)).
-  - apply number_power; auto. lia.
-  - now rewrite bpow_plus.
-Qed.
+Proof. exact (number_eta_times p emin 2 ltac:(lia)). Qed.
 Lemma roundings_cover X Y a b c d : number a -> number b -> number c -> number d ->
   covered 3 (- (9 / 4 * eta))
     (Rabs (fl X - X) + Rabs (fl Y - Y) + (Rabs (fl (a + b) - (a + b)) + Rabs (fl (c + d) - (c + d))))

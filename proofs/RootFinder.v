@@ -202,14 +202,23 @@ Proof.
   intros (R & S). exact (conj (roots_promised _ R) (Forall_impl _ (fun f => signs_promised _ (without_end_roots f)) S)).
 Qed.
 
+Lemma query_border_promised edges q0 q1 q2 q3 : query_border_meets isolation edges returned q0 q1 q2 q3 ->
+  query_border_meets isolation edges (promises isolation) q0 q1 q2 q3.
+Proof. destruct edges; [exact (edges_border_promised q0 q1 q2 q3) | exact (face_border_promised q0 q1 q2 q3)]. Qed.
+Lemma query_reference_by_isolation edges q0 q1 q2 q3 : reference_meets isolation edges returned q0 q1 q2 q3 ->
+  reference_decides isolation edges q0 q1 q2 q3 = true <->
+  query_collides edges (given_motion q0) (given_motion q1) (given_motion q2) (given_motion q3).
+Proof.
+  intros (R & B). apply query_reference. exact (conj (regular_promised _ _ _ R) (query_border_promised _ _ _ _ _ B)).
+Qed.
 Theorem reference_face_by_isolation v f0 f1 f2 : reference_face_meets isolation returned v f0 f1 f2 ->
   reference_decides_face isolation v f0 f1 f2 = true <->
   vertex_face_collides (given_motion v) (given_motion f0) (given_motion f1) (given_motion f2).
-Proof. intros (R & B). apply reference_face. exact (conj (regular_promised _ _ _ R) (face_border_promised _ _ _ _ B)). Qed.
+Proof. exact (query_reference_by_isolation false v f0 f1 f2). Qed.
 Theorem reference_edges_by_isolation a0 a1 b0 b1 : reference_edges_meets isolation returned a0 a1 b0 b1 ->
   reference_decides_edges isolation a0 a1 b0 b1 = true <->
   edge_edge_collides (given_motion a0) (given_motion a1) (given_motion b0) (given_motion b1).
-Proof. intros (R & B). apply reference_edges. exact (conj (regular_promised _ _ _ R) (edges_border_promised _ _ _ _ B)). Qed.
+Proof. exact (query_reference_by_isolation true a0 a1 b0 b1). Qed.
 Theorem reference_vertex_edge_by_isolation v e0 e1 : edge_contact_meets isolation returned [v; e0; e1] v e0 e1 ->
   reference_decides_vertex_edge isolation v e0 e1 = true <->
   vertex_edge_collides (given_motion v) (given_motion e0) (given_motion e1).

@@ -382,6 +382,9 @@ Proof.
   intros T (Nq & Bq) (Nr & Br). destruct (Nq e) as (? & ? & ?), (Nr e) as (? & ? & ?). now apply T.
 Qed.
 
+Ltac by_gap t H := intros e; apply told with t; auto; specialize (H e); apply gap_of in H; auto; revert H;
+  unfold Rmax, Rmin; repeat match goal with |- context [Rle_dec ?r ?s] =>
+    lazymatch constr:((r, s)) with context [Rle_dec] => fail | _ => destruct (Rle_dec r s) end end; lra.
 Theorem rounded_face_separate v f0 f1 f2 : in_frame v -> in_frame f0 -> in_frame f1 -> in_frame f2 ->
   separated_in_float (fun a e => let at_ q := fst a (rounded_point f (at_end q e)) in
                               face_gap (at_ v) (at_ f0) (at_ f1) (at_ f2)) = true ->
@@ -390,19 +393,8 @@ Proof.
   intros V F0 F1 F2 H. apply separated_axis in H. destruct H as (a & t & N & T & H). unfold face_gap in H.
     cbv zeta in H.
   cbn [fst snd] in H. destruct H as [H | H].
-  - apply (face_separated (minus origin (snd a))); apply before_opposite, before_of; intros e;
-    apply told with t; auto;
-      specialize (H e); apply gap_of in H; auto; revert H;
-      generalize (fst a (rounded_point f (at_end v e))) (fst a (rounded_point f (at_end f0 e)))
-        (fst a (rounded_point f (at_end f1 e))) (fst a (rounded_point f (at_end f2 e))); intros r i j k;
-      pose proof (Rmax_l (Rmax i j) k); pose proof (Rmax_r (Rmax i j) k); pose proof (Rmax_l i j);
-      pose proof (Rmax_r i j); lra.
-  - apply (face_separated (snd a)); apply before_of; intros e; apply told with t; auto;
-      specialize (H e); apply gap_of in H; auto; revert H;
-      generalize (fst a (rounded_point f (at_end v e))) (fst a (rounded_point f (at_end f0 e)))
-        (fst a (rounded_point f (at_end f1 e))) (fst a (rounded_point f (at_end f2 e))); intros r i j k;
-      pose proof (Rmin_l (Rmin i j) k); pose proof (Rmin_r (Rmin i j) k); pose proof (Rmin_l i j);
-      pose proof (Rmin_r i j); lra.
+  - apply (face_separated (minus origin (snd a))); apply before_opposite, before_of; by_gap t H.
+  - apply (face_separated (snd a)); apply before_of; by_gap t H.
 Qed.
 Theorem rounded_edges_separate a0 a1 b0 b1 : in_frame a0 -> in_frame a1 -> in_frame b0 -> in_frame b1 ->
   separated_in_float (fun a e => let at_ q := fst a (rounded_point f (at_end q e)) in
@@ -412,17 +404,8 @@ Proof.
   intros A0 A1 B0 B1 H. apply separated_axis in H. destruct H as (a & t & N & T & H). unfold edges_gap in H.
     cbv zeta in H.
   cbn [fst snd] in H. destruct H as [H | H].
-  - apply (edges_separated (snd a)); apply before_of; intros e; apply told with t; auto;
-      specialize (H e); apply gap_of in H; auto; revert H;
-      generalize (fst a (rounded_point f (at_end a0 e))) (fst a (rounded_point f (at_end a1 e)))
-        (fst a (rounded_point f (at_end b0 e))) (fst a (rounded_point f (at_end b1 e))); intros i j k l;
-      pose proof (Rmax_l i j); pose proof (Rmax_r i j); pose proof (Rmin_l k l); pose proof (Rmin_r k l); lra.
-  - apply (edges_separated (minus origin (snd a))); apply before_opposite, before_of; intros e;
-    apply told with t; auto;
-      specialize (H e); apply gap_of in H; auto; revert H;
-      generalize (fst a (rounded_point f (at_end a0 e))) (fst a (rounded_point f (at_end a1 e)))
-        (fst a (rounded_point f (at_end b0 e))) (fst a (rounded_point f (at_end b1 e))); intros i j k l;
-      pose proof (Rmin_l i j); pose proof (Rmin_r i j); pose proof (Rmax_l k l); pose proof (Rmax_r k l); lra.
+  - apply (edges_separated (snd a)); apply before_of; by_gap t H.
+  - apply (edges_separated (minus origin (snd a))); apply before_opposite, before_of; by_gap t H.
 Qed.
 
 End Frame.

@@ -116,24 +116,13 @@ Proof. unfold g. generalize (eps_positive p). lra. Qed.
 Lemma q_1 : 0 < q <= 1.
 Proof. unfold q. generalize (error_r _ _ _ _ _ E) (error_r_1 _ _ _ _ _ E). lra. Qed.
 Lemma g_q2 : 1 <= g * (q * q).
-Proof.
-  apply Rle_trans with (1 := g_q3). generalize g_1 q_1; intros.
-  replace (g * (q * q * q)) with (g * (q * q) * q) by ring.
-  assert (0 <= g * (q * q)) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
+Proof. generalize g_1. intros. apply (fewer_roundings g q); [lra | apply q_1 | exact g_q3]. Qed.
 
 Lemma number_g : number g.
 Proof.
-  unfold g, Format.eps.
-  replace (1 + 4 * bpow radix2 (1 - p)) with (IZR (2 ^ (p - 3) + 1) * bpow radix2 (3 - p)).
-  - apply number_integer; auto; try lia.
-    assert (1 <= 2 ^ (p - 3))%Z by (apply (Z.pow_le_mono_r 2 0); lia).
-    rewrite Z.abs_eq by lia. replace p with (p - 3 + 3)%Z at 2 by lia.
-    rewrite Z.pow_add_r by lia. simpl (2 ^ 3)%Z. lia.
-  - rewrite plus_IZR, Rmult_plus_distr_r.
-    change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus.
-    replace (p - 3 + (3 - p))%Z with 0%Z by lia.
-    replace (3 - p)%Z with (2 + (1 - p))%Z by lia. rewrite bpow_plus. simpl. lra.
+  unfold g, Format.eps. replace (4 * bpow radix2 (1 - p)) with (bpow radix2 (3 - p)).
+  - apply number_1_power; auto; lia.
+  - replace (3 - p)%Z with (2 + (1 - p))%Z by lia. now rewrite bpow_plus.
 Qed.
 Lemma enlarged_exact x : enlarged x = fl (x * g).
 Proof.

@@ -365,6 +365,14 @@ Proof.
   unfold separated_along. intros H. apply orb_prop in H. destruct H as [H | H]; apply andb_prop in H;
     [left | right]; intros []; apply H.
 Qed.
+Lemma separated_on sides :
+  separated sides (coordinate_axes (x m) (y m) (z m)) = true \/ separated sides (diagonal_axes (x m) (y m) (z m)) =
+    true ->
+  exists a, In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\
+    separated_along (sides a) = true.
+Proof.
+  intros [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a; rewrite in_app_iff; auto.
+Qed.
 Lemma less_of a b : Rlt_bool a b = true -> a < b.
 Proof. destruct (Rlt_bool_spec a b); [easy | discriminate]. Qed.
 Lemma fl_le r s : r <= s -> fl r <= fl s.
@@ -429,13 +437,7 @@ Qed.
 Theorem separated_face_separate :
   separated (face_sides d) (coordinate_axes (x m) (y m) (z m)) = true \/
   separated (face_sides d) (diagonal_axes (x m) (y m) (z m)) = true -> ~ vertex_face_collides v f0 f1 f2.
-Proof.
-  intros T. assert (E : exists a, In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\
-    separated_along (face_sides d a) = true).
-  { destruct T as [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a;
-    rewrite in_app_iff; auto. }
-  destruct E as (a & I & E). exact (face_axis a (axes_measure a I) E).
-Qed.
+Proof. intros T. destruct (separated_on _ T) as (a & I & E). exact (face_axis a (axes_measure a I) E). Qed.
 
 End Face.
 
@@ -512,13 +514,7 @@ Qed.
 Theorem separated_edges_separate :
   separated (edge_sides d) (coordinate_axes (x m) (y m) (z m)) = true \/
   separated (edge_sides d) (diagonal_axes (x m) (y m) (z m)) = true -> ~ edge_edge_collides a0 a1 b0 b1.
-Proof.
-  intros T. assert (E : exists a, In a (coordinate_axes (x m) (y m) (z m) ++ diagonal_axes (x m) (y m) (z m)) /\
-    separated_along (edge_sides d a) = true).
-  { destruct T as [T | T]; apply existsb_exists in T; destruct T as (a & I & T); exists a;
-    rewrite in_app_iff; auto. }
-  destruct E as (a & I & E). exact (edges_axis a (axes_measure a I) E).
-Qed.
+Proof. intros T. destruct (separated_on _ T) as (a & I & E). exact (edges_axis a (axes_measure a I) E). Qed.
 
 End Edges.
 End Axes.

@@ -318,41 +318,38 @@ Proof.
   - intros t. repeat constructor. apply corner_well_formed.
   - intros D' t. unfold vertices_conditions. rewrite Exists_cons, Exists_nil, corner_holds. tauto.
 Qed.
+Ltac first_within_by slow measured near_at conditions_at family well_formed union :=
+  apply (first_within _ _ slow measured near_at conditions_at);
+  [intros D' t; apply family | intros t; apply well_formed | intros D' t; apply union].
 Theorem vertex_edge_first_within v e0 e1 D :
   sometime (fun t => vertex_edge_near D (place v t) (place e0 t) (place e1 t)) ->
   exists t, first (fun t => vertex_edge_near D (place v t) (place e0 t) (place e1 t)) t /\
     (t = 0 \/ met D (vertex_edge_conditions (place v t) (place e0 t) (place e1 t))).
 Proof.
-  apply (first_within _ _ (vertex_edge_slow v e0 e1) (vertex_edge_measured v e0 e1)
+  first_within_by (vertex_edge_slow v e0 e1) (vertex_edge_measured v e0 e1)
     (fun D t => vertex_edge_near D (place v t) (place e0 t) (place e1 t))
-    (fun t => vertex_edge_conditions (place v t) (place e0 t) (place e1 t))).
-  - intros D' t. apply vertex_edge_family_near.
-  - intros t. apply vertex_edge_well_formed.
-  - intros D' t. apply vertex_edge_within.
+    (fun t => vertex_edge_conditions (place v t) (place e0 t) (place e1 t))
+    vertex_edge_family_near vertex_edge_well_formed vertex_edge_within.
 Qed.
 Theorem face_first_within v f0 f1 f2 D :
   sometime (fun t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t)) ->
   exists t, first (fun t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t)) t /\
     (t = 0 \/ met D (face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t))).
 Proof.
-  apply (first_within _ _ (face_slow v f0 f1 f2) (face_measured v f0 f1 f2)
+  first_within_by (face_slow v f0 f1 f2) (face_measured v f0 f1 f2)
     (fun D t => face_near D (place v t) (place f0 t) (place f1 t) (place f2 t))
-    (fun t => face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t))).
-  - intros D' t. apply face_family_near.
-  - intros t. apply all_face_well_formed.
-  - intros D' t. apply face_within_union.
+    (fun t => face_conditions (place v t) (place f0 t) (place f1 t) (place f2 t))
+    face_family_near all_face_well_formed face_within_union.
 Qed.
 Theorem edges_first_within a0 a1 b0 b1 D :
   sometime (fun t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t)) ->
   exists t, first (fun t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t)) t /\
     (t = 0 \/ met D (edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t))).
 Proof.
-  apply (first_within _ _ (edges_slow a0 a1 b0 b1) (edges_measured a0 a1 b0 b1)
+  first_within_by (edges_slow a0 a1 b0 b1) (edges_measured a0 a1 b0 b1)
     (fun D t => edges_near D (place a0 t) (place a1 t) (place b0 t) (place b1 t))
-    (fun t => edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t))).
-  - intros D' t. apply edges_family_near.
-  - intros t. apply all_edges_well_formed.
-  - intros D' t. apply edges_within_union.
+    (fun t => edges_conditions (place a0 t) (place a1 t) (place b0 t) (place b1 t))
+    edges_family_near all_edges_well_formed edges_within_union.
 Qed.
 
 (** ** Axes *)

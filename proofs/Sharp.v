@@ -77,33 +77,22 @@ Proof. generalize u_8 q_u. intros. split; [apply Rinv_0_lt_compat; lra | nra]. Q
 Lemma f_2 : 1 <= f <= 2.
 Proof. unfold f. generalize u_8. lra. Qed.
 
+Lemma leaves x : smallest_normal <= Rabs x -> Rabs x * q <= Rabs (fl x).
+Proof.
+  intros C. generalize q_u q_1 (nearest_relative_to_result p emin x C) (Rabs_triang_inv x (fl x)). intros U Q B T.
+  unfold rnd_nearest in B. rewrite Rabs_minus_sym in B.
+  apply Rle_trans with ((1 + u) * Rabs (fl x) * q); [apply Rmult_le_compat_r; lra |].
+  replace ((1 + u) * Rabs (fl x) * q) with (Rabs (fl x) * (q * (1 + u))) by ring. rewrite U. lra.
+Qed.
+Let leaves_small := proj2 (leaves_of_error p emin nearest _ _ an_error).
+Let h_eta := error_h p emin nearest _ _ an_error.
 Lemma normal_relative x : smallest_normal <= x -> x * q <= fl x.
-Proof.
-  intros C. generalize (smallest_normal_positive p emin) q_u q_1; intros.
-  assert (A : Rabs x = x) by (apply Rabs_pos_eq; lra).
-  generalize (nearest_relative_to_result p emin x). rewrite A. intros H2. specialize (H2 C).
-  unfold rnd_nearest in H2.
-  assert (P : 0 <= fl x) by (apply rnd_nonnegative; lra).
-  rewrite (Rabs_pos_eq (fl x) P) in H2. apply Rabs_le_inv in H2.
-  apply Rle_trans with ((1 + u) * fl x * q).
-  - apply Rmult_le_compat_r; lra.
-  - replace ((1 + u) * fl x * q) with (fl x * (q * (1 + u))) by ring. rewrite q_u. lra.
-Qed.
+Proof. apply (normal_left p emin nearest q leaves). Qed.
 Lemma sum_relative x y : number x -> number y -> 0 <= x + y -> (x + y) * q <= fl (x + y).
-Proof.
-  intros X Y P. destruct (Rlt_or_le (x + y) smallest_normal) as [C | C].
-  - rewrite (sum_exact_below p emin nearest); auto.
-    + generalize q_1. nra.
-    + rewrite Rabs_pos_eq; lra.
-  - now apply normal_relative.
-Qed.
-Lemma rnd_lower x : 0 <= x -> x * q - eta / 2 <= fl x.
-Proof.
-  intros P. generalize q_1 (eta_positive emin). intros.
-  destruct (Rlt_or_le x smallest_normal) as [C | C].
-  - generalize (rnd_absolute x P C). nra.
-  - generalize (normal_relative x C). lra.
-Qed.
+Proof. apply (sum_left p emin nearest q q_1 leaves). Qed.
+Let rnd_lower := any_left p emin nearest q (eta / 2) q_1 h_eta leaves leaves_small.
+Let scaled_relative := scaled_left p emin nearest q leaves.
+Let sum_of_three := sum_of_three p emin nearest q q_1 leaves.
 
 (** The factors pay for three and for five roundings. *)
 Lemma three_roundings : 1 <= (1 + 4 * u) * (q * q * q).
@@ -133,41 +122,18 @@ Proof.
   - apply Rmult_le_compat_r; auto. repeat apply Rmult_le_pos; lra.
 Qed.
 Lemma f_q4 : 1 <= f * (q * q * q * q).
-Proof.
-  apply Rle_trans with (1 := f_q5). generalize f_2 q_1; intros.
-  replace (f * (q * q * q * q * q)) with (f * (q * q * q * q) * q) by ring.
-  assert (0 <= f * (q * q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
+Proof. generalize f_2. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q5]. Qed.
 Lemma f_q3 : 1 <= f * (q * q * q).
-Proof.
-  apply Rle_trans with (1 := f_q4). generalize f_2 q_1; intros.
-  replace (f * (q * q * q * q)) with (f * (q * q * q) * q) by ring.
-  assert (0 <= f * (q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
+Proof. generalize f_2. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q4]. Qed.
 
 (** They are numbers. *)
-Lemma number_1_power (k : Z) : (1 <= k)%Z -> (k < p)%Z -> number (1 + bpow radix2 (k - p)).
-Proof.
-  intros K P. replace (1 + bpow radix2 (k - p))
-    with (IZR (2 ^ (p - k) + 1) * bpow radix2 (k - p)).
-  - apply number_integer; auto; try lia.
-    assert (1 <= 2 ^ (p - k))%Z by (apply (Z.pow_le_mono_r 2 0); lia).
-    rewrite Z.abs_eq by lia.
-    assert (2 ^ (p - k) * 2 <= 2 ^ p)%Z.
-    { replace p with (p - k + k)%Z at 2 by lia. rewrite Z.pow_add_r by lia.
-      apply Z.mul_le_mono_nonneg_l; [lia |]. apply (Z.pow_le_mono_r 2 1 k); lia. }
-    lia.
-  - rewrite plus_IZR, Rmult_plus_distr_r.
-    change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus.
-    replace (p - k + (k - p))%Z with 0%Z by lia. simpl. lra.
-Qed.
 Lemma u_power k : bpow radix2 k * u = bpow radix2 (k - p).
 Proof. unfold Format.u. rewrite <- bpow_plus. f_equal. Qed.
 Lemma add_factor : fl (1 + fl (2 * eps)) = 1 + 4 * u.
 Proof.
   replace (2 * eps) with (bpow radix2 (2 - p)).
   - rewrite (rnd_exact (bpow radix2 (2 - p))) by (apply number_power; auto; lia).
-    rewrite (rnd_exact (1 + bpow radix2 (2 - p))) by (apply number_1_power; lia).
+    rewrite (rnd_exact (1 + bpow radix2 (2 - p))) by (apply number_1_power; auto; lia).
     rewrite <- u_power. reflexivity.
   - rewrite eps_2u, <- u_power. change (bpow radix2 2) with 4. ring.
 Qed.
@@ -175,44 +141,19 @@ Lemma inflated_exact x : inflated x = fl (x * f).
 Proof.
   unfold inflated. replace (4 * eps) with (bpow radix2 (3 - p)).
   - rewrite (rnd_exact (bpow radix2 (3 - p))) by (apply number_power; auto; lia).
-    replace (fl (1 + bpow radix2 (3 - p))) with f; auto.
-    unfold f. rewrite <- u_power. change (bpow radix2 3) with 8. symmetry.
-    destruct (Z.eq_dec p 3) as [P | P].
-    + apply rnd_exact.
-      assert (U : u = / 8) by (unfold Format.u; rewrite P; reflexivity).
-      replace (1 + 8 * u) with (bpow radix2 1) by (rewrite U; simpl; lra).
-      apply number_power; auto. lia.
-    + replace (1 + 8 * u) with (1 + bpow radix2 (3 - p)).
-      * apply rnd_exact, number_1_power; lia.
-      * rewrite <- u_power. reflexivity.
+    rewrite (rnd_exact (1 + bpow radix2 (3 - p))) by (apply number_1_power; auto; lia).
+    unfold f. rewrite <- u_power. reflexivity.
   - rewrite eps_2u, <- u_power. change (bpow radix2 3) with 8. ring.
 Qed.
 Lemma number_2_eta : number (2 * eta).
-Proof.
-  replace (2 * eta) with (bpow radix2 (1 + emin)).
-  - apply number_power; auto. lia.
-  - now rewrite bpow_plus.
-Qed.
+Proof. exact (number_eta_times p emin 1 ltac:(lia)). Qed.
 
 (** The rule's rounding term is at least the error of its operation. *)
 Lemma rounding_nonnegative v : 0 <= rounding v.
 Proof. apply rnd_nonnegative. generalize u_8 (Rabs_pos v). nra. Qed.
 Lemma rounding_large s : bpow radix2 (p + emin) <= Rabs (fl s) ->
   Rabs (fl s - s) <= rounding (fl s).
-Proof.
-  intros V. apply Rle_trans with (/ 2 * ulp radix2 (FLT_exp emin p) (fl s)).
-  - apply error_le_half_ulp_round; auto with typeclass_instances.
-  - assert (NZ : fl s <> 0).
-    { intros Z. rewrite Z, Rabs_R0 in V. generalize (bpow_gt_0 radix2 (p + emin)). lra. }
-    apply rnd_above.
-    + rewrite ulp_neq_0; auto. replace (/ 2) with (bpow radix2 (-1)) by reflexivity.
-      rewrite <- bpow_plus. apply number_power; auto.
-      assert (p + emin < mag radix2 (fl s))%Z by (apply mag_gt_bpow; auto).
-      unfold cexp, FLT_exp. lia.
-    + assert (ulp radix2 (FLT_exp emin p) (fl s) <= Rabs (fl s) * bpow radix2 (1 - p)).
-      { apply ulp_FLT_le; auto. apply Rle_trans with (2 := V). apply bpow_le. lia. }
-      change (bpow radix2 (1 - p)) with eps in *. rewrite eps_2u in *. lra.
-Qed.
+Proof. apply (error_of_large p emin). Qed.
 Lemma rounding_sum x y :
   number x -> number y -> Rabs (fl (x + y) - (x + y)) <= rounding (fl (x + y)).
 Proof.
@@ -226,46 +167,10 @@ Proof.
   generalize (rounding_nonnegative (fl s)) (eta_positive emin). intros.
   destruct (Rle_or_lt (bpow radix2 (p + emin)) (Rabs (fl s))) as [C | C].
   - generalize (rounding_large s C). lra.
-  - enough (Rabs (fl s - s) <= eta / 2) by lra.
-    replace (eta / 2) with (/ 2 * ulp radix2 (FLT_exp emin p) (fl s)).
-    + apply error_le_half_ulp_round; auto with typeclass_instances.
-    + rewrite ulp_FLT_small; auto. unfold Format.eta. field. rewrite Z.add_comm. exact C.
+  - generalize (error_of_small p emin s C). lra.
 Qed.
 Lemma rounding_0 : rounding (fl 0) = 0.
 Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l. apply rnd_0. Qed.
-
-(** A number that a factor pays for. *)
-Lemma scaled_relative s c : number s -> smallest_normal <= s -> 1 <= c -> s * (c * q) <= fl (s * c).
-Proof.
-  intros N M C. rewrite <- Rmult_assoc. apply normal_relative.
-  generalize (smallest_normal_positive p emin). nra.
-Qed.
-
-(** A sum of three times a factor that pays for three roundings. *)
-Lemma sum_of_three x y z c :
-  1 <= c -> 1 <= c * (q * q * q) ->
-  number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z ->
-  x + y + z <= fl (fl (fl (x + y) + z) * c).
-Proof.
-  intros C1 C3 X Y Z PX PY PZ. generalize q_1; intros.
-  assert (N : 0 <= fl (x + y)) by (apply rnd_nonnegative; lra).
-  set (s := fl (fl (x + y) + z)).
-  assert (S : number s) by apply rnd_number.
-  assert (NS : fl (x + y) <= s) by (apply rnd_above; [apply rnd_number | lra]).
-  destruct (Rlt_or_le s smallest_normal) as [C | C].
-  - apply Rle_trans with s; [| apply scaled_up; auto; lra].
-    unfold s. rewrite (sum_subnormal _ z); auto using rnd_number.
-    rewrite (sum_subnormal x y); auto; lra.
-  - apply Rle_trans with (2 := scaled_relative s c S C C1).
-    generalize (sum_relative x y X Y ltac:(lra)). intros A.
-    generalize (sum_relative (fl (x + y)) z (rnd_number _) Z ltac:(lra)). fold s. intros B.
-    assert (D : (x + y + z) * (q * q) <= s).
-    { apply Rle_trans with (2 := B). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; [lra |].
-      assert (z * q <= z) by nra. lra. }
-    apply Rle_trans with ((x + y + z) * (q * q) * (c * q)).
-    + replace ((x + y + z) * (q * q) * (c * q)) with ((x + y + z) * (c * (q * q * q))) by ring. nra.
-    + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
-Qed.
 
 Theorem sharp_add_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
@@ -313,86 +218,50 @@ Proof.
     destruct Z0 as [-> ->]. rewrite rounding_0, rnd_0.
     rewrite Rminus_0_r, Rabs_R0. lra. }
   rewrite (rnd_exact (2 * eta) number_2_eta), inflated_exact.
-  set (v := fl (a * b)). set (R := rounding v).
-  set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
-  set (I := fl (P1 + P2)).
-  generalize (Rabs_pos a) (Rabs_pos b) (eta_positive emin) f_2 q_1 u_8; intros.
-  assert (NR : number R) by apply rnd_number.
-  assert (PR : 0 <= R) by apply rounding_nonnegative.
-  assert (N1 : number P1) by apply rnd_number.
-  assert (N2 : number P2) by apply rnd_number.
+  set (v := fl (a * b)). set (R := rounding v). generalize (eta_positive emin) f_2 q_1 q_u u_8; intros.
+  destruct (product_inherited p emin nearest q (eta / 2) q_1 h_eta leaves leaves_small
+    (Rabs a) (Rabs b) sa sb (eta / 2)) as (PI & Small & Large); auto using Rabs_pos.
+  { now apply number_abs. }
+  { intros z w Pz Zw C. apply Rle_trans with (z * q * (1 + u) - eta / 2); [right; rewrite Rmult_assoc, q_u; ring |].
+    assert (z * q * (1 + u) <= w * (1 + u)) by (apply Rmult_le_compat_r; lra).
+    assert (w * u <= smallest_normal * u) by (apply Rmult_le_compat_r; lra).
+    generalize (smallest_normal_eps p emin). rewrite eps_2u. lra. }
+  revert PI Small Large. set (I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))).
+  set (X := Rabs a * sb + sa * (Rabs b + sb)). intros PI Small Large.
+  assert (NR : number R) by apply rnd_number. assert (PR : 0 <= R) by apply rounding_nonnegative.
   assert (NI : number I) by apply rnd_number.
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; lra).
-  assert (Pst : 0 <= sa * t) by (apply Rmult_le_pos; lra).
-  assert (Pos2 : 0 <= P2) by now apply rnd_nonnegative.
-  set (K := Rabs a * sb). set (T := sa * (Rabs b + sb)).
-  assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
-  assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
-  assert (Pos1 : 0 <= P1) by now apply rnd_nonnegative.
-  assert (PI : 0 <= I) by (apply rnd_nonnegative; lra).
-  assert (Ht : T * q <= sa * t).
-  { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto.
-    apply sum_relative; auto; [now apply number_abs | lra]. }
+  assert (PX : 0 <= X) by (generalize (Rabs_pos a) (Rabs_pos b); intros; unfold X; nra).
   (* the exact bound *)
-  apply Rle_trans with (R + eta / 2 + (K + T)).
+  apply Rle_trans with (R + eta / 2 + X).
   { replace (v - x * y) with ((v - a * b) + (a * b - x * y)) by ring.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
     - apply rounding_any.
     - now apply Tight.product_inherits. }
   set (J := fl (R + 2 * eta)). set (S := fl (J + I)).
-  assert (NJ : number J) by apply rnd_number.
-  assert (PJ : 0 <= J) by (apply rnd_nonnegative; lra).
-  assert (NS : number S) by apply rnd_number.
-  assert (LJ : J <= S) by (apply rnd_above; auto; lra).
-  assert (LI : I <= S) by (apply rnd_above; auto; lra).
-  assert (L1 : P1 <= I) by (apply rnd_above; auto; lra).
-  assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
+  assert (NJ : number J) by apply rnd_number. assert (PJ : 0 <= J) by (apply rnd_nonnegative; lra).
+  assert (NS : number S) by apply rnd_number. assert (LJ : J <= S) by (apply rnd_above; auto; lra).
   destruct (Rlt_or_le S smallest_normal) as [C | C].
   - (* all sums are exact; what the products lost is at most 2 eta *)
     apply Rle_trans with S; [| apply scaled_up; auto; lra].
-    assert (EI : I = P1 + P2).
-    { apply (sum_subnormal P1 P2); auto. fold I. lra. }
-    assert (EJ : J = R + 2 * eta).
-    { apply (sum_subnormal R (2 * eta)); auto using number_2_eta; [lra |]. fold J. lra. }
+    assert (EJ : J = R + 2 * eta) by (apply (sum_subnormal R (2 * eta)); auto using number_2_eta; [lra | fold J; lra]).
     assert (ES : S = J + I) by (apply (sum_subnormal J I); auto).
-    assert (D1 : K - eta / 2 <= P1).
-    { apply rnd_absolute; auto. apply rnd_subnormal. change (fl K) with P1. lra. }
-    assert (C2 : sa * t < smallest_normal).
-    { apply rnd_subnormal. fold P2. lra. }
-    assert (D2 : sa * t - eta / 2 <= P2) by (apply rnd_absolute; auto).
-    assert (D3 : T <= sa * t + eta / 2).
-    { apply Rle_trans with (T * q * (1 + u)).
-      - right. rewrite Rmult_assoc, q_u. ring.
-      - apply Rle_trans with (sa * t * (1 + u)).
-        + apply Rmult_le_compat_r; lra.
-        + assert (sa * t * u <= smallest_normal * u) by (apply Rmult_le_compat_r; lra).
-          generalize (smallest_normal_eps p emin). rewrite eps_2u. lra. }
-    lra.
+    specialize (Small ltac:(lra)). lra.
   - (* five roundings at most *)
-    apply Rle_trans with (2 := scaled_relative S f NS C ltac:(lra)).
-    generalize (rnd_lower K PK). change (fl K) with P1. intros D1.
-    generalize (rnd_lower (sa * t) Pst). fold P2. intros D2.
-    generalize (sum_relative P1 P2 N1 N2 ltac:(lra)). fold I. intros D3.
+    apply Rle_trans with (2 := scaled_relative S f C ltac:(lra)).
     generalize (sum_relative R (2 * eta) NR number_2_eta ltac:(lra)). fold J. intros D4.
     generalize (sum_relative J I NJ NI ltac:(lra)). fold S. intros D5.
-    assert (G : (R + (K + T)) * (q * q * q * q) + eta * (q * q) <= S).
+    assert (G : (R + X) * (q * q * q * q) + eta * (q * q) <= S).
     { apply Rle_trans with (2 := D5).
-      apply Rle_trans with (((R + 2 * eta) * q + ((K * q - eta / 2) + (T * q * q - eta / 2)) * q) * q).
+      apply Rle_trans with (((R + 2 * eta) * q + (X * (q * q) - 2 * (eta / 2)) * q) * q).
       - assert (Q2 : 0 <= q * q <= 1) by nra.
         assert (R * (q * q * q * q) <= R * (q * q)).
         { apply Rmult_le_compat_l; auto. replace (q * q * q * q) with (q * q * (q * q)) by ring. nra. }
-        assert (K * (q * q * q * q) <= K * (q * q * q)).
-        { apply Rmult_le_compat_l; auto.
-          assert (0 <= q * q * q) by (repeat apply Rmult_le_pos; lra). nra. }
         lra.
-      - apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat; auto.
-        apply Rle_trans with (2 := D3).
-        apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat; auto.
-        apply Rle_trans with (2 := D2). apply Rplus_le_compat_r, Rmult_le_compat_r; lra. }
+      - apply Rmult_le_compat_r; [lra |]. now apply Rplus_le_compat. }
     generalize f_q5 f_q3; intros.
-    apply Rle_trans with (((R + (K + T)) * (q * q * q * q) + eta * (q * q)) * (f * q)).
-    + replace (((R + (K + T)) * (q * q * q * q) + eta * (q * q)) * (f * q))
-        with ((R + (K + T)) * (f * (q * q * q * q * q)) + eta * (f * (q * q * q))) by ring.
+    apply Rle_trans with (((R + X) * (q * q * q * q) + eta * (q * q)) * (f * q)).
+    + replace (((R + X) * (q * q * q * q) + eta * (q * q)) * (f * q))
+        with ((R + X) * (f * (q * q * q * q * q)) + eta * (f * (q * q * q))) by ring.
       nra.
     + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
@@ -400,27 +269,9 @@ Qed.
 (** The code's own bound of |a/b|. *)
 Lemma quotient_covered s : Rabs s <= inflated (fl (Rabs (fl s) + eta)).
 Proof.
-  rewrite inflated_exact. set (w := fl (Rabs (fl s) + eta)).
-  generalize (eta_positive emin) f_2 q_1 f_q3 (Rabs_pos s) (Rabs_pos (fl s)); intros.
-  assert (N : number (Rabs (fl s))) by (apply number_abs, rnd_number).
-  assert (W : number w) by apply rnd_number.
-  assert (PW : 0 <= w) by (apply rnd_nonnegative; lra).
-  assert (B : Rabs (fl s) = fl (Rabs s)).
-  { symmetry. apply round_NE_abs. auto with typeclass_instances. }
-  generalize (rnd_lower (Rabs s) (Rabs_pos s)). rewrite <- B. intros D.
-  destruct (Rlt_or_le w smallest_normal) as [C | C].
-  - apply Rle_trans with w; [| apply scaled_up; auto; lra].
-    unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
-    enough (Rabs s - eta / 2 <= Rabs (fl s)) by lra.
-    rewrite B. apply rnd_absolute; auto. apply rnd_subnormal. rewrite <- B.
-    assert (Rabs (fl s) <= w) by (apply rnd_above; auto; lra). lra.
-  - apply Rle_trans with (2 := scaled_relative w f W C ltac:(lra)).
-    generalize (sum_relative (Rabs (fl s)) eta N (number_eta p emin) ltac:(lra)). fold w. intros G.
-    assert (K : Rabs s * (q * q) <= w).
-    { apply Rle_trans with (2 := G). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
-    apply Rle_trans with (Rabs s * (q * q) * (f * q)).
-    + replace (Rabs s * (q * q) * (f * q)) with (Rabs s * (f * (q * q * q))) by ring. nra.
-    + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
+  rewrite inflated_exact. apply (covered_by_rounded p emin nearest q (eta / 2) q_1 h_eta leaves leaves_small).
+  - apply f_2.
+  - apply f_q3.
 Qed.
 
 Theorem sharp_divide_sound a x sa b y sb bound :
@@ -512,41 +363,18 @@ Proof.
   assert (NJ : number J) by apply rnd_number.
   assert (PJ : 0 <= J).
   { unfold J. rewrite inflated_exact. apply rnd_nonnegative. apply Rmult_le_pos; lra. }
+  destruct (quotient_inflated p emin nearest q (eta / 2) q_1 h_eta leaves leaves_small Z (N / d) f PZ (proj1 f_2) F5
+    HI PI)
+    as (Below & Above). rewrite <- inflated_exact in Below, Above. fold I J in Below, Above.
   destruct (Rlt_or_le I smallest_normal) as [C | C].
   - (* what underflows inside is paid for by 2 eta *)
-    assert (HJ : Z - eta / 2 * (1 + f) <= J).
-    { unfold J. rewrite inflated_exact.
-      assert (D1 : N / d - eta / 2 <= I) by (apply rnd_absolute; auto).
-      assert (D2 : Z * f * (q * q * q * q) - eta / 2 * f <= I * f).
-      { replace (Z * f * (q * q * q * q) - eta / 2 * f)
-          with ((Z * (q * q * q * q) - eta / 2) * f) by ring.
-        apply Rmult_le_compat_r; lra. }
-      assert (PIf : 0 <= I * f) by (apply Rmult_le_pos; lra).
-      assert (0 <= eta / 2 * f) by (apply Rmult_le_pos; lra).
-      destruct (Rlt_or_le (I * f) smallest_normal) as [Cf | Cf].
-      - assert (I * f - eta / 2 <= fl (I * f)) by (apply rnd_absolute; auto).
-        assert (Z * 1 <= Z * (f * (q * q * q * q))) by (apply Rmult_le_compat_l; auto). lra.
-      - assert (D3 : I * f * q <= fl (I * f)) by (apply normal_relative; auto).
-        assert ((Z * f * (q * q * q * q) - eta / 2 * f) * q <= I * f * q) by
-          (apply Rmult_le_compat_r; lra).
-        assert (Z * 1 <= Z * (f * (q * q * q * q * q))) by (apply Rmult_le_compat_l; auto).
-        assert (eta / 2 * f * q <= eta / 2 * f * 1) by (apply Rmult_le_compat_l; lra). lra. }
+    specialize (Below C).
     rewrite inflated_exact.
     apply Rle_trans with (R + 2 * eta + J).
     + assert (eta / 2 * (1 + f) <= eta / 2 * 3) by (apply Rmult_le_compat_l; lra). lra.
     + apply sum_of_three; auto using number_2_eta; lra.
   - (* eight roundings at most, and two factors *)
-    assert (D1 : N / d * q <= I).
-    { destruct (Rlt_or_le (N / d) smallest_normal) as [Cd | Cd].
-      - apply Rle_trans with smallest_normal; auto.
-        assert (N / d * q <= N / d * 1) by (apply Rmult_le_compat_l; lra). lra.
-      - now apply normal_relative. }
-    assert (D2 : I * (f * q) <= J).
-    { unfold J. rewrite inflated_exact. apply scaled_relative; auto. lra. }
-    assert (Pfq : 0 <= f * q) by (apply Rmult_le_pos; lra).
-    assert (D3 : Z * (q * q * q * q) * q * (f * q) <= J).
-    { apply Rle_trans with (2 := D2). apply Rmult_le_compat_r; auto.
-      apply Rle_trans with (2 := D1). apply Rmult_le_compat_r; lra. }
+    specialize (Above C). assert (Pfq : 0 <= f * q) by (apply Rmult_le_pos; lra).
     assert (CJ : smallest_normal <= J).
     { apply Rle_trans with (1 := C). unfold J. rewrite inflated_exact. apply scaled_up; auto. lra. }
     rewrite inflated_exact. set (L := fl (R + 2 * eta)). set (S := fl (L + J)).
@@ -554,7 +382,7 @@ Proof.
     assert (PL : 0 <= L) by (apply rnd_nonnegative; lra).
     assert (CS : smallest_normal <= S).
     { apply Rle_trans with (1 := CJ). apply rnd_above; auto. lra. }
-    apply Rle_trans with (2 := scaled_relative S f (rnd_number _) CS ltac:(lra)).
+    apply Rle_trans with (2 := scaled_relative S f CS ltac:(lra)).
     generalize (sum_relative R (2 * eta) NR number_2_eta ltac:(lra)). fold L. intros D4.
     generalize (sum_relative L J NL NJ ltac:(lra)). fold S. intros D5.
     apply Rle_trans with (((R + 2 * eta) * q + Z * (q * q * q * q) * q * (f * q)) * q * (f * q)).

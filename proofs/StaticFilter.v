@@ -551,38 +551,29 @@ Lemma size_covered e : admissible e ->
   exact_size e <= power (path e) * (size e + INR (products e) * allowance).
 Proof.
   generalize allowance_positive u_small; intros T U.
+  assert (Sum : forall x y, admissible x -> admissible y ->
+    exact_size x <= power (path x) * (size x + INR (products x) * allowance) ->
+    exact_size y <= power (path y) * (size y + INR (products y) * allowance) ->
+    exact_size x + exact_size y <=
+      power (S (Nat.max (path x) (path y))) * (fl (size x + size y) + INR (products x + products y) * allowance)).
+  { intros x y A B. generalize (size_nonnegative x A) (size_nonnegative y B)
+      (sum_upper _ _ (size_number x A) (size_number y B)).
+    intros PX PY G CX CY. specialize (G ltac:(lra)).
+    rewrite plus_INR. set (m := Nat.max (path x) (path y)).
+    generalize (pos_INR (products x)) (pos_INR (products y)); intros.
+    assert (0 <= INR (products x) * allowance) by (apply Rmult_le_pos; lra).
+    assert (0 <= INR (products y) * allowance) by (apply Rmult_le_pos; lra).
+    assert (LX : power (path x) <= power m) by (apply power_le; lia).
+    assert (LY : power (path y) <= power m) by (apply power_le; lia).
+    rewrite power_succ. generalize (power_1 m). intros P1.
+    apply Rle_trans with (power m * (size x + size y + (INR (products x) + INR (products y)) * allowance)).
+    + nra.
+    + replace ((1 + u) * power m) with (power m * (1 + u)) by ring. rewrite Rmult_assoc.
+      apply Rmult_le_compat_l; [lra |]. nra. }
   induction e as [c | a b | c | x IHx y IHy | x IHx y IHy | x IHx y IHy | x IHx]; intros A;
     try (unfold power; simpl; lra).
-  - cbn [exact_size path size products]. destruct A as (_ & A & B).
-    generalize (IHx A) (IHy B) (size_nonnegative x A) (size_nonnegative y B)
-      (sum_upper _ _ (size_number x A) (size_number y B)).
-    intros CX CY PX PY. intros G. specialize (G ltac:(lra)).
-    rewrite plus_INR. set (m := Nat.max (path x) (path y)).
-    generalize (pos_INR (products x)) (pos_INR (products y)); intros.
-    assert (0 <= INR (products x) * allowance) by (apply Rmult_le_pos; lra).
-    assert (0 <= INR (products y) * allowance) by (apply Rmult_le_pos; lra).
-    assert (LX : power (path x) <= power m) by (apply power_le; lia).
-    assert (LY : power (path y) <= power m) by (apply power_le; lia).
-    rewrite power_succ. generalize (power_1 m). intros P1.
-    apply Rle_trans with (power m * (size x + size y + (INR (products x) + INR (products y)) * allowance)).
-    + nra.
-    + replace ((1 + u) * power m) with (power m * (1 + u)) by ring. rewrite Rmult_assoc.
-      apply Rmult_le_compat_l; [lra |]. nra.
-  - cbn [exact_size path size products]. destruct A as (_ & A & B).
-    generalize (IHx A) (IHy B) (size_nonnegative x A) (size_nonnegative y B)
-      (sum_upper _ _ (size_number x A) (size_number y B)).
-    intros CX CY PX PY. intros G. specialize (G ltac:(lra)).
-    rewrite plus_INR. set (m := Nat.max (path x) (path y)).
-    generalize (pos_INR (products x)) (pos_INR (products y)); intros.
-    assert (0 <= INR (products x) * allowance) by (apply Rmult_le_pos; lra).
-    assert (0 <= INR (products y) * allowance) by (apply Rmult_le_pos; lra).
-    assert (LX : power (path x) <= power m) by (apply power_le; lia).
-    assert (LY : power (path y) <= power m) by (apply power_le; lia).
-    rewrite power_succ. generalize (power_1 m). intros P1.
-    apply Rle_trans with (power m * (size x + size y + (INR (products x) + INR (products y)) * allowance)).
-    + nra.
-    + replace ((1 + u) * power m) with (power m * (1 + u)) by ring. rewrite Rmult_assoc.
-      apply Rmult_le_compat_l; [lra |]. nra.
+  - destruct A as (_ & A & B). exact (Sum x y A B (IHx A) (IHy B)).
+  - destruct A as (_ & A & B). exact (Sum x y A B (IHx A) (IHy B)).
   - rewrite size_product. cbn [exact_size path products]. destruct A as (_ & A & B).
     generalize (size_nonnegative x A) (size_nonnegative y B). intros PX PY.
     generalize (full_covers _ _ (size_number x A) PX (admissible_products x A))

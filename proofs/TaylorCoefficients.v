@@ -226,8 +226,6 @@ Qed.
 Fixpoint column (k m : nat) : list Z := match m with O => [] | S m => choose (m + k) k :: column k m end.
 Lemma column_0 m : column 0 m = repeat 1%Z m.
 Proof. induction m as [| m IH]; [easy |]. cbn [column repeat]. rewrite IH. f_equal. now destruct m. Qed.
-Lemma column_length k m : length (column k m) = m.
-Proof. induction m; simpl; auto. Qed.
 Lemma horner_column k m : horner_cut 1 0 (column k m) = column (S k) m.
 Proof.
   induction m as [| m IH]; [easy |]. cbn [column]. rewrite horner_next, IH. f_equal.
@@ -241,11 +239,6 @@ Proof.
   - assert (m = 0)%nat as -> by lia. simpl. rewrite choose_beyond by lia. now destruct j.
   - cbn [shifted_cut]. rewrite horner_column. destruct m as [| m]; [simpl; rewrite choose_beyond by lia; now destruct j |].
     cbn [column]. destruct j as [| j]; cbn [nth]; [f_equal; lia |]. rewrite IH by lia. f_equal; lia.
-Qed.
-Lemma shifted_one_length n h : length (shifted n 1 h) = length h.
-Proof.
-  revert h. induction n as [| n IH]; intros h; [easy |]. cbn [shifted]. pose proof (horner_length 1 h) as L.
-  destruct (horner 1 h) as [| y l]; [exact L |]. simpl in *. now rewrite IH.
 Qed.
 (** Only the first passes are made. *)
 Lemma first_passes k : forall n h, (k <= n)%nat -> firstn k (shifted_cut k 1 0 h) = firstn k (shifted_cut n 1 0 h).

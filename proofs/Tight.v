@@ -94,35 +94,16 @@ Proof. change 1 with (bpow radix2 0). apply number_power; auto. unfold Prec_gt_0
 Lemma number_eps : number eps.
 Proof. apply number_power; auto. lia. Qed.
 Lemma number_4_eta : number (4 * eta).
-Proof.
-  replace (4 * eta) with (bpow radix2 (2 + emin)).
-  - apply number_power; auto. lia.
-  - rewrite bpow_plus. reflexivity.
-Qed.
-
+Proof. exact (number_eta_times p emin 2 ltac:(lia)). Qed.
 Lemma number_2_eta : number (2 * eta).
-Proof.
-  replace (2 * eta) with (bpow radix2 (1 + emin)).
-  - apply number_power; auto. lia.
-  - now rewrite bpow_plus.
-Qed.
+Proof. exact (number_eta_times p emin 1 ltac:(lia)). Qed.
 
 (** The factor 1 + 8 eps is a number, also for three bits (it is 3 there). *)
 Lemma number_f : number f.
 Proof.
-  unfold f, Format.eps. destruct (Z.eq_dec p 3) as [P | P].
-  - rewrite P at 2. replace (1 + 8 * bpow radix2 (1 - 3)) with (IZR 3 * bpow radix2 0).
-    + apply number_integer; auto; try lia. rewrite P. simpl. lia.
-    + simpl. lra.
-  - replace (1 + 8 * bpow radix2 (1 - p)) with (IZR (2 ^ (p - 4) + 1) * bpow radix2 (4 - p)).
-    + apply number_integer; auto; try lia.
-      assert (1 <= 2 ^ (p - 4))%Z by (apply (Z.pow_le_mono_r 2 0); lia).
-      rewrite Z.abs_eq by lia. replace p with (p - 4 + 4)%Z at 2 by lia.
-      rewrite Z.pow_add_r by lia. simpl (2 ^ 4)%Z. lia.
-    + rewrite plus_IZR, Rmult_plus_distr_r.
-      change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. rewrite <- bpow_plus.
-      replace (p - 4 + (4 - p))%Z with 0%Z by lia.
-      replace (4 - p)%Z with (3 + (1 - p))%Z by lia. rewrite bpow_plus. simpl. lra.
+  unfold f, Format.eps. replace (8 * bpow radix2 (1 - p)) with (bpow radix2 (4 - p)).
+  - apply number_1_power; auto; lia.
+  - replace (4 - p)%Z with (3 + (1 - p))%Z by lia. now rewrite bpow_plus.
 Qed.
 
 Lemma inflated_exact x : inflated x = fl (x * f).
@@ -155,23 +136,15 @@ Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l by auto. now apply rnd
 
 (** Fewer roundings than six. *)
 Lemma f_q5 : 1 <= f * (q * q * q * q * q).
-Proof.
-  apply Rle_trans with (1 := f_q6). generalize f_1 q_1; intros.
-  replace (f * (q * q * q * q * q * q)) with (f * (q * q * q * q * q) * q) by ring.
-  assert (0 <= f * (q * q * q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
+Proof. generalize f_1. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q6]. Qed.
 Lemma f_q4 : 1 <= f * (q * q * q * q).
-Proof.
-  apply Rle_trans with (1 := f_q5). generalize f_1 q_1; intros.
-  replace (f * (q * q * q * q * q)) with (f * (q * q * q * q) * q) by ring.
-  assert (0 <= f * (q * q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
+Proof. generalize f_1. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q5]. Qed.
 Lemma f_q3 : 1 <= f * (q * q * q).
-Proof.
-  apply Rle_trans with (1 := f_q4). generalize f_1 q_1; intros.
-  replace (f * (q * q * q * q)) with (f * (q * q * q) * q) by ring.
-  assert (0 <= f * (q * q * q)) by (repeat apply Rmult_le_pos; lra). nra.
-Qed.
+Proof. generalize f_1. intros. apply (fewer_roundings f q); [lra | apply q_1 | exact f_q4]. Qed.
+
+Let leaves := leaves_of_error p emin direction r h E.
+Let sum_left := Format.sum_left p emin direction q q_1 (proj1 leaves).
+Let scaled_left := Format.scaled_left p emin direction q (proj1 leaves).
 
 (** A sum of three, inflated, is at least the exact sum: nothing is lost below the smallest normal
     number, and the factor pays for three roundings above. *)
@@ -179,30 +152,7 @@ Lemma inflated_sum_left x y z :
   number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z ->
   x + y + z <= inflated (fl (fl (x + y) + z)).
 Proof.
-  intros X Y Z PX PY PZ. rewrite inflated_exact. generalize f_1 q_1 f_q3; intros.
-  assert (N : 0 <= fl (x + y)) by (apply rnd_nonnegative; auto; lra).
-  set (s := fl (fl (x + y) + z)).
-  assert (S : number s) by (apply rnd_number; auto).
-  assert (NS : fl (x + y) <= s) by (apply rnd_above; [apply rnd_number | lra]).
-  destruct (Rlt_or_le s smallest_normal) as [C | C].
-  - apply Rle_trans with s.
-    + unfold s. rewrite (sum_subnormal _ z); auto using rnd_number.
-      rewrite (sum_subnormal x y); auto; lra.
-    + apply scaled_up; auto. lra.
-  - apply Rle_trans with (s * f * q).
-    + generalize (sum_relative x y X Y PX PY).
-      generalize (sum_relative (fl (x + y)) z
-                    (rnd_number _) Z N PZ).
-      fold s q. intros A B.
-      assert (D : (x + y + z) * (q * q) <= s).
-      { apply Rle_trans with ((fl (x + y) + z) * q); auto.
-        replace ((x + y + z) * (q * q)) with (((x + y) * q + z * q) * q) by ring.
-        apply Rmult_le_compat_r; nra. }
-      apply Rle_trans with ((x + y + z) * (q * q) * (f * q)).
-      * replace ((x + y + z) * (q * q) * (f * q)) with ((x + y + z) * (f * (q * q * q))) by ring.
-        nra.
-      * replace (s * f * q) with (s * (f * q)) by ring. apply Rmult_le_compat_r; auto. nra.
-    + apply inflated_relative; auto.
+  intros. rewrite inflated_exact. apply (sum_of_three p emin direction q q_1 (proj1 leaves)); auto using f_1, f_q3.
 Qed.
 Lemma inflated_sum_right x y z :
   number x -> number y -> number z -> 0 <= x -> 0 <= y -> 0 <= z ->
@@ -272,111 +222,62 @@ Proof.
       - rewrite Z2 in HB. apply within_0 in HB. rewrite <- HB, Z1. lra. }
     destruct Z0 as [-> ->]. rewrite rounding_0, rnd_0 by auto.
     rewrite Rminus_0_r, Rabs_R0. lra. }
-  rewrite (rnd_exact (4 * eta) number_4_eta).
+  rewrite (rnd_exact (4 * eta) number_4_eta), inflated_exact.
   set (v := fl (a * b)). set (R := rounding v).
-  set (t := fl (Rabs b + sb)). set (P1 := fl (Rabs a * sb)). set (P2 := fl (sa * t)).
-  set (I := fl (P1 + P2)).
-  generalize (Rabs_pos a) (Rabs_pos b) (eta_positive emin) (error_h _ _ _ _ _ E)
-    (error_r _ _ _ _ _ E) f_1 q_1; intros.
-  assert (NR : number R) by (apply rnd_number; auto).
-  assert (PR : 0 <= R) by apply rounding_nonnegative.
-  assert (Nt : number t) by (apply rnd_number; auto).
-  assert (N1 : number P1) by (apply rnd_number; auto).
-  assert (N2 : number P2) by (apply rnd_number; auto).
-  assert (NI : number I) by (apply rnd_number; auto).
-  assert (Pt : 0 <= t) by (apply rnd_nonnegative; auto; lra).
-  assert (Pos1 : 0 <= P1) by (apply rnd_nonnegative; auto; apply Rmult_le_pos; lra).
-  assert (Pos2 : 0 <= P2) by (apply rnd_nonnegative; auto; apply Rmult_le_pos; lra).
-  assert (PI : 0 <= I) by (apply rnd_nonnegative; auto; lra).
-  set (K := Rabs a * sb). set (T := sa * (Rabs b + sb)).
-  assert (PK : 0 <= K) by (apply Rmult_le_pos; lra).
-  assert (PT : 0 <= T) by (apply Rmult_le_pos; lra).
-  assert (Ht : T * q <= sa * t).
-  { unfold T. rewrite Rmult_assoc. apply Rmult_le_compat_l; auto.
-    apply sum_relative; auto. now apply number_abs. }
+  generalize (eta_positive emin) (error_h _ _ _ _ _ E) (error_r _ _ _ _ _ E) f_1 q_1; intros.
+  destruct (product_inherited p emin direction q h q_1 (error_h _ _ _ _ _ E) (proj1 leaves) (proj2 leaves)
+    (Rabs a) (Rabs b) sa sb eta) as (PI & Small & Large); auto using Rabs_pos.
+  { now apply number_abs. }
+  { intros z w Pz Zw C. assert (smallest_normal * r <= eta).
+    { rewrite <- (smallest_normal_eps p emin).
+      apply Rmult_le_compat_l; [apply Rlt_le, smallest_normal_positive | lra]. }
+    unfold q in *. destruct (Rle_or_lt z smallest_normal) as [S | S]; [nra |].
+    assert (smallest_normal * (1 - r) <= z * (1 - r)) by (apply Rmult_le_compat_r; lra). lra. }
+  revert PI Small Large. set (I := fl (fl (Rabs a * sb) + fl (sa * fl (Rabs b + sb)))).
+  set (X := Rabs a * sb + sa * (Rabs b + sb)). intros PI Small Large.
+  assert (NR : number R) by apply rnd_number. assert (PR : 0 <= R) by apply rounding_nonnegative.
+  assert (NI : number I) by apply rnd_number.
+  assert (PX : 0 <= X) by (generalize (Rabs_pos a) (Rabs_pos b); intros; unfold X; nra).
   (* the exact bound *)
-  apply Rle_trans with (R + h + (K + T)).
+  apply Rle_trans with (R + h + X).
   { replace (v - x * y) with ((v - a * b) + (a * b - x * y)) by ring.
     apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
     - apply rounding_any.
     - now apply product_inherits. }
-  rewrite inflated_exact.
   set (S := fl (fl (R + I) + 4 * eta)).
-  assert (NS : number S) by (apply rnd_number; auto).
   assert (PRI : 0 <= fl (R + I)) by (apply rnd_nonnegative; auto; lra).
-  assert (LRI : fl (R + I) <= S).
-  { apply rnd_above; [apply rnd_number | lra]. }
-  assert (LI : I <= fl (R + I)) by (apply rnd_above; auto; lra).
-  assert (L2 : P2 <= I) by (apply rnd_above; auto; lra).
+  assert (LRI : fl (R + I) <= S) by (apply rnd_above; [apply rnd_number | lra]).
   destruct (Rlt_or_le S smallest_normal) as [C | C].
   - (* all sums are exact; what the products lost is at most 4 eta *)
-    apply Rle_trans with S; [| apply scaled_up; auto; lra].
-    assert (EI : I = P1 + P2).
-    { apply (sum_subnormal P1 P2); auto. fold I. lra. }
-    assert (ER : fl (R + I) = R + I).
-    { apply (sum_subnormal R I); auto. lra. }
-    assert (ES : S = fl (R + I) + 4 * eta).
-    { apply (sum_subnormal _ (4 * eta)); auto using number_4_eta, rnd_number.
-      lra. }
-    assert (C1 : K < smallest_normal).
-    { apply rnd_subnormal. change (fl K) with P1. lra. }
-    assert (C2 : sa * t < smallest_normal).
-    { apply rnd_subnormal. fold P2. lra. }
-    assert (D1 : K - h <= P1) by (apply rnd_absolute; auto).
-    assert (D2 : sa * t - h <= P2).
-    { apply rnd_absolute; auto. apply Rmult_le_pos; lra. }
-    enough (T - eta <= sa * t) by lra.
-    destruct (Rle_or_lt T smallest_normal) as [CT | CT].
-    + assert (T * r <= eta).
-      { rewrite <- (smallest_normal_eps p emin). apply Rmult_le_compat; lra. }
-      unfold q in Ht. lra.
-    + (* then the product would not be that small *)
-      exfalso.
-      assert (smallest_normal * q <= T * q) by (apply Rmult_le_compat_r; lra).
-      assert (smallest_normal * r <= eta).
-      { rewrite <- (smallest_normal_eps p emin). apply Rmult_le_compat_l; lra. }
-      unfold q in *. lra.
+    apply Rle_trans with S; [| apply scaled_up; [apply rnd_number | lra ..]].
+    assert (ER : fl (R + I) = R + I) by (apply (sum_subnormal R I); auto; lra).
+    assert (ES : S = fl (R + I) + 4 * eta) by (apply (sum_subnormal _ (4 * eta)); auto using number_4_eta, rnd_number;
+      lra).
+    specialize (Small ltac:(lra)). lra.
   - (* six roundings at most *)
-    apply Rle_trans with (S * f * q); [| apply inflated_relative; auto].
-    generalize (rnd_lower K PK). change (fl K) with P1. fold q. intros D1.
-    generalize (rnd_lower (sa * t) ltac:(apply Rmult_le_pos; lra)).
-    fold P2 q. intros D2.
-    generalize (sum_relative P1 P2 N1 N2 Pos1 Pos2). fold I q. intros D3.
-    generalize (sum_relative R I NR NI PR PI). fold q. intros D4.
-    generalize (sum_relative (fl (R + I)) (4 * eta)
-                  (rnd_number _) number_4_eta PRI ltac:(lra)).
-    fold S q. intros D5.
-    assert (G : (R + (K + T)) * (q * q * q * q * q) + 2 * eta * q <= S).
+    apply Rle_trans with (2 := scaled_left S f C f_1).
+    generalize (sum_left R I NR NI ltac:(lra)). intros D4.
+    generalize (sum_left (fl (R + I)) (4 * eta) (rnd_number _) number_4_eta ltac:(lra)). fold S. intros D5.
+    assert (G : (R + X) * (q * q * q * q * q) + 2 * eta * q <= S).
     { apply Rle_trans with (2 := D5).
-      apply Rle_trans with ((((R + ((K * q - h) + (T * q * q - h)) * q) * q) + 4 * eta) * q).
+      apply Rle_trans with (((R + (X * (q * q) - 2 * h) * q) * q + 4 * eta) * q).
       - assert (q * q <= 1) by nra. assert (0 <= q * q) by nra.
         assert (Q3 : q * q * q <= 1) by nra. assert (0 <= q * q * q) by nra.
         assert (R * (q * q * q * q * q) <= R * (q * q)).
         { apply Rmult_le_compat_l; auto.
           replace (q * q * q * q * q) with (q * q * (q * q * q)) by ring. nra. }
-        assert (K * (q * q * q * q * q) <= K * (q * q * q * q)).
-        { apply Rmult_le_compat_l; auto.
-          assert (0 <= q * q * q * q) by (repeat apply Rmult_le_pos; lra). nra. }
         assert (h * (q * q * q) <= eta * q).
         { apply Rle_trans with (eta * (q * q * q)); [apply Rmult_le_compat_r; lra |].
           replace (eta * (q * q * q)) with (eta * q * (q * q)) by ring.
           assert (0 <= eta * q) by (apply Rmult_le_pos; lra). nra. }
         lra.
       - apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat_r.
-        apply Rle_trans with (2 := D4). apply Rmult_le_compat_r; [lra |].
-        apply Rplus_le_compat_l. apply Rle_trans with (2 := D3).
-        apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat; auto.
-        apply Rle_trans with (2 := D2). apply Rplus_le_compat_r, Rmult_le_compat_r; lra. }
-    generalize f_q6 f_q3; intros.
-    apply Rle_trans with (((R + (K + T)) * (q * q * q * q * q) + 2 * eta * q) * (f * q)).
-    + replace (((R + (K + T)) * (q * q * q * q * q) + 2 * eta * q) * (f * q))
-        with ((R + (K + T)) * (f * (q * q * q * q * q * q)) + 2 * eta * (f * (q * q))) by ring.
-      assert (1 <= f * (q * q)).
-      { replace (f * (q * q * q)) with (f * (q * q) * q) in * by ring.
-        assert (0 <= f * (q * q)) by (repeat apply Rmult_le_pos; lra). nra. }
-      nra.
-    + replace (S * f * q) with (S * (f * q)) by ring. apply Rmult_le_compat_r; auto.
-      apply Rmult_le_pos; lra.
+        apply Rle_trans with (2 := D4). apply Rmult_le_compat_r; [lra |]. apply Rplus_le_compat_l; auto. }
+    generalize f_q6 (fewer_roundings f q (q * q) ltac:(lra) q_1 f_q3); intros.
+    apply Rle_trans with (((R + X) * (q * q * q * q * q) + 2 * eta * q) * (f * q)).
+    + replace (((R + X) * (q * q * q * q * q) + 2 * eta * q) * (f * q))
+        with ((R + X) * (f * (q * q * q * q * q * q)) + 2 * eta * (f * (q * q))) by ring. nra.
+    + apply Rmult_le_compat_r; auto. apply Rmult_le_pos; lra.
 Qed.
 
 (** The printed rule's bound of an exact quotient, multiplied out. *)
@@ -408,35 +309,9 @@ Qed.
 (** The code's own bound of |a/b|. *)
 Lemma quotient_covered s : Rabs s <= inflated (fl (Rabs (fl s) + eta)).
 Proof.
-  rewrite inflated_exact. set (w := fl (Rabs (fl s) + eta)).
-  generalize (eta_positive emin) (error_h _ _ _ _ _ E) (error_r _ _ _ _ _ E) f_1 q_1 f_q3
-    (Rabs_pos s) (Rabs_pos (fl s)); intros.
-  assert (N : number (Rabs (fl s))) by (apply number_abs, rnd_number).
-  assert (W : number w) by apply rnd_number.
-  assert (PW : 0 <= w) by (apply rnd_nonnegative; lra).
-  assert (B : Rabs s <= Rabs (fl s) + Rabs (fl s - s)).
-  { rewrite Rabs_minus_sym. replace s with ((s - fl s) + fl s) at 1 by ring.
-    generalize (Rabs_triang (s - fl s) (fl s)). lra. }
-  destruct (Rlt_or_le w smallest_normal) as [C | C].
-  - apply Rle_trans with w; [| apply scaled_up; auto; lra].
-    unfold w. rewrite sum_subnormal; auto using number_eta; try lra.
-    enough (Rabs (fl s - s) <= h) by lra.
-    apply (error_absolute _ _ _ _ _ E). apply Rnot_le_lt. intros S.
-    apply (rnd_abs_above p emin direction) in S; auto using number_smallest_normal.
-    assert (Rabs (fl s) <= w) by (apply rnd_above; auto; lra). lra.
-  - apply Rle_trans with (w * f * q); [| apply inflated_relative; auto].
-    assert (A : Rabs s * q <= Rabs (fl s) + eta).
-    { destruct (Rlt_or_le (Rabs s) smallest_normal) as [S | S].
-      - generalize (error_absolute _ _ _ _ _ E s S). intros. nra.
-      - generalize (error_relative _ _ _ _ _ E s S). intros. unfold q. lra. }
-    generalize (sum_relative (Rabs (fl s)) eta N (number_eta p emin)
-                  (Rabs_pos _) ltac:(lra)). fold w q. intros G.
-    assert (K : Rabs s * (q * q) <= w).
-    { apply Rle_trans with (2 := G). rewrite <- Rmult_assoc. apply Rmult_le_compat_r; lra. }
-    apply Rle_trans with (Rabs s * (q * q) * (f * q)).
-    + replace (Rabs s * (q * q) * (f * q)) with (Rabs s * (f * (q * q * q))) by ring. nra.
-    + replace (w * f * q) with (w * (f * q)) by ring. apply Rmult_le_compat_r; auto.
-      apply Rmult_le_pos; lra.
+  rewrite inflated_exact.
+  apply (covered_by_rounded p emin direction q h q_1 (error_h _ _ _ _ _ E) (proj1 leaves) (proj2 leaves));
+    [apply f_1 | apply f_q3].
 Qed.
 
 Lemma divide_sound a x sa b y sb bound :
@@ -519,39 +394,11 @@ Proof.
   assert (NI : number I) by apply rnd_number.
   assert (PIr : 0 <= I) by now apply rnd_nonnegative.
   assert (HJ : Z - h * (1 + f) <= inflated I).
-  { rewrite inflated_exact. generalize f_q6 f_q5 f_q4; intros.
-    destruct (Rlt_or_le I smallest_normal) as [C | C].
-    - assert (D1 : N / d - h <= I).
-      { apply rnd_absolute; auto. }
-      assert (D2 : Z * f * (q * q * q * q) - h * f <= I * f).
-      { replace (Z * f * (q * q * q * q) - h * f) with ((Z * (q * q * q * q) - h) * f) by ring.
-        apply Rmult_le_compat_r; lra. }
-      assert (PIf : 0 <= I * f) by (apply Rmult_le_pos; lra).
-      destruct (Rlt_or_le (I * f) smallest_normal) as [Cf | Cf].
-      + assert (I * f - h <= fl (I * f)) by (apply rnd_absolute; auto).
-        assert (Z <= Z * f * (q * q * q * q)).
-        { replace (Z * f * (q * q * q * q)) with (Z * (f * (q * q * q * q))) by ring. nra. }
-        lra.
-      + assert (D3 : I * f * q <= fl (I * f)) by (apply rnd_relative; auto).
-        assert ((Z * f * (q * q * q * q) - h * f) * q <= I * f * q) by
-          (apply Rmult_le_compat_r; lra).
-        assert (Z <= Z * f * (q * q * q * q) * q).
-        { replace (Z * f * (q * q * q * q) * q) with (Z * (f * (q * q * q * q * q))) by ring. nra. }
-        assert (0 <= h * f) by (apply Rmult_le_pos; lra).
-        assert (h * f * q <= h * f) by nra. lra.
-    - apply Rle_trans with (I * f * q); [| apply inflated_relative; auto].
-      assert (D1 : N / d * q <= I).
-      { destruct (Rlt_or_le (N / d) smallest_normal) as [Cd | Cd].
-        - apply Rle_trans with smallest_normal; auto. nra.
-        - now apply rnd_relative. }
-      assert (D2 : Z * (q * q * q * q) * q * (f * q) <= I * (f * q)).
-      { apply Rmult_le_compat_r. apply Rmult_le_pos; lra.
-        apply Rle_trans with (2 := D1). apply Rmult_le_compat_r; lra. }
-      replace (Z * (q * q * q * q) * q * (f * q)) with (Z * (f * (q * q * q * q * q * q))) in D2
-        by ring.
-      replace (I * f * q) with (I * (f * q)) by ring.
-      assert (0 <= h * (1 + f)) by (apply Rmult_le_pos; lra).
-      assert (Z <= Z * (f * (q * q * q * q * q * q))) by nra. lra. }
+  { rewrite inflated_exact. destruct (quotient_inflated p emin direction q h q_1 (error_h _ _ _ _ _ E) (proj1 leaves)
+      (proj2 leaves) Z (N / d) f PZ f_1 f_q5 HI PI) as (Below & Above).
+    destruct (Rlt_or_le I smallest_normal) as [C | C]; [now apply Below |]. specialize (Above C). fold I in Above.
+    assert (Z * 1 <= Z * (f * (q * q * q * q * q * q))) by (apply Rmult_le_compat_l; auto).
+    assert (0 <= h * (1 + f)) by (apply Rmult_le_pos; lra). lra. }
   (* all together *)
   apply Rle_trans with (R + inflated I + 4 * eta).
   - apply Rle_trans with (R + h + Z).

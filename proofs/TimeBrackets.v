@@ -116,7 +116,6 @@ Qed.
 Hypothesis double_0 : double 0.
 Hypothesis double_1 : double 1.
 
-Definition linear_at (p0 p1 t : R) : R := p0 * (1 - t) + p1 * t.
 (** bracket_of_linear_root *)
 Definition linear_bracket (p0 p1 : R) (b : bracket) : Prop :=
   (p0 = 0 /\ b = (0, 0)) \/ (p0 <> 0 /\ p1 = 0 /\ b = (1, 1)) \/
@@ -152,7 +151,6 @@ Qed.
 
 (** ** Quadratic forms *)
 
-Inductive which_root := only_root_of | first_root_of | second_root_of.
 (** bracket_of_quadratic_root *)
 Definition quadratic_bracket (f : quadratic) (which : which_root) (b : bracket) : Prop :=
   match which with
@@ -232,36 +230,21 @@ Proof.
   - intros [-> | ->]; ring.
 Qed.
 
+(** beside r, which is the extreme's side of the root. *)
+Ltac beside_extreme r :=
+  intros (e & E & C); apply extreme_between in E; assert (M : p < (p + q) / 2 < q) by lra; cbn zeta in C;
+  destruct C as [(Z & ->) | [(S & ->) | (S & B)]];
+  [ apply zeros in Z; destruct E as [(D & F & G) | ((D & D' & _) & T)]; destruct Z as [Z | Z]; try lra;
+    left; rewrite <- Z; auto
+  | apply outside in S; destruct E as [(D & F & G) | (N & T)]; destruct S as [S | S]; try lra; right; split; auto; lra
+  | apply inside in S; destruct E as [(D & F & G) | (N & T)]; (apply (search_only _ _ _ _ r _ B); [lra | | |]);
+    intros x X Q; solve [apply zeros in Q; lra
+      | assert (Q' : 0 < quadratic_at f x * c0 f) by lra; apply outside in Q'; lra
+      | assert (Q' : quadratic_at f x * c0 f < 0) by lra; apply inside in Q'; lra] ].
 Theorem quadratic_first_right b : quadratic_bracket f first_root_of b -> holds_time b p.
-Proof.
-  intros (e & E & C). apply extreme_between in E. set (m := (p + q) / 2) in *.
-  assert (M : p < m < q) by (unfold m; lra). cbn zeta in C.
-  assert (L : fst e <= m) by (destruct E as [(_ & -> & _) | (_ & S)]; lra).
-  destruct C as [(Z & ->) | [(S & ->) | (S & B)]].
-  - apply zeros in Z. destruct E as [(D & F & _) | ((D & _) & T)]; destruct Z as [Z | Z]; try lra.
-    left. rewrite <- Z. auto.
-  - apply outside in S. destruct S as [S | S]; [| lra].
-    destruct E as [(D & F & _) | (N & T)]; [lra |]. right. split; auto. split; lra.
-  - apply inside in S. apply (search_only _ _ _ _ p b B); [lra | | |].
-    + intros x X Q. apply outside in Q. lra.
-    + intros x X Q. apply inside in Q. lra.
-    + intros x X Q. apply zeros in Q. lra.
-Qed.
+Proof. beside_extreme p. Qed.
 Theorem quadratic_second_right b : quadratic_bracket f second_root_of b -> holds_time b q.
-Proof.
-  intros (e & E & C). apply extreme_between in E. set (m := (p + q) / 2) in *.
-  assert (M : p < m < q) by (unfold m; lra). cbn zeta in C.
-  assert (L : m <= snd e) by (destruct E as [(_ & _ & ->) | (_ & S)]; lra).
-  destruct C as [(Z & ->) | [(S & ->) | (S & B)]].
-  - apply zeros in Z. destruct E as [(D & _ & F) | ((_ & D & _) & T)]; destruct Z as [Z | Z]; try lra.
-    left. rewrite <- Z. auto.
-  - apply outside in S. destruct S as [S | S]; [lra |].
-    destruct E as [(D & _ & F) | (N & T)]; [lra |]. right. split; auto. split; lra.
-  - apply inside in S. apply (search_only _ _ _ _ q b B); [lra | | |].
-    + intros x X Q. assert (Q' : quadratic_at f x * c0 f < 0) by lra. apply inside in Q'. lra.
-    + intros x X Q. assert (Q' : 0 < quadratic_at f x * c0 f) by lra. apply outside in Q'. lra.
-    + intros x X Q. apply zeros in Q. lra.
-Qed.
+Proof. beside_extreme q. Qed.
 
 End TwoRoots.
 

@@ -260,33 +260,23 @@ Qed.
 Lemma all_units_positive : AxisUnits.units all_units.
 Proof. generalize unit_positive. now repeat split. Qed.
 
+Ltac in_units units answer := intros E; rewrite <- (units _ _ _ _ _ all_units_positive); cbv zeta;
+  rewrite <- !moves_exactly; exact (answer _ _ _ _ E).
 Theorem tracked_face_separate v f0 f1 f2 :
   face_answer (moves v) (moves f0) (moves f1) (moves f2) = BscCode.no ->
   ~ Contact.vertex_face_collides (motion v) (motion f0) (motion f1) (motion f2).
-Proof.
-  intros E. rewrite <- (AxisUnits.face_units _ _ _ _ _ all_units_positive). cbv zeta.
-  rewrite <- !moves_exactly. exact (face_answer_separate _ _ _ _ E).
-Qed.
+Proof. in_units AxisUnits.face_units (@face_answer_separate rule_scalar). Qed.
 Theorem tracked_face_collides v f0 f1 f2 :
   face_answer (moves v) (moves f0) (moves f1) (moves f2) = BscCode.yes ->
   Contact.vertex_face_collides (motion v) (motion f0) (motion f1) (motion f2).
-Proof.
-  intros E. rewrite <- (AxisUnits.face_units _ _ _ _ _ all_units_positive). cbv zeta.
-  rewrite <- !moves_exactly. exact (face_answer_collides _ _ _ _ E).
-Qed.
+Proof. in_units AxisUnits.face_units (@face_answer_collides rule_scalar). Qed.
 Theorem tracked_edges_separate a0 a1 b0 b1 :
   edges_answer (moves a0) (moves a1) (moves b0) (moves b1) = BscCode.no ->
   ~ Contact.edge_edge_collides (motion a0) (motion a1) (motion b0) (motion b1).
-Proof.
-  intros E. rewrite <- (AxisUnits.edges_units _ _ _ _ _ all_units_positive). cbv zeta.
-  rewrite <- !moves_exactly. exact (edges_answer_separate _ _ _ _ E).
-Qed.
+Proof. in_units AxisUnits.edges_units (@edges_answer_separate rule_scalar). Qed.
 Theorem tracked_edges_collide a0 a1 b0 b1 :
   edges_answer (moves a0) (moves a1) (moves b0) (moves b1) = BscCode.yes ->
   Contact.edge_edge_collides (motion a0) (motion a1) (motion b0) (motion b1).
-Proof.
-  intros E. rewrite <- (AxisUnits.edges_units _ _ _ _ _ all_units_positive). cbv zeta.
-  rewrite <- !moves_exactly. exact (edges_answer_collide _ _ _ _ E).
-Qed.
+Proof. in_units AxisUnits.edges_units (@edges_answer_collide rule_scalar). Qed.
 
 End Tracked.

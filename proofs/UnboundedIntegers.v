@@ -86,6 +86,11 @@ Proof.
     to_integer_right.
 Qed.
 
+Lemma query_in_integers q0 q1 q2 q3 : let q := [q0; q1; q2; q3] in let k := unit_of q in units k /\
+  in_integers k (given_motion q0) (to_integers q q0) /\ in_integers k (given_motion q1) (to_integers q q1) /\
+  in_integers k (given_motion q2) (to_integers q q2) /\ in_integers k (given_motion q3) (to_integers q q3).
+Proof. repeat split; apply to_integers_right || (apply powerRZ_lt; lra); simpl; tauto. Qed.
+
 (** ** Integer forms in x = t/s *)
 
 (** Coefficients ascend. *)
@@ -429,5 +434,12 @@ Proof.
   intros (M0 & M1 & M2 & M3). unfold edges_border, edges_border_collides.
   rewrite !orb_true_iff, !edge_contact_right by (assumption || (simpl; auto)). tauto.
 Qed.
+
+Definition query_border_touched (edges : bool) := if edges then edges_border else face_border.
+Definition query_border_meets (edges : bool) := if edges then edges_border_meets else face_border_meets.
+Lemma query_border_right edges q0 q1 q2 q3 : query_border_meets edges (promises finder) q0 q1 q2 q3 ->
+  query_border_touched edges q0 q1 q2 q3 = true <->
+  query_border edges (given_motion q0) (given_motion q1) (given_motion q2) (given_motion q3).
+Proof. destruct edges; [exact (edges_border_right q0 q1 q2 q3) | exact (face_border_right q0 q1 q2 q3)]. Qed.
 
 End Contact.

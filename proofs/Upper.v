@@ -26,17 +26,7 @@ Hypothesis emin_p : (emin <= - p - 1)%Z.
 Hypothesis p_2 : (2 <= p)%Z.
 
 Lemma one_plus_eps : fl (1 + eps) = 1 + eps.
-Proof.
-  apply rnd_exact; auto with typeclass_instances. unfold Format.eps.
-  replace (1 + bpow radix2 (1 - p)) with (IZR (2 ^ (p - 1) + 1) * bpow radix2 (1 - p)).
-  - apply number_integer; auto; try lia.
-    assert (2 ^ p = 2 * 2 ^ (p - 1))%Z.
-    { replace p with (1 + (p - 1))%Z at 1 by lia. rewrite Z.pow_add_r by lia. reflexivity. }
-    assert (2 ^ 1 <= 2 ^ (p - 1))%Z by (apply Z.pow_le_mono_r; lia). lia.
-  - rewrite plus_IZR. change 2%Z with (radix_val radix2) at 1. rewrite IZR_Zpower by lia.
-    rewrite Rmult_plus_distr_r, <- bpow_plus. replace (p - 1 + (1 - p))%Z with 0%Z by lia.
-    simpl (bpow radix2 0). ring.
-Qed.
+Proof. apply rnd_exact; auto with typeclass_instances. apply (number_1_power p emin 1); auto; lia. Qed.
 Lemma upper_number x : number (upper x).
 Proof. apply rnd_number; auto with typeclass_instances. Qed.
 Lemma upper_le x : number x -> 0 <= x -> x <= upper x.

@@ -3,7 +3,8 @@
 
     Results:
         common_roots_right              what the common roots of quadratics inside (0, 1) are
-        nonpositive_at_a_root_right     b <= 0 at some root of f in (0, 1)
+        first_root_told                 the first root of f in (0, 1) where b <= 0, every branch (VertexEdgeTime.v)
+        nonpositive_at_a_root_right     b <= 0 at some root of f in (0, 1): there is a first one
         contact_right                   `vertex_touches_edge` is true exactly if vertex and edge meet in [0, 1] *)
 
 From Coq Require Import Reals ZArith Lra Psatz List Bool.
@@ -366,53 +367,11 @@ Proof.
     + intros V. now inversion_clear V.
 Qed.
 
-(** ** nonpositive_at_a_root *)
+(** ** Values and roots of quadratics *)
 
 Definition code_value (f : quadratic) (s t : R) : R := value_at (S := reals) (coefficients f) s t.
 (** The quadratic's derivative and the remainder l are linear forms. *)
 Definition linear_value (h0 h1 s t : R) : R := value_at (S := reals) [h0; h1] s t.
-Definition nonpositive_at_a_root (f b : quadratic) : bool :=
-  let first := sign_of_real (c0 f) in
-  let last := sign_of_real (c2 f) in
-  if same_sign first zero then nonpositive (code_value b (Rabs (c2 f)) (Rabs (c1 f)))
-  else if same_sign last zero then nonpositive (code_value b (Rabs (c1 f)) (Rabs (c0 f)))
-  else
-    let two_roots := same_sign first last in
-    let discriminant := sign_of_real (c1 f * c1 f - 4 * (c0 f * c2 f)) in
-    if two_roots && same_sign discriminant negative then false
-    else if two_roots && same_sign discriminant zero
-      then nonpositive (code_value b (2 * Rabs (c2 f)) (Rabs (c1 f)))
-    else
-      let l0 := c2 f * c0 b - c2 b * c0 f in
-      let l1 := c2 f * c1 b - c2 b * c1 f in
-      let answer of_l := certainly_nonpositive (times last of_l) in
-      let everywhere := sign_inside (S := reals) [l0; l1] in
-      if certain everywhere then answer everywhere
-      else
-        let s := Rabs l1 in
-        let t := Rabs l0 in
-        let there := sign_of_real (code_value f s t) in
-        if same_sign there zero || (two_roots && negb (same_sign there first)) then true
-        else
-          let roots_are_later :=
-            if two_roots
-            then negb (same_sign (sign_of_real (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) s t)) first)
-            else same_sign there first in
-          answer (sign_of_real (if roots_are_later then l1 else l0)).
-
-Definition nonpositive_somewhere (f b : quadratic) : Prop :=
-  exists x, 0 < x /\ at_ratio f x = 0 /\ at_ratio b x <= 0.
-
-Lemma at_rational b s t : 0 < s -> nonpositive (code_value b s t) = true <-> at_ratio b (t / s) <= 0.
-Proof.
-  intros S. rewrite nonpositive_true. unfold code_value. rewrite value_of_code. now apply ratio_sign.
-Qed.
-Lemma only_root f b x : 0 < x -> at_ratio f x = 0 -> (forall r, 0 < r -> at_ratio f r = 0 -> r = x) ->
-  at_ratio b x <= 0 <-> nonpositive_somewhere f b.
-Proof.
-  intros X Z Only. split; [intros; now exists x |]. intros (r & P & Zr & N). now rewrite <- (Only r P Zr).
-Qed.
-
 Lemma factors f0 f1 f2 : f2 <> 0 -> 0 < f1 * f1 - 4 * (f0 * f2) ->
   exists p q, p < q /\ f0 = f2 * (p * q) /\ f1 = - (f2 * (p + q)).
 Proof.
@@ -446,22 +405,80 @@ Proof.
   rewrite E. ring.
 Qed.
 
-Lemma two_places f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
+Lemma inside_ratio f t : 0 < t < 1 ->
+  (quadratic_at f t = 0 <-> at_ratio f (t / (1 - t)) = 0) /\
+  (quadratic_at f t <= 0 <-> at_ratio f (t / (1 - t)) <= 0).
+Proof. intros T. unfold quadratic_at. apply ratio_sign. lra. Qed.
+
+(** ** first_root_nonpositive (ccd/contact/vertex_edge_time.hpp) *)
+
+Inductive which_root := only_root_of | first_root_of | second_root_of.
+Definition linear_at (p0 p1 t : R) : R := p0 * (1 - t) + p1 * t.
+(** Where the first time is: the root of a linear form, or a root of a quadratic one. *)
+Inductive place_in_time :=
+  | nowhere | start_time | end_time | linear_root (k0 k1 : R) | quadratic_root (f : quadratic) (which : which_root).
+
+Definition opposite_sign (s : sign) : sign :=
+  match s with positive => negative | negative => positive | _ => s end.
+Definition first_root_nonpositive (f b : quadratic) : place_in_time :=
+  let at_rational k0 k1 :=
+    if nonpositive (code_value b (Rabs k1) (Rabs k0)) then linear_root k0 k1 else nowhere in
+  let first := sign_of_real (c0 f) in
+  let last := sign_of_real (c2 f) in
+  if same_sign first zero then at_rational (c1 f) (c2 f)
+  else if same_sign last zero then at_rational (c0 f) (c1 f)
+  else
+    let two_roots := same_sign first last in
+    let discriminant := sign_of_real (c1 f * c1 f - 4 * (c0 f * c2 f)) in
+    if two_roots && same_sign discriminant negative then nowhere
+    else if two_roots && same_sign discriminant zero then at_rational (c1 f) (2 * c2 f)
+    else
+      let l0 := c2 f * c0 b - c2 b * c0 f in
+      let l1 := c2 f * c1 b - c2 b * c1 f in
+      let nonpositive_at of_l := certainly_nonpositive (times last of_l) in
+      let first_root := quadratic_root f (if two_roots then first_root_of else only_root_of) in
+      let everywhere := sign_inside (S := reals) [l0; l1] in
+      if certain everywhere then (if nonpositive_at everywhere then first_root else nowhere)
+      else
+        let s := Rabs l1 in
+        let t := Rabs l0 in
+        let there := sign_of_real (code_value f s t) in
+        if negb two_roots then
+          if same_sign there zero then first_root
+          else if nonpositive_at (sign_of_real (if same_sign there first then l1 else l0)) then first_root
+          else nowhere
+        else if same_sign there (opposite_sign first) then
+          (if nonpositive_at (sign_of_real l0) then quadratic_root f first_root_of
+           else quadratic_root f second_root_of)
+        else
+          let before_both := same_sign (sign_of_real (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) s t))
+            (opposite_sign first) in
+          if same_sign there zero then
+            if before_both then quadratic_root f first_root_of
+            else if nonpositive_at (sign_of_real l0) then quadratic_root f first_root_of
+            else quadratic_root f second_root_of
+          else if nonpositive_at (sign_of_real (if before_both then l1 else l0)) then quadratic_root f first_root_of
+          else nowhere.
+
+(** In x = t/s: f = f2 (x - p)(x - q), its greater root positive. *)
+Definition ratio_right (f b : quadratic) (p q : R) (place : place_in_time) : Prop :=
+  match place with
+  | nowhere => (0 < p -> 0 < at_ratio b p) /\ 0 < at_ratio b q
+  | quadratic_root g only_root_of => g = f /\ p < 0 /\ at_ratio b q <= 0
+  | quadratic_root g first_root_of => g = f /\ 0 < p /\ at_ratio b p <= 0
+  | quadratic_root g second_root_of => g = f /\ 0 < p /\ 0 < at_ratio b p /\ at_ratio b q <= 0
+  | _ => False
+  end.
+
+Lemma first_of_two f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
   let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
-  nonpositive_at_a_root f b = true <-> nonpositive_somewhere f b.
+  ratio_right f b p q (first_root_nonpositive f b).
 Proof.
   intros N O P Q f. destruct b as [b0 b1 b2].
   destruct (both_roots f2 p q b0 b1 b2) as (El0 & El1 & Ef & Eb). fold f in El0, El1, Ef, Eb.
   set (b := Quadratic b0 b1 b2) in *. set (L0 := b0 - b2 * (p * q)) in *. set (L1 := b1 + b2 * (p + q)) in *.
-  assert (Somewhere : nonpositive_somewhere f b <-> (0 < p /\ L0 + L1 * p <= 0) \/ L0 + L1 * q <= 0).
-  { assert (Zp : at_ratio f p = 0) by (rewrite Ef; ring). assert (Zq : at_ratio f q = 0) by (rewrite Ef; ring).
-    split.
-    - intros (x & X & Z & B). rewrite (Eb x Z N) in B. rewrite Ef in Z. apply Rmult_integral in Z.
-      destruct Z as [Z | Z]; [easy |]. apply Rmult_integral in Z. destruct Z as [Z | Z].
-      + left. now replace p with x by lra.
-      + right. now replace q with x by lra.
-    - intros [(X & B) | B]; [exists p; rewrite (Eb p Zp N); auto | exists q; rewrite (Eb q Zq N); auto]. }
-  rewrite Somewhere. clear Somewhere Eb.
+  assert (Bp : at_ratio b p = L0 + L1 * p) by (apply Eb; auto; rewrite Ef; ring).
+  assert (Bq : at_ratio b q = L0 + L1 * q) by (apply Eb; auto; rewrite Ef; ring).
   assert (D : sign_of_real (c1 f * c1 f - 4 * (c0 f * c2 f)) = positive).
   { apply sign_positive. unfold f. cbn [c0 c1 c2].
     replace (_ - _) with ((f2 * (q - p)) * (f2 * (q - p))) by ring.
@@ -474,129 +491,318 @@ Proof.
     - rewrite sign_product, (sign_positive (Rabs f2 * Rabs f2)).
       + now destruct (sign_of_real (f2 * _)).
       + assert (0 < Rabs f2) by now apply Rabs_pos_lt. nra. }
-  assert (Slope : forall c a, sign_of_real (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) (Rabs f2 * c) (Rabs f2 * a))
+  assert (Slope : forall c a,
+    sign_of_real (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) (Rabs f2 * c) (Rabs f2 * a))
     = times (sign_of_real f2) (sign_of_real ((1 + p) * (a - q * c) + (1 + q) * (a - p * c)))).
   { intros c a. rewrite <- !sign_product.
     transitivity (sign_of_real (Rabs f2 * (f2 * ((1 + p) * (a - q * c) + (1 + q) * (a - p * c))))).
     - f_equal. unfold linear_value, f. cbn. ring.
     - rewrite sign_product, (sign_positive (Rabs f2)) by now apply Rabs_pos_lt.
       now destruct (sign_of_real (f2 * _)). }
-  unfold nonpositive_at_a_root. cbv zeta. rewrite D, El0, El1, !Rabs_mult, There, Slope.
+  unfold first_root_nonpositive. cbv zeta. rewrite D, El0, El1, !Rabs_mult, There, Slope.
   assert (First : sign_of_real (c0 f) = times (sign_of_real f2) (sign_of_real p)).
   { unfold f. cbn [c0]. rewrite !sign_product, (sign_positive q Q).
     now destruct (sign_of_real f2), (sign_of_real p). }
   rewrite First. change (c2 f) with f2.
   unfold sign_inside. cbn [sign_inside_from sign_of reals]. rewrite !sign_product.
-  clear There Slope First D Ef El0 El1. clearbody L0 L1.
   assert (Later : forall g : bool, sign_of_real (if g then f2 * L1 else f2 * L0)
      = times (sign_of_real f2) (if g then sign_of_real L1 else sign_of_real L0))
     by (intros []; apply sign_product).
-  rewrite Later. clear Later.
+  rewrite !Later. clear Later.
   assert (Up : Rabs L0 - q * Rabs L1 <= Rabs L0 - p * Rabs L1) by (pose proof (Rabs_pos L1); nra).
   set (u := Rabs L0 - p * Rabs L1) in *. set (v := Rabs L0 - q * Rabs L1) in *.
   assert (E : u = Rabs L0 - p * Rabs L1 /\ v = Rabs L0 - q * Rabs L1) by (split; reflexivity).
-  assert (Earlier : 0 < p -> 0 < u -> 0 < v -> 0 < (1 + p) * v + (1 + q) * u)
-    by (clear - Q; intros; assert (0 < p * v) by (now apply Rmult_lt_0_compat);
-        assert (0 < q * u) by (now apply Rmult_lt_0_compat); lra).
-  assert (After : 0 < p -> u < 0 -> v < 0 -> (1 + p) * v + (1 + q) * u < 0)
-    by (clear - Q; intros; assert (0 < p * - v) by (apply Rmult_lt_0_compat; lra);
-        assert (0 < q * - u) by (apply Rmult_lt_0_compat; lra); lra).
+  assert (Earlier : 0 < p -> 0 <= u -> 0 <= v -> 0 < u -> 0 < (1 + p) * v + (1 + q) * u).
+  { clear - Q. intros. assert (0 <= p * v) by (apply Rmult_le_pos; lra).
+    assert (0 < q * u) by (now apply Rmult_lt_0_compat). lra. }
+  assert (After : 0 < p -> u <= 0 -> v <= 0 -> v < 0 -> (1 + p) * v + (1 + q) * u < 0).
+  { clear - Q. intros. assert (0 <= p * - v) by (apply Rmult_le_pos; lra).
+    assert (0 <= q * - u) by (apply Rmult_le_pos; lra). lra. }
+  assert (Apart : 0 < Rabs L1 -> v < u).
+  { destruct E as (-> & ->). clear - O. intros. assert (0 < (q - p) * Rabs L1) by (apply Rmult_lt_0_compat; lra). lra. }
   assert (Single : p < 0 -> 0 < Rabs L0 -> 0 < u).
   { destruct E as (-> & _). clear. intros. assert (0 <= - p * Rabs L1)
       by (apply Rmult_le_pos; [lra | apply Rabs_pos]). lra. }
-  assert (Falling : L0 < 0 -> 0 < L1 -> u = - (L0 + L1 * p) /\ v = - (L0 + L1 * q) /\ 0 < Rabs L0).
+  assert (Falling : L0 < 0 -> 0 < L1 -> u = - (L0 + L1 * p) /\ v = - (L0 + L1 * q) /\ 0 < Rabs L0 /\ 0 < Rabs L1).
   { destruct E as (-> & ->). clear. intros. rewrite (Rabs_left L0), (Rabs_pos_eq L1) by lra. lra. }
-  assert (Rising : 0 < L0 -> L1 < 0 -> u = L0 + L1 * p /\ v = L0 + L1 * q /\ 0 < Rabs L0).
+  assert (Rising : 0 < L0 -> L1 < 0 -> u = L0 + L1 * p /\ v = L0 + L1 * q /\ 0 < Rabs L0 /\ 0 < Rabs L1).
   { destruct E as (-> & ->). clear. intros. rewrite (Rabs_left L1), (Rabs_pos_eq L0) by lra. lra. }
-  assert (Same : 0 <= L0 -> 0 <= L1 -> 0 < L0 + L1 ->
-    ~ ((0 < p /\ L0 + L1 * p <= 0) \/ L0 + L1 * q <= 0)).
+  assert (Same : 0 <= L0 -> 0 <= L1 -> 0 < L0 + L1 -> (0 < p -> 0 < L0 + L1 * p) /\ 0 < L0 + L1 * q).
   { assert (H : forall r, 0 < r -> 0 <= L0 -> 0 <= L1 -> 0 < L0 + L1 -> 0 < L0 + L1 * r).
     { clear. intros. assert (0 <= L1 * r) by (apply Rmult_le_pos; lra).
       destruct (Req_dec L0 0); [| lra]. assert (0 < L1 * r) by (apply Rmult_lt_0_compat; lra). lra. }
-    intros A B C [(X & Y) | Y]; [specialize (H p X A B C) | specialize (H q Q A B C)]; lra. }
-  assert (Below : L0 <= 0 -> L1 <= 0 -> L0 + L1 * q <= 0).
-  { clear - Q. intros. assert (0 <= - L1 * q) by (apply Rmult_le_pos; lra). lra. }
-  clear E. clearbody u v.
+    auto. }
+  assert (Below : forall r, 0 < r -> L0 <= 0 -> L1 <= 0 -> L0 + L1 * r <= 0).
+  { clear. intros. assert (0 <= - L1 * r) by (apply Rmult_le_pos; lra). lra. }
+  unfold ratio_right. fold f. rewrite Bp, Bq.
+  assert (Itself : f = f) by reflexivity. revert Itself.
+  clear There Slope First D Ef El0 El1 E Eb Bp Bq. clearbody L0 L1 u v f. intros Itself.
   cases_of_sign f2; [| easy |]; (cases_of_sign p; [| easy |]); cases_of_sign L0; cases_of_sign L1.
-  all: cbn [times same_sign sign_inside_from certain certainly_nonpositive andb orb negb].
-  all: try (split; [right; apply Below | reflexivity]; lra).
-  all: try (split; [discriminate | intros H; exfalso; revert H; apply Same; lra]).
-  all: first [destruct (Falling ltac:(assumption) ltac:(assumption)) as (U & V & A)
-             | destruct (Rising ltac:(assumption) ltac:(assumption)) as (U & V & A)].
-  all: clear Falling Rising Same Below; set (gp := L0 + L1 * p) in *; set (gq := L0 + L1 * q) in *;
-    clearbody gp gq.
+  all: cbn [times same_sign sign_inside_from certain certainly_nonpositive andb orb negb opposite_sign].
+  all: try (apply Same; lra).
+  all: try (split; [reflexivity |]; split; [lra |]; apply Below; lra).
+  all: first [destruct (Falling ltac:(assumption) ltac:(assumption)) as (U & V & A & A1)
+             | destruct (Rising ltac:(assumption) ltac:(assumption)) as (U & V & A & A1)].
+  all: specialize (Apart A1); clear Falling Rising Same Below; set (gp := L0 + L1 * p) in *;
+    set (gq := L0 + L1 * q) in *; clearbody gp gq.
   all: cases_of_sign u; cases_of_sign v; try lra;
     try (exfalso; assert (0 < u) by (apply Single; assumption); lra).
-  all: try rewrite (sign_positive _ (Earlier ltac:(assumption) ltac:(assumption) ltac:(assumption)));
-    try rewrite (sign_negative _ (After ltac:(assumption) ltac:(assumption) ltac:(assumption))).
-  all: cbn [times same_sign certain certainly_nonpositive andb orb negb].
-  all: split; [intros T; try discriminate T; try (right; lra); left; lra |
-               intros [(X & Y) | Y]; try reflexivity; exfalso; lra].
+  all: try rewrite (sign_positive _ (Earlier ltac:(assumption) ltac:(lra) ltac:(lra) ltac:(lra)));
+    try rewrite (sign_negative _ (After ltac:(assumption) ltac:(lra) ltac:(lra) ltac:(lra))).
+  all: cbn [times same_sign certain certainly_nonpositive andb orb negb opposite_sign].
+  all: repeat split; try reflexivity; lra.
 Qed.
 
-Theorem nonpositive_at_a_root_right f b : sign_inside (coefficients f) = uncertain ->
-  nonpositive_at_a_root f b = true <-> nonpositive_somewhere f b.
+(** The time that a place tells, with what the search for its bracket needs. *)
+Definition tells (place : place_in_time) (r : R) : Prop :=
+  match place with
+  | nowhere => False
+  | start_time => r = 0
+  | end_time => r = 1
+  | linear_root k0 k1 => k0 * k1 <= 0 /\ (k0 <> 0 \/ k1 <> 0) /\ linear_at k0 k1 r = 0
+  | quadratic_root f only_root_of => 0 < r < 1 /\ quadratic_at f r = 0 /\
+      (forall t, 0 < t < r -> 0 < quadratic_at f t * c0 f) /\ (forall t, r < t < 1 -> quadratic_at f t * c0 f < 0)
+  | quadratic_root f first_root_of => exists k q, k <> 0 /\ (0 < r < q /\ q < 1) /\
+      forall t, quadratic_at f t = k * ((t - r) * (t - q))
+  | quadratic_root f second_root_of => exists k p, k <> 0 /\ (0 < p < r /\ r < 1) /\
+      forall t, quadratic_at f t = k * ((t - p) * (t - r))
+  end.
+Definition first_nonpositive (f b : quadratic) (r : R) : Prop :=
+  0 < r < 1 /\ quadratic_at f r = 0 /\ quadratic_at b r <= 0 /\
+  forall t, 0 < t < r -> quadratic_at f t = 0 -> 0 < quadratic_at b t.
+Definition root_told (f b : quadratic) (place : place_in_time) : Prop :=
+  (place = nowhere /\ forall t, 0 < t < 1 -> quadratic_at f t = 0 -> 0 < quadratic_at b t) \/
+  exists r, tells place r /\ first_nonpositive f b r.
+
+Lemma rational_told f b k0 k1 : k0 * k1 < 0 ->
+  (forall t, 0 < t < 1 -> (quadratic_at f t = 0 <-> linear_at k0 k1 t = 0)) ->
+  root_told f b (if nonpositive (code_value b (Rabs k1) (Rabs k0)) then linear_root k0 k1 else nowhere).
+Proof.
+  intros O Same. assert (N0 : k0 <> 0) by nra. assert (N1 : k1 <> 0) by nra.
+  pose proof (Rabs_pos_lt _ N0) as P0. pose proof (Rabs_pos_lt _ N1) as P1.
+  set (r := Rabs k0 / (Rabs k0 + Rabs k1)).
+  assert (E : r * (Rabs k0 + Rabs k1) = Rabs k0) by (unfold r; field; lra).
+  assert (R0 : 0 < r < 1) by (split; nra).
+  assert (Linear : forall t, linear_at k0 k1 t = 0 <-> t = r).
+  { assert (Q : k0 * Rabs k1 = - k1 * Rabs k0).
+    { destruct (Rlt_or_le k0 0); [rewrite (Rabs_left k0), (Rabs_pos_eq k1) by nra |
+        rewrite (Rabs_pos_eq k0), (Rabs_left k1) by nra]; ring. }
+    assert (E' : r * (k0 - k1) = k0).
+    { apply Rmult_eq_reg_r with (Rabs k0 + Rabs k1); [| lra].
+      transitivity (r * (Rabs k0 + Rabs k1) * (k0 - k1)); [ring |]. rewrite E. lra. }
+    assert (D : k0 - k1 <> 0) by nra.
+    intros t. replace (linear_at k0 k1 t) with ((k0 - k1) * (r - t)) by (unfold linear_at; lra).
+    split; [| intros ->; ring]. intros Z. apply Rmult_integral in Z. destruct Z; lra. }
+  assert (V : code_value b (Rabs k1) (Rabs k0) = (Rabs k0 + Rabs k1) * (Rabs k0 + Rabs k1) * quadratic_at b r).
+  { unfold code_value. rewrite value_of_code. unfold quadratic_at, value.
+    set (m := Rabs k0 + Rabs k1) in *.
+    transitivity (c0 b * (m - r * m) ^ 2 + c1 b * (m - r * m) * (r * m) + c2 b * (r * m) ^ 2); [| ring].
+    rewrite E. unfold m. ring. }
+  assert (M : 0 < (Rabs k0 + Rabs k1) * (Rabs k0 + Rabs k1)) by nra.
+  destruct (nonpositive (code_value b (Rabs k1) (Rabs k0))) eqn:B.
+  - right. exists r. apply nonpositive_true in B. rewrite V in B. split.
+    + split; [lra |]. split; auto. now apply Linear.
+    + split; auto. split; [now apply Same, Linear |]. split; [nra |].
+      intros t T Z. apply Same, Linear in Z; lra.
+  - left. split; auto. intros t T Z. apply Same, Linear in Z; auto. subst t.
+    apply Rnot_le_lt. intros Q. enough (nonpositive (code_value b (Rabs k1) (Rabs k0)) = true) by congruence.
+    apply nonpositive_true. rewrite V. nra.
+Qed.
+
+Lemma place_of_ratio x : 0 < x -> 0 < x / (1 + x) < 1 /\ x / (1 + x) / (1 - x / (1 + x)) = x.
+Proof.
+  intros X. assert (E : x / (1 + x) * (1 + x) = x) by (field; lra).
+  split; [split; nra | field; lra].
+Qed.
+Lemma sign_of_ratio b x : 0 < x -> (quadratic_at b (x / (1 + x)) <= 0 <-> at_ratio b x <= 0).
+Proof.
+  intros X. destruct (place_of_ratio x X) as (T & E). rewrite (proj2 (inside_ratio b _ T)). now rewrite E.
+Qed.
+
+Lemma two_told f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
+  let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
+  root_told f b (first_root_nonpositive f b).
+Proof.
+  intros N O P Q f. pose proof (first_of_two f2 p q b N O P Q) as H. cbv zeta in H. fold f in H.
+  destruct (place_of_ratio q Q) as (Tq & _). pose proof (sign_of_ratio b q Q) as Sq.
+  set (y := q / (1 + q)) in *. assert (Ey : y * (1 + q) = q) by (unfold y; field; lra).
+  assert (Fy : forall t, t - q * (1 - t) = (1 + q) * (t - y)) by (intros t; lra).
+  assert (F : forall t, quadratic_at f t = f2 * ((t - p * (1 - t)) * (t - q * (1 - t))))
+    by (intros t; unfold quadratic_at, value, f; cbn [c0 c1 c2]; ring).
+  assert (Nq : ~ at_ratio b q <= 0 <-> 0 < quadratic_at b y) by (rewrite <- Sq; split; lra).
+  destruct (Rlt_or_le 0 p) as [Pp | Pn].
+  - destruct (place_of_ratio p Pp) as (Tp & _). pose proof (sign_of_ratio b p Pp) as Sp.
+    set (x := p / (1 + p)) in *. assert (Ex : x * (1 + p) = p) by (unfold x; field; lra).
+    assert (XY : x < y) by nra. set (k := f2 * ((1 + p) * (1 + q))).
+    assert (K : k <> 0) by (unfold k; repeat (apply Rmult_integral_contrapositive; split); lra).
+    assert (G : forall t, quadratic_at f t = k * ((t - x) * (t - y))).
+    { intros t. rewrite F, Fy. unfold k. replace (t - p * (1 - t)) with ((1 + p) * (t - x)) by lra. ring. }
+    assert (Zeros : forall t, quadratic_at f t = 0 -> t = x \/ t = y).
+    { intros t. rewrite G. intros Z. apply Rmult_integral in Z. destruct Z as [|Z]; [easy |].
+      apply Rmult_integral in Z. lra. }
+    assert (Zx : quadratic_at f x = 0) by (rewrite G; ring). assert (Zy : quadratic_at f y = 0) by (rewrite G; ring).
+    destruct (first_root_nonpositive f b) as [| | | | g [| |]]; simpl in H; try easy.
+    + left. split; auto. intros t T Z. destruct H as (H & I). specialize (H Pp).
+      destruct (Zeros t Z); subst t; apply Rnot_le_lt; intros C; [apply Sp in C | apply Sq in C]; lra.
+    + destruct H as (_ & H & _). lra.
+    + destruct H as (-> & _ & H). right. exists x. split; [exists k, y; repeat split; auto; lra |].
+      split; auto. split; auto. split; [now apply Sp |]. intros t T Z. destruct (Zeros t Z); lra.
+    + destruct H as (-> & _ & H & I). right. exists y. split; [exists k, x; repeat split; auto; lra |].
+      split; auto. split; auto. split; [now apply Sq |]. intros t T Z. destruct (Zeros t Z); subst t; [| lra].
+      apply Rnot_le_lt. intros C. apply Sp in C. lra.
+  - assert (Pm : p < 0) by lra.
+    assert (Pos : forall t, 0 < t < 1 -> 0 < t - p * (1 - t)) by (intros t T; nra).
+    assert (Zeros : forall t, 0 < t < 1 -> quadratic_at f t = 0 -> t = y).
+    { intros t T. rewrite F, Fy. specialize (Pos t T). intros Z. apply Rmult_integral in Z.
+      destruct Z as [| Z]; [easy |]. apply Rmult_integral in Z. destruct Z as [|Z]; [lra |].
+      apply Rmult_integral in Z. lra. }
+    assert (Zy : quadratic_at f y = 0) by (rewrite F, Fy; ring).
+    assert (U : 0 < - (f2 * f2 * (p * q))).
+    { assert (0 < f2 * f2) by nra. assert (0 < - p * q) by nra.
+      replace (- (f2 * f2 * (p * q))) with (f2 * f2 * (- p * q)) by ring. now apply Rmult_lt_0_compat. }
+    assert (G : forall t, quadratic_at f t * c0 f = - (f2 * f2 * (p * q)) * ((t - p * (1 - t)) * (1 + q)) * (y - t)).
+    { intros t. rewrite F, Fy. unfold f. cbn [c0]. ring. }
+    assert (W : forall t, 0 < t < 1 -> 0 < - (f2 * f2 * (p * q)) * ((t - p * (1 - t)) * (1 + q))).
+    { intros t T. apply Rmult_lt_0_compat; auto. apply Rmult_lt_0_compat; [now apply Pos | lra]. }
+    destruct (first_root_nonpositive f b) as [| | | | g [| |]]; simpl in H; try easy.
+    + left. split; auto. intros t T Z. rewrite (Zeros t T Z). apply Rnot_le_lt. intros C. apply Sq in C. lra.
+    + destruct H as (-> & _ & H). right. exists y. split.
+      * split; auto. split; auto. split; intros t T; rewrite G.
+        -- apply Rmult_lt_0_compat; [apply W; lra | lra].
+        -- assert (0 < - (f2 * f2 * (p * q)) * ((t - p * (1 - t)) * (1 + q)) * (t - y)); [| lra].
+           apply Rmult_lt_0_compat; [apply W; lra | lra].
+      * split; auto. split; auto. split; [now apply Sq |]. intros t T Z. assert (t = y) by (apply Zeros; auto; lra).
+        lra.
+    + destruct H as (_ & H & _). lra.
+    + destruct H as (_ & H & _). lra.
+Qed.
+
+Lemma first_root_told f b : sign_inside (coefficients f) = uncertain ->
+  root_told f b (first_root_nonpositive f b).
 Proof.
   intros U. apply both_signs in U. destruct f as [f0 f1 f2]. cbn [c0 c1 c2] in U.
   destruct (Req_dec f0 0) as [-> | N0].
-  { assert (N : f1 * f2 < 0) by nra. assert (f1 <> 0) by nra. assert (f2 <> 0) by nra.
-    assert (E : Rabs f1 / Rabs f2 = - f1 / f2).
-    { destruct (Rlt_or_le f2 0); [rewrite (Rabs_left f2), (Rabs_pos_eq f1) by nra |
-        rewrite (Rabs_left f1), (Rabs_pos_eq f2) by nra]; field; auto. }
-    unfold nonpositive_at_a_root. cbv zeta. cbn [c0 c1 c2]. rewrite (sign_zero 0) by easy. cbn [same_sign].
-    assert (0 < Rabs f1) by now apply Rabs_pos_lt. assert (0 < Rabs f2) by now apply Rabs_pos_lt.
-    rewrite at_rational by easy. apply only_root.
-    - now apply Rdiv_lt_0_compat.
-    - rewrite E. unfold at_ratio. cbn [c0 c1 c2]. field. auto.
-    - intros r P Z. rewrite E. unfold at_ratio in Z. cbn [c0 c1 c2] in Z.
-      assert (Z' : r * (f1 + f2 * r) = 0) by lra. apply Rmult_integral in Z'. destruct Z'; [lra |].
-      apply Rmult_eq_reg_l with f2; auto. field_simplify; auto. lra. }
+  { unfold first_root_nonpositive. cbv zeta. cbn [c0 c1 c2]. rewrite (sign_zero 0) by easy. cbn [same_sign].
+    apply rational_told; [nra |]. intros t T. unfold quadratic_at, value, linear_at. cbn [c0 c1 c2]. split; intros Z.
+    - apply Rmult_eq_reg_l with t; lra.
+    - transitivity (t * (f1 * (1 - t) + f2 * t)); [ring | rewrite Z; ring]. }
   destruct (Req_dec f2 0) as [-> | N2].
-  { assert (N : f0 * f1 < 0) by nra. assert (f1 <> 0) by nra.
-    assert (E : Rabs f0 / Rabs f1 = - f0 / f1).
-    { destruct (Rlt_or_le f1 0); [rewrite (Rabs_left f1), (Rabs_pos_eq f0) by nra |
-        rewrite (Rabs_left f0), (Rabs_pos_eq f1) by nra]; field; auto. }
-    unfold nonpositive_at_a_root. cbv zeta. cbn [c0 c1 c2]. rewrite (sign_zero 0) by easy.
-    assert (0 < Rabs f1) by now apply Rabs_pos_lt. assert (0 < Rabs f0) by now apply Rabs_pos_lt.
+  { unfold first_root_nonpositive. cbv zeta. cbn [c0 c1 c2]. rewrite (sign_zero 0) by easy.
     replace (same_sign (sign_of_real f0) zero) with false by (cases_of_sign f0; easy). cbn [same_sign].
-    rewrite at_rational by easy. apply only_root.
-    - now apply Rdiv_lt_0_compat.
-    - rewrite E. unfold at_ratio. cbn [c0 c1 c2]. field. auto.
-    - intros r P Z. rewrite E. unfold at_ratio in Z. cbn [c0 c1 c2] in Z.
-      apply Rmult_eq_reg_l with f1; auto. field_simplify; auto. lra. }
+    apply rational_told; [nra |]. intros t T. unfold quadratic_at, value, linear_at. cbn [c0 c1 c2]. split; intros Z.
+    - apply Rmult_eq_reg_l with (1 - t); lra.
+    - transitivity ((1 - t) * (f0 * (1 - t) + f1 * t)); [ring | rewrite Z; ring]. }
   set (d := f1 * f1 - 4 * (f0 * f2)).
   destruct (Rlt_or_le 0 d) as [D | D].
   { destruct (factors f0 f1 f2 N2 D) as (p & q & O & -> & ->).
     assert (P : p * q <> 0) by (intros Z; rewrite Z in N0; lra).
     assert (p <> 0) by (intros Z; rewrite Z in P; lra).
-    apply two_places; auto. clear d D N0. apply Rnot_le_lt. intros Q.
+    apply two_told; auto. clear d D N0. apply Rnot_le_lt. intros Q.
     assert (p < 0) by lra. assert (0 <= p * q) by nra. assert (p + q < 0) by lra. nra. }
   assert (S : 0 < f0 * f2) by (unfold d in D; assert (0 <= f1 * f1) by nra; nra).
   assert (same_sign (sign_of_real f0) (sign_of_real f2) = true /\ same_sign (sign_of_real f0) zero = false
     /\ same_sign (sign_of_real f2) zero = false) as (T1 & T2 & T3).
   { cases_of_sign f0; cases_of_sign f2; try nra; repeat split. }
-  unfold nonpositive_at_a_root. cbv zeta. cbn [c0 c1 c2]. rewrite T1, T2, T3. fold d. cbn [andb].
-  assert (Sq : forall x, 4 * f2 * at_ratio (Quadratic f0 f1 f2) x = (2 * f2 * x + f1) * (2 * f2 * x + f1) - d)
-    by (intros x; unfold at_ratio, d; cbn [c0 c1 c2]; ring).
+  unfold first_root_nonpositive. cbv zeta. cbn [c0 c1 c2]. rewrite T1, T2, T3. fold d. cbn [andb].
+  assert (Sq : forall t, 4 * f2 * quadratic_at (Quadratic f0 f1 f2) t =
+    linear_at f1 (2 * f2) t * linear_at f1 (2 * f2) t - d * ((1 - t) * (1 - t)))
+    by (intros t; unfold quadratic_at, value, linear_at, d; cbn [c0 c1 c2]; ring).
   destruct D as [D | D].
-  - rewrite (sign_negative d D). cbn [same_sign]. split; [discriminate |]. intros (x & _ & Z & _).
-    specialize (Sq x). rewrite Z, Rmult_0_r in Sq. pose proof (Rle_0_sqr (2 * f2 * x + f1)) as P.
-    unfold Rsqr in P. lra.
+  - rewrite (sign_negative d D). cbn [same_sign]. left. split; auto. intros t T Z. exfalso.
+    specialize (Sq t). rewrite Z, Rmult_0_r in Sq. pose proof (Rle_0_sqr (linear_at f1 (2 * f2) t)) as P.
+    unfold Rsqr in P. assert (0 < - d * ((1 - t) * (1 - t))) by (apply Rmult_lt_0_compat; nra). lra.
   - rewrite (sign_zero d D). cbn [same_sign].
-    assert (Z1 : f1 <> 0) by (intros ->; unfold d in D; lra).
-    assert (Op : f1 * f2 < 0) by nra.
-    assert (0 < Rabs f1) by now apply Rabs_pos_lt. assert (0 < Rabs f2) by now apply Rabs_pos_lt.
-    assert (E : Rabs f1 / (2 * Rabs f2) = - f1 / (2 * f2)).
-    { destruct (Rlt_or_le f2 0); [rewrite (Rabs_left f2), (Rabs_pos_eq f1) by nra |
-        rewrite (Rabs_left f1), (Rabs_pos_eq f2) by nra]; field; auto. }
-    rewrite at_rational by lra. apply only_root.
-    + apply Rdiv_lt_0_compat; lra.
-    + specialize (Sq (Rabs f1 / (2 * Rabs f2))). rewrite D, E in *.
-      replace (2 * f2 * (- f1 / (2 * f2)) + f1) with 0 in Sq by (field; auto).
-      apply Rmult_eq_reg_l with (4 * f2); [lra | nra].
-    + intros r P Z. rewrite E. specialize (Sq r). rewrite Z, D in Sq.
-      assert (Q : 2 * f2 * r + f1 = 0) by (apply Rsqr_0_uniq; unfold Rsqr; lra).
-      apply Rmult_eq_reg_l with (2 * f2); [field_simplify; auto; lra | lra].
+    assert (Op : f1 * (2 * f2) < 0) by (assert (f1 <> 0) by (intros ->; unfold d in D; lra); nra).
+    apply rational_told; auto.
+    intros t T. specialize (Sq t). rewrite D in Sq. split; intros Z.
+    + rewrite Z in Sq. apply Rsqr_0_uniq. unfold Rsqr. lra.
+    + rewrite Z in Sq. apply Rmult_eq_reg_l with (4 * f2); lra.
+Qed.
+
+(** ** nonpositive_at_a_root: whether there is one *)
+
+Definition nonpositive_at_a_root (f b : quadratic) : bool :=
+  let first := sign_of_real (c0 f) in
+  let last := sign_of_real (c2 f) in
+  if same_sign first zero then nonpositive (code_value b (Rabs (c2 f)) (Rabs (c1 f)))
+  else if same_sign last zero then nonpositive (code_value b (Rabs (c1 f)) (Rabs (c0 f)))
+  else
+    let two_roots := same_sign first last in
+    let discriminant := sign_of_real (c1 f * c1 f - 4 * (c0 f * c2 f)) in
+    if two_roots && same_sign discriminant negative then false
+    else if two_roots && same_sign discriminant zero
+      then nonpositive (code_value b (2 * Rabs (c2 f)) (Rabs (c1 f)))
+    else
+      let l0 := c2 f * c0 b - c2 b * c0 f in
+      let l1 := c2 f * c1 b - c2 b * c1 f in
+      let answer of_l := certainly_nonpositive (times last of_l) in
+      let everywhere := sign_inside (S := reals) [l0; l1] in
+      if certain everywhere then answer everywhere
+      else
+        let s := Rabs l1 in
+        let t := Rabs l0 in
+        let there := sign_of_real (code_value f s t) in
+        if same_sign there zero || (two_roots && negb (same_sign there first)) then true
+        else
+          let roots_are_later :=
+            if two_roots
+            then negb (same_sign (sign_of_real (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) s t)) first)
+            else same_sign there first in
+          answer (sign_of_real (if roots_are_later then l1 else l0)).
+
+Definition nonpositive_somewhere (f b : quadratic) : Prop :=
+  exists x, 0 < x /\ at_ratio f x = 0 /\ at_ratio b x <= 0.
+
+Definition told (place : place_in_time) : bool := match place with nowhere => false | _ => true end.
+(** Outside of two roots the derivative is not zero. *)
+Lemma slope_outside f s t : (c0 f < 0 \/ c1 f < 0 \/ c2 f < 0) -> (0 < c0 f \/ 0 < c1 f \/ 0 < c2 f) ->
+  0 < c0 f * c2 f -> 0 < c1 f * c1 f - 4 * (c0 f * c2 f) -> 0 < c0 f * code_value f s t ->
+  linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) s t <> 0.
+Proof.
+  destruct f as [f0 f1 f2]. cbn [c0 c1 c2]. intros Neg Pos S D V.
+  destruct (factors f0 f1 f2 ltac:(nra) D) as (p & q & O & E0 & E1).
+  assert (N : f0 * f1 < 0) by nra. unfold code_value in V. rewrite value_of_code in V. unfold value in V.
+  cbn [c0 c1 c2] in V.
+  assert (F : 0 < f2 * f2) by nra. assert (PQ : 0 < p * q) by (rewrite E0 in S; nra).
+  assert (0 < p + q) by (rewrite E0, E1 in N; nra). assert (0 < p) by nra. assert (0 < q) by nra.
+  assert (W : 0 < (t - p * s) * (t - q * s)).
+  { replace (f0 * _) with (f2 * f2 * (p * q) * ((t - p * s) * (t - q * s))) in V by (rewrite E0, E1; ring).
+    assert (0 < f2 * f2 * (p * q)) by nra. nra. }
+  unfold linear_value. cbn. rewrite E0, E1. intros Z.
+  assert (Z' : (1 + p) * (t - q * s) = - ((1 + q) * (t - p * s))) by (apply Rmult_eq_reg_l with f2; [lra | nra]).
+  assert (0 <= (1 + q) * ((t - p * s) * (t - p * s))) by (apply Rmult_le_pos; [lra | apply Rle_0_sqr]).
+  assert (E : (1 + p) * ((t - p * s) * (t - q * s)) = - ((1 + q) * ((t - p * s) * (t - p * s)))).
+  { transitivity ((t - p * s) * ((1 + p) * (t - q * s))); [ring | rewrite Z'; ring]. }
+  assert (0 < (1 + p) * ((t - p * s) * (t - q * s))) by (apply Rmult_lt_0_compat; lra). lra.
+Qed.
+Lemma nonpositive_told f b : sign_inside (coefficients f) = uncertain ->
+  nonpositive_at_a_root f b = told (first_root_nonpositive f b).
+Proof.
+  intros U. apply both_signs in U. destruct U as (Pos & Neg).
+  assert (If : forall (c : bool) p, told p = true -> told (if c then p else nowhere) = c) by now intros [].
+  unfold nonpositive_at_a_root, first_root_nonpositive. cbv zeta. rewrite Rabs_mult, (Rabs_pos_eq 2) by lra.
+  set (l0 := c2 f * c0 b - c2 b * c0 f). set (l1 := c2 f * c1 b - c2 b * c1 f).
+  pose proof (slope_outside f (Rabs l1) (Rabs l0) Neg Pos) as Slope.
+  cases_of_sign (c0 f); cases_of_sign (c2 f); cbn [same_sign andb negb]; rewrite ?If by easy; try reflexivity;
+    cases_of_sign (c1 f * c1 f - 4 * (c0 f * c2 f)); cbn [same_sign]; rewrite ?If by easy; try reflexivity;
+    destruct (certain _); rewrite ?If by easy; try reflexivity;
+    cases_of_sign (code_value f (Rabs l1) (Rabs l0)); cbn [same_sign andb orb negb opposite_sign];
+    try specialize (Slope ltac:(nra) ltac:(assumption) ltac:(nra));
+    try cases_of_sign (linear_value (c1 f - 2 * c0 f) (2 * c2 f - c1 f) (Rabs l1) (Rabs l0)); try contradiction;
+    cbn [same_sign negb]; rewrite ?If by easy; try reflexivity;
+    match goal with |- _ = told (if ?c then _ else _) => now destruct c end.
+Qed.
+Theorem nonpositive_at_a_root_right f b : sign_inside (coefficients f) = uncertain ->
+  nonpositive_at_a_root f b = true <-> nonpositive_somewhere f b.
+Proof.
+  intros U. rewrite (nonpositive_told f b U).
+  destruct (first_root_told f b U) as [(-> & No) | (r & T & R0 & Z & N & _)].
+  - split; [discriminate |]. intros (x & X & Z & N). destruct (place_of_ratio x X) as (T & E).
+    destruct (inside_ratio f _ T) as (F & _), (inside_ratio b _ T) as (_ & B). rewrite E in F, B.
+    apply F in Z. apply B in N. specialize (No _ T Z). lra.
+  - split; [intros _ | intros _; now destruct (first_root_nonpositive f b)].
+    exists (r / (1 - r)). split; [apply Rdiv_lt_0_compat; lra |].
+    split; [now apply inside_ratio | now apply inside_ratio].
 Qed.
 
 (** ** contact *)
@@ -650,10 +856,6 @@ Proof.
   repeat match goal with H : quadratic_at _ _ = _ |- _ => rewrite H; clear H end.
   split; split; intuition.
 Qed.
-Lemma inside_ratio f t : 0 < t < 1 ->
-  (quadratic_at f t = 0 <-> at_ratio f (t / (1 - t)) = 0) /\
-  (quadratic_at f t <= 0 <-> at_ratio f (t / (1 - t)) <= 0).
-Proof. intros T. unfold quadratic_at. apply ratio_sign. lra. Qed.
 
 (** b0, b2 > 0: b has a value <= 0 at some x > 0. *)
 Lemma dips b : 0 < c0 b -> 0 < c2 b ->

@@ -136,35 +136,48 @@ Proof.
   destruct (step x y c) as [w d]. specialize (IH b d). destruct (stepped step a b d).
   simpl in *. rewrite IH; lia.
 Qed.
+(** A step of a sum, s = 1, or of a difference, s = -1. *)
+Definition steps (step : Z -> Z -> Z -> Z * Z) (s : Z) : Prop :=
+  forall a b c, word a -> word b -> 0 <= c <= 1 ->
+  let (w, c') := step a b c in word w /\ 0 <= c' <= 1 /\ w + s * (B * c') = a + s * (b + c).
+Lemma add_steps : steps add_with_carry 1.
+Proof.
+  intros a b c A D C. generalize (add_with_carry_exact a b c A D C). destruct (add_with_carry a b c). intuition lia.
+Qed.
+Lemma subtract_steps : steps subtract_with_borrow (-1).
+Proof.
+  intros a b c A D C. generalize (subtract_with_borrow_exact a b c A D C). destruct (subtract_with_borrow a b c).
+  intuition lia.
+Qed.
+Lemma stepped_exact step s : steps step s -> forall a b c, length a = length b -> words a -> words b -> 0 <= c <= 1 ->
+  let (r, c') := stepped step a b c in
+  words r /\ 0 <= c' <= 1 /\ value r + s * (B ^ size a * c') = value a + s * (value b + c).
+Proof.
+  intros Step a. induction a as [| x a IH]; destruct b as [| y b]; try easy.
+  - intros c _ _ _ C. cbn [stepped length value]. change (B ^ Z.of_nat 0) with 1.
+    split; [constructor | lia].
+  - intros c L Wa Wb C. inversion_clear Wa as [| ? ? X A]. inversion_clear Wb as [| ? ? Y D].
+    cbn [stepped]. generalize (Step x y c X Y C).
+    destruct (step x y c) as [w d]. intros (W & Hd & E).
+    specialize (IH b d ltac:(simpl in L; lia) A D Hd).
+    destruct (stepped step a b d) as [r c']. destruct IH as (R & Hc & F).
+    split; [now constructor |]. split; auto. cbn [value length].
+    rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. nia.
+Qed.
+
 Lemma stepped_sum a b c : length a = length b -> words a -> words b -> 0 <= c <= 1 ->
   let (r, c') := stepped add_with_carry a b c in
   words r /\ 0 <= c' <= 1 /\ value r + B ^ size a * c' = value a + value b + c.
 Proof.
-  revert b c. induction a as [| x a IH]; destruct b as [| y b]; try easy.
-  - intros c _ _ _ C. cbn [stepped length value]. change (B ^ Z.of_nat 0) with 1.
-    split; [constructor | lia].
-  - intros c L Wa Wb C. inversion_clear Wa as [| ? ? X A]. inversion_clear Wb as [| ? ? Y D].
-    cbn [stepped]. generalize (add_with_carry_exact x y c X Y C).
-    destruct (add_with_carry x y c) as [w d]. intros (W & Hd & E).
-    specialize (IH b d ltac:(simpl in L; lia) A D Hd).
-    destruct (stepped add_with_carry a b d) as [r c']. destruct IH as (R & Hc & F).
-    split; [now constructor |]. split; auto. cbn [value length].
-    rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. nia.
+  intros L A D C. generalize (stepped_exact _ _ add_steps a b c L A D C). destruct (stepped _ a b c).
+  intuition lia.
 Qed.
 Lemma stepped_difference a b c : length a = length b -> words a -> words b -> 0 <= c <= 1 ->
   let (r, c') := stepped subtract_with_borrow a b c in
   words r /\ 0 <= c' <= 1 /\ value r - B ^ size a * c' = value a - value b - c.
 Proof.
-  revert b c. induction a as [| x a IH]; destruct b as [| y b]; try easy.
-  - intros c _ _ _ C. cbn [stepped length value]. change (B ^ Z.of_nat 0) with 1.
-    split; [constructor | lia].
-  - intros c L Wa Wb C. inversion_clear Wa as [| ? ? X A]. inversion_clear Wb as [| ? ? Y D].
-    cbn [stepped]. generalize (subtract_with_borrow_exact x y c X Y C).
-    destruct (subtract_with_borrow x y c) as [w d]. intros (W & Hd & E).
-    specialize (IH b d ltac:(simpl in L; lia) A D Hd).
-    destruct (stepped subtract_with_borrow a b d) as [r c']. destruct IH as (R & Hc & F).
-    split; [now constructor |]. split; auto. cbn [value length].
-    rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. nia.
+  intros L A D C. generalize (stepped_exact _ _ subtract_steps a b c L A D C). destruct (stepped _ a b c).
+  intuition lia.
 Qed.
 
 (** Two's complement: of all numbers that are the same modulo B^n, the one that fits n words. *)
@@ -194,29 +207,24 @@ Proof.
   apply (fits_unique (length x) _ _ (j + k)); auto using signed_fits. rewrite J, E. ring.
 Qed.
 
-Theorem sum_exact a b : length a = length b -> a <> [] -> words a -> words b ->
-  fits (length a) (signed a + signed b) -> signed (sum a b) = signed a + signed b.
+Lemma stepped_signed step s a b : steps step s -> length a = length b -> a <> [] -> words a -> words b ->
+  fits (length a) (signed a + s * signed b) -> signed (fst (stepped step a b 0)) = signed a + s * signed b.
 Proof.
-  intros L N A D F. unfold sum. generalize (stepped_sum a b 0 L A D ltac:(lia))
-    (stepped_length add_with_carry a b 0 L).
-  destruct (stepped add_with_carry a b 0) as [r c]. intros (R & _ & E) Lr. simpl in *.
+  intros Step L N A D F. generalize (stepped_exact step s Step a b 0 L A D ltac:(lia)) (stepped_length step a b 0 L).
+  destruct (stepped step a b 0) as [r c]. intros (R & _ & E) Lr. simpl in *.
   destruct (signed_modulo a) as [i I], (signed_modulo b) as [j J]. rewrite <- L in J.
-  apply signed_is with (k := - (c + i + j)); auto.
+  apply signed_is with (k := - (s * c + i + s * j)); auto.
   - destruct r; [destruct a |]; easy.
   - now rewrite Lr.
   - rewrite Lr, I, J. lia.
 Qed.
+Theorem sum_exact a b : length a = length b -> a <> [] -> words a -> words b ->
+  fits (length a) (signed a + signed b) -> signed (sum a b) = signed a + signed b.
+Proof. rewrite <- (Z.mul_1_l (signed b)). now apply stepped_signed, add_steps. Qed.
 Theorem difference_exact a b : length a = length b -> a <> [] -> words a -> words b ->
   fits (length a) (signed a - signed b) -> signed (difference a b) = signed a - signed b.
 Proof.
-  intros L N A D F. unfold difference. generalize (stepped_difference a b 0 L A D ltac:(lia))
-    (stepped_length subtract_with_borrow a b 0 L).
-  destruct (stepped subtract_with_borrow a b 0) as [r c]. intros (R & _ & E) Lr. simpl in *.
-  destruct (signed_modulo a) as [i I], (signed_modulo b) as [j J]. rewrite <- L in J.
-  apply signed_is with (k := c - i + j); auto.
-  - destruct r; [destruct a |]; easy.
-  - now rewrite Lr.
-  - rewrite Lr, I, J. lia.
+  replace (signed a - signed b) with (signed a + -1 * signed b) by ring. now apply stepped_signed, subtract_steps.
 Qed.
 
 Theorem add_multiple_exact r a b carry : length r = length b -> words r -> words b -> word a ->
@@ -476,8 +484,6 @@ Qed.
 Definition sign_word (x : list Z) : Z := if negative x then B - 1 else 0.
 Definition extended (x : list Z) (n : nat) : list Z := x ++ repeat (sign_word x) (n - length x).
 
-Lemma negative_nonempty x : negative x = true -> x <> [].
-Proof. intros H ->. discriminate. Qed.
 Lemma sign_word_word x : word (sign_word x).
 Proof. unfold word, sign_word. generalize B_positive. destruct (negative x); lia. Qed.
 Theorem trim_exact x : x <> [] -> signed (x ++ [sign_word x]) = signed x.
@@ -521,30 +527,21 @@ Proof.
   unfold fits. rewrite Nat2Z.inj_succ, Z.pow_succ_r by lia. generalize B_large (power_positive n).
   intros. nia.
 Qed.
+Ltac long_exact exact :=
+  intros Na Nb A D; match goal with |- signed (?long ?a ?b) = _ => unfold long;
+    set (m := Nat.max (length a) (length b));
+    destruct (extended_exact a (S m) Na A ltac:(lia)) as (S1 & W1 & L1);
+    destruct (extended_exact b (S m) Nb D ltac:(lia)) as (S2 & W2 & L2);
+    rewrite exact; auto; [now rewrite S1, S2 | now rewrite L1, L2 | intros E; rewrite E in L1; discriminate |];
+    rewrite L1, S1, S2; apply fits_one_more; [apply fits_wider with (length a) | apply fits_wider with (length b)];
+    auto using signed_fits; lia
+  end.
 Theorem long_sum_exact a b : a <> [] -> b <> [] -> words a -> words b ->
   signed (long_sum a b) = signed a + signed b.
-Proof.
-  intros Na Nb A D. unfold long_sum. set (m := Nat.max (length a) (length b)).
-  destruct (extended_exact a (S m) Na A ltac:(lia)) as (S1 & W1 & L1).
-  destruct (extended_exact b (S m) Nb D ltac:(lia)) as (S2 & W2 & L2).
-  rewrite sum_exact; auto; [now rewrite S1, S2 | now rewrite L1, L2 | |].
-  - intros E. rewrite E in L1. discriminate.
-  - rewrite L1, S1, S2.
-    apply fits_one_more; [apply fits_wider with (length a) | apply fits_wider with (length b)];
-      auto using signed_fits; lia.
-Qed.
+Proof. long_exact sum_exact. Qed.
 Theorem long_difference_exact a b : a <> [] -> b <> [] -> words a -> words b ->
   signed (long_difference a b) = signed a - signed b.
-Proof.
-  intros Na Nb A D. unfold long_difference. set (m := Nat.max (length a) (length b)).
-  destruct (extended_exact a (S m) Na A ltac:(lia)) as (S1 & W1 & L1).
-  destruct (extended_exact b (S m) Nb D ltac:(lia)) as (S2 & W2 & L2).
-  rewrite difference_exact; auto; [now rewrite S1, S2 | now rewrite L1, L2 | |].
-  - intros E. rewrite E in L1. discriminate.
-  - rewrite L1, S1, S2.
-    apply fits_one_more; [apply fits_wider with (length a) | apply fits_wider with (length b)];
-      auto using signed_fits; lia.
-Qed.
+Proof. long_exact difference_exact. Qed.
 
 (** for_signed_words: what it visits, as signed words and their places. *)
 Fixpoint signed_words (x : list Z) (carry : Z) (i : Z) : list (Z * Z) :=

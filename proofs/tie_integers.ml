@@ -54,40 +54,230 @@ let differences d =
   else difference 2 1, difference 3 1, difference 0 1
 let steps = 100000
 
-let put_decision d =
-  let point p e : point =
+let moving d p : moving =
+  let point e : point =
     let coordinate k = d.whole.((6 * p) + (3 * e) + k) in
     { x = coordinate 0; y = coordinate 1; z0 = coordinate 2 } in
-  let whole = whole d in
-  let moving p : moving = { start = point p 0; finish = point p 1 } in
-  let bits k = snd d.units.(k) in
-  put_word (max (bits 0) (max (bits 1) (bits 2)));
-  let extent k = Z.of_int (bits k) in
-  let y = let b, c, p = differences d in (Obj.magic (y_form integers b c p) : Z.t list) in
-  let refine _ _ low high bits = refined_place y low high (Z.to_int bits) in
-  let place_of q = estimated_place (Z.to_int q.level) q.index q.part_y in
-  put_outcome (decide_once d.edges (extent 0) (extent 1) (extent 2) place_of refine steps
-                 (moving 0) (moving 1) (moving 2) (moving 3) (whole 0) (whole 1) (whole 2) (whole 3));
-  put_outcome (decide_to_the_end d.edges (extent 0) (extent 1) (extent 2) place_of refine steps
-                 root_middle root_exponent estimated_pair steps
-                 (moving 0) (moving 1) (moving 2) (moving 3) (whole 0) (whole 1) (whole 2) (whole 3));
-  let touches v e0 e1 =
-    put_word (if edge_contact (((moving v, moving e0), moving e1), ((whole v, whole e0), whole e1)) then 1 else 0) in
-  touches 0 1 2;
-  put_word (if vertices_contact (whole 0) (whole 1) then 1 else 0)
+  { start = point 0; finish = point 1 }
+let bits_of d = Array.fold_left (fun most (_, bits) -> max most bits) 0 d.units
+let refine y _ _ low high bits = refined_place y low high (Z.to_int bits)
+let place_of q = estimated_place (Z.to_int q.level) q.index q.part_y
+let y_of b c p = (Obj.magic (y_form integers b c p) : Z.t list)
+
+(* By a decision of four moving points, as real numbers and as whole ones. *)
+let of_points decide d =
+  let extent k = Z.of_int (snd d.units.(k)) in
+  let y = let b, c, p = differences d in y_of b c p in
+  let real = moving d and whole = whole d in
+  decide d.edges (extent 0) (extent 1) (extent 2) place_of (refine y) steps
+    (real 0) (real 1) (real 2) (real 3) (whole 0) (whole 1) (whole 2) (whole 3)
+let decided_once = of_points decide_once
+let decided_to_the_end =
+  of_points (fun edges x y z place_of refine steps ->
+    decide_to_the_end edges x y z place_of refine steps root_middle root_exponent estimated_pair steps)
+let vertex_touches_edge d v e0 e1 =
+  edge_contact (((moving d v, moving d e0), moving d e1), ((whole d v, whole d e0), whole d e1))
+let contact found = if found then Collides else Separate
+
+let put_decision d =
+  put_word (bits_of d);
+  put_outcome (decided_once d);
+  put_outcome (decided_to_the_end d);
+  put_outcome (contact (vertex_touches_edge d 0 1 2));
+  put_outcome (contact (vertices_contact (whole d 0) (whole d 1)))
 
 (* What is else asked only of few: where roots nearly coincide. *)
 let put_close d =
   let b, c, p = differences d in
   put_outcome (close_contact d.edges b c p root_middle root_exponent estimated_pair steps)
 
+(* Whether an axis has the first points on one side of the others, the same one at both ends of the step: what is
+   asked beyond four words, and of a border separated. *)
+let apart first count x =
+  let side k e =
+    let at p = x.((6 * p) + (3 * e) + k) in
+    let some from till = List.init (till - from) (fun i -> at (from + i)) in
+    let least l = List.fold_left Float.min infinity l and most l = List.fold_left Float.max neg_infinity l in
+    let a = some 0 first and b = some first count in
+    if least a > most b then 1 else if most a < least b then -1 else 0 in
+  List.exists (fun k -> side k 0 <> 0 && side k 0 = side k 1) [ 0; 1; 2 ]
+
+(* Whatever the extents are, or where there are none, of so many points, of which `first` are the first feature's. *)
+let put_wide first count edges x decide =
+  let finite = Array.for_all Float.is_finite (Array.sub x 0 (6 * count)) in
+  put_word (Bool.to_int finite);
+  let units = if finite then Array.init 3 (axis count x) else [||] in
+  Array.iter (fun (unit, bits) -> put_word (unit land 0xffffffff); put_word bits) units;
+  let separated = finite && apart first count x in
+  put_word (Bool.to_int separated);
+  let most = Array.fold_left (fun most (_, bits) -> max most bits) 0 units in
+  let none = 0 and inside = 2 and range = 3 in
+  let outcome, cause =
+    if not finite then Undecided, range
+    else if most > 253 then if separated then Separate, none else Undecided, range
+    else
+      let outcome = decide (integers_of ~count edges x) in
+      outcome, if outcome = Undecided then inside else none in
+  put_outcome outcome;
+  put_word cause
+let put_wide_query (edges, x) =
+  put_wide (if edges then 2 else 1) 4 edges x decided_to_the_end;
+  put_wide 1 3 edges x (fun d -> contact (vertex_touches_edge d 0 1 2));
+  put_wide 1 2 edges x (fun d -> contact (vertices_contact (whole d 0) (whole d 1)))
+
+let put_sign : sign -> unit = function Negative -> put_word 0 | Zero -> put_word 1 | Positive -> put_word 2 | _ -> put_word 3
+let put_number n =
+  put_sign (sign_of_real n);
+  put_word (Tie_queries.bit_length n);
+  let low = Z.logand n (Z.pred (Z.shift_left Z.one 64)) in
+  put_word (Z.to_int (Z.shift_right low 32));
+  put_word (Z.to_int (Z.logand low (Z.of_int 0xffffffff)))
+let put_if_any put = function None -> put_word 0 | Some found -> put_word 1; put found
+
+(* The part of so many halvings: that where Y changes its sign, or else where `path` leads. *)
+let rec part_at level path q =
+  if Z.to_int q.level = level then q
+  else
+    let left = left_of q and right = right_of q in
+    let to_right = not left.roots.opposite0 && (right.roots.opposite0 || path land 1 = 1) in
+    part_at level (path lsr 1) (if to_right then right else left)
+
+let vectors_of drawn =
+  let vector i : vector_form =
+    let component x = let a, b = drawn.(i).(x) in (Obj.magic [ a; b ] : number list) in
+    { vx = component 0; vy = component 1; vz = component 2 } in
+  vector 0, vector 1, vector 2
+let put_forms f =
+  let extent x = Z.of_int (bits_along f x) in
+  let b, c, p = vectors_of f.vectors and edges = f.on_edges in
+  let y = y_of b c p in
+  let refine = refine y in
+  put_outcome (interior_contact edges b c p (extent 0) (extent 1) (extent 2) place_of refine steps);
+  put_outcome (close_contact edges b c p root_middle root_exponent estimated_pair steps);
+  let multiple, ((distinct, three), _) = linear_of_multiple b c p in
+  put_if_any (fun (c0, c1) -> put_number c0; put_number c1) multiple;
+
+  let whole = { part_y = y; roots = inner_sign_changes y; index = Z.zero; level = Z.zero } in
+  let some = part_at f.part_level f.path whole in
+  let without_halving =
+    without_halving edges b c p (extent 0) (extent 1) (extent 2) place_of refine in
+  put_if_any put_outcome (without_halving distinct three some);
+  (* Where parts with more than one root are halved no more, about the root. *)
+  let near_root bits = Z.div (Z.shift_left f.root bits) f.root_unit in
+  for i = 0 to 39 do
+    let index = Z.logxor (near_root 40) (Z.shift_left Z.one i) in
+    let last = { part_y = y; roots = { count = 2; opposite0 = false; first = Zero }; index; level = Z.of_int 40 } in
+    put_if_any put_outcome (without_halving distinct true last)
+  done;
+  let bits = max 1 (min ((64 * f.words) - 4 - bits_along f 0 + f.cut) ((64 * f.words) - 2)) in
+  for width_bits = 0 to 39 do
+    put_outcome (throughout edges b c p (extent 0) (extent 1) (extent 2) (Z.of_int f.words) (near_root bits)
+                   (Z.of_int bits) (Z.of_int width_bits))
+  done;
+  if some.roots.opposite0 then begin
+    let place = Z.add (place_of some) (Z.of_int f.off) and bits = Z.of_int (min (f.part_level + 48) 62) in
+    put_if_any put_outcome
+      (near edges b c p (extent 0) (extent 1) (extent 2) refine distinct 3 Z.one some place bits);
+    put_if_any (fun (low, high) ->
+        put_number low;
+        put_number high;
+        if not (Z.equal low high) then put_word (Bool.to_int (normal_vanishes b c low high bits)))
+      (bracket_near y some place bits)
+  end
+
+let put_part q =
+  List.iter put_number q.close_y;
+  put_number q.low;
+  put_word q.close_roots.count;
+  List.iter (fun n -> put_word (Z.to_int n)) [ q.unit_bits; q.width_bits; q.ask_from; bits q ];
+  put_word (Bool.to_int (can_be_narrowed q))
+
+(* One of the parts that a decision to the end comes to after another, and what it goes on to from the last. *)
+let put_parts f =
+  let b, c, p = vectors_of f.vectors and edges = f.on_edges in
+  let _, ((distinct, three), _) = linear_of_multiple b c p in
+  let rec go_on path q =
+    put_part q;
+    if not (any_root three q.close_roots && can_be_narrowed q) then begin
+      let from_last = { q with ask_from = Z.add (bits q) (Z.of_int (path land 1)) } in
+      put_outcome
+        (by_narrowing edges b c p root_middle root_exponent estimated_pair distinct three steps
+           (that_wait three [ from_last ]) Separate)
+    end else begin
+      put_outcome (inside_from edges b c p q.low q.unit_bits (Some q.width_bits));
+      put_word (Bool.to_int (contact_in_middle edges b c p q));
+      put_word (Bool.to_int (normal_vanishes_at_root b c distinct three q));
+      let before = { q with low = Z.sub q.low (Z.shift_left Z.one (Z.to_int q.width_bits)) } in
+      put_word (Bool.to_int (normal_vanishes_at_root b c distinct three before));
+      let narrow = narrowed root_middle root_exponent estimated_pair three q in
+      put_word (Bool.to_int (narrow <> None));
+      let half side = sub_part q Z.one (Z.of_int side) Z.zero in
+      go_on (path lsr 1)
+        (match narrow with
+         | Some narrow -> narrow
+         | None ->
+             let one = half (path land 1) in
+             if any_root three one.close_roots then one else half (1 - (path land 1)))
+    end in
+  go_on f.path (Integers.whole_part b c p)
+
+let put_deep d =
+  let b, c, p = vectors_of d.small and edges = d.deep_edges in
+  let _, ((distinct, three), _) = linear_of_multiple b c p in
+  let part y bits from =
+    { close_y = y; close_roots = inner_sign_changes y; low = Z.zero; unit_bits = Z.of_int bits; width_bits = Z.zero;
+      ask_from = Z.of_int from } in
+  let deep = part [ Z.minus_one; Z.shift_left Z.one d.root_bits; Z.zero; Z.one ] d.deep_bits d.deep_from in
+  put_outcome
+    (by_narrowing edges b c p root_middle root_exponent estimated_pair distinct three steps [ deep ] Separate);
+  let size = Z.shift_left Z.one d.limit_bits in
+  let y = List.init 4 (fun i -> if i <> d.limit_index then Z.zero else if d.limit_negative then Z.neg size else size) in
+  put_word (Bool.to_int (can_be_narrowed (part y d.limit_unit_bits 0)));
+  let pair = part d.pair 0 40 in
+  if pair.close_roots.count = 2 then
+    put_if_any put_part (narrowed root_middle root_exponent estimated_pair three pair)
+
+let put_roots (forms, other) =
+  let quadratic f = { c0 = Z.of_int f.(0); c1 = Z.of_int f.(1); c2 = Z.of_int f.(2) } in
+  let forms = List.map quadratic forms in
+  let f = List.hd forms in
+  if sign_inside reals (coefficients f) = Uncertain then
+    put_word (Bool.to_int (nonpositive_at_a_root f (quadratic other)));
+  let put_quadratic q = put_number q.c0; put_number q.c1; put_number q.c2 in
+  match common_roots forms with
+  | `None -> put_word 0
+  | `One squares -> put_word 1; put_quadratic squares
+  | `Of_quadratic f -> put_word 2; put_quadratic f
+  | `Everywhere -> put_word 3
+
+let put_bounded ((a, a_bits), (b, b_bits)) =
+  let put x =
+    put_number x.value0;
+    put_word (Z.to_int x.error_bits land 0xffffffff);
+    put_sign (bounded_sign x) in
+  let a = { value0 = a; error_bits = Z.of_int a_bits } and b = { value0 = b; error_bits = Z.of_int b_bits } in
+  put a;
+  put (bounded_sum a b);
+  put (bounded_difference a b);
+  put (bounded_product a b)
+
+let drawn_line name cases draw put =
+  let drawn = Array.init cases (fun _ -> draw ()) in
+  line ("integers " ^ name) cases (fun k -> put drawn.(k))
+
 let () =
   state := 1;
   for i = 0 to 19 do
     let queries = Array.init 4000 (fun _ ->
-        let mode = draw 15 in
+        let mode = draw 16 in
         let edges = draw 2 = 1 in
         integers_of edges (query_in_doubles mode (whole_query mode edges))) in
     line (Printf.sprintf "integers decide.%d" i) 4000 (fun k -> put_decision queries.(k));
     line (Printf.sprintf "integers close.%d" i) 1000 (fun k -> put_close queries.(k))
-  done
+  done;
+  drawn_line "wide" 4000 wide_query put_wide_query;
+  drawn_line "forms" 4000 forms put_forms;
+  drawn_line "parts" 1000 forms put_parts;
+  drawn_line "deep" 2000 draw_deep put_deep;
+  drawn_line "roots" 4000 draw_quadratics put_roots;
+  drawn_line "bounded" 4000 draw_bounded put_bounded

@@ -95,6 +95,24 @@ let meet c edges size sometimes_off on_border =
     c.((6 * moved) + 3 + x) <- at_end
   done
 
+(* Y is the product of three linear forms, with roots close to k/8, but for a little: of the rows P, B and C, which
+   are small beside the diagonal. *)
+let near_roots c edges =
+  let k = draw 9 in
+  let large = 1 lsl draw 31 in
+  let rows = Array.init 3 (fun _ -> Array.make 6 0) in
+  for i = 0 to 2 do
+    for x = 0 to 2 do
+      for e = 0 to 1 do
+        let little = if draw 2 = 0 then 0 else pick 2 in
+        rows.(i).((3 * e) + x) <- little + (if i = x then large * (k - (8 * e)) else 0)
+      done
+    done
+  done;
+  let place p from row = for i = 0 to 5 do c.((6 * p) + i) <- c.((6 * from) + i) + rows.(row).(i) done in
+  if edges then begin place 1 0 1; place 2 0 0; place 3 2 2 end
+  else begin place 0 1 0; place 2 1 1; place 3 1 2 end
+
 let whole_query mode edges =
   let size = match mode with
     | 0 | 1 | 2 -> sizes.(draw 4) | 3 -> sizes.(draw 9) | 4 | 5 | 6 | 7 | 8 -> sizes.(3 + draw 6)
@@ -124,13 +142,14 @@ let whole_query mode edges =
          done
        done
    | 9 | 10 | 11 | 12 -> meet c edges size false (draw 2 = 0)
+   | 15 -> near_roots c edges
    | _ -> ());
   c
 
 (* In doubles, some of them in other units and a little off. *)
 let query_in_doubles mode c =
   let x = Array.map float_of_int c in
-  if mode >= 10 then begin
+  if mode >= 10 && mode < 15 then begin
     let q0 = draw 110 in
     let q1 = draw 110 in
     let q2 = draw 110 in
@@ -148,6 +167,245 @@ let query_in_doubles mode c =
     done
   end;
   x
+
+(* Some coordinates so large that integers of 1, 2 or 4 words just hold them, or do not; or not finite. *)
+let wide_query () =
+  let mode = draw 16 in
+  let edges = draw 2 = 1 in
+  let x = query_in_doubles mode (whole_query mode edges) in
+  let kind = draw 8 in
+  let exponent = if kind = 6 then 120 + draw 904 else [| 60; 61; 124; 125; 252; 253 |].(kind mod 6) in
+  let along = draw 2 = 0 in
+  let axis = draw 3 in
+  for i = 0 to 23 do
+    if draw 4 = 0 && (not along || i mod 3 = axis) then begin
+      let size = draw 3 in
+      x.(i) <- ldexp (float_of_int size) (exponent - draw 2)
+    end
+  done;
+  if kind = 7 && draw 2 = 0 then begin
+    let which = draw 3 in
+    x.(draw 24) <- [| infinity; neg_infinity; nan |].(which)
+  end;
+  edges, x
+
+(* ---- Vectors b, c and p, as whole_forms.hpp draws them ---- *)
+
+let rec drawn_below bits =
+  if bits <= 30 then Z.of_int (draw (1 lsl bits))
+  else
+    let high = drawn_below (bits - 30) in
+    Z.add (Z.shift_left high 30) (Z.of_int (draw (1 lsl 30)))
+let drawn_within bits =
+  let size = drawn_below bits in
+  if draw 2 = 0 then size else Z.neg size
+
+(* vectors.(i).(x): from where to where; of a part of the step: its level, the path to it where no sign shows one, how
+   far from where the root is expected there; the root of all, a quotient; and of a place there, cut so that it has so
+   many words. *)
+type drawn_forms = { on_edges : bool; vectors : (Z.t * Z.t) array array; part_level : int; path : int; off : int;
+                     root : Z.t; root_unit : Z.t; words : int; cut : int }
+
+let orders = [| [| 0; 1; 2 |]; [| 1; 2; 0 |]; [| 2; 0; 1 |]; [| 0; 2; 1 |]; [| 1; 0; 2 |]; [| 2; 1; 0 |] |]
+
+(* With a root u/d, d = (q + 1)*u + 1, at which each coordinate is its value over d: sizes, u and q. *)
+let draw_place () =
+  let bits = match draw 4 with
+    | 0 -> 2 + draw 12 | 1 -> 12 + draw 60 | 2 -> 72 + draw 130 | _ -> 202 + draw 46 in
+  let dyadic = draw 6 = 0 in
+  let of_u = if dyadic then 1 + draw (min (2 * bits / 3) 50) else draw ((2 * bits / 3) + 1) in
+  let of_q = if dyadic then 0 else if draw 4 = 0 then draw ((bits / 6) + 1) else draw 3 in
+  let u = if dyadic then Z.of_int ((1 lsl of_u) - 1) else Z.succ (drawn_below of_u) in
+  let q = drawn_below of_q in
+  u, q, max 0 (bits - of_q), max 1 (bits - of_q - of_u)
+
+(* At the root in a plane, or almost, p*b and c*b nearly parallel. *)
+let in_a_plane values value_bits =
+  let of_h = draw (value_bits + 1) in
+  let more = value_bits - of_h in
+  let h = drawn_below of_h in
+  let factor () = if draw 3 = 0 then drawn_within (draw (more + 1)) else Z.of_int (pick 1) in
+  let g = factor () in
+  let j = factor () in
+  let k = drawn_within (draw (value_bits + 1)) in
+  let d = Z.of_int (pick 3) in
+  values.(0) <- [| h; Z.one; Z.zero |];
+  values.(1) <- [| Z.sub (Z.mul h j) k; j; Z.zero |];
+  values.(2) <- [| Z.add (Z.mul h g) d; g; Z.zero |];
+  for i = 0 to 2 do values.(i).(2) <- if draw 4 = 0 then Z.of_int (pick 1) else Z.zero done
+
+(* A double root, or a triple one. *)
+let of_rank_one values =
+  if draw 3 = 0 then values.(0) <- Array.make 3 Z.zero;
+  for i = 1 to 2 do
+    let times = Z.of_int (pick 2) in
+    values.(i) <- Array.map (Z.mul times) values.(0)
+  done
+
+(* b and c in one plane throughout, whose normal vanishes where their cross product does. *)
+let move_in_a_plane values slopes value_bits =
+  for i = 0 to 1 do
+    let x = drawn_within value_bits in
+    let y = drawn_within value_bits in
+    values.(i) <- [| x; y; Z.zero |];
+    slopes.(i).(2) <- Z.zero
+  done
+
+(* In the middle of both, at a double or triple root, or at three close to each other. *)
+let meet_inside values slopes value_bits =
+  let triple = draw 2 = 0 in
+  let coincide = draw 2 = 0 in
+  let side = if draw 2 = 0 then Z.one else Z.minus_one in
+  let four x = Z.shift_left x 2 in
+  let arrange rows along other edge =
+    rows.(0) <- [| four along; four edge; Z.zero |];
+    rows.(1) <- [| Z.zero; Z.mul side (four along); Z.mul side (four edge) |];
+    rows.(2) <- [| along; Z.add edge along; Z.add edge other |] in
+  let along = slopes.(0).(0) in
+  arrange slopes along (if triple then along else slopes.(1).(1)) slopes.(2).(2);
+  let at () = if coincide then Z.zero else Z.of_int (pick 1) in
+  let first = at () in
+  let second = at () in
+  arrange values first second (drawn_within value_bits);
+  if not coincide then
+    for i = 0 to 2 do
+      for x = 0 to 2 do
+        if draw 6 = 0 then values.(i).(x) <- Z.add values.(i).(x) (Z.of_int (pick 1))
+      done
+    done
+
+let forms () =
+  let kind = draw 8 in
+  let on_edges = draw 2 = 1 in
+  let u, q, value_bits, slope_bits = draw_place () in
+  let each drawn =
+    let rows = Array.make_matrix 3 3 Z.zero in
+    for i = 0 to 2 do for x = 0 to 2 do rows.(i).(x) <- drawn () done done;
+    rows in
+  let slopes = each (fun () -> drawn_within slope_bits) in
+  let values = each (fun () -> if draw 2 = 0 then Z.zero else Z.of_int (pick 2)) in
+  (match kind with
+   | 0 -> in_a_plane values value_bits
+   | 1 -> for i = 0 to 2 do for x = 0 to 2 do if i <> x then slopes.(i).(x) <- Z.zero done done
+   | 2 -> of_rank_one values
+   | 3 -> values.(1) <- Array.map (fun v -> Z.add v v) values.(0)
+   | 4 -> move_in_a_plane values slopes value_bits
+   | 5 ->
+       let side = if draw 2 = 0 then 1 else -1 in
+       Array.iteri (fun i row -> values.(i) <- Array.map Z.of_int row) [| [| 4; 0; 0 |]; [| 0; 4 * side; 0 |]; [| 1; 1; 0 |] |]
+   | 6 | 7 -> meet_inside values slopes value_bits
+   | _ -> ());
+  let order = orders.(if kind < 5 then draw 6 else 0) in
+  let back = draw 2 = 0 in
+  let moved row x =
+    let value = values.(row).(x) and slope = slopes.(row).(x) in
+    let start = Z.add value (Z.mul slope u) in
+    let finish = Z.neg (Z.add (Z.mul q value) (Z.mul slope (Z.succ (Z.mul q u)))) in
+    if back then finish, start else start, finish in
+  let root_unit = Z.succ (Z.mul (Z.succ q) u) in
+  let root = if back then Z.sub root_unit u else u in
+  let part_level = if draw 2 = 0 then 40 else draw 40 in
+  let path = draw (1 lsl 40) in
+  let reach = draw 6 in
+  let off = if reach < 3 then pick 1 * (1 lsl [| 4; 14; 24 |].(reach)) else pick (1 lsl draw 27) in
+  let words = 1 + draw 4 in
+  let cut = if draw 2 = 0 then draw 3 else draw 64 in
+  { on_edges; vectors = Array.init 3 (fun i -> Array.init 3 (moved order.(i))); part_level; path; off; root; root_unit;
+    words; cut }
+
+(* Small vectors, p zero at the start; of a part that begins there, its bits, near which in it a cubic has its root, and
+   from which on weights are asked; of numbers just narrow enough or not; and a cubic with two roots close to each
+   other. *)
+type drawn_deep = { deep_edges : bool; small : (Z.t * Z.t) array array; deep_bits : int; root_bits : int; deep_from : int;
+                    limit_unit_bits : int; limit_bits : int; limit_index : int; limit_negative : bool; pair : Z.t list }
+let draw_deep () =
+  let deep_edges = draw 2 = 1 in
+  let small = Array.make_matrix 3 3 (Z.zero, Z.zero) in
+  for i = 0 to 2 do
+    for x = 0 to 2 do
+      let start = pick 3 in
+      let finish = pick 3 in
+      small.(i).(x) <- Z.of_int (if i = 2 then 0 else start), Z.of_int finish
+    done
+  done;
+  let deep_bits = draw 1535 in
+  let root_bits = draw 700 in
+  let deep_from = deep_bits + (if draw 2 = 0 then 0 else draw 200) in
+  let limit_unit_bits = 1472 + draw 4 in
+  let limit_bits = 5442 + draw 4 in
+  let limit_index = draw 4 in
+  let limit_negative = draw 2 = 0 in
+  let a = 1 + draw 16 in
+  let b = 1 + draw 16 in
+  let c = 1 + draw 4 in
+  let e = 1 + draw 4 in
+  let bits = draw 63 in
+  let pair =
+    List.map2 (fun h little -> Z.sub (Z.shift_left (Z.of_int h) bits) (Z.of_int little))
+      [ b * b * c; (b * b * e) - (2 * a * b * c); (a * a * c) - (2 * a * b * e); a * a * e ] [ 1; 3; 3; 1 ] in
+  { deep_edges; small; deep_bits; root_bits; deep_from; limit_unit_bits; limit_bits; limit_index; limit_negative;
+    pair }
+
+(* The most bits of an axis' coordinates. *)
+let bits_along f x =
+  Array.fold_left (fun most v -> let a, b = v.(x) in max most (max (bit_length a) (bit_length b))) 0 f.vectors
+
+(* ---- Quadratics, and numbers that stand for others ---- *)
+
+(* Three, the first of which often has roots in common with the others, and with one more. *)
+let draw_quadratics () =
+  let size = [| 1; 2; 5; 30; 1 lsl 20 |].(draw 5) in
+  let kind = draw 4 in
+  let any () =
+    let f0 = pick size in
+    let f1 = pick size in
+    let f2 = pick size in
+    [| f0; f1; f2 |] in
+  let c0 = pick size in
+  let c1 = pick size in
+  let with_root () =
+    let d0 = pick size in
+    let d1 = pick size in
+    [| c0 * d0; (c0 * d1) + (c1 * d0); c1 * d1 |] in
+  let first = if kind = 0 then any () else with_root () in
+  let next () =
+    if draw 6 = 0 then any ()
+    else if kind > 1 then with_root ()
+    else let times = pick 2 in Array.map (fun c -> c * times) first in
+  let second = next () in
+  let third = next () in
+  let other = if draw 3 = 0 then any () else with_root () in
+  [ first; second; third ], other
+
+(* The roots of a product of linear forms, over 2^bits; an interval a few doubles wide in which it changes its sign
+   once, perhaps with roots at its ends or a double one; and an estimate. *)
+type drawn_search = { search_roots : int list; search_bits : int; search_low : int; search_high : int;
+                      search_estimate : int; search_negative : bool }
+let draw_search () =
+  let degree = 1 + draw 3 in
+  let search_bits = 54 + (if draw 2 = 0 then 0 else draw 80) in
+  let low = (1 lsl 53) + (2 * draw (1 lsl 40)) in
+  let doubles = 2 + draw 39 in
+  let high = low + (2 * doubles) in
+  let root = low + 1 + draw ((2 * doubles) - 1) in
+  let twice = draw 3 = 0 in
+  let at_end () = if draw 2 = 0 then low else high in
+  let second = if twice && degree = 3 then low + (2 * (1 + draw (doubles - 1))) else at_end () in
+  let third = if twice then second else at_end () in
+  let search_negative = draw 2 = 0 in
+  let search_estimate = low + (2 * (draw (doubles + 3) - 1)) in
+  let search_roots = List.filteri (fun i _ -> i < degree) [ root; second; third ] in
+  { search_roots; search_bits; search_low = low; search_high = high; search_estimate; search_negative }
+
+(* Two values and bits of their errors. *)
+let draw_bounded () =
+  let bits () = if draw 4 = 0 then draw 2 - (1 lsl 20) else draw 20 - 5 in
+  let number () = drawn_within (draw 20) in
+  let a = number () in
+  let b = number () in
+  let a_bits = bits () in
+  let b_bits = bits () in
+  (a, a_bits), (b, b_bits)
 
 (* ---- Units, as axis_units.hpp has them ---- *)
 
@@ -167,10 +425,16 @@ let axis count x k =
   | _ ->
       let unit = List.fold_left (fun m v -> min m (last_bit v)) max_int nonzero in
       let extent = Float.max (extent 0) (extent 1) in
-      unit, (if extent = 0. then 0 else max 0 (snd (Float.frexp extent) - unit))
+      let end_bit = if extent = infinity then 1025 else snd (Float.frexp extent) in
+      unit, (if extent = 0. then 0 else max 0 (end_bit - unit))
 
 type decided = { edges : bool; units : (int * int) array; whole : Z.t array }
 
+(* In whole units; the bits shifted out are zeros. *)
+let in_units unit v =
+  let mantissa, exponent = Float.frexp v in
+  let size = Z.of_float (ldexp mantissa 53) and shift = exponent - 53 - unit in
+  if shift < 0 then Z.shift_right size (- shift) else Z.shift_left size shift
 let integers_of ?(count = 4) edges x =
   let units = Array.init 3 (axis count x) in
-  { edges; units; whole = Array.mapi (fun i v -> Z.of_float (ldexp v (- fst units.(i mod 3)))) x }
+  { edges; units; whole = Array.mapi (fun i v -> in_units (fst units.(i mod 3)) v) (Array.sub x 0 (6 * count)) }

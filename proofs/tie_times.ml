@@ -163,9 +163,8 @@ let put_told = function
   | Unknown -> put_word 2
   | At (low, high) -> put_word 1; put_double (Q.to_float low); put_double (Q.to_float high)
 (* Where integers of two words hold all. *)
-let put_if_fitting d tell =
-  let bits = Array.fold_left (fun m (_, bits) -> max m bits) 0 d.units in
-  put_told (if bits <= 125 then tell d else Unknown)
+let fits d = Array.for_all (fun (_, bits) -> bits <= 125) d.units
+let put_if_fitting d tell = put_told (if fits d then tell d else Unknown)
 
 (* Of a part of the step where Y changes its sign, as if the filter had found contact in it: parts and how Y bends
    there follow from the case's number. *)
@@ -183,21 +182,88 @@ let put_part d k =
         let low = ldexp (float_of_int index) (- depth) and high = ldexp (float_of_int (index + 1)) (- depth) in
         told (between (search (Array.of_list y)) low high before (low +. (place *. (high -. low)))))
 
-let put_times (edges, x) k =
-  put_part (integers_of edges x) k;
-  put_if_fitting (integers_of edges x) first_time;
+let put_fewer (edges, x) =
   put_if_fitting (integers_of ~count:3 edges x)
     (fun d -> bracket_of (first_vertex_edge_contact (moving d 0) (moving d 1) (moving d 2)));
   put_if_fitting (integers_of ~count:2 edges x) (fun d ->
       if not (vertices_contact (moving_point d 0) (moving_point d 1)) then Never
       else bracket_of (moving_component (moving d 0) (moving d 1)))
+let put_times (edges, x) k =
+  put_part (integers_of edges x) k;
+  put_if_fitting (integers_of edges x) first_time;
+  put_fewer (edges, x)
+
+(* Whatever the extents are. *)
+let put_wide (edges, x) _ =
+  if Array.for_all Float.is_finite x then begin
+    let d = integers_of edges x in
+    if fits d then put_part d 0 else put_told Unknown;
+    put_if_fitting d first_time;
+    put_fewer (edges, x)
+  end
+
+(* Where doubles hold the query: its points from one of them on. *)
+let put_of_forms f k =
+  let bits = max (bits_along f 0) (max (bits_along f 1) (bits_along f 2)) in
+  if bits <= 50 then begin
+    let x = Array.make 24 0. in
+    let place p v =
+      Array.iteri (fun i (start, finish) ->
+          x.((6 * p) + i) <- Z.to_float start;
+          x.((6 * p) + 3 + i) <- Z.to_float finish) v in
+    let b = f.vectors.(0) and c = f.vectors.(1) and p = f.vectors.(2) in
+    let sum = Array.map2 (fun (a, b) (c, d) -> Z.add a c, Z.add b d) in
+    place (if f.on_edges then 1 else 2) b;
+    place 3 (if f.on_edges then sum p c else c);
+    place (if f.on_edges then 2 else 0) p;
+    put_times (f.on_edges, x) k
+  end
+
+(* All vertices and edges from 0 on with coordinates -1 to 1 in a plane, or edges along an axis; and with those from -3
+   to 3 on a line. *)
+let put_small k =
+  let each = 6561 in
+  let x = Array.make 24 0. in
+  let rec put_digits places digits size =
+    match places with
+    | [] -> ()
+    | i :: rest ->
+        x.(i) <- float_of_int ((digits mod ((2 * size) + 1)) - size);
+        put_digits rest (digits / ((2 * size) + 1)) size in
+  if k < each then put_digits [ 0; 1; 3; 4; 12; 13; 15; 16 ] k 1
+  else if k < 2 * each then put_digits [ 0; 1; 2; 3; 4; 5; 12; 15 ] (k - each) 1
+  else put_digits [ 0; 3; 12; 15 ] (k - (2 * each)) 3;
+  put_if_fitting (integers_of ~count:3 false x)
+    (fun d -> bracket_of (first_vertex_edge_contact (moving d 0) (moving d 1) (moving d 2)))
+
+let put_search d _ =
+  let whole_end = Z.shift_left Z.one d.search_bits in
+  let times p root =
+    let root = Z.of_int root in
+    let by c = List.map (Z.mul c) p in
+    List.map2 Z.add (by (Z.neg root) @ [ Z.zero ]) (Z.zero :: by (Z.sub whole_end root)) in
+  let p = List.fold_left times [ (if d.search_negative then Z.minus_one else Z.one) ] d.search_roots in
+  let later = List.length (List.filter (fun root -> root > d.search_low) d.search_roots) in
+  let before : sign = if (later land 1 = 1) <> d.search_negative then Negative else Positive in
+  let place x = ldexp (float_of_int x) (- d.search_bits) in
+  put_told
+    (told
+       (between (search (Array.of_list p)) (place d.search_low) (place d.search_high) before (place d.search_estimate)))
+
+let drawn_line name cases draw put =
+  let drawn = Array.init cases (fun _ -> draw ()) in
+  line ("times " ^ name) cases (fun k -> put drawn.(k) k)
 
 let () =
   state := 1;
   for i = 0 to 9 do
     let queries = Array.init 1000 (fun _ ->
-        let mode = draw 15 in
+        let mode = draw 16 in
         let edges = draw 2 = 1 in
         edges, query_in_doubles mode (whole_query mode edges)) in
     line (Printf.sprintf "times first.%d" i) 1000 (fun k -> put_times queries.(k) k)
-  done
+  done;
+  drawn_line "wide" 1000 wide_query put_wide;
+  drawn_line "forms" 4000 forms put_of_forms;
+  line "times small" ((2 * 6561) + 2401) put_small;
+  drawn_line "search" 8000 draw_search put_search

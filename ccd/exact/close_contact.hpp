@@ -91,44 +91,10 @@ class close_contact {
     }
 
     /// Whether Y = 0 and all G_i > 0 at some t in (0, 1) that is no multiple root of Y.
-    /// Proof: proofs/CloseContact.v, by_narrowing_right, close_contact_right,
-    /// close_contact_ends, three_close_parts_wait.
-    outcome decide() const {
-        std::array<std::optional<part>, 3> waiting;  // the earliest last
-        std::size_t count = 0;
-        auto found = outcome::separate;
-        const auto wait = [&](const part& next) {
-            if (any_root(next.roots)) waiting[count++] = next;
-        };
-        part whole;
-        for (int i = 0; i <= 3; ++i) whole.y[i] = y_[i];
-        whole.roots = inner_sign_changes(y_);
-        wait(whole);
-        while (count > 0) {
-            part last = *waiting[--count];
-            if (last.bits() >= last.ask_from) {
-                const auto known = throughout(last);
-                if (known == outcome::collides) return outcome::collides;
-                if (known == outcome::separate || normal_vanishes(last)) continue;
-                last.ask_from = last.bits() + last.bits() / 2;
-            }
-            if (!last.can_be_narrowed()) {
-                found = outcome::uncertain;
-                continue;
-            }
-            if (const auto narrow = narrowed(last)) {
-                wait(*narrow);
-                continue;
-            }
-            if (last.y[0] + last.y[1] + last.y[2] + last.y[3] == 0 && contact_in_middle(last))
-                return outcome::collides;
-            wait(last.sub_part(1, 1, 0));
-            wait(last.sub_part(1, 0, 0));
-        }
-        return found;
-    }
+    /// Proof: proofs/CloseContact.v, close_contact_right, close_contact_ends.
+    outcome decide() const { return by_narrowing(whole_step()); }
 
-  private:
+  protected:
     static constexpr int place_words = 24, max_bits = 64 * place_words - 2;
     static constexpr int y_words = 3 * (coordinate_words + place_words) + 4;
     /// Of the place of a root, and of that of an extremum, that doubles may know.
@@ -194,6 +160,47 @@ class close_contact {
             return sub_part(n, std::clamp<std::int64_t>(middle - 1, 0, whole - 2), 1);
         }
     };
+
+    part whole_step() const {
+        part whole;
+        for (int i = 0; i <= 3; ++i) whole.y[i] = y_[i];
+        whole.roots = inner_sign_changes(y_);
+        return whole;
+    }
+
+    /// What `decide` answers, on a part.
+    /// Proof: proofs/CloseContact.v, by_narrowing_right, three_close_parts_wait.
+    outcome by_narrowing(const part& whole) const {
+        std::array<std::optional<part>, 3> waiting;  // the earliest last
+        std::size_t count = 0;
+        auto found = outcome::separate;
+        const auto wait = [&](const part& next) {
+            if (any_root(next.roots)) waiting[count++] = next;
+        };
+        wait(whole);
+        while (count > 0) {
+            part last = *waiting[--count];
+            if (last.bits() >= last.ask_from) {
+                const auto known = throughout(last);
+                if (known == outcome::collides) return outcome::collides;
+                if (known == outcome::separate || normal_vanishes(last)) continue;
+                last.ask_from = last.bits() + last.bits() / 2;
+            }
+            if (!last.can_be_narrowed()) {
+                found = outcome::uncertain;
+                continue;
+            }
+            if (const auto narrow = narrowed(last)) {
+                wait(*narrow);
+                continue;
+            }
+            if (last.y[0] + last.y[1] + last.y[2] + last.y[3] == 0 && contact_in_middle(last))
+                return outcome::collides;
+            wait(last.sub_part(1, 1, 0));
+            wait(last.sub_part(1, 0, 0));
+        }
+        return found;
+    }
 
     /// As interior_contact's.
     bool any_root(const inner_sign_changes& roots) const {
@@ -294,6 +301,7 @@ class close_contact {
                sign_type::negative;
     }
 
+  private:
     const Forms<number<coordinate_words>, 1> forms_;
     const errbound::bernstein<number<3 * coordinate_words>, 3> y_;
     bool distinct_;          ///< Y has no multiple root

@@ -151,12 +151,14 @@ constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>
 }
 
 /// (a + b)/2, as the rule has sum and scaling; where the sum overflows, the sum of halves.
+/// Proof: proofs/IeeeCompound.v, midpoint_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const tracked<T, Rule> sum = a + b;
     if (number_traits<T>::is_finite(sum.value()) && number_traits<T>::is_finite(sum.error()))
         return scale(sum, -1);
-    return scale(a, -1) + scale(b, -1);
+    const tracked<T, Rule> half = scale(a, -1);  // one after the other: rules count sources
+    return half + scale(b, -1);
 }
 
 /// a + t(b − a); a where t is certainly 0, b where it is certainly 1. Unknown where b − a
@@ -166,7 +168,7 @@ constexpr tracked<T, Rule> midpoint(const tracked<T, Rule>& a, const tracked<T, 
 /// + t(b − b̂) + (t − t̂)(b̂ − â), so that σa counts |1 − t| times, not once and |t| times as in
 /// a + t(b − a). Each of two partial sums has up to six roundings with that of its enlarging; four
 /// products, and three that enlarge, may lose η each.
-/// Proof: proofs/Functions.v, lerp_sound_nearest; in any direction: proofs/Functions.v, lerp_sound.
+/// Proof: proofs/IeeeCompound.v, lerp_known; in any direction, proofs/Functions.v, lerp_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                 const tracked<T, Rule>& t) {
@@ -194,7 +196,7 @@ constexpr tracked<T, Rule> lerp(const tracked<T, Rule>& a, const tracked<T, Rule
 /// It changes by no more than its arguments do. With the larger argument scaled to at least 1/2,
 /// two squares, their sum s >= 1/4 and its root are each rounded once, and what underflows is off
 /// by less than 3η of s: relatively 2ε + ε² + 7η, or of the result (ε <= 2^-7) less than 3ε + 8η.
-/// Proof, to nearest: proofs/Functions.v, hypot_sound_nearest.
+/// Proof, to nearest: proofs/IeeeCompound.v, hypot_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     using traits = number_traits<T>;
@@ -217,7 +219,8 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
 }
 
 /// |x| with the sign of the exact y, zero's taken for positive; of unknown sign where y's is.
-/// Proof: proofs/Functions.v, copysign_sound, copysign_sound_nearest.
+/// Proof: proofs/IeeeCompound.v, copysign_known; in any direction, proofs/Functions.v,
+/// copysign_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     const tracked<T, Rule> size = abs(x);
@@ -229,7 +232,7 @@ constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, 
 
 /// x^n by repeated squaring, as the rule has products; x^0 is 1. For n < 0, 1/x^|n|, unknown by a
 /// rule without quotients. Other exponents than whole numbers of the language:
-/// errbound/elementary.hpp.
+/// errbound/elementary.hpp. Proof: proofs/IeeeCompound.v, pow_known.
 template <class T, class Rule, std::same_as<int> Int>
 constexpr tracked<T, Rule> pow(const tracked<T, Rule>& x, Int n) {
     using number = tracked<T, Rule>;
@@ -323,7 +326,8 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
             slope = slope * x + there;
         }
         // The values are result's, and about 0: by it only the sign of a zero could differ.
-        const number by_slope = (there * at + c(0)) + slope * (x - at);
+        const number change = slope * (x - at);
+        const number by_slope = (there * at + c(0)) + change;
         const bool loses_sign = certain(sign_of(result)) && !certain(sign_of(by_slope));
         if (by_slope.error() < result.error() && !loses_sign)
             return number::from_bound(result.value(), by_slope.bound());
@@ -343,6 +347,8 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 /// bound itself, and in the worst case about nuΣ|aᵢbᵢ| where arguments are exact, as a bound from
 /// magnitudes alone always is. Cost: under `tight` and `sharp` fewer operations than one by one.
 /// Precondition, which is asserted: a and b are of one size.
+/// Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; of operations one by one,
+/// proofs/IeeeCompound.v, dot_known.
 template <tracked_numbers A, tracked_numbers B>
 requires std::same_as<detail::number_of<A>, detail::number_of<B>>
 constexpr detail::number_of<A> dot(const A& a, const B& b) {
@@ -363,6 +369,8 @@ constexpr detail::number_of<A> dot(const A& a, const B& b) {
 /// after the other, errors of x add up as if they were different numbers'; this way they count as
 /// often as p'(x̂) says, and |x − x̂|² times what is of second order. Cost: that of the operations,
 /// and twice more where x is not exact.
+/// Proof: proofs/IeeeCompound.v, horner_known; of `tight` in any direction, proofs/Compound.v,
+/// tight_horner_sound.
 template <tracked_numbers C>
 constexpr detail::number_of<C> horner(const C& c,
                                       const std::type_identity_t<detail::number_of<C>>& x) {

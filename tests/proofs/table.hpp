@@ -65,6 +65,16 @@ struct line {
     std::function<void(hash&, std::uint64_t)> put;
 };
 
+/// A line of so many that are drawn first: put(results, what is drawn, its number).
+template <class Draw, class Put>
+line line_of(const std::string& name, int cases, sequence& numbers, const Draw& draw,
+             const Put& put) {
+    std::vector<decltype(draw(numbers))> drawn;
+    for (int k = 0; k < cases; ++k) drawn.push_back(draw(numbers));
+    return {name, drawn.size(),
+            [drawn, put](hash& h, std::uint64_t k) { put(h, drawn[k], static_cast<int>(k)); }};
+}
+
 /// Prints the lines whose results are not those of the table, the first or all; how many are.
 inline int count_differences(const std::vector<line>& lines, bool first_alone) {
     const table expected = read_table();

@@ -23,8 +23,8 @@ std::string changed_header;
 
 /// Whether a header of this name may have part in it: the rule's own, or what is no rule.
 bool is_due(const std::string& name) {
-    const std::array<std::string, 6> others{"tight",    "sharp",    "safe",
-                                            "interval", "residual", "fixed_integer"};
+    const std::array<std::string, 8> others{"tight",    "sharp",    "safe",   "interval",
+                                            "residual", "relative", "affine", "fixed_integer"};
     return changed_header == name ||
            std::find(others.begin(), others.end(), changed_header) == others.end();
 }
@@ -49,7 +49,8 @@ bool differs() {
            rule_differs<T, errbound::sharp>(expected) ||
            rule_differs<T, errbound::safe>(expected) ||
            rule_differs<T, errbound::interval>(expected) ||
-           rule_differs<T, errbound::residual>(expected);
+           rule_differs<T, errbound::residual>(expected) ||
+           rule_differs<T, errbound::relative>(expected) || rule_differs<T, tie::affine>(expected);
 }
 template <class Tiny>
 bool tiny_differs() {

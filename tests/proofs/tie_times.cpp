@@ -1,6 +1,8 @@
 // First contacts in integers of fixed width, and the doubles between which they are, of the whole
 // step and of parts, against what the proofs' definitions tell of the same queries
 // (proofs/tie_times.ml).
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <ccd/methods/forms.hpp>
 #include <ccd/query.hpp>
@@ -14,10 +16,13 @@
 #include <vector>
 
 #include "ccd/contact/integer_times.hpp"
+#include "ccd/contact/time_bracket.hpp"
 #include "ccd/contact/vertex_edge_time.hpp"
 #include "ccd/exact/axis_units.hpp"
+#include "ccd/exact/integer_decision.hpp"
 #include "ccd/exact/static_filter/subdivision.hpp"
 #include "tests/proofs/table.hpp"
+#include "tests/proofs/whole_forms.hpp"
 #include "tests/proofs/whole_query.hpp"
 
 namespace {
@@ -56,14 +61,106 @@ void put_times(hash& h, const Query& query, int k) {
     put_part(h, query, k);
     put(h, first_contact_in_integers(query));
 }
+ccd::vertex_edge<double> vertex_edge_of(const drawn_query& q) {
+    return {q.moving(0), q.moving(1), q.moving(2)};
+}
+void put_fewer(hash& h, const drawn_query& q) {
+    put(h, first_contact_in_integers(vertex_edge_of(q)));
+    put(h, first_contact_in_integers(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}));
+}
 void put_times(hash& h, const drawn_query& q, int k) {
     if (q.edges)
         put_times(h, q.as<ccd::edge_edge<double>>(), k);
     else
         put_times(h, q.as<ccd::vertex_face<double>>(), k);
-    put(h,
-        first_contact_in_integers(ccd::vertex_edge<double>{q.moving(0), q.moving(1), q.moving(2)}));
-    put(h, first_contact_in_integers(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}));
+    put_fewer(h, q);
+}
+
+/// Whatever the extents are.
+template <class Query>
+void put_wide(hash& h, const Query& query) {
+    if (ccd::detail::integer_units(query).bits() <= ccd::detail::extent_limit(2)) {
+        put_part(h, query, 0);
+    } else {
+        ccd::static_filter::contact_part part{0, 1};
+        part.y.b = {1, 0, 0, -1};
+        part.one_root = true;
+        put(h, ccd::detail::root_in_integers(query, part));
+    }
+    put(h, first_contact_in_integers(query));
+}
+void put_wide(hash& h, const drawn_query& q) {
+    if (!std::all_of(q.x.begin(), q.x.end(), [](double x) { return std::isfinite(x); })) return;
+    if (q.edges)
+        put_wide(h, q.as<ccd::edge_edge<double>>());
+    else
+        put_wide(h, q.as<ccd::vertex_face<double>>());
+    put_fewer(h, q);
+}
+
+/// Where doubles hold the query: its points from one of them on.
+void put_of_forms(hash& h, const tie::drawn_forms& f, int k) {
+    if (f.bits() > 50) return;
+    drawn_query q{f.edges, {}, {}, {}};
+    const auto place = [&](std::size_t p, const tie::whole_vector& v) {
+        for (int e = 0; e < 2; ++e) {
+            std::size_t i = 6 * p + 3 * static_cast<std::size_t>(e);
+            for (const auto* x : {&v.x, &v.y, &v.z})
+                q.x[i++] = static_cast<double>((*x)[e].low_word());
+        }
+    };
+    const auto& [b, c, p] = f.vectors;
+    place(f.edges ? 1 : 2, b);
+    place(3, f.edges ? tie::whole_vector{p.x + c.x, p.y + c.y, p.z + c.z} : c);
+    place(f.edges ? 2 : 0, p);
+    put_times(h, q, k);
+}
+
+/// All vertices and edges from 0 on with coordinates −1 to 1 in a plane, or edges along an axis;
+/// and with those from −3 to 3 on a line.
+drawn_query small_query(int k) {
+    constexpr int each = 6561;
+    constexpr std::array<std::size_t, 8> planar{0, 1, 3, 4, 12, 13, 15, 16},
+        spatial{0, 1, 2, 3, 4, 5, 12, 15};
+    drawn_query q{};
+    const auto put_digits = [&q](const auto& places, int digits, int size) {
+        for (const std::size_t i : places) {
+            q.x[i] = digits % (2 * size + 1) - size;
+            digits /= 2 * size + 1;
+        }
+    };
+    if (k < 2 * each)
+        put_digits(k < each ? planar : spatial, k % each, 1);
+    else
+        put_digits(std::array<std::size_t, 4>{0, 3, 12, 15}, k - 2 * each, 3);
+    return q;
+}
+
+/// The search for a root of N linear forms' product.
+template <int N>
+void put_search(hash& h, const tie::drawn_search& s) {
+    using number = errbound::integers::fixed_integer<7>;
+    errbound::bernstein<number, N> p{};
+    p[0] = s.negative ? -1 : 1;
+    auto before = s.negative ? errbound::sign_type::negative : errbound::sign_type::positive;
+    const auto end = number::shifted(1, s.bits);
+    for (int n = 0; n < N; ++n) {
+        const number root = s.roots[static_cast<std::size_t>(n)];
+        if (root > number(s.low)) before = -before;
+        const auto times = [](const number& a, const number& b) {
+            return (a * b).template from_bit<7>(0);
+        };
+        for (int i = n + 1; i > 0; --i) p[i] = times(p[i - 1], end - root) - times(p[i], root);
+        p[0] = times(p[0], -root);
+    }
+    const auto place = [&s](std::int64_t x) { return std::ldexp(static_cast<double>(x), -s.bits); };
+    const ccd::detail::root_search<7, N> search(p);
+    put(h, search.between(place(s.low), place(s.high), before, place(s.estimate)));
+}
+void put_search(hash& h, const tie::drawn_search& s) {
+    if (s.degree == 1) put_search<1>(h, s);
+    if (s.degree == 2) put_search<2>(h, s);
+    if (s.degree == 3) put_search<3>(h, s);
 }
 
 std::vector<tie::line> all_lines() {
@@ -78,6 +175,20 @@ std::vector<tie::line> all_lines() {
             {"times first." + std::to_string(i), some.size(),
              [&some](hash& h, std::uint64_t k) { put_times(h, some[k], static_cast<int>(k)); }});
     }
+    using tie::line_of, tie::sequence;
+    lines.push_back(line_of(
+        "times wide", 1000, numbers,
+        [](sequence& s) { return tie::whole_query_maker(s).wide_query(); },
+        [](hash& h, const drawn_query& q, int) { put_wide(h, q); }));
+    lines.push_back(line_of(
+        "times forms", 4000, numbers, [](sequence& s) { return tie::whole_forms_maker(s).forms(); },
+        put_of_forms));
+    lines.push_back(
+        {"times small", 2 * 6561 + 2401, [](hash& h, std::uint64_t k) {
+             put(h, first_contact_in_integers(vertex_edge_of(small_query(static_cast<int>(k)))));
+         }});
+    lines.push_back(line_of("times search", 8000, numbers, tie::draw_search,
+                            [](hash& h, const tie::drawn_search& s, int) { put_search(h, s); }));
     return lines;
 }
 

@@ -1,7 +1,7 @@
 // Queries of vertex and face, or of two edges in whole numbers, as proofs/tie_queries.ml draws
 // them: small and large, in a plane but for a little, that meet or almost meet inside or at a
-// border, with points that coincide, rigid but for a little, out and back; some with axes in other
-// units, and a little off.
+// border, with points that coincide, rigid but for a little, out and back; whose Y has its roots
+// close together; some with axes in other units, and a little off.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class whole_query_maker {
     explicit whole_query_maker(sequence& s) : s_(s) {}
 
     drawn_query query() {
-        mode_ = draw(s_, 15);
+        mode_ = draw(s_, 16);
         edges_ = draw(s_, 2) == 1;
         draw_numbers();
         if (mode_ == 4)
@@ -31,7 +31,33 @@ class whole_query_maker {
         if (mode_ == 7) move_rigidly();
         if (mode_ == 8) move_out_and_back();
         if (mode_ >= 9 && mode_ <= 12) meet(false, draw(s_, 2) == 0);
+        if (mode_ == 15) near_roots();
         return in_doubles();
+    }
+
+    /// Some coordinates so large that integers of 1, 2 or 4 words just hold them, or do not; or not
+    /// finite.
+    drawn_query wide_query() {
+        drawn_query q = query();
+        const int kind = draw(s_, 8);
+        constexpr std::array<int, 6> bits{60, 61, 124, 125, 252, 253};
+        const int exponent =
+            kind == 6 ? 120 + draw(s_, 904) : bits[static_cast<std::size_t>(kind % 6)];
+        const bool along = draw(s_, 2) == 0;
+        const int axis = draw(s_, 3);
+        for (std::size_t i = 0; i < 24; ++i)
+            if (draw(s_, 4) == 0 && (!along || static_cast<int>(i % 3) == axis)) {
+                const int size = draw(s_, 3);
+                q.x[i] = std::ldexp(size, exponent - draw(s_, 2));
+            }
+        if (kind == 7 && draw(s_, 2) == 0) {
+            constexpr double infinity = std::numeric_limits<double>::infinity();
+            const int which = draw(s_, 3);
+            q.x[static_cast<std::size_t>(draw(s_, 24))] = which == 0   ? infinity
+                                                          : which == 1 ? -infinity
+                                                                       : std::nan("");
+        }
+        return q;
     }
 
   private:
@@ -96,10 +122,40 @@ class whole_query_maker {
             }
     }
 
+    /// Y is the product of three linear forms, with roots close to k/8, but for a little: of the
+    /// rows P, B and C, which are small beside the diagonal.
+    void near_roots() {
+        const whole k = draw(s_, 9), large = whole{1} << draw(s_, 31);
+        std::array<std::array<std::array<whole, 2>, 3>, 3> rows;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t x = 0; x < 3; ++x)
+                for (int e = 0; e < 2; ++e) {
+                    const whole little = draw(s_, 2) == 0 ? 0 : pick(2);
+                    rows[i][x][static_cast<std::size_t>(e)] =
+                        little + (i == x ? large * (k - 8 * e) : 0);
+                }
+        const auto place = [&](int p, int from, std::size_t row) {
+            for (int x = 0; x < 3; ++x)
+                for (int e = 0; e < 2; ++e)
+                    at(p, e, x) =
+                        at(from, e, x) +
+                        rows[row][static_cast<std::size_t>(x)][static_cast<std::size_t>(e)];
+        };
+        if (edges_) {
+            place(1, 0, 1);
+            place(2, 0, 0);
+            place(3, 2, 2);
+        } else {
+            place(0, 1, 0);
+            place(2, 1, 1);
+            place(3, 1, 2);
+        }
+    }
+
     drawn_query in_doubles() {
         drawn_query q{edges_, {}, {}, {}};
         for (std::size_t i = 0; i < 24; ++i) q.x[i] = static_cast<double>(c_[i]);
-        if (mode_ < 10) return q;
+        if (mode_ < 10 || mode_ == 15) return q;
         constexpr double infinity = std::numeric_limits<double>::infinity();
         std::array<int, 3> exponents;
         for (int& e : exponents) e = draw(s_, 110);

@@ -182,7 +182,8 @@ struct relative {
             upper<double>(static_cast<double>(share)) + std::numeric_limits<double>::denorm_min();
         if (!(r < 1)) return unknown;
         const double u = static_cast<double>(traits::unit_roundoff());
-        return r * (6 - 5 * r) / (2 * (1 - r) * (3 - r) * u) * (1 + 8 * epsilon);
+        return r * (6 - detail::rounded_product(5.0, r)) / (2 * (1 - r) * (3 - r) * u) *
+               (1 + 8 * epsilon);
     }
 
     /// Of a result with k factors that is rounded to v, if it is not exact.

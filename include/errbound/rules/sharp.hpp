@@ -111,7 +111,7 @@ struct sharp {
     /// products of the value, as many u|p|, two in an uncertain argument's share, and the last
     /// product.
     /// Source: Higham 2002, Section 3.3; Jeannerod, Rump 2013 (SIAM J. Matrix Anal. Appl. 34) for
-    /// sums that are off by no more than a term.
+    /// sums that are off by no more than a term. Proof: proofs/IeeeDotProduct.v, sharp_dot_known.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>, number_traits<T>::digits + 1> {
         static constexpr bool serves = dot_bound::pays;

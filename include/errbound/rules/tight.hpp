@@ -132,7 +132,8 @@ struct tight {
     /// follow: with j = m + 6, (1 − ε)^j is left, and the factor 1 + (j + 1)ε >= 1/(1 − jε) >=
     /// (1 − ε)^−j pays for it where j²ε <= 1/2. Underflow takes less than η each of m products of
     /// the value, of two in an uncertain argument's share, and of the last product.
-    /// Source: Higham 2002, Section 3.3 (running error analysis).
+    /// Source: Higham 2002, Section 3.3 (running error analysis). Proof: proofs/IeeeDotProduct.v,
+    /// tight_dot_known; in any direction, proofs/DotProduct.v, tight_dot_sound.
     template <class T>
     class dot_bound : detail::running_bound<T, dot_bound<T>,
                                             has_subnormals<T> ? number_traits<T>::digits - 2 : 0> {

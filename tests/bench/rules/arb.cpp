@@ -5,7 +5,7 @@
 namespace bench {
 namespace {
 
-/// A ball.
+/// A ball; many in a row are an array of arb's.
 class ball {
   public:
     ball() { arb_init(value_); }
@@ -24,7 +24,7 @@ class ball {
 };
 
 /// At the precision of doubles.
-struct arithmetic {
+struct arithmetic : composed<ball, arithmetic> {
     static constexpr slong precision = 53;
     static ball made(double x, double y) {
         ball r;
@@ -50,6 +50,20 @@ struct arithmetic {
     static void absolute(ball& r, const ball& a) { arb_abs(r.get(), a.get()); }
     static void lesser(ball& r, const ball& a, const ball& b) {
         arb_min(r.get(), a.get(), b.get(), precision);
+    }
+    static void greater(ball& r, const ball& a, const ball& b) {
+        arb_max(r.get(), a.get(), b.get(), precision);
+    }
+    static void length(ball& r, const ball& a, const ball& b) {
+        arb_hypot(r.get(), a.get(), b.get(), precision);
+    }
+    static void middle(ball& r, const ball& a, const ball& b) {
+        arb_add(r.get(), a.get(), b.get(), precision);
+        arb_mul_2exp_si(r.get(), r.get(), -1);
+    }
+    static void fifth_power(ball& r, const ball& a) { arb_pow_ui(r.get(), a.get(), 5, precision); }
+    static void dot(ball& r, const ball* a, const ball* b) {
+        arb_dot(r.get(), nullptr, 0, a->get(), 1, b->get(), 1, term_count, precision);
     }
     static errbound::sign_type sign(const ball& a) {
         if (arb_is_positive(a.get()) != 0) return errbound::sign_type::positive;

@@ -5,7 +5,7 @@
 namespace bench {
 namespace {
 
-struct arithmetic : operators<boost_interval> {
+struct arithmetic : by_operators<boost_interval>, composed<boost_interval, arithmetic> {
     static void root(boost_interval& r, const boost_interval& a) { r = boost::numeric::sqrt(a); }
     /// It has none: a product and a sum.
     static void fused(boost_interval& r, const boost_interval& a, const boost_interval& b,
@@ -15,6 +15,12 @@ struct arithmetic : operators<boost_interval> {
     static void absolute(boost_interval& r, const boost_interval& a) { r = boost::numeric::abs(a); }
     static void lesser(boost_interval& r, const boost_interval& a, const boost_interval& b) {
         r = boost::numeric::min(a, b);
+    }
+    static void greater(boost_interval& r, const boost_interval& a, const boost_interval& b) {
+        r = boost::numeric::max(a, b);
+    }
+    static void fifth_power(boost_interval& r, const boost_interval& a) {
+        r = boost::numeric::pow(a, 5);
     }
     static errbound::sign_type sign(const boost_interval& a) { return sign_of_interval(a); }
 };

@@ -6,11 +6,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <errbound/functions.hpp>
 #include <errbound/sign.hpp>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <random>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,9 +22,17 @@
 
 namespace bench {
 
-inline constexpr std::array operation_names{"add", "subtract", "multiply", "divide", "sqrt",
-                                            "fma", "abs",      "min",      "sign_of"};
+/// Terms of a dot product, and coefficients of a polynomial.
+inline constexpr std::size_t term_count = 8;
+inline constexpr std::array<std::string_view, 17> operation_names{
+    "add",    "subtract", "multiply", "divide",   "sqrt", "fma",   "abs",      "min",
+    "max",    "copysign", "hypot",    "midpoint", "lerp", "pow 5", "dot of 8", "horner of degree 7",
+    "sign_of"};
 inline constexpr std::size_t operation_count = operation_names.size();
+consteval std::size_t place_of(std::string_view operation) {
+    return static_cast<std::size_t>(std::ranges::find(operation_names, operation) -
+                                    operation_names.begin());
+}
 /// Operands of a pass: few enough for the first cache, those of many terms too.
 inline constexpr std::size_t operands_per_pass = 32;
 
@@ -30,15 +42,20 @@ struct contestant {
     std::array<std::function<void()>, operation_count> passes;
 };
 
-/// By its operators, and functions that are found by their arguments.
+/// By its operators.
 template <class Number>
-struct operators {
+struct by_operators {
     /// The product of two exact numbers between 1 and 2, which is not exact.
     static Number made(double x, double y) { return Number(x) * Number(y); }
     static void add(Number& r, const Number& a, const Number& b) { r = a + b; }
     static void subtract(Number& r, const Number& a, const Number& b) { r = a - b; }
     static void multiply(Number& r, const Number& a, const Number& b) { r = a * b; }
     static void divide(Number& r, const Number& a, const Number& b) { r = a / b; }
+};
+
+/// And by functions that are found by their arguments.
+template <class Number>
+struct operators : by_operators<Number> {
     static void root(Number& r, const Number& a) {
         using std::sqrt;
         r = sqrt(a);
@@ -55,17 +72,91 @@ struct operators {
         using std::min;
         r = min(a, b);
     }
+    static void greater(Number& r, const Number& a, const Number& b) {
+        using std::max;
+        r = max(a, b);
+    }
+    static void signed_as(Number& r, const Number& a, const Number& b) {
+        using std::copysign;
+        r = copysign(a, b);
+    }
+    static void length(Number& r, const Number& a, const Number& b) {
+        using std::hypot;
+        r = hypot(a, b);
+    }
+    static void middle(Number& r, const Number& a, const Number& b) {
+        using std::midpoint;
+        r = midpoint(a, b);
+    }
+    static void between(Number& r, const Number& a, const Number& b, const Number& t) {
+        using std::lerp;
+        r = lerp(a, b, t);
+    }
+    static void fifth_power(Number& r, const Number& a) {
+        using std::pow;
+        r = pow(a, 5);
+    }
+    static void dot(Number& r, const Number* a, const Number* b) {
+        using terms = std::span<const Number, term_count>;
+        r = errbound::dot(terms(a, term_count), terms(b, term_count));
+    }
+    static void polynomial(Number& r, const Number* c, const Number& x) {
+        r = errbound::horner(std::span<const Number, term_count>(c, term_count), x);
+    }
     static errbound::sign_type sign(const Number& a) { return sign_of(a); }
 };
 
-/// One whose operations are those of Arithmetic, as `operators` has them.
-template <class Number, class Arithmetic = operators<Number>, bool Divides = true>
-contestant contestant_of(std::string key, std::string heading) {
-    struct operands {
-        std::vector<Number> a, b, c, r;
-        std::vector<errbound::sign_type> signs;
-    };
-    const auto x = std::make_shared<operands>();
+/// What is made of an Arithmetic's sums and products, for those that have nothing of their own.
+template <class Number, class Arithmetic>
+struct composed {
+    static void middle(Number& r, const Number& a, const Number& b) {
+        static const Number half(0.5);
+        Arithmetic::add(r, a, b);
+        Arithmetic::multiply(r, r, half);
+    }
+    static void between(Number& r, const Number& a, const Number& b, const Number& t) {
+        Arithmetic::subtract(r, b, a);
+        Arithmetic::fused(r, r, t, a);
+    }
+    static void length(Number& r, const Number& a, const Number& b) {
+        static Number square;
+        Arithmetic::multiply(square, a, a);
+        Arithmetic::fused(r, b, b, square);
+        Arithmetic::root(r, r);
+    }
+    static void fifth_power(Number& r, const Number& a) {
+        Arithmetic::multiply(r, a, a);
+        Arithmetic::multiply(r, r, r);
+        Arithmetic::multiply(r, r, a);
+    }
+    static void dot(Number& r, const Number* a, const Number* b) {
+        static Number product;
+        Arithmetic::multiply(r, a[0], b[0]);
+        for (std::size_t i = 1; i < term_count; ++i) {
+            Arithmetic::multiply(product, a[i], b[i]);
+            Arithmetic::add(r, r, product);
+        }
+    }
+    static void polynomial(Number& r, const Number* c, const Number& x) {
+        r = c[term_count - 1];
+        for (std::size_t i = term_count - 1; i-- > 0;) {
+            Arithmetic::multiply(r, r, x);
+            Arithmetic::add(r, r, c[i]);
+        }
+    }
+};
+
+/// What one contestant computes with, and where it puts what it finds.
+template <class Number>
+struct operands {
+    std::vector<Number> a, b, c, r;
+    std::vector<errbound::sign_type> signs;
+};
+
+/// Numbers between 1 and 2, the same for every contestant.
+template <class Number, class Arithmetic>
+std::shared_ptr<operands<Number>> random_operands() {
+    const auto x = std::make_shared<operands<Number>>();
     std::mt19937_64 random(1);
     const auto draw = [&random] {
         return 1 + std::ldexp(static_cast<double>(random() >> 12), -52);
@@ -74,6 +165,13 @@ contestant contestant_of(std::string key, std::string heading) {
         for (std::size_t i = 0; i < operands_per_pass; ++i)
             numbers->push_back(Arithmetic::made(draw(), draw()));
     x->signs.resize(operands_per_pass);
+    return x;
+}
+
+/// One whose operations are those of Arithmetic, as `operators` has them.
+template <class Number, class Arithmetic = operators<Number>, bool Divides = true>
+contestant contestant_of(std::string key, std::string heading) {
+    const auto x = random_operands<Number, Arithmetic>();
     const auto pass = [x](auto operation) -> std::function<void()> {
         return [x, operation] {
             for (std::size_t i = 0; i < operands_per_pass; ++i) operation(*x, i);
@@ -81,19 +179,35 @@ contestant contestant_of(std::string key, std::string heading) {
             keep(x->signs);
         };
     };
-    contestant result{std::move(key), std::move(heading), {}};
+    // Where the terms of the i-th dot product begin.
+    constexpr auto first = [](std::size_t i) { return i % (operands_per_pass - term_count + 1); };
     using A = Arithmetic;
-    result.passes = {pass([](auto& s, auto i) { A::add(s.r[i], s.a[i], s.b[i]); }),
-                     pass([](auto& s, auto i) { A::subtract(s.r[i], s.a[i], s.b[i]); }),
-                     pass([](auto& s, auto i) { A::multiply(s.r[i], s.a[i], s.b[i]); }),
-                     {},
-                     pass([](auto& s, auto i) { A::root(s.r[i], s.a[i]); }),
-                     pass([](auto& s, auto i) { A::fused(s.r[i], s.a[i], s.b[i], s.c[i]); }),
-                     pass([](auto& s, auto i) { A::absolute(s.r[i], s.a[i]); }),
-                     pass([](auto& s, auto i) { A::lesser(s.r[i], s.a[i], s.b[i]); }),
-                     pass([](auto& s, auto i) { s.signs[i] = A::sign(s.a[i]); })};
+    contestant result{
+        std::move(key),
+        std::move(heading),
+        {pass([](auto& s, auto i) { A::add(s.r[i], s.a[i], s.b[i]); }),
+         pass([](auto& s, auto i) { A::subtract(s.r[i], s.a[i], s.b[i]); }),
+         pass([](auto& s, auto i) { A::multiply(s.r[i], s.a[i], s.b[i]); }),
+         {},
+         pass([](auto& s, auto i) { A::root(s.r[i], s.a[i]); }),
+         pass([](auto& s, auto i) { A::fused(s.r[i], s.a[i], s.b[i], s.c[i]); }),
+         pass([](auto& s, auto i) { A::absolute(s.r[i], s.a[i]); }),
+         pass([](auto& s, auto i) { A::lesser(s.r[i], s.a[i], s.b[i]); }),
+         pass([](auto& s, auto i) { A::greater(s.r[i], s.a[i], s.b[i]); }),
+         {},
+         pass([](auto& s, auto i) { A::length(s.r[i], s.a[i], s.b[i]); }),
+         pass([](auto& s, auto i) { A::middle(s.r[i], s.a[i], s.b[i]); }),
+         pass([](auto& s, auto i) { A::between(s.r[i], s.a[i], s.b[i], s.c[i]); }),
+         pass([](auto& s, auto i) { A::fifth_power(s.r[i], s.a[i]); }),
+         pass([first](auto& s, auto i) { A::dot(s.r[i], &s.a[first(i)], &s.b[first(i)]); }),
+         pass([first](auto& s, auto i) { A::polynomial(s.r[i], &s.a[first(i)], s.b[i]); }),
+         pass([](auto& s, auto i) { s.signs[i] = A::sign(s.a[i]); })}};
     if constexpr (Divides)
-        result.passes[3] = pass([](auto& s, auto i) { A::divide(s.r[i], s.a[i], s.b[i]); });
+        result.passes[place_of("divide")] =
+            pass([](auto& s, auto i) { A::divide(s.r[i], s.a[i], s.b[i]); });
+    if constexpr (requires(Number & r) { A::signed_as(r, r, r); })
+        result.passes[place_of("copysign")] =
+            pass([](auto& s, auto i) { A::signed_as(s.r[i], s.a[i], s.b[i]); });
     return result;
 }
 

@@ -5,7 +5,7 @@ namespace bench {
 namespace {
 
 /// In place, without the operators' copies.
-struct arithmetic {
+struct arithmetic : composed<mpfi_interval, arithmetic> {
     using number = mpfi_interval;
     static number made(double x, double y) { return number(x) * number(y); }
     static void add(number& r, const number& a, const number& b) {
@@ -27,10 +27,17 @@ struct arithmetic {
         mpfi_add(r.get(), r.get(), c.get());
     }
     static void absolute(number& r, const number& a) { mpfi_abs(r.get(), a.get()); }
-    /// It has none, either.
+    /// It has none, either, nor the greater one.
     static void lesser(number& r, const number& a, const number& b) {
         mpfr_min(&r.get()->left, &a.get()->left, &b.get()->left, MPFR_RNDD);
         mpfr_min(&r.get()->right, &a.get()->right, &b.get()->right, MPFR_RNDU);
+    }
+    static void greater(number& r, const number& a, const number& b) {
+        mpfr_max(&r.get()->left, &a.get()->left, &b.get()->left, MPFR_RNDD);
+        mpfr_max(&r.get()->right, &a.get()->right, &b.get()->right, MPFR_RNDU);
+    }
+    static void length(number& r, const number& a, const number& b) {
+        mpfi_hypot(r.get(), a.get(), b.get());
     }
     static errbound::sign_type sign(const number& a) { return sign_of(a); }
 };

@@ -4,6 +4,7 @@
 #include <errbound/functions.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <exception>
+#include <numeric>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,13 @@ namespace bench {
 namespace {
 
 struct plain_operators : operators<double> {
+    static void dot(double& r, const double* a, const double* b) {
+        r = std::inner_product(a, a + term_count, b, 0.0);
+    }
+    static void polynomial(double& r, const double* c, double x) {
+        r = c[term_count - 1];
+        for (std::size_t i = term_count - 1; i-- > 0;) r = r * x + c[i];
+    }
     static errbound::sign_type sign(double a) {
         using errbound::sign_type;
         return a > 0 ? sign_type::positive : a < 0 ? sign_type::negative : sign_type::zero;
@@ -68,7 +76,7 @@ void time_operations(bool quick, report& out) {
             if (c.passes[k]) passes.push_back(c.passes[k]);
         const std::vector<timing> timings = race(passes, quick ? 1 : 15);
         for (auto* const rows : {&minima, &medians, &ratios})
-            rows->push_back({word(operation_names[k])});
+            rows->push_back({word(std::string(operation_names[k]))});
         auto taken = timings.begin();
         for (const contestant& c : all) {
             if (!c.passes[k]) {

@@ -12,6 +12,8 @@
 #include <concepts>
 #include <cstdint>
 #include <errbound/error_free.hpp>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/tiny_float.hpp>
 #include <functional>
@@ -28,6 +30,9 @@ namespace tie {
 using errbound::number_traits;
 using errbound::rule_operand;
 using errbound::validation::tiny_float;
+
+/// With few terms, so that results have to be shortened.
+using affine = errbound::affine_of<3>;
 
 /// The error that it is told, to ask the default sign_of.
 struct given_error {
@@ -67,8 +72,8 @@ struct given_error {
     }
 };
 
-// What is enumerated of a format: values, those not negative for bounds; and how results are put:
-// zeros alike, NaN alike.
+// What is enumerated of a format: values, those not negative for bounds; how many samples there are
+// of what has more cases, and of lists of numbers; and how results are put: zeros alike, NaN alike.
 
 template <class T>
 struct format;
@@ -76,7 +81,7 @@ struct format;
 template <int P, int E>
 struct format<tiny_float<P, E>> {
     using T = tiny_float<P, E>;
-    static constexpr std::uint64_t samples = 1 << 20;
+    static constexpr std::uint64_t samples = 1 << 20, lists = 20000;
     static constexpr std::uint64_t exhaustive = P + E == 6 ? 1 << 24 : 1 << 20;
     static constexpr int nan = ((1 << E) - 1) * (1 << (P - 1)) + 1;
     std::string name = "tiny_float<" + std::to_string(P) + "," + std::to_string(E) + ">";
@@ -100,7 +105,7 @@ struct format<F> {
     using T = F;
     using limits = std::numeric_limits<T>;
     static constexpr bool one_word = sizeof(T) == 4;
-    static constexpr std::uint64_t samples = 2000, exhaustive = 0;
+    static constexpr std::uint64_t samples = 2000, exhaustive = 0, lists = 500;
     std::string name = one_word ? "float" : "double";
     std::vector<T> values{T(0),          limits::infinity(),   limits::quiet_NaN(),
                           limits::max(), limits::denorm_min(), limits::min(),
@@ -314,6 +319,99 @@ struct states<T, Rule> {
     }
 };
 
+template <class T>
+struct states<T, errbound::relative> {
+    using Rule = errbound::relative;
+    using bound_type = Rule::bound<T>;
+    using state = operand_state<T, Rule>;
+    std::vector<state> all, exact;
+
+    explicit states(const format<T>& f) {
+        constexpr int p = number_traits<T>::digits;
+        using limits = std::numeric_limits<double>;
+        for (const T& v : f.values) {
+            exact.push_back({v, {0}});
+            for (const double k : {0.0, 1.0, 2.0, 0.75, 3.5, 1 + limits::epsilon(), 100.0,
+                                   std::ldexp(1, p - 1), std::ldexp(1.5, p), std::ldexp(1.75, p),
+                                   std::ldexp(1, 60), limits::denorm_min(), limits::infinity()})
+                all.push_back({v, {k}});
+        }
+    }
+    static void put(hash& h, const bound_type& b) { format<double>::put(h, b.factors); }
+    void own(const format<T>&, std::vector<operation>& all_operations) const {
+        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
+            format<T>::put(h, Rule::error<T>(s.value, s.bound));
+        }));
+        all_operations.push_back(of_one("sign", all, [](hash& h, const state& s) {
+            h.put(static_cast<std::uint32_t>(Rule::sign<T>(s.value, s.bound)));
+        }));
+        add_exact_operations<states>(exact, all_operations);
+    }
+};
+
+/// Numbers with up to Limit terms, of few sources, so that they have some in common.
+template <class T, std::size_t Limit>
+struct states<T, errbound::affine_of<Limit>> {
+    using Rule = errbound::affine_of<Limit>;
+    using bound_type = typename Rule::template bound<T>;
+    using state = operand_state<T, Rule>;
+    std::vector<state> all, exact;
+
+    explicit states(const format<T>& f) {
+        for (const T& v : f.values) {
+            exact.push_back({v, Rule::template exact<T>(v)});
+            if (number_traits<T>::abs(v) <= T(2)) small_.push_back(v);
+        }
+        sequence numbers;
+        for (int i = 0; i < 600; ++i) {
+            const T value = number(f, numbers);
+            all.push_back({value, bound_of(f, value, numbers)});
+        }
+    }
+    /// New sources are told from others, but not from each other.
+    static void put(hash& h, const bound_type& b) {
+        format<T>::put(h, b.radius);
+        format<T>::put(h, b.rest);
+        h.put(static_cast<std::uint32_t>(b.count));
+        for (std::size_t i = 0; i < b.count; ++i) {
+            h.put(static_cast<std::uint32_t>(std::min<std::uint64_t>(b.terms[i].source, 100)));
+            format<T>::put(h, b.terms[i].coefficient);
+        }
+    }
+    void own(const format<T>&, std::vector<operation>& all_operations) const {
+        all_operations.push_back(of_one("error", all, [](hash& h, const state& s) {
+            format<T>::put(h, Rule::template error<T>(s.value, s.bound));
+        }));
+        add_exact_operations<states>(exact, all_operations);
+    }
+
+  private:
+    T number(const format<T>& f, sequence& numbers) const {
+        const std::vector<T>& from = numbers.draw(4) == 0 ? f.values : small_;
+        return from[numbers.draw(from.size())];
+    }
+    bound_type bound_of(const format<T>& f, const T& value, sequence& numbers) const {
+        using traits = number_traits<T>;
+        const std::uint64_t kind = numbers.draw(8);
+        if (kind == 0) return {traits::infinity(), traits::infinity(), 0, {}};
+        if (kind == 1) return Rule::template exact<T>(value);
+        bound_type b{T(0), T(0), static_cast<std::size_t>(numbers.draw(Limit + 1)), {}};
+        std::uint64_t source = 0;
+        for (std::size_t i = 0; i < b.count; ++i) {
+            source += 1 + numbers.draw(2);
+            const T c = number(f, numbers);
+            b.terms[i] = {source, c == T(0) ? T(1) : c};
+        }
+        if (kind == 2) b.rest = traits::abs(number(f, numbers));
+        b.radius = b.rest;
+        for (std::size_t i = 0; i < b.count; ++i)
+            b.radius = b.radius + traits::abs(b.terms[i].coefficient);
+        return b;
+    }
+
+    std::vector<T> small_;
+};
+
 /// Every operation of a rule.
 template <class T, class Rule>
 std::vector<operation> operations_of(const format<T>& f, const states<T, Rule>& s) {
@@ -431,6 +529,8 @@ void expect_the_proofs_results() {
     EXPECT_EQ((differences<T, errbound::safe>(expected)), none);
     EXPECT_EQ((differences<T, errbound::interval>(expected)), none);
     EXPECT_EQ((differences<T, errbound::residual>(expected)), none);
+    EXPECT_EQ((differences<T, errbound::relative>(expected)), none);
+    EXPECT_EQ((differences<T, affine>(expected)), none);
 }
 
 }  // namespace tie
