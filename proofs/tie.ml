@@ -11,6 +11,9 @@ let z n = if n = 0 then Z0 else if n > 0 then Zpos (positive n) else Zneg (posit
 let rec of_positive = function XH -> 1 | XO q -> 2 * of_positive q | XI q -> (2 * of_positive q) + 1
 let of_z = function Z0 -> 0 | Zpos q -> of_positive q | Zneg q -> - of_positive q
 
+(* All cases of an operation where there are at most so many, else so many drawn ones. *)
+type selection = { exhaustive : int; samples : int }
+
 type 't format = {
   name : string;
   a : 't arithmetic;
@@ -19,7 +22,8 @@ type 't format = {
   values : 't array;
   bounds : 't array;  (* those that are not negative *)
   put : 't -> unit;  (* zeros alike, NaN alike *)
-  samples : int;
+  of_rules : selection;
+  of_functions : selection;
   lists : int;  (* of numbers: sums of products, polynomials *)
   to_double : 't -> Float.t;
   of_double : Float.t -> 't;
@@ -95,12 +99,14 @@ let tiny p exponent_bits =
     bounds = Array.of_list (List.filter (fun c -> c < codes / 2) values);
     put = (fun x -> put_word (if x = codes / 2 then 0 else x));
     exponent = (fun x -> exponent (z p) (z emax) decoded.(x));
-    samples = 1 lsl 20; lists = 20000;
+    of_rules = { exhaustive = if p + exponent_bits = 6 then 1 lsl 24 else 1 lsl 20; samples = 1 lsl 20 };
+    of_functions = { exhaustive = 1 lsl 18; samples = 1 lsl 18 }; lists = 20000;
     to_double = (let doubles = Array.map double_of_float decoded in fun x -> doubles.(x));
     of_double = (fun x -> encode (float_of_double (z p) (z emax) x)) }
 
 (* float and double: Flocq's operations themselves. Words: 1 or 2 of 32 bits, the upper first. *)
-let ieee name p exponent_bits words samples =
+let ieee name p exponent_bits words =
+  let few = { exhaustive = 0; samples = 2000 } in
   let emax = 1 lsl (exponent_bits - 1) in
   let p' = z p and emax' = z emax in
   let a = floats p' emax' in
@@ -136,7 +142,7 @@ let ieee name p exponent_bits words samples =
   state := 1;
   let signed = List.init 150 (fun _ -> number true) in
   let unsigned = List.init 100 (fun _ -> number false) in
-  { name; a; exponent = exponent p' emax'; put; samples; lists = 500; fused = false;
+  { name; a; exponent = exponent p' emax'; put; of_rules = few; of_functions = few; lists = 500; fused = false;
     to_double = double_of_float; of_double = float_of_double p' emax';
     values = Array.of_list (special @ [ a.opposite a.infinity; a.opposite a.largest ] @ signed);
     bounds = Array.of_list (special @ unsigned) }
@@ -242,7 +248,8 @@ let drawn_polynomial number i =
   let x = number kind in
   (List.init count (fun _ -> number kind), x)
 
-(* Every operation: its name, its number of cases, and what puts the results of one. *)
+(* Every operation of rules, and every function by them: its name, its number of cases, and what puts the results
+   of one. *)
 let operations f =
   let a = f.a and put = f.put and fused = f.fused in
   let put2 (x, y) = put x; put y in
@@ -347,83 +354,88 @@ let operations f =
          [ two "hypot" states states hypot; two "hypot_of_zeros" zeros zeros hypot ]) in
   (* with a bound of its own where one factor pays for a term at all *)
   let own_dot most dot = if most a = O then None else Some (dot a) in
-  [ of_two "sign_of" f.values f.values (fun v e -> put_sign (sign_of a v e));
-    of_two "two_sum" f.values f.values (fun x y -> put2 (two_sum a x y));
-    of_two "two_product" f.values f.values (fun x y ->
-        let product = two_product a fused x y in
-        put2 product;
-        put_word (if product_error_is_exact a fused x y product then 1 else 0));
-    of_two "remainder_of_division" f.values f.values (fun x y ->
-        let r, exact = remainder_of_division a fused x y (a.over x y) in
-        put r; put_word (if exact then 1 else 0));
-    of_one "none.error" f.values (fun v -> put (none_error a v));
-    of_one "tight.exact" f.values (fun v -> put (tight_exact a v));
-    of_two "tight.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
-  @ arithmetic "tight" error_states
-      (fun v _ s _ t -> put (tight_add a v s t))
-      (fun v _ s _ t -> put (tight_add a v s t))
-      (fun v x s y t -> put (tight_multiply a v x s y t))
-      (Some (fun v x s y t -> put (tight_divide a v x s y t)))
-      (fun v x s e -> put (tight_scale a v x s e))
-  @ functions (tight_operations a) ?dot:(own_dot tight_most tight_dot) "tight" error_states put
-  @ [ of_one "sharp.exact" f.values (fun v -> put (tight_exact a v));
-      of_two "sharp.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
-  @ arithmetic "sharp" error_states
-      (fun v _ s _ t -> put (sharp_add a v s t))
-      (fun v _ s _ t -> put (sharp_add a v s t))
-      (fun v x s y t -> put (sharp_multiply a v x s y t))
-      (Some (fun v x s y t -> put (sharp_divide a v x s y t)))
-      (fun v x s e -> put (sharp_scale a v x s e))
-  @ functions (sharp_operations a) ?dot:(own_dot sharp_most sharp_dot) "sharp" error_states put
-  @ [ of_one "safe.exact" f.values (fun v -> put_safe (safe_exact a v));
-      of_two "safe.within" f.values f.values (fun v e -> put_safe (safe_within a v e));
-      of_one "safe.error" safe_states (fun (v, (b, k)) -> put (safe_error a v b k)) ]
-  @ arithmetic "safe" safe_states
-      (fun _ _ (b, k) _ (c, l) -> put_safe (safe_add a b k c l))
-      (fun _ _ (b, k) _ (c, l) -> put_safe (safe_add a b k c l))
-      (fun _ x (b, k) y (c, l) -> put_safe (safe_multiply a x b k y c l))
-      None
-      (fun v x (b, k) e -> put_safe (safe_scale a v x b k e))
-  @ functions (safe_operations a) "safe" safe_states put_safe
-  @ [ of_one "interval.exact" f.values (fun v -> put2 (interval_exact a v));
-      of_two "interval.within" f.values f.values (fun v e -> put2 (interval_within a v e));
-      of_one "interval.error" interval_states (fun (v, b) -> put (interval_error a v b));
-      of_one "interval.sign" interval_states (fun (_, b) -> put_sign (interval_sign a b)) ]
-  @ arithmetic "interval" interval_states
-      (fun v _ s _ t -> put2 (interval_add a v s t))
-      (fun v _ s _ t -> put2 (interval_subtract a v s t))
-      (fun v x s y t -> put2 (interval_multiply a fused v x s y t))
-      (Some (fun v x s y t -> put2 (interval_divide a fused v x s y t)))
-      (fun v _ s e -> put2 (interval_scale a v s e))
-  @ of_exact "interval" (interval_operations a fused) (fun x -> (x, x)) put2
-  @ functions (interval_operations a fused) "interval" interval_states put2
-  @ [ of_one "residual.exact" f.values (fun v -> put2 (residual_exact a v));
-      of_two "residual.within" f.values f.values (fun v e -> put2 (residual_within a v e));
-      of_one "residual.error" residual_bounds (fun b -> put (residual_error a b));
-      of_one "residual.sign" residual_states (fun (v, b) -> put_sign (residual_sign a v b)) ]
-  @ arithmetic "residual" residual_states
-      (fun v x s y t -> put2 (residual_add a v x s y t))
-      (fun v x s y t -> put2 (residual_subtract a v x s y t))
-      (fun v x s y t -> put2 (residual_multiply a fused v x s y t))
-      (Some (fun v x s y t -> put2 (residual_divide a fused v x s y t)))
-      (fun v x s e -> put2 (residual_scale a v x s e))
-  @ of_exact "residual" (residual_operations a fused) (fun _ -> (a.integer Z0, a.integer Z0)) put2
-  @ functions (residual_operations a fused) "residual" residual_states put2
-  @ of_rule relative "relative" relative_states put_double
-  @ [ of_one "relative.sign" relative_states (fun (v, k) -> put_sign (relative.the_rule.rule_sign v k)) ]
-  @ of_exact "relative" relative (fun _ -> 0.) put_double
-  @ functions relative ~dot:(relative_dot a doubles f.to_double f.of_double fused) "relative" relative_states put_double
-  @ of_rule affine "affine" affine_states (put_affine put)
-  @ of_exact "affine" affine affine.the_rule.rule_exact (put_affine put)
-  @ functions affine "affine" affine_states (put_affine put)
+  let of_rules =
+    [ of_two "sign_of" f.values f.values (fun v e -> put_sign (sign_of a v e));
+      of_two "two_sum" f.values f.values (fun x y -> put2 (two_sum a x y));
+      of_two "two_product" f.values f.values (fun x y ->
+          let product = two_product a fused x y in
+          put2 product;
+          put_word (if product_error_is_exact a fused x y product then 1 else 0));
+      of_two "remainder_of_division" f.values f.values (fun x y ->
+          let r, exact = remainder_of_division a fused x y (a.over x y) in
+          put r; put_word (if exact then 1 else 0));
+      of_one "none.error" f.values (fun v -> put (none_error a v));
+      of_one "tight.exact" f.values (fun v -> put (tight_exact a v));
+      of_two "tight.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
+    @ arithmetic "tight" error_states
+        (fun v _ s _ t -> put (tight_add a v s t))
+        (fun v _ s _ t -> put (tight_add a v s t))
+        (fun v x s y t -> put (tight_multiply a v x s y t))
+        (Some (fun v x s y t -> put (tight_divide a v x s y t)))
+        (fun v x s e -> put (tight_scale a v x s e))
+    @ [ of_one "sharp.exact" f.values (fun v -> put (tight_exact a v));
+        of_two "sharp.within" f.values f.values (fun v e -> put (tight_within a v e)) ]
+    @ arithmetic "sharp" error_states
+        (fun v _ s _ t -> put (sharp_add a v s t))
+        (fun v _ s _ t -> put (sharp_add a v s t))
+        (fun v x s y t -> put (sharp_multiply a v x s y t))
+        (Some (fun v x s y t -> put (sharp_divide a v x s y t)))
+        (fun v x s e -> put (sharp_scale a v x s e))
+    @ [ of_one "safe.exact" f.values (fun v -> put_safe (safe_exact a v));
+        of_two "safe.within" f.values f.values (fun v e -> put_safe (safe_within a v e));
+        of_one "safe.error" safe_states (fun (v, (b, k)) -> put (safe_error a v b k)) ]
+    @ arithmetic "safe" safe_states
+        (fun _ _ (b, k) _ (c, l) -> put_safe (safe_add a b k c l))
+        (fun _ _ (b, k) _ (c, l) -> put_safe (safe_add a b k c l))
+        (fun _ x (b, k) y (c, l) -> put_safe (safe_multiply a x b k y c l))
+        None
+        (fun v x (b, k) e -> put_safe (safe_scale a v x b k e))
+    @ [ of_one "interval.exact" f.values (fun v -> put2 (interval_exact a v));
+        of_two "interval.within" f.values f.values (fun v e -> put2 (interval_within a v e));
+        of_one "interval.error" interval_states (fun (v, b) -> put (interval_error a v b));
+        of_one "interval.sign" interval_states (fun (_, b) -> put_sign (interval_sign a b)) ]
+    @ arithmetic "interval" interval_states
+        (fun v _ s _ t -> put2 (interval_add a v s t))
+        (fun v _ s _ t -> put2 (interval_subtract a v s t))
+        (fun v x s y t -> put2 (interval_multiply a fused v x s y t))
+        (Some (fun v x s y t -> put2 (interval_divide a fused v x s y t)))
+        (fun v _ s e -> put2 (interval_scale a v s e))
+    @ of_exact "interval" (interval_operations a fused) (fun x -> (x, x)) put2
+    @ [ of_one "residual.exact" f.values (fun v -> put2 (residual_exact a v));
+        of_two "residual.within" f.values f.values (fun v e -> put2 (residual_within a v e));
+        of_one "residual.error" residual_bounds (fun b -> put (residual_error a b));
+        of_one "residual.sign" residual_states (fun (v, b) -> put_sign (residual_sign a v b)) ]
+    @ arithmetic "residual" residual_states
+        (fun v x s y t -> put2 (residual_add a v x s y t))
+        (fun v x s y t -> put2 (residual_subtract a v x s y t))
+        (fun v x s y t -> put2 (residual_multiply a fused v x s y t))
+        (Some (fun v x s y t -> put2 (residual_divide a fused v x s y t)))
+        (fun v x s e -> put2 (residual_scale a v x s e))
+    @ of_exact "residual" (residual_operations a fused) (fun _ -> (a.integer Z0, a.integer Z0)) put2
+    @ of_rule relative "relative" relative_states put_double
+    @ [ of_one "relative.sign" relative_states (fun (v, k) -> put_sign (relative.the_rule.rule_sign v k)) ]
+    @ of_exact "relative" relative (fun _ -> 0.) put_double
+    @ of_rule affine "affine" affine_states (put_affine put)
+    @ of_exact "affine" affine affine.the_rule.rule_exact (put_affine put) in
+  let of_functions =
+    functions (tight_operations a) ?dot:(own_dot tight_most tight_dot) "tight" error_states put
+    @ functions (sharp_operations a) ?dot:(own_dot sharp_most sharp_dot) "sharp" error_states put
+    @ functions (safe_operations a) "safe" safe_states put_safe
+    @ functions (interval_operations a fused) "interval" interval_states put2
+    @ functions (residual_operations a fused) "residual" residual_states put2
+    @ functions relative ~dot:(relative_dot a doubles f.to_double f.of_double fused) "relative" relative_states put_double
+    @ functions affine "affine" affine_states (put_affine put) in
+  (of_rules, of_functions)
 
-(* All cases, or a selection where there are more than that. *)
-let write ?(only = fun _ -> true) f exhaustive =
-  List.iter (fun (name, total, case) -> if only name then begin
-      let cases = if total <= exhaustive then total else min total f.samples in
-      state := 1;
-      line (f.name ^ " " ^ name) cases (fun i -> case (if cases = total then i else draw total)) end)
-    (operations f)
+let write ?(only = fun _ -> true) f =
+  let write_each { exhaustive; samples } =
+    List.iter (fun (name, total, case) -> if only name then begin
+        let cases = if total <= exhaustive then total else min total samples in
+        state := 1;
+        line (f.name ^ " " ^ name) cases (fun i -> case (if cases = total then i else draw total)) end) in
+  let of_rules, of_functions = operations f in
+  write_each f.of_rules of_rules;
+  write_each f.of_functions of_functions
 
 (* With fused multiply-add: what differs. *)
 let write_fused f =
@@ -436,7 +448,7 @@ let write_fused f =
       [ "interval"; "residual"; "relative"; "affine" ] ||
     List.exists (fun rule -> List.mem name [ rule ^ ".sqrt"; rule ^ ".sqrt_exact" ])
       [ "tight"; "sharp"; "safe"; "interval"; "residual"; "relative"; "affine" ] in
-  write ~only:asks fused 0
+  write ~only:asks fused
 
 (* Integers of n words: words of zeros, of ones, with one bit, and random ones. Words are put as two of
    32 bits, the upper first. *)
@@ -487,11 +499,11 @@ let words n =
 let () =
   match Sys.argv.(1) with
   | "words" -> List.iter words [ 1; 2; 3; 4 ]
-  | "tiny_3_3" -> write (tiny 3 3) (1 lsl 24)
-  | "tiny_5_3" -> write (tiny 5 3) (1 lsl 20)
-  | "tiny_4_4" -> write (tiny 4 4) (1 lsl 20)
+  | "tiny_3_3" -> write (tiny 3 3)
+  | "tiny_5_3" -> write (tiny 5 3)
+  | "tiny_4_4" -> write (tiny 4 4)
   | "floats" ->
-      let float = ieee "float" 24 8 1 2000 and double = ieee "double" 53 11 2 2000 in
-      write float 0; write_fused float;
-      write double 0; write_fused double
+      let float = ieee "float" 24 8 1 and double = ieee "double" 53 11 2 in
+      write float; write_fused float;
+      write double; write_fused double
   | part -> failwith ("no part " ^ part)

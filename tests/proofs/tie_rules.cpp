@@ -44,7 +44,8 @@ template <class T>
 bool differs() {
     const tie::table expected = tie::read_table();
     const tie::format<T> f;
-    return is_told(f.name, tie::differences<T>(expected, tie::other_operations<T>(f))) ||
+    return is_told(f.name, tie::differences<T>(expected, tie::other_operations<T>(f),
+                                               tie::format<T>::of_rules)) ||
            rule_differs<T, errbound::tight>(expected) ||
            rule_differs<T, errbound::sharp>(expected) ||
            rule_differs<T, errbound::safe>(expected) ||
@@ -62,8 +63,8 @@ template <class Tiny>
 bool tiny_operations_differ() {
     const tiny_rounding<Tiny> nearest(MPFR_RNDN);
     const tie::format<Tiny> f;
-    return is_told(f.name,
-                   tie::differences<Tiny>(tie::read_table(), tie::other_operations<Tiny>(f)));
+    return is_told(f.name, tie::differences<Tiny>(tie::read_table(), tie::other_operations<Tiny>(f),
+                                                  tie::format<Tiny>::of_rules));
 }
 
 }  // namespace

@@ -254,7 +254,7 @@ std::vector<std::string> differences_of_functions(const table& expected) {
     const format<T> f;
     const states<T, Rule> s(f);
     const functions_of<T, Rule, Functions> functions(f, s);
-    return differences<T>(expected, functions.operations());
+    return differences<T>(expected, functions.operations(), format<T>::of_functions);
 }
 
 template <class T>
