@@ -28,12 +28,13 @@ def cross(name, processor, triple, qemu, emulator=None, **more):
                   emulator=emulator or (qemu, "-L", f"/usr/{triple}"), packages=(package, "qemu-user"), **more)
 
 
-def gcc(name, **more):
-    return Target(name, "g++", "gcc", libraries="x86-64", **more)
+def gcc(name, version="", **more):
+    return Target(name, "g++" + version, "gcc" + version, packages=("g++" + version,), libraries="x86-64", **more)
 
 
-def clang(name, **more):
-    return Target(name, "clang++", "clang", packages=("clang",), libraries="x86-64", **more)
+def clang(name, version="", **more):
+    return Target(name, "clang++" + version, "clang" + version, packages=("clang" + version,), libraries="x86-64",
+                  **more)
 
 
 # x86-64 runs i386's programs itself; qemu 7.2 does not come to an end (docs/platforms.md).
@@ -56,7 +57,10 @@ TARGETS = [
     gcc("x86-64-v4", flags="-march=x86-64-v4"),
     gcc("x86-64-fast-math", flags="-ffast-math", refused=True),
     gcc("x86-64-contract", cxx_flags="-march=x86-64-v3 -ffp-contract=fast"),
+    gcc("x86-64-c++23", options=("-DCMAKE_CXX_STANDARD=23",)),
+    gcc("x86-64-g++-11", "-11"),
     clang("x86-64-clang"),
+    clang("x86-64-clang-19", "-19"),
     Target("x86-64-libc++", "clang++-16", "clang-16",
            # Of what C++17 removed, Boost 1.74 takes a class.
            cxx_flags="-stdlib=libc++ -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION",
