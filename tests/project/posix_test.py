@@ -1,0 +1,38 @@
+"""The programs ask no function of the C library that glibc alone has, so that they link on macOS and BSDs, which
+no machine of the project's is.
+
+Arguments: nm, programs.
+"""
+import re
+import subprocess
+import sys
+
+# Of ISO C, and of POSIX.1-2008.
+C = """abort acos asin atan atan2 acosh asinh atanh calloc cbrt cos cosh exp exp2 expm1 fclose fflush fma fmax fmin
+fmod fopen fprintf fputc fputs frexp free fwrite getenv gmtime hypot ilogb isalnum isalpha isspace ldexp llrint
+llround localeconv log log10 log1p log2 logb lrint lround malloc memchr memcmp memcpy memmove memset modf
+nearbyint nextafter pow printf putc putchar puts raise realloc remainder rename rint round scalbn setlocale
+signal sin sinh snprintf sqrt stderr stdin stdout strchr strcmp strcpy strerror strftime strlen strncmp strtod
+strtol strtold strtoll strtoull tan tanh time trunc vsnprintf""".split()
+POSIX = """access close execlp fchmod fcntl fork fstat fsync ftruncate getpid getrlimit getrusage isatty kill mkstemp mmap
+munmap nanosleep open pread pthread_cond_broadcast pthread_cond_signal pthread_cond_wait pthread_create
+pthread_join pthread_mutex_lock pthread_mutex_unlock pthread_once pthread_self realpath sched_yield shmdt
+sigaction stat sysconf unlink waitpid write _exit""".split()
+# Neither, but macOS's and BSDs', too.
+BSD = ["flock", "getloadavg"]
+# What the compiler (sincos: of sin and cos) and the C++ library take for themselves.
+INTERNAL = re.compile(r"__\w+|sincosf?|syscall")
+MATHEMATICS = {f"{name}{suffix}" for name in C for suffix in "fl"}
+
+nm, *programs = sys.argv[1:]
+known = {*C, *POSIX, *BSD, *MATHEMATICS}
+found = set()
+for program in programs:
+    undefined = subprocess.run([nm, "-D", "--undefined-only", program], check=True, stdout=subprocess.PIPE,
+                               text=True).stdout
+    found |= set(re.findall(r" (\w+)@+GLIBC_", undefined))
+if not found:
+    sys.exit(f"found no function of glibc's that {programs} take")
+others = sorted(name for name in found - known if not INTERNAL.fullmatch(name))
+print(f"{len(found)} functions of the C library; neither of C, POSIX.1-2008 nor BSDs: {others or 'none'}")
+sys.exit(bool(others))
