@@ -8,16 +8,17 @@ import subprocess
 import sys
 
 # Of ISO C, and of POSIX.1-2008.
-C = """abort acos asin atan atan2 acosh asinh atanh calloc cbrt cos cosh exp exp2 expm1 fclose fflush fma fmax fmin
-fmod fopen fprintf fputc fputs frexp free fwrite getenv gmtime hypot ilogb isalnum isalpha isspace ldexp llrint
-llround localeconv log log10 log1p log2 logb lrint lround malloc memchr memcmp memcpy memmove memset modf
-nearbyint nextafter pow printf putc putchar puts raise realloc remainder rename rint round scalbn setlocale
-signal sin sinh snprintf sqrt stderr stdin stdout strchr strcmp strcpy strerror strftime strlen strncmp strtod
-strtol strtold strtoll strtoull tan tanh time trunc vsnprintf""".split()
-POSIX = """access close execlp fchmod fcntl fork fstat fsync ftruncate getpid getrlimit getrusage isatty kill mkstemp mmap
-munmap nanosleep open pread pthread_cond_broadcast pthread_cond_signal pthread_cond_wait pthread_create
-pthread_join pthread_mutex_lock pthread_mutex_unlock pthread_once pthread_self realpath sched_yield shmdt
-sigaction stat sysconf unlink waitpid write _exit""".split()
+C = """abort acos asin atan atan2 acosh asinh atanh calloc cbrt cos cosh exp exp2 expm1 fclose fflush fma
+fmax fmin fmod fopen fprintf fputc fputs frexp free fwrite getenv gmtime hypot ilogb isalnum isalpha
+isspace ldexp llrint llround localeconv log log10 log1p log2 logb lrint lround malloc memchr memcmp
+memcpy memmove memset modf nearbyint nextafter pow printf putc putchar puts raise realloc remainder
+rename rint round scalbn setlocale signal sin sinh snprintf sqrt stderr stdin stdout strchr strcmp
+strcpy strerror strftime strlen strncmp strtod strtol strtold strtoll strtoull tan tanh time trunc
+vsnprintf""".split()
+POSIX = """access close execlp fchmod fcntl fork fstat fsync ftruncate getpid getrlimit getrusage isatty kill
+mkstemp mmap munmap nanosleep open pread pthread_cond_broadcast pthread_cond_signal
+pthread_cond_wait pthread_create pthread_join pthread_mutex_lock pthread_mutex_unlock pthread_once
+pthread_self realpath sched_yield shmdt sigaction stat sysconf unlink waitpid write _exit""".split()
 # Neither, but macOS's and BSDs', too.
 BSD = ["flock", "getloadavg"]
 # What the compiler (sincos: of sin and cos) and the C++ library take for themselves.
