@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "tests/support/any_format.hpp"
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -65,13 +66,14 @@ template <class Pair>
 class Conversion : public testing::Test {};
 using pairs =
     testing::Types<pair_of_types<double, float>, pair_of_types<float, double>,
-                   pair_of_types<double, double>, pair_of_types<long double, double>,
-                   pair_of_types<long double, float>, pair_of_types<double, long double>,
-                   pair_of_types<double, float16>, pair_of_types<float, bfloat16>,
-                   pair_of_types<double, bfloat16>, pair_of_types<float16, bfloat16>,
-                   pair_of_types<bfloat16, float16>, pair_of_types<float16, float8_e4m3>,
-                   pair_of_types<bfloat16, float8_e5m2>, pair_of_types<float8_e5m2, float8_e4m3>,
-                   pair_of_types<float8_e4m3, float8_e5m2>, pair_of_types<float8_e4m3, double>>;
+                   pair_of_types<double, double>, pair_of_types<support::long_double, double>,
+                   pair_of_types<support::long_double, float>,
+                   pair_of_types<double, support::long_double>, pair_of_types<double, float16>,
+                   pair_of_types<float, bfloat16>, pair_of_types<double, bfloat16>,
+                   pair_of_types<float16, bfloat16>, pair_of_types<bfloat16, float16>,
+                   pair_of_types<float16, float8_e4m3>, pair_of_types<bfloat16, float8_e5m2>,
+                   pair_of_types<float8_e5m2, float8_e4m3>, pair_of_types<float8_e4m3, float8_e5m2>,
+                   pair_of_types<float8_e4m3, double>>;
 TYPED_TEST_SUITE(Conversion, pairs);
 
 TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {

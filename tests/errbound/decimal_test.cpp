@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/any_format.hpp"
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -66,7 +67,7 @@ TEST(Decimals, AreWithinTheirBounds) {
     check<double, errbound::tight>(30);
     check<double, errbound::residual>(320);
     check<float, errbound::safe>(40);
-    check<long double, errbound::interval>(60);
+    check<support::long_double, errbound::interval>(60);
     check<errbound::float16, errbound::sharp>(5);
     check<errbound::bfloat16, errbound::tight>(20);
     check<errbound::float8_e4m3, errbound::tight>(3);

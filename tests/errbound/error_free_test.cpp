@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/long_double.hpp"
 #include "tests/support/special_values.hpp"
 
 namespace {
@@ -68,7 +69,7 @@ counts compare(int pairs, std::uint64_t seed) {
 
 template <class T>
 class ErrorFree : public testing::Test {};
-using types = testing::Types<float, double, long double>;
+using types = testing::Types<float, double, support::long_double>;
 TYPED_TEST_SUITE(ErrorFree, types);
 
 TYPED_TEST(ErrorFree, ResultAndErrorAreTheExactResult) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "tests/support/any_format.hpp"
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -79,8 +80,8 @@ void check(T value, T error) {
 
 template <class T>
 class Printing : public testing::Test {};
-using numbers = testing::Types<float, double, long double, errbound::float16, errbound::bfloat16,
-                               errbound::float8_e5m2, errbound::float8_e4m3>;
+using numbers = testing::Types<float, double, support::long_double, errbound::float16,
+                               errbound::bfloat16, errbound::float8_e5m2, errbound::float8_e4m3>;
 TYPED_TEST_SUITE(Printing, numbers);
 
 TYPED_TEST(Printing, EveryDigitIsCertain) {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 #include "tests/support/special_values.hpp"
 
@@ -144,7 +145,7 @@ TYPED_TEST(TrackedBy, BoundsHoldInRandomPrograms) {
     constexpr bool with_division = !std::same_as<TypeParam, errbound::safe>;
     run_programs<double, TypeParam, with_division>(programs, 1);
     run_programs<float, TypeParam, with_division>(programs, 3);
-    run_programs<long double, TypeParam, with_division>(programs / 10, 5);
+    run_programs<support::long_double, TypeParam, with_division>(programs / 10, 5);
 }
 
 TEST(Tracked, BoundsHoldInEveryRoundingDirection) {

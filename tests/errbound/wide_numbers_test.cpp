@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -175,7 +176,8 @@ void check_rules(int count) {
 
 TEST(WideNumbers, LongDoubleUnderEveryRule) {
     using namespace errbound;
-    check_rules<long double, 0, tight, sharp, safe, interval, residual, affine, relative>(300);
+    check_rules<support::long_double, 0, tight, sharp, safe, interval, residual, affine, relative>(
+        300);
 }
 TEST(WideNumbers, Binary128UnderEveryRule) {
     using namespace errbound;
@@ -243,7 +245,7 @@ void check_facts(int less = 0) {
     EXPECT_TRUE(traits::scale(T(traits::scale(T(3), 100)), -100) == 3);
 }
 TEST(WideNumbers, FactsAreTheTypes) {
-    check_facts<long double>();
+    check_facts<support::long_double>();
     check_facts<errbound::float128>();
     check_facts<multiprecision::cpp_bin_float_double>(1);
     check_facts<multiprecision::cpp_bin_float_quad>(1);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/any_format.hpp"
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -221,7 +222,7 @@ TEST(Explained, IsTheRuleItselfInOtherNumberTypesInRandomPrograms) {
     lockstep<double, errbound::residual, 1>(3).run(programs);
     lockstep<errbound::float16, errbound::residual, 64>(4).run(programs);
     lockstep<errbound::float8_e4m3, errbound::tight, 64>(5).run(programs);
-    lockstep<long double, errbound::residual, 64>(6).run(programs / 4);
+    lockstep<support::long_double, errbound::residual, 64>(6).run(programs / 4);
 }
 
 TEST(Explained, SaysWhatTheRulesErrorMeans) {

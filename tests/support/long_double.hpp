@@ -1,0 +1,13 @@
+// Long doubles for lists of number types, on processors where they are no IEEE numbers, too.
+#pragma once
+
+#include <errbound/environment.hpp>
+#include <type_traits>
+
+namespace support {
+
+/// `long double`; where that is a pair of doubles, which the library refuses, double once more.
+using long_double =
+    std::conditional_t<errbound::detail::is_ieee_format<long double>, long double, double>;
+
+}  // namespace support
