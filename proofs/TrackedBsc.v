@@ -3,7 +3,8 @@
     p >= 3, emax > p.
 
     A tracked number is a computed value with a computed bound, and the real number that they know. The
-    theorems are of every `rule`: tight_rule, sharp_rule, safe_rule, interval_rule, residual_rule.
+    theorems are of every `rule`: tight_rule, sharp_rule, safe_rule, interval_rule, residual_rule, and kept_rule of any
+    that keeps its operations (IeeeCompound.v), such as `relative` (IeeeRelative.v).
     Coordinates are those of tracked_query: floating-point numbers, or these times one power of two, any.
     Results: tracked_face_separate, tracked_edges_separate   a "no" is right
              tracked_face_collides, tracked_edges_collide    and a "yes" *)
@@ -11,7 +12,8 @@
 From Coq Require Import Reals ZArith Lia Lra List Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee IeeeRules.
-From Errbound Require Sign Bernstein BscCode Contact Decisions AxisUnits IeeeSafe IeeeInterval IeeeResidual.
+From Errbound Require Sign Bernstein BscCode Contact Decisions AxisUnits IeeeSafe IeeeInterval IeeeResidual
+  CompoundCode IeeeFunctions IeeeCompound.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -154,6 +156,17 @@ Proof.
       IeeeResidual.residual_scale_known.
   intros a A x K. generalize (IeeeResidual.residual_sign_known p emax p_3 a A x K).
   now destruct (residual_sign _ F a A).
+Defined.
+Definition kept_rule B by_rule holds (kept : IeeeCompound.keeps_operations p emax B by_rule holds) : rule.
+Proof.
+  refine {| bound := B; known := holds; exact := rule_exact _ _ (CompoundCode.the_rule _ _ by_rule);
+    within := rule_within _ _ (CompoundCode.the_rule _ _ by_rule);
+    negate := rule_negate _ _ (CompoundCode.the_rule _ _ by_rule);
+    add := CompoundCode.rule_add _ _ by_rule; subtract := rule_subtract _ _ (CompoundCode.the_rule _ _ by_rule);
+    multiply := CompoundCode.rule_multiply _ _ by_rule; rescale := CompoundCode.rule_scale _ _ by_rule;
+    sign := rule_sign _ _ (CompoundCode.the_rule _ _ by_rule) |};
+    destruct kept as [[] ? ? _ ? _]; auto.
+  intros a A x K. generalize (promise_sign a A x K). now destruct (rule_sign _ _ _ a A).
 Defined.
 
 (** ** Tracked numbers as scalars *)

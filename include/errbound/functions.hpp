@@ -347,8 +347,8 @@ constexpr tracked<T, Rule> horner_of(std::size_t count, const C& c, const tracke
 /// bound itself, and in the worst case about nuΣ|aᵢbᵢ| where arguments are exact, as a bound from
 /// magnitudes alone always is. Cost: under `tight` and `sharp` fewer operations than one by one.
 /// Precondition, which is asserted: a and b are of one size.
-/// Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; of operations one by one,
-/// proofs/IeeeCompound.v, dot_known.
+/// Proof: proofs/IeeeDotProduct.v, tight_dot_known, sharp_dot_known; proofs/IeeeRelative.v,
+/// relative_dot_known; of operations one by one, proofs/IeeeCompound.v, dot_known.
 template <tracked_numbers A, tracked_numbers B>
 requires std::same_as<detail::number_of<A>, detail::number_of<B>>
 constexpr detail::number_of<A> dot(const A& a, const B& b) {

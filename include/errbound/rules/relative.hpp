@@ -42,13 +42,13 @@ struct relative {
         double factors;  ///< k; infinite where nothing is known
     };
 
-    /// Proof: proofs/Relative.v, relative_exact_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         return {number_traits<T>::is_finite(value) ? 0 : unknown};
     }
     /// Unknown unless error < |value|: a relative rule cannot say that a number is small.
-    /// Proof: proofs/Relative.v, relative_within_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         using traits = number_traits<T>;
@@ -56,7 +56,7 @@ struct relative {
         if (!(error > 0) || !traits::is_finite(value)) return {unknown};
         return {factors_of<T>(error, traits::abs(value))};
     }
-    /// Proof: proofs/Relative.v, relative_error_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_error_known.
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
@@ -72,7 +72,7 @@ struct relative {
                traits::underflow_unit();
     }
     /// That of the value, wherever anything is known.
-    /// Proof: proofs/Relative.v, relative_sign_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_sign_known.
     template <class T>
     static constexpr sign_type sign(const T& value, const bound<T>& b) {
         if (!number_traits<T>::is_finite(error<T>(value, b))) return sign_type::uncertain;
@@ -80,19 +80,19 @@ struct relative {
         return value > 0 ? sign_type::positive : sign_type::negative;
     }
 
-    /// Proof: proofs/Relative.v, relative_add_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, relative> a,
                                   rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, b.value, b.bound);
     }
-    /// Proof: proofs/Relative.v, relative_subtract_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
         return sum<T>(v, a.value, a.bound, T(-b.value), b.bound);
     }
-    /// Proof: proofs/Relative.v, relative_multiply_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, rule_operand<T, relative> a,
                                        rule_operand<T, relative> b) {
@@ -103,7 +103,7 @@ struct relative {
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors), is_exact);
     }
     /// Unknown where b may be zero, which is where b's value is, or nothing is known of it.
-    /// Proof: proofs/Relative.v, relative_divide_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, rule_operand<T, relative> a,
                                      rule_operand<T, relative> b) {
@@ -113,7 +113,7 @@ struct relative {
         return rounded_to<T>(v, count_sum(a.bound.factors, b.bound.factors),
                              division.exact && division.value == 0);
     }
-    /// Proof: proofs/Relative.v, relative_scale_sound.
+    /// Proof: proofs/IeeeRelative.v, relative_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, rule_operand<T, relative> a, int e) {
         return rounded_to<T>(v, a.bound.factors,
@@ -125,6 +125,7 @@ struct relative {
     /// of operations one by one, if that is less. So partial sums may cancel, as long as the last
     /// does not; and of n terms of one size and sign about n/2 factors are counted, not n, for most
     /// roundings are of sums that are smaller than the last.
+    /// Proof: proofs/IeeeRelative.v, relative_dot_known.
     template <class T>
     class dot_bound {
       public:
