@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 
 import checker
+import records
 import ties
 
 LIBRARY = "Errbound"
@@ -142,7 +143,7 @@ def main(build):
         checker.compare(stated.result(), proofs / "statements.txt", build)
         check_tie(build, [table.result() for table in tables])
         compiled.result()
-    print(ties.table())
+    print(records.table())
     print(f"{len(found)} theorems checked in {time.monotonic() - start:.0f} s")
 
 

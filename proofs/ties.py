@@ -1,14 +1,12 @@
 """Which functions decide, and which of them are tied: what the C++ code makes of some inputs is compared
 with what the proofs' definitions compute (README.md, The tie). Those that are not are in README.md, with
 the reason."""
-import hashlib
 import re
 import sys
 from pathlib import Path
 
 proofs = Path(__file__).resolve().parent
 root = proofs.parent
-RECORD = proofs / "mutants.txt"
 sys.path.insert(0, str(root / "tests/project"))
 from layout_test import code_alone, cpp_functions  # noqa: E402
 
@@ -125,57 +123,3 @@ def cases():
         tie = next(tie for tie, (_, starts) in TIES.items() if re.match(r"\w+", start)[0] in starts)
         found[tie] += int(number)
     return found
-
-
-def digest(tie):
-    """Of what is changed by mutants and what finds them: code without comments, programs, their results."""
-    paths, starts = TIES[tie]
-    finders = [f"tests/proofs/tie_{tie}.cpp", *(path.relative_to(root) for path in sorted((root / "tests").glob(
-        "proofs/*.hpp" if tie != "rules" else "errbound/validation/tie*.hpp")))]
-    text = "".join(code_alone((root / path).read_text()) for path in [*paths, *finders])
-    text += (root / "tests/proofs/mutants.py").read_text()
-    text += "".join(line for line in (proofs / "tie.txt").read_text().splitlines()
-                    if re.match(r"\w+", line)[0] in starts)
-    return hashlib.sha256(text.encode()).hexdigest()[:12]
-
-
-class Record:
-    """How mutants of a tie were found: made and found, those listed as equivalent, when, and of what."""
-
-    def __init__(self, made, found, equivalent, date, digest):
-        self.made, self.found, self.equivalent = int(made), int(found), int(equivalent)
-        self.date, self.digest = date, digest
-
-    def line(self, tie):
-        return f"{tie} {self.made} {self.found} {self.equivalent} {self.date} {self.digest}"
-
-
-def records():
-    """By tie, what mutants.txt has."""
-    lines = [line.split() for line in RECORD.read_text().splitlines() if not line.startswith("#")]
-    return {tie: Record(*rest) for tie, *rest in lines}
-
-
-def keep_records(more):
-    """Writes mutants.txt with these, by tie, and of other ties what it had."""
-    kept = {**records(), **more}
-    head = [line for line in RECORD.read_text().splitlines() if line.startswith("#")]
-    RECORD.write_text("\n".join(head + [kept[tie].line(tie) for tie in TIES if tie in kept]) + "\n")
-
-
-def table():
-    """What is tied, as text."""
-    (tied, others), inputs, mutants = count(), cases(), records()
-    lines = [f"{'tie':<10}{'functions':>11}{'inputs':>13}{'mutants found / made':>24}{'equivalent':>12}"]
-    for tie, number in tied.items():
-        r = mutants.get(tie)
-        tried = f"{f'{r.found} / {r.made}':>24}{r.equivalent:>12}" if r else f"{'no record':>24}"
-        of = ""
-        if r:
-            left = r.made - r.found - r.equivalent
-            of = (f"  {r.date}" + ("" if r.digest == digest(tie) else ", changed since") +
-                  (f"; {left} neither found nor equivalent" if left else ""))
-        lines.append(f"{tie:<10}{number:>11}{inputs[tie]:>13}{tried}{of}")
-    lines.append(f"{sum(tied.values())} functions are tied of {sum(tied.values()) + others} that decide; README.md names "
-                 "the others.\nMutants are those that ./run mutants recorded (mutants.txt); they are not run here.")
-    return "\n".join(lines)

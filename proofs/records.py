@@ -1,0 +1,77 @@
+"""How mutants of ties were found, as mutants.txt keeps it, and the table of ties that `./run proofs` prints."""
+import hashlib
+import re
+import sys
+from pathlib import Path
+
+import ties
+
+proofs = Path(__file__).resolve().parent
+root = proofs.parent
+RECORD = proofs / "mutants.txt"
+sys.path.insert(0, str(root / "tests/project"))
+from layout_test import code_alone  # noqa: E402
+sys.path.insert(0, str(root / "tests/proofs"))
+from made_mutants import mutants_of  # noqa: E402
+
+
+def sources_of(path):
+    """A file of the tests, and what it includes of them."""
+    text, found = (root / path).read_text(), {path}
+    for included in re.findall(r'^#include "(tests/[^"]+)"', text, re.MULTILINE):
+        found |= sources_of(included)
+    return found
+
+
+def digest(tie):
+    """Of the mutants, what finds them, without comments, and the results that they are held to."""
+    paths, starts = ties.TIES[tie]
+    text = "".join(code_alone((root / path).read_text())
+                   for path in [*paths, "tests/proofs/mutants.hpp", *sorted(sources_of(f"tests/proofs/tie_{tie}.cpp"))])
+    for path in paths:
+        text += "".join(f"{m.name} {m.numbered}\n" for m in mutants_of(path, ties.untied_functions(path))[1])
+    text += "".join(line for line in (proofs / "tie.txt").read_text().splitlines()
+                    if re.match(r"\w+", line)[0] in starts)
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+class Record:
+    """How mutants of a tie were found: made and found, those listed as equivalent, when, and of what."""
+
+    def __init__(self, made, found, equivalent, date, digest):
+        self.made, self.found, self.equivalent = int(made), int(found), int(equivalent)
+        self.date, self.digest = date, digest
+
+    def line(self, tie):
+        return f"{tie} {self.made} {self.found} {self.equivalent} {self.date} {self.digest}"
+
+
+def kept():
+    """By tie, what mutants.txt has."""
+    lines = [line.split() for line in RECORD.read_text().splitlines() if not line.startswith("#")]
+    return {tie: Record(*rest) for tie, *rest in lines}
+
+
+def keep(more):
+    """Writes mutants.txt with these, by tie, and of other ties what it had."""
+    all_kept = {**kept(), **more}
+    head = [line for line in RECORD.read_text().splitlines() if line.startswith("#")]
+    RECORD.write_text("\n".join(head + [all_kept[tie].line(tie) for tie in ties.TIES if tie in all_kept]) + "\n")
+
+
+def table():
+    """What is tied, as text."""
+    (tied, others), inputs, mutants = ties.count(), ties.cases(), kept()
+    lines = [f"{'tie':<10}{'functions':>11}{'inputs':>13}{'mutants found / made':>24}{'equivalent':>12}"]
+    for tie, number in tied.items():
+        r = mutants.get(tie)
+        tried = f"{f'{r.found} / {r.made}':>24}{r.equivalent:>12}" if r else f"{'no record':>24}"
+        of = ""
+        if r:
+            left = r.made - r.found - r.equivalent
+            of = (f"  {r.date}" + ("" if r.digest == digest(tie) else ", changed since") +
+                  (f"; {left} neither found nor equivalent" if left else ""))
+        lines.append(f"{tie:<10}{number:>11}{inputs[tie]:>13}{tried}{of}")
+    lines.append(f"{sum(tied.values())} functions are tied of {sum(tied.values()) + others} that decide; README.md names "
+                 "the others.\nMutants are those that ./run mutants recorded (mutants.txt); they are not run here.")
+    return "\n".join(lines)
