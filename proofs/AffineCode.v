@@ -153,4 +153,21 @@ Definition affine_scale (v a : T) (sa : affine) (e : Z) f : affine :=
   let scaled := scale T A (rest sa) e in
   finished v (add_left (lost scaled (rest sa) e) (add_left scaled r)) f.
 
+(** What tracked.hpp asks of a rule. Here every operation has the same source, or none. *)
+Definition affine_rule (f : option Z) : rule T affine := {|
+  rule_exact := affine_exact;
+  rule_within v error := affine_within v error f;
+  rule_error _ b := radius b;
+  rule_subtract v a sa b sb := affine_subtract v a sa b sb f;
+  rule_negate := affine_negate;
+  rule_sign v b := sign_of T A v (radius b)
+|}.
+Definition affine_operations (f : option Z) : operations T affine := {|
+  the_rule := affine_rule f;
+  rule_add v a sa b sb := affine_add v a sa b sb f;
+  rule_multiply v a sa b sb := affine_multiply v a sa b sb f;
+  rule_divide := Some (fun v a sa b sb => affine_divide v a sa b sb f);
+  rule_scale v a sa e := affine_scale v a sa e f
+|}.
+
 End Affine.

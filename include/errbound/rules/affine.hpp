@@ -23,6 +23,8 @@
 //  * fl(x − y)(1 − ε), rounded, is at most x − y > 0, for the same reason.
 // A number whose value, or the sum of whose terms, overflows or is NaN is unknown: no terms, and an
 // infinite rest.
+// Whole computations, each operation with its source: proofs/IeeeAffineFunctions.v, computed_known;
+// functions among them: gives_known.
 // Source: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37), with new terms
 // as small as error-free transformations make them.
 //
@@ -63,14 +65,14 @@ struct affine_of {
     template <class T>
     using operand = rule_operand<T, affine_of>;
 
-    /// Proof: proofs/Affine.v, affine_exact_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_exact_known.
     template <class T>
     static constexpr bound<T> exact(const T& value) {
         const T nothing = value - value;  // NaN if the value is not finite
         return {nothing, nothing, 0, {}};
     }
     /// One term, of a new source.
-    /// Proof: proofs/Affine.v, affine_within_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_within_known.
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         if (!(error >= 0)) return unknown<T>();
@@ -78,12 +80,12 @@ struct affine_of {
         r.add_left(error);
         return r.finished(value);
     }
-    /// Proof: proofs/Affine.v, affine_error_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_error_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
     }
-    /// Proof: proofs/Affine.v, affine_negate_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_negate_known.
     template <class T>
     static constexpr bound<T> negate(const bound<T>& b) {
         bound<T> r = b;
@@ -92,19 +94,19 @@ struct affine_of {
     }
 
     /// a + b = v + δ + Σ (aᵢ + bᵢ)εᵢ; what a sum of coefficients loses is known exactly.
-    /// Proof: proofs/Affine.v, affine_add_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_add_known.
     template <class T>
     static constexpr bound<T> add(const T& v, operand<T> a, operand<T> b) {
         return sum<false, T>(v, a, b);
     }
-    /// Proof: proofs/Affine.v, affine_subtract_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_subtract_known.
     template <class T>
     static constexpr bound<T> subtract(const T& v, operand<T> a, operand<T> b) {
         return sum<true, T>(v, a, b);
     }
     /// ab = v + δ + Σ (â·bᵢ + aᵢ·b̂)εᵢ, and besides at most |â|·rest_b + rest_a·|b̂| and the product
     /// of the radii.
-    /// Proof: proofs/Affine.v, affine_multiply_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_multiply_known.
     template <class T>
     static constexpr bound<T> multiply(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
@@ -131,7 +133,7 @@ struct affine_of {
     /// N = r + Σ (aᵢ − q·bᵢ)εᵢ ± (rest_a + |q|·rest_b), and N/b − N/b̂ = N/b̂·(b̂ − b)/b is at most
     /// |N/b̂|·radius_b/(|b̂| − radius_b). Where r is not known, r/b̂, the error of q, is at most
     /// u|v| + η/2. Unknown where b may be zero.
-    /// Proof: proofs/Affine.v, affine_divide_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_divide_known.
     template <class T>
     static constexpr bound<T> divide(const T& v, operand<T> a, operand<T> b) {
         using traits = number_traits<T>;
@@ -163,7 +165,7 @@ struct affine_of {
     }
     /// Scaling by a power of two is exact unless it underflows: then value, coefficients and rest
     /// are each off by at most η/2.
-    /// Proof: proofs/Affine.v, affine_scale_sound.
+    /// Proof: proofs/IeeeAffine.v, affine_scale_known.
     template <class T>
     static constexpr bound<T> scale(const T& v, operand<T> a, int e) {
         using traits = number_traits<T>;
