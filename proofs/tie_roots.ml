@@ -77,14 +77,28 @@ let put_field () =
       field_multiply_and_subtract p a b c d; field_to_form p a; field_from_form p a ];
   let n = if draw 2 = 0 then z (draw 70) else natural 60 in
   put_whole (field_power p a n)
+(* Of factors of the modulus. *)
+let put_zero_divisors () =
+  let odd () = z ((2 * draw (1 lsl 29)) + 3) in
+  let a = odd () in
+  let b = odd () in
+  put_whole (field_multiply (Z.mul a b) a b)
+(* Of a multiple of the modulus, or beside one. *)
+let put_residue () =
+  let p = moduli.(draw 4) in
+  let multiple = Z.mul (z (draw 5 - 2)) p in
+  put_whole (Z.erem (Z.add multiple (z (draw 3 - 1))) p)
 let put_value_modulo () =
   let p = moduli.(draw 4) in
   let f = polynomial (draw 6) in
   let n, e = point () in
-  put_whole (field_value p n e (List.rev f));
+  let put f = (* its residues, too *)
+    List.iter (fun c -> put_whole (Z.erem c p)) f;
+    put_whole (field_value p n e (List.rev f)) in
+  put f;
   (* Of what is zero there: the power of two is a coefficient. *)
   let power = Z.shift_left Z.one (abs (Z.to_int e)) in
-  put_whole (field_value p n e (if Z.sign e < 0 then [ power; Z.neg n ] else [ Z.one; Z.neg (Z.mul n power) ]))
+  put (if Z.sign e < 0 then [ Z.neg n; power ] else [ Z.neg (Z.mul n power); Z.one ])
 
 let put_variations () =
   let count = 1 + draw 9 in
@@ -111,11 +125,9 @@ let nearby x =
 let put_fixed_row (row, error) =
   put_int (List.length row);
   List.iter (fun x -> put_int (Z.to_int (row_sign error x)); put_double (nearby x)) row
-let put_rows () =
-  let degree = draw 9 in
-  let b = polynomial degree in
-  let b = if draw 3 = 0 then List.map (fun c -> Z.shift_left c 200) b else b in
-  let error = match draw 4 with 0 -> Z.zero | 1 -> z (draw 5) | 2 -> natural 60 | _ -> natural 270 in
+(* And its halves, some times. *)
+let put_halves b error =
+  let degree = List.length b - 1 in
   let row = ref (row_of b error) in
   put_fixed_row !row;
   for _ = 1 to 1 + draw 6 do
@@ -125,6 +137,18 @@ let put_rows () =
     put_fixed_row left; put_fixed_row right;
     row := if draw 2 = 0 then left else right
   done
+let put_rows () =
+  let b = polynomial (draw 9) in
+  let b = if draw 3 = 0 then List.map (fun c -> Z.shift_left c 200) b else b in
+  put_halves b (match draw 4 with 0 -> Z.zero | 1 -> z (draw 5) | 2 -> natural 60 | _ -> natural 270)
+(* With an error that is small, or about the largest that a row keeps or twice that, and coefficients that are
+   about as large. For the last one nothing is cut off. *)
+let put_row_edges () =
+  let kind = draw 3 in
+  let error = if kind = 0 then z (draw 5) else Z.add (Z.shift_left Z.one (59 + kind)) (z (draw 4 - 4)) in
+  let count = 1 + draw 8 in
+  let b = List.init count (fun _ -> let size = Z.add error (z (draw 16)) in signed size) in
+  put_halves (b @ [ Z.shift_left Z.one 252 ]) error
 
 (* ---- Polynomials ---- *)
 
@@ -135,8 +159,8 @@ let of_q x = dyadic_made (Q.num x) (z (1 - Z.numbits (Q.den x)))
 let put_q x = put_dyadic (of_q x)
 let less a b = dyadic_order a b = Lt
 let put_exponent = function None -> put_word 0x80000000 | Some e -> put_int (Z.to_int e)
-let put_polynomial () =
-  let p = polynomial (if draw 16 = 0 then 38 + draw 6 else draw 9) in
+let put_of_degree degree =
+  let p = polynomial degree in
   put_all (form_derivative p);
   put_all (form_mirrored p);
   put_exponent (form_root_exponent p);
@@ -153,6 +177,13 @@ let put_polynomial () =
     let units x = Q.of_bigint (dyadic_in_units x e) in
     put_all (List.map Q.num (form_control_values weights e (units low) (units width) (List.map Q.of_bigint p)))
   end
+let put_polynomial () = put_of_degree (if draw 16 = 0 then 38 + draw 6 else draw 9)
+(* Whose weights 64 bits may not hold. *)
+let put_long_polynomial () = put_of_degree (44 + draw 8)
+let put_empty_polynomial () =
+  let value = form_value [] (q_of (if draw 2 = 0 then z 0, z 0 else point ())) in
+  put_q value;
+  put_word (Q.sign value + 1)
 
 (* Irreducible, by Eisenstein's criterion, so that nothing is left out of it. *)
 let irreducible degree =
@@ -165,8 +196,14 @@ let put_half_lines () =
   let p = irreducible (1 + draw 7) in
   put_q (form_upper_bound p);
   put_q (Q.neg (form_upper_bound (form_mirrored p)));
-  (match form_half_line p with Some (low, _) -> put_q low | None -> ());
-  (match form_half_line (form_mirrored p) with Some (low, _) -> put_q (Q.neg low) | None -> ())
+  (* Where there are none, of the exponent alone: it says nothing. *)
+  let least p = match form_half_line p with
+    | Some (low, _) -> low
+    | None ->
+      let lower = match form_root_exponent (List.rev p) with Some e -> Z.neg e | None -> Z.one in
+      q_of (z 45, Z.sub lower (z 6)) in
+  put_q (least p);
+  put_q (Q.neg (least (form_mirrored p)))
 
 (* Whether refine keeps a part, or what lies beside it. *)
 let keep p i bits =
@@ -186,12 +223,7 @@ let rec refine p i width bits =
     refine p i width (if kept then 2 * bits else max 1 (bits / 2))
 let half i = Q.div_2exp (Q.sub i.high i.low) 1
 let put_interval i = put_q i.low; put_q i.high
-let put_refined () =
-  let p = irreducible (if draw 2 = 0 then 1 else 1 + draw 7) in
-  let e = draw 30 - 20 in
-  let a = draw 4000 - 2000 in
-  let b = draw 4000 - 2000 in
-  let a = q_of (z a, z e) and b = q_of (z b, z e) in
+let put_refined_between p a b =
   let i = { low = Q.min a b; high = Q.max a b } in
   if Q.sign (form_value p i.low) * Q.sign (form_value p i.high) < 0 then begin
     let once = refine p i (half i) 1 in
@@ -199,6 +231,20 @@ let put_refined () =
     put_interval (refine p once (half once) 1);
     put_interval (refine p i (Q.div_2exp (Q.sub i.high i.low) (draw 200)) 1)
   end
+let put_refined () =
+  let p = irreducible (if draw 2 = 0 then 1 else 1 + draw 7) in
+  let e = draw 30 - 20 in
+  let a = draw 4000 - 2000 in
+  let b = draw 4000 - 2000 in
+  put_refined_between p (q_of (z a, z e)) (q_of (z b, z e))
+(* With a root that is whole, where two parts meet that halving leads to. *)
+let put_whole_root () =
+  let q = irreducible (2 + draw 3) in
+  let root = z (draw 2000 - 1000) in
+  let p = List.map2 (fun x y -> Z.sub x (Z.mul root y)) (Z.zero :: q) (q @ [ Z.zero ]) in
+  let bits = draw 8 in
+  let low = Z.sub root (z (1 + draw (1 lsl bits))) in
+  put_refined_between p (Q.of_bigint low) (Q.of_bigint (Z.add low (z (2 lsl bits))))
 
 (* ---- Near a place ---- *)
 
@@ -231,6 +277,14 @@ let draw_part f =
   let from = draw (1 lsl depth) in
   let length = 1 + draw ((1 lsl depth) - from) in
   part f (z from) (z length) depth
+(* And parts of parts. *)
+let put_parts p low width bits =
+  let a, error = local_taylor p low width (z bits) in
+  let f = { degree = List.length p - 1; a; error } in
+  put_local f;
+  let once = draw_part f in
+  put_local once;
+  put_local (draw_part once)
 let put_near () =
   let degree = if draw 10 = 0 then 30 else draw 9 in
   let p = polynomial degree in
@@ -239,12 +293,44 @@ let put_near () =
   let ratio = draw 100 - 90 in
   let width = dyadic_made (Z.succ n) (Z.sub (Z.add (dyadic_floor_log2 low) (z ratio)) (z (Z.numbits (Z.succ n)))) in
   let bits = [| 0; 20; 64; 256 |].(draw 4) in
-  let a, error = local_taylor p low width (z (bits + draw 10)) in
-  let f = { degree; a; error } in
-  put_local f;
-  let once = draw_part f in
-  put_local once;
-  put_local (draw_part once)
+  put_parts p low width (bits + draw 10)
+(* In few bits, which the numerators of powers of `low` just exceed. *)
+let put_near_small () =
+  let p = polynomial (if draw 4 = 0 then 30 else draw 5) in
+  let numerator = (2 * draw 4) + 1 in
+  let low = z numerator, exponent () in
+  let size = Z.sub (dyadic_floor_log2 low) (z (2 + draw 8)) in
+  let width = dyadic_made (z (1 + draw 8)) size in
+  put_parts p low width (draw 16)
+(* c + 2^20·(x - 1), or the opposite, whose values are about as large as the error. *)
+let put_near_error () =
+  let bits = 4 + draw 8 in
+  let slope = signed (z (1 lsl 20)) in
+  let c = z (draw 140 lsl (18 - bits)) in
+  let width = dyadic_made (z (1 + draw 63)) (z (- bits - 2)) in
+  put_parts [ Z.sub c slope; slope ] (Z.one, Z.zero) width bits
+(* d·(x - 1)^2 + 2^20·(x - 1), of which the last term is about as large as the error. *)
+let put_near_small_term () =
+  let size = z (1 + draw (1 lsl 20)) in
+  let d = signed size in
+  let slope = z (1 lsl 20) in
+  let width = dyadic_made (z (1 + draw (1 lsl 10))) (z (-12)) in
+  put_parts [ Z.sub d slope; Z.sub slope (Z.mul (z 2) d); d ] (Z.one, Z.zero) width (13 + draw 4)
+(* 24·(x - c)^2 + d, or the opposite, whose Bernstein coefficients have one sign if d is large, and if it is
+   less, only those of higher degree. *)
+let put_near_minimum () =
+  let low = 1 + draw 1000 in
+  let d = draw 32 in
+  let c = low + 1 in
+  let factor = signed Z.one in
+  let p = List.map (fun x -> Z.mul factor (z x)) [ (24 * c * c) + d; -48 * c; 24 ] in
+  put_parts p (dyadic_made (z low) Z.zero) (Z.one, Z.one) 40
+(* (x - low)^3, of which nothing is seen. *)
+let put_near_triple_root () =
+  let low = 1 + draw 1000 in
+  let width = Z.one, z (-90 - draw 10) in
+  let p = List.map z [ - low * low * low; 3 * low * low; -3 * low; 1 ] in
+  put_parts p (dyadic_made (z low) Z.zero) width (draw 8)
 
 let () =
   state := 1;
@@ -257,4 +343,15 @@ let () =
   tied "polynomial" 2000 put_polynomial;
   tied "half_line" 1000 put_half_lines;
   tied "refine" 2000 put_refined;
-  tied "near" 1500 put_near
+  tied "near" 1500 put_near;
+  tied "zero_divisor" 100 put_zero_divisors;
+  tied "residue" 100 put_residue;
+  tied "row_edge" 1000 put_row_edges;
+  tied "whole_root" 500 put_whole_root;
+  tied "long_polynomial" 20 put_long_polynomial;
+  tied "empty_polynomial" 10 put_empty_polynomial;
+  tied "near_small" 1000 put_near_small;
+  tied "near_error" 1000 put_near_error;
+  tied "near_small_term" 3000 put_near_small_term;
+  tied "near_minimum" 200 put_near_minimum;
+  tied "near_triple_root" 500 put_near_triple_root

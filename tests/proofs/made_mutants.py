@@ -34,9 +34,9 @@ KINDS = {
     "negation": r"(?<![\w)\]])!(?=[\w(*])",
 }
 FOUND = re.compile("|".join(f"(?P<{kind}>{pattern})" for kind, pattern in KINDS.items()))
-# What changes something where it is asked, which must not be but where the first operand says so. (What is left out
-# here is seen: the code without a mutant differs then.)
-CHANGING = ["root_of"]
+# What must not be asked but where the first operand says so: what is not there otherwise, or what changes something.
+# (What is left out here is seen: the code without a mutant differs then.)
+SUPPOSING = [r"\(\*", "->", r"\bterms_?\[", r"\broot_of\("]
 # What is of types alone, and what only the compiler asks.
 TYPES = [r"\bdecltype\([^;{]*?\)(?=[;,>])", r"static_assert\([^;]*;", r"^ *template <[^\n]*>$",
          r"\brequires\s*\(.*?\)(?= (?:constexpr|friend|inline))", r"enum class[^{;]*\{[^}]*\};",
@@ -111,7 +111,7 @@ def changed(kind, old, rest):
         new, tag = OPERATORS[old]
         opening, close = "<>" if tag in ("less", "at_most", "greater", "at_least") else (old, old)
         # Both operands would be evaluated, where the second may suppose the first.
-        supposes = old in ("&&", "||") and re.search(rf"\(\*|->|\b(?:{'|'.join(CHANGING)})\(", rest)
+        supposes = old in ("&&", "||") and re.search("|".join(SUPPOSING), rest)
         return new, None if supposes else f"{opening} ::mutants::{tag}<K>{{}} {close}"
     if kind == "truth":
         other = "false" if old == "true" else "true"

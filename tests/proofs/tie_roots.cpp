@@ -141,6 +141,18 @@ void put_field(hash& h, drawn_numbers& s) {
     const whole n = s.draw(2) == 0 ? whole(s.draw(70)) : s.natural(60);
     put(h, whole(field.power(a, static_cast<std::uint64_t>(n))));
 }
+/// Of factors of the modulus.
+void put_zero_divisors(hash& h, drawn_numbers& s) {
+    const auto a = 2 * static_cast<std::uint64_t>(s.draw(1 << 29)) + 3,
+               b = 2 * static_cast<std::uint64_t>(s.draw(1 << 29)) + 3;
+    put(h, whole(prime_field(a * b).multiply(a, b)));
+}
+/// Of a multiple of the modulus, or beside one.
+void put_residue(hash& h, drawn_numbers& s) {
+    const prime_field field(errbound::roots::large_prime(static_cast<std::size_t>(s.draw(4))));
+    const whole multiple = (s.draw(5) - 2) * whole(field.modulus());
+    put(h, whole(errbound::roots::residue(whole(multiple + s.draw(3) - 1), field)));
+}
 /// Of some polynomial, and of one that is zero there.
 void put_value_modulo(hash& h, drawn_numbers& s) {
     const prime_field field(errbound::roots::large_prime(static_cast<std::size_t>(s.draw(4))));
@@ -149,8 +161,11 @@ void put_value_modulo(hash& h, drawn_numbers& s) {
     const int e = x.exponent();
     const polynomial linear{e < 0 ? -x.numerator() : whole(-x.numerator() << e),
                             e < 0 ? whole(1) << -e : whole(1)};
-    for (const polynomial& f : {p, linear})
-        put(h, whole(value_at(errbound::roots::residues(f, field), field, x)));
+    for (const polynomial& f : {p, linear}) {
+        const auto residues = errbound::roots::residues(f, field);
+        for (const std::uint64_t residue : residues) put(h, whole(residue));
+        put(h, whole(value_at(residues, field, x)));
+    }
 }
 
 void put_variations(hash& h, drawn_numbers& s) {
@@ -171,12 +186,8 @@ void put(hash& h, const row& r) {
         put_double(h, nearby[i]);
     }
 }
-void put_rows(hash& h, drawn_numbers& s) {
-    polynomial b = s.form(s.draw(9));
-    if (s.draw(3) == 0)
-        for (whole& c : b) c <<= 200;
-    const int kind = s.draw(4);
-    row r(b, kind == 0 ? whole(0) : kind == 1 ? whole(s.draw(5)) : s.natural(kind == 2 ? 60 : 270));
+/// And its halves, some times.
+void put(hash& h, row r, drawn_numbers& s) {
     put(h, r);
     for (int steps = 1 + s.draw(6); steps > 0; --steps) {
         auto halves = std::move(r).halves();
@@ -185,9 +196,32 @@ void put_rows(hash& h, drawn_numbers& s) {
         r = s.draw(2) == 0 ? std::move(halves.first) : std::move(halves.second);
     }
 }
+void put_rows(hash& h, drawn_numbers& s) {
+    polynomial b = s.form(s.draw(9));
+    if (s.draw(3) == 0)
+        for (whole& c : b) c <<= 200;
+    const int kind = s.draw(4);
+    const whole error = kind == 0   ? whole(0)
+                        : kind == 1 ? whole(s.draw(5))
+                                    : s.natural(kind == 2 ? 60 : 270);
+    put(h, row(b, error), s);
+}
+/// With an error that is small, or about the largest that a row keeps or twice that, and
+/// coefficients that are about as large. For the last one nothing is cut off.
+void put_row_edges(hash& h, drawn_numbers& s) {
+    const int kind = s.draw(3);
+    const whole error = kind == 0 ? whole(s.draw(5)) : (whole(1) << (59 + kind)) - 4 + s.draw(4);
+    polynomial b;
+    for (int i = 1 + s.draw(8); i > 0; --i) {
+        const whole size = error + s.draw(16);
+        b.push_back(s.with_sign(size));
+    }
+    b.push_back(whole(1) << 252);
+    put(h, row(b, error), s);
+}
 
-void put_polynomial(hash& h, drawn_numbers& s) {
-    const polynomial p = s.form(s.draw(16) == 0 ? 38 + s.draw(6) : s.draw(9));
+void put_polynomial(hash& h, drawn_numbers& s, int degree) {
+    const polynomial p = s.form(degree);
     put(h, errbound::roots::derivative(p));
     put(h, errbound::roots::mirrored(p));
     put_int(h, errbound::roots::positive_root_exponent(p));
@@ -197,6 +231,18 @@ void put_polynomial(hash& h, drawn_numbers& s) {
     const int kind = s.draw(3);
     const point y = kind == 0 ? point() : kind == 1 ? x + point(1, s.exponent()) : s.place();
     if (x != y) put(h, errbound::roots::control_values_on(p, std::min(x, y), std::max(x, y)));
+}
+void put_polynomial(hash& h, drawn_numbers& s) {
+    put_polynomial(h, s, s.draw(16) == 0 ? 38 + s.draw(6) : s.draw(9));
+}
+/// Whose weights 64 bits may not hold.
+void put_long_polynomial(hash& h, drawn_numbers& s) {
+    put_polynomial(h, s, 44 + s.draw(8));
+}
+void put_empty_polynomial(hash& h, drawn_numbers& s) {
+    const point x = s.draw(2) == 0 ? point() : s.place();
+    put(h, errbound::roots::value_at(polynomial(), x));
+    h.put(static_cast<std::uint32_t>(errbound::roots::sign_at(polynomial(), x)));
 }
 
 using isolation = errbound::roots::root_isolation<whole>;
@@ -209,22 +255,11 @@ void put_half_lines(hash& h, drawn_numbers& s) {
     const isolation roots = isolation_of(p);
     put(h, roots.upper_bound());
     put(h, roots.lower_bound());
-    // Where there are none, bounds say nothing.
-    const auto may_have_roots = [](const polynomial& f) {
-        constexpr int none = std::numeric_limits<int>::min();
-        const int upper = errbound::roots::positive_root_exponent(f),
-                  inverse =
-                      errbound::roots::positive_root_exponent(polynomial(f.rbegin(), f.rend()));
-        return upper != none && inverse != none && upper >= -inverse;
-    };
-    if (may_have_roots(p)) put(h, roots.least_positive());
-    if (may_have_roots(errbound::roots::mirrored(p))) put(h, roots.greatest_negative());
+    put(h, roots.least_positive());
+    put(h, roots.greatest_negative());
 }
 
-void put_refined(hash& h, drawn_numbers& s) {
-    const polynomial p = s.irreducible(s.draw(2) == 0 ? 1 : 1 + s.draw(7));
-    const int e = s.draw(30) - 20;
-    const point a(s.draw(4000) - 2000, e), b(s.draw(4000) - 2000, e);
+void put_refined(hash& h, drawn_numbers& s, const polynomial& p, const point& a, const point& b) {
     const isolation roots = isolation_of(p);
     isolation::interval i{std::min(a, b), std::max(a, b)};
     const point low = errbound::roots::value_at(p, i.low),
@@ -241,6 +276,24 @@ void put_refined(hash& h, drawn_numbers& s) {
     put_interval(once);
     roots.refine(i, scale(i.high - i.low, -s.draw(200)));
     put_interval(i);
+}
+void put_refined(hash& h, drawn_numbers& s) {
+    const polynomial p = s.irreducible(s.draw(2) == 0 ? 1 : 1 + s.draw(7));
+    const int e = s.draw(30) - 20;
+    const point a(s.draw(4000) - 2000, e), b(s.draw(4000) - 2000, e);
+    put_refined(h, s, p, a, b);
+}
+/// With a root that is whole, where two parts meet that halving leads to.
+void put_whole_root(hash& h, drawn_numbers& s) {
+    const polynomial q = s.irreducible(2 + s.draw(3));
+    const int root = s.draw(2000) - 1000;
+    polynomial p(q.size() + 1);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+        p[i] -= root * q[i];
+        p[i + 1] += q[i];
+    }
+    const int bits = s.draw(8), low = root - 1 - s.draw(1 << bits);
+    put_refined(h, s, p, {low, 0}, {low + (2 << bits), 0});
 }
 
 using local = errbound::roots::local_form<whole>;
@@ -263,6 +316,13 @@ local drawn_part(const local& f, drawn_numbers& s) {
               length = 1 + s.draw((1 << depth) - from);
     return f.part(from, length, depth);
 }
+/// And parts of parts.
+void put_parts(hash& h, drawn_numbers& s, const local& f) {
+    put(h, f, s);
+    const local once = drawn_part(f, s);
+    put(h, once, s);
+    put(h, drawn_part(once, s), s);
+}
 void put_near(hash& h, drawn_numbers& s) {
     const polynomial p = s.form(s.draw(10) == 0 ? 30 : s.draw(9));
     const point low = s.positive();
@@ -271,11 +331,44 @@ void put_near(hash& h, drawn_numbers& s) {
     const point width(n, size + s.draw(100) - 90);
     constexpr std::array<int, 4> bits{0, 20, 64, 256};
     const int some = bits[static_cast<std::size_t>(s.draw(4))];
-    const local f(p, low, width, some + s.draw(10));
-    put(h, f, s);
-    const local once = drawn_part(f, s);
-    put(h, once, s);
-    put(h, drawn_part(once, s), s);
+    put_parts(h, s, {p, low, width, some + s.draw(10)});
+}
+/// In few bits, which the numerators of powers of `low` just exceed.
+void put_near_small(hash& h, drawn_numbers& s) {
+    const polynomial p = s.form(s.draw(4) == 0 ? 30 : s.draw(5));
+    const int numerator = 2 * s.draw(4) + 1;
+    const point low(numerator, s.exponent());
+    const int size = floor_log2(low) - 2 - s.draw(8);
+    const point width(1 + s.draw(8), size);
+    put_parts(h, s, {p, low, width, s.draw(16)});
+}
+/// c + 2^20·(x − 1), or the opposite, whose values are about as large as the error.
+void put_near_error(hash& h, drawn_numbers& s) {
+    const int bits = 4 + s.draw(8);
+    const whole slope = s.with_sign(1 << 20), c = whole(s.draw(140)) << (18 - bits);
+    const point width(1 + s.draw(63), -(bits + 2));
+    put_parts(h, s, {{c - slope, slope}, {1, 0}, width, bits});
+}
+/// d·(x − 1)² + 2^20·(x − 1), of which the last term is about as large as the error.
+void put_near_small_term(hash& h, drawn_numbers& s) {
+    const whole size = 1 + s.draw(1 << 20), d = s.with_sign(size), slope = 1 << 20;
+    const point width(1 + s.draw(1 << 10), -12);
+    put_parts(h, s, {{d - slope, slope - 2 * d, d}, {1, 0}, width, 13 + s.draw(4)});
+}
+/// 24·(x − c)² + d, or the opposite, whose Bernstein coefficients have one sign if d is large, and
+/// if it is less, only those of higher degree.
+void put_near_minimum(hash& h, drawn_numbers& s) {
+    const int low = 1 + s.draw(1000), d = s.draw(32);
+    const whole c = low + 1, factor = s.with_sign(1);
+    const polynomial p{factor * (24 * c * c + d), factor * -48 * c, factor * 24};
+    put_parts(h, s, {p, {low, 0}, {2, 0}, 40});
+}
+/// (x − low)³, of which nothing is seen.
+void put_near_triple_root(hash& h, drawn_numbers& s) {
+    const whole low = 1 + s.draw(1000);
+    const point width(1, -90 - s.draw(10));
+    const polynomial p{-low * low * low, 3 * low * low, -3 * low, 1};
+    put_parts(h, s, {p, {low, 0}, width, s.draw(8)});
 }
 
 std::vector<tie::line> all_lines() {
@@ -295,6 +388,17 @@ std::vector<tie::line> all_lines() {
     tied("half_line", 1000, put_half_lines);
     tied("refine", 2000, put_refined);
     tied("near", 1500, put_near);
+    tied("zero_divisor", 100, put_zero_divisors);
+    tied("residue", 100, put_residue);
+    tied("row_edge", 1000, put_row_edges);
+    tied("whole_root", 500, put_whole_root);
+    tied("long_polynomial", 20, put_long_polynomial);
+    tied("empty_polynomial", 10, put_empty_polynomial);
+    tied("near_small", 1000, put_near_small);
+    tied("near_error", 1000, put_near_error);
+    tied("near_small_term", 3000, put_near_small_term);
+    tied("near_minimum", 200, put_near_minimum);
+    tied("near_triple_root", 500, put_near_triple_root);
     return lines;
 }
 

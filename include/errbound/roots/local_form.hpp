@@ -20,8 +20,9 @@ struct cut_number {
     Integer mantissa;
     int exponent = 0;
 
+    /// What is not zero.
     void cut(int bits) {
-        const int excess = mantissa == 0 ? 0 : floor_log2(mantissa) + 1 - bits;
+        const int excess = floor_log2(mantissa) + 1 - bits;
         if (excess <= 0) return;
         mantissa = shifted(mantissa, -excess);
         exponent += excess;
