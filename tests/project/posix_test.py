@@ -1,8 +1,10 @@
 """The programs ask no function of the C library that glibc alone has, so that they link on macOS and BSDs, which
 no machine of the project's is.
 
-Arguments: nm, programs.
+Arguments: nm, the programs, and --beside LIBRARY for each archive of others that is linked into them (CUDA's
+runtime, which is for Linux alone): what it takes is not asked about.
 """
+import argparse
 import re
 import subprocess
 import sys
@@ -25,15 +27,26 @@ BSD = ["flock", "getloadavg"]
 INTERNAL = re.compile(r"__\w+|sincosf?|syscall")
 MATHEMATICS = {f"{name}{suffix}" for name in C for suffix in "fl"}
 
-nm, *programs = sys.argv[1:]
+parser = argparse.ArgumentParser()
+parser.add_argument("nm")
+parser.add_argument("programs", nargs="+")
+parser.add_argument("--beside", action="append", default=[])
+options = parser.parse_args()
+
+
+def undefined(*arguments):
+    return subprocess.run([options.nm, "--undefined-only", *arguments], check=True, stdout=subprocess.PIPE,
+                          text=True).stdout
+
+
 known = {*C, *POSIX, *BSD, *MATHEMATICS}
+for library in options.beside:
+    known |= set(re.findall(r" U (\w+)$", undefined(library), re.M))
 found = set()
-for program in programs:
-    undefined = subprocess.run([nm, "-D", "--undefined-only", program], check=True, stdout=subprocess.PIPE,
-                               text=True).stdout
-    found |= set(re.findall(r" (\w+)@+GLIBC_", undefined))
+for program in options.programs:
+    found |= set(re.findall(r" (\w+)@+GLIBC_", undefined("-D", program)))
 if not found:
-    sys.exit(f"found no function of glibc's that {programs} take")
+    sys.exit(f"found no function of glibc's that {options.programs} take")
 others = sorted(name for name in found - known if not INTERNAL.fullmatch(name))
 print(f"{len(found)} functions of the C library; neither of C, POSIX.1-2008 nor BSDs: {others or 'none'}")
 sys.exit(bool(others))
