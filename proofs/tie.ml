@@ -106,7 +106,6 @@ let tiny p exponent_bits =
 
 (* float and double: Flocq's operations themselves. Words: 1 or 2 of 32 bits, the upper first. *)
 let ieee name p exponent_bits words =
-  let few = { exhaustive = 0; samples = 2000 } in
   let emax = 1 lsl (exponent_bits - 1) in
   let p' = z p and emax' = z emax in
   let a = floats p' emax' in
@@ -142,7 +141,8 @@ let ieee name p exponent_bits words =
   state := 1;
   let signed = List.init 150 (fun _ -> number true) in
   let unsigned = List.init 100 (fun _ -> number false) in
-  { name; a; exponent = exponent p' emax'; put; of_rules = few; of_functions = few; lists = 500; fused = false;
+  { name; a; exponent = exponent p' emax'; put; fused = false;
+    of_rules = { exhaustive = 0; samples = 2000 }; of_functions = { exhaustive = 0; samples = 1000 }; lists = 250;
     to_double = double_of_float; of_double = float_of_double p' emax';
     values = Array.of_list (special @ [ a.opposite a.infinity; a.opposite a.largest ] @ signed);
     bounds = Array.of_list (special @ unsigned) }
@@ -196,20 +196,23 @@ let affine_operations a fused =
     rule_divide = Some (fun v x s y t -> affine_divide a fused limit v x s y t (fresh ()));
     rule_scale = (fun v x s e -> affine_scale a limit v x s e (fresh ())) }
 
-(* Numbers with up to three terms, of few sources, so that they have some in common. *)
+(* Numbers with up to three terms, of few sources, so that they have some in common; some of these come after all new
+   ones. *)
+let late = 1 lsl 40
 let affine_states f =
   let a = f.a in
   let small = Array.of_list (List.filter (fun x -> a.at_most (abs a x) (a.integer (z 2))) (Array.to_list f.values)) in
   let number () =
     let from = if draw 4 = 0 then f.values else small in
     from.(draw (Array.length from)) in
-  let rec terms n source =
+  let rec terms kind n source =
     if n = 0 then []
     else
       let source = source + 1 + draw 2 in
+      let source = if kind = 3 && source < late && draw 2 = 0 then late else source in
       let c = number () in
       let c = if a.equal c (a.integer Z0) then a.integer (z 1) else c in
-      (z source, c) :: terms (n - 1) source in
+      (z source, c) :: terms kind (n - 1) source in
   state := 1;
   Array.init 600 (fun _ ->
       let value = number () in
@@ -217,13 +220,14 @@ let affine_states f =
       | 0 -> (value, { radius = a.infinity; rest = a.infinity; parts = [] })
       | 1 -> (value, affine_exact a value)
       | kind ->
-          let terms = let count = draw 4 in terms count 0 in
+          let terms = let count = draw 4 in terms kind count 0 in
           let rest = if kind = 2 then abs a (number ()) else a.integer Z0 in
           let radius = List.fold_left (fun sum (_, c) -> a.plus sum (abs a c)) rest terms in
           (value, { radius; rest; parts = terms }))
+let put_source source = put_word (if source >= late then source - late + 200 else min source 100)
 let put_affine put b =
   put b.radius; put b.rest; put_word (List.length b.parts);
-  List.iter (fun (source, c) -> put_word (min (of_z source) 100); put c) b.parts
+  List.iter (fun (source, c) -> put_source (of_z source); put c) b.parts
 
 (* The i-th list of pairs: one in four is that before it with its first number negated. *)
 let drawn_pairs f rule number i =

@@ -115,8 +115,9 @@ struct format<F> {
     using T = F;
     using limits = std::numeric_limits<T>;
     static constexpr bool one_word = sizeof(T) == 4;
-    static constexpr selection of_rules{.exhaustive = 0, .samples = 2000}, of_functions = of_rules;
-    static constexpr std::uint64_t lists = 500;
+    static constexpr selection of_rules{.exhaustive = 0, .samples = 2000};
+    static constexpr selection of_functions{.exhaustive = 0, .samples = 1000};
+    static constexpr std::uint64_t lists = 250;
     std::string name = one_word ? "float" : "double";
     std::vector<T> values{T(0),          limits::infinity(),   limits::quiet_NaN(),
                           limits::max(), limits::denorm_min(), limits::min(),
@@ -360,7 +361,8 @@ struct states<T, errbound::relative> {
     }
 };
 
-/// Numbers with up to Limit terms, of few sources, so that they have some in common.
+/// Numbers with up to Limit terms, of few sources, so that they have some in common; some of these
+/// come after all new ones.
 template <class T, std::size_t Limit>
 struct states<T, errbound::affine_of<Limit>> {
     using Rule = errbound::affine_of<Limit>;
@@ -385,7 +387,9 @@ struct states<T, errbound::affine_of<Limit>> {
         format<T>::put(h, b.rest);
         h.put(static_cast<std::uint32_t>(b.count));
         for (std::size_t i = 0; i < b.count; ++i) {
-            h.put(static_cast<std::uint32_t>(std::min<std::uint64_t>(b.terms[i].source, 100)));
+            const std::uint64_t source = b.terms[i].source;
+            h.put(static_cast<std::uint32_t>(
+                source >= late ? source - late + 200 : std::min<std::uint64_t>(source, 100)));
             format<T>::put(h, b.terms[i].coefficient);
         }
     }
@@ -397,6 +401,8 @@ struct states<T, errbound::affine_of<Limit>> {
     }
 
   private:
+    static constexpr std::uint64_t late = std::uint64_t{1} << 40;
+
     T number(const format<T>& f, sequence& numbers) const {
         const std::vector<T>& from = numbers.draw(4) == 0 ? f.values : small_;
         return from[numbers.draw(from.size())];
@@ -410,6 +416,7 @@ struct states<T, errbound::affine_of<Limit>> {
         std::uint64_t source = 0;
         for (std::size_t i = 0; i < b.count; ++i) {
             source += 1 + numbers.draw(2);
+            if (kind == 3 && source < late && numbers.draw(2) == 0) source = late;
             const T c = number(f, numbers);
             b.terms[i] = {source, c == T(0) ? T(1) : c};
         }
