@@ -84,12 +84,12 @@ class Run:
         return result.returncode != 0, b"reached" in result.stderr
 
     def expect_none(self, program):
-        """That the code without a mutant does not differ. Mutants may take 20 times as long."""
+        """That the code without a mutant does not differ. Mutants may take six times as long."""
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         result = subprocess.run([program, "first"], capture_output=True, text=True)
         if result.returncode:
             sys.exit(f"mutants of {self.tie}: the code without a mutant differs from proofs/tie.txt\n{result.stdout}")
-        self.limit = 10 + int(20 * (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before))
+        self.limit = 10 + int(6 * (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before))
 
     def numbered_program(self, options):
         """A program of all mutants that compile so; those that it has, by number."""
