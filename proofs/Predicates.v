@@ -1,5 +1,6 @@
-(** The static filters of orient2d, orient3d, incircle and insphere (include/errbound/predicates.hpp):
-    StaticFilter.v's theorems for their expressions, as the code evaluates them.
+(** The static filters of orient2d, orient3d, incircle and insphere, of the latter two for weighted points, and of
+    comparisons of distances (include/errbound/predicates.hpp): StaticFilter.v's theorems for their expressions, as
+    the code evaluates them. Points where lines meet are in ImplicitPoints.v.
 
     Results: for each, the number of roundings that bear on a sign, and that the filter's sign is
     right or uncertain:
@@ -7,8 +8,14 @@
         orient3d_sign_certain   7, from 10 bits on
         incircle_sign_certain   10, from 10 bits on
         insphere_sign_certain   15, from 11 bits on
+        power_incircle_sign_certain   11, from 10 bits on
+        power_insphere_sign_certain   16, from 11 bits on
+        compare_distances2d_sign_certain   4, from 9 bits on
+        compare_distances3d_sign_certain   5, from 9 bits on
     and of insphere's semi-static filter, which comes first:
-        insphere_semi_static_certain   from 24 bits on *)
+        insphere_semi_static_certain   from 24 bits on
+    Of the degrees that the code declares for weighted points, that scaling by them changes no sign:
+        power_incircle_scales, power_insphere_scales *)
 
 From Coq Require Import Reals ZArith List Lia Lra.
 From Flocq Require Import Core.
@@ -19,8 +26,7 @@ Open Scope R_scope.
 (** A point's coordinates by their index. *)
 Definition point := nat -> R.
 
-(** The code: forms::area, volume, lifted_area and lifted_volume, the latter with the height of a
-    paraboloid. *)
+(** The code: namespace forms, and the predicates that are more than one of these. *)
 Definition area (a b c : point) : expression :=
   Minus (Product (Difference (a 0%nat) (c 0%nat)) (Difference (b 1%nat) (c 1%nat)))
         (Product (Difference (a 1%nat) (c 1%nat)) (Difference (b 0%nat) (c 0%nat))).
@@ -32,16 +38,23 @@ Definition volume (a b c d : point) : expression :=
   let cx := d c 0%nat in let cy := d c 1%nat in let cz := d c 2%nat in
   Sum (Sum (Product az (cross bx cy cx by_)) (Product bz (cross cx ay ax cy)))
       (Product cz (cross ax by_ bx ay)).
-Definition lifted_area (a b c d : point) : expression :=
+Definition squared_distance2d (a b : point) : expression :=
+  let x := Difference (a 0%nat) (b 0%nat) in let y := Difference (a 1%nat) (b 1%nat) in
+  Sum (Product x x) (Product y y).
+Definition squared_distance3d (a b : point) : expression :=
+  let x := Difference (a 0%nat) (b 0%nat) in let y := Difference (a 1%nat) (b 1%nat) in
+  let z := Difference (a 2%nat) (b 2%nat) in
+  Sum (Sum (Product x x) (Product y y)) (Product z z).
+Definition lifted_area (a b c d : point) (height : point -> expression -> expression) : expression :=
   let d x i := Difference (x i) (d i) in
   let ax := d a 0%nat in let ay := d a 1%nat in
   let bx := d b 0%nat in let by_ := d b 1%nat in
   let cx := d c 0%nat in let cy := d c 1%nat in
-  let height x y := Sum (Product x x) (Product y y) in
-  Sum (Sum (Product (height ax ay) (cross bx cy cx by_))
-           (Product (height bx by_) (cross cx ay ax cy)))
-      (Product (height cx cy) (cross ax by_ bx ay)).
-Definition lifted_volume (a b c d e : point) : expression :=
+  let squared x y := Sum (Product x x) (Product y y) in
+  Sum (Sum (Product (height a (squared ax ay)) (cross bx cy cx by_))
+           (Product (height b (squared bx by_)) (cross cx ay ax cy)))
+      (Product (height c (squared cx cy)) (cross ax by_ bx ay)).
+Definition lifted_volume (a b c d e : point) (height : point -> expression -> expression) : expression :=
   let f x i := Difference (x i) (e i) in
   let ax := f a 0%nat in let ay := f a 1%nat in let az := f a 2%nat in
   let bx := f b 0%nat in let by_ := f b 1%nat in let bz := f b 2%nat in
@@ -53,9 +66,23 @@ Definition lifted_volume (a b c d e : point) : expression :=
   let bcd := Sum (Minus (Product bz cd) (Product cz bd)) (Product dz bc) in
   let cda := Sum (Sum (Product cz da) (Product dz ac)) (Product az cd) in
   let dab := Sum (Sum (Product dz ab) (Product az bd)) (Product bz da) in
-  let height x y z := Sum (Sum (Product x x) (Product y y)) (Product z z) in
-  Sum (Minus (Product (height dx dy dz) abc) (Product (height cx cy cz) dab))
-      (Minus (Product (height bx by_ bz) cda) (Product (height ax ay az) bcd)).
+  let squared x y z := Sum (Sum (Product x x) (Product y y)) (Product z z) in
+  Sum (Minus (Product (height d (squared dx dy dz)) abc) (Product (height c (squared cx cy cz)) dab))
+      (Minus (Product (height b (squared bx by_ bz)) cda) (Product (height a (squared ax ay az)) bcd)).
+Definition unweighted (p : point) (squared : expression) : expression := squared.
+(** Over the point o, with weights as coordinate i. *)
+Definition weighted (i : nat) (o p : point) (squared : expression) : expression :=
+  Minus squared (Difference (p i) (o i)).
+
+Definition power_incircle (a b c d : point) : expression := lifted_area a b c d (weighted 2 d).
+Definition power_insphere (a b c d e : point) : expression := lifted_volume a b c d e (weighted 3 e).
+Definition compare_distances2d (p a b : point) : expression :=
+  Minus (squared_distance2d p a) (squared_distance2d p b).
+Definition compare_distances3d (p a b : point) : expression :=
+  Minus (squared_distance3d p a) (squared_distance3d p b).
+(** weighted_options::degrees *)
+Definition weighted_degrees (count dimension : nat) : list nat :=
+  map (fun i => if (i mod dimension =? dimension - 1)%nat then 2%nat else 1%nat) (seq 0 (count * dimension)).
 
 (** Determinants by their rows. *)
 Definition det2 (a b c d : R) : R := a * d - b * c.
@@ -74,6 +101,14 @@ Definition lifted3 (x o : point) : R * R * R * R :=
   let d i := x i - o i in
   (d 0%nat, d 1%nat, d 2%nat,
    d 0%nat * d 0%nat + d 1%nat * d 1%nat + d 2%nat * d 2%nat).
+(** The same of weighted points: the weight, as a difference, is subtracted. *)
+Definition power_lifted2 (x o : point) : R * R * R :=
+  let '(u, v, squared) := lifted2 x o in (u, v, squared - (x 2%nat - o 2%nat)).
+Definition power_lifted3 (x o : point) : R * R * R * R :=
+  let '(u, v, w, squared) := lifted3 x o in (u, v, w, squared - (x 3%nat - o 3%nat)).
+(** Point k of those with these degrees, scaled by s. *)
+Definition scaled (degrees : list nat) (dimension : nat) (s : R) (k : nat) (x : point) : point :=
+  fun i => s ^ nth (k * dimension + i) degrees 0%nat * x i.
 
 Section Predicates.
 
@@ -98,8 +133,8 @@ Proof.
   - unfold Format.u. rewrite <- bpow_plus. change 1 with (bpow radix2 0). apply bpow_le. lia.
 Qed.
 
-Lemma products_few (n : Z) : (2 <= p)%Z -> (n <= 4)%Z -> (n <= 2 ^ p)%Z.
-Proof. intros P H. generalize (Z.pow_le_mono_r 2 2 p). simpl (2 ^ 2)%Z. lia. Qed.
+Lemma products_few (n : Z) : (3 <= p)%Z -> (n <= 8)%Z -> (n <= 2 ^ p)%Z.
+Proof. intros P H. generalize (Z.pow_le_mono_r 2 3 p). simpl (2 ^ 3)%Z. lia. Qed.
 
 Ltac by_counts :=
   intros;
@@ -127,18 +162,47 @@ Proof. by_counts. unfold row, det3, det2. simpl. ring. Qed.
 
 Theorem incircle_sign_certain a b c d :
   (10 <= p)%Z -> representable a -> representable b -> representable c -> representable d ->
-  roundings (lifted_area a b c d) = (10 + 1)%nat /\
-  sign_is_right (filter_sign (lifted_area a b c d))
+  roundings (lifted_area a b c d unweighted) = (10 + 1)%nat /\
+  sign_is_right (filter_sign (lifted_area a b c d unweighted))
     (det3 (lifted2 a d) (lifted2 b d) (lifted2 c d)).
 Proof. by_counts. unfold lifted2, det3, det2. simpl. ring. Qed.
 
 Theorem insphere_sign_certain a b c d e :
   (11 <= p)%Z ->
   representable a -> representable b -> representable c -> representable d -> representable e ->
-  roundings (lifted_volume a b c d e) = (15 + 1)%nat /\
-  sign_is_right (filter_sign (lifted_volume a b c d e))
+  roundings (lifted_volume a b c d e unweighted) = (15 + 1)%nat /\
+  sign_is_right (filter_sign (lifted_volume a b c d e unweighted))
     (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e)).
 Proof. by_counts. unfold lifted3, det4, det3, det2. simpl. ring. Qed.
+
+Theorem power_incircle_sign_certain a b c d :
+  (10 <= p)%Z -> representable a -> representable b -> representable c -> representable d ->
+  roundings (power_incircle a b c d) = (11 + 1)%nat /\
+  sign_is_right (filter_sign (power_incircle a b c d))
+    (det3 (power_lifted2 a d) (power_lifted2 b d) (power_lifted2 c d)).
+Proof. by_counts. unfold power_lifted2, lifted2, det3, det2. simpl. ring. Qed.
+
+Theorem power_insphere_sign_certain a b c d e :
+  (11 <= p)%Z ->
+  representable a -> representable b -> representable c -> representable d -> representable e ->
+  roundings (power_insphere a b c d e) = (16 + 1)%nat /\
+  sign_is_right (filter_sign (power_insphere a b c d e))
+    (det4 (power_lifted3 a e) (power_lifted3 b e) (power_lifted3 c e) (power_lifted3 d e)).
+Proof. by_counts. unfold power_lifted3, lifted3, det4, det3, det2. simpl. ring. Qed.
+
+Theorem compare_distances2d_sign_certain q a b :
+  (9 <= p)%Z -> representable q -> representable a -> representable b ->
+  let squared (x : point) := (q 0%nat - x 0%nat) ^ 2 + (q 1%nat - x 1%nat) ^ 2 in
+  roundings (compare_distances2d q a b) = (4 + 1)%nat /\
+  sign_is_right (filter_sign (compare_distances2d q a b)) (squared a - squared b).
+Proof. by_counts. unfold squared. simpl. ring. Qed.
+
+Theorem compare_distances3d_sign_certain q a b :
+  (9 <= p)%Z -> representable q -> representable a -> representable b ->
+  let squared (x : point) := (q 0%nat - x 0%nat) ^ 2 + (q 1%nat - x 1%nat) ^ 2 + (q 2%nat - x 2%nat) ^ 2 in
+  roundings (compare_distances3d q a b) = (5 + 1)%nat /\
+  sign_is_right (filter_sign (compare_distances3d q a b)) (squared a - squared b).
+Proof. by_counts. unfold squared. simpl. ring. Qed.
 
 (** M is the largest of all differences, as computed. *)
 Theorem insphere_semi_static_certain a b c d e M :
@@ -146,7 +210,7 @@ Theorem insphere_semi_static_certain a b c d e M :
   representable a -> representable b -> representable c -> representable d -> representable e ->
   number p emin M ->
   (forall x i, In x [a; b; c; d] -> Rabs (rnd p emin nearest (x i - e i)) <= M) ->
-  sign_is_right (semi_static_sign p emin M (lifted_volume a b c d e))
+  sign_is_right (semi_static_sign p emin M (lifted_volume a b c d e unweighted))
     (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e)).
 Proof.
   intros P E A B C D F N L.
@@ -155,7 +219,7 @@ Proof.
   assert (W : (16777216 <= 2 ^ p)%Z).
   { change 16777216%Z with (2 ^ 24)%Z. apply Z.pow_le_mono_r; lia. }
   replace (det4 (lifted3 a e) (lifted3 b e) (lifted3 c e) (lifted3 d e))
-    with (exact (lifted_volume a b c d e)) by (unfold lifted3, det4, det3, det2; simpl; ring).
+    with (exact (lifted_volume a b c d e unweighted)) by (unfold lifted3, det4, det3, det2; simpl; ring).
   apply semi_static_sign_certain; auto; try lia.
   - simpl admissible. repeat split; auto; apply products_few; lia.
   - assert (La : forall i, Rabs (rnd p emin nearest (a i - e i)) <= M) by (intros; apply L; simpl; auto).
@@ -167,7 +231,7 @@ Proof.
   - simpl. lia.
   - apply Z.le_trans with (2 ^ 18)%Z; [vm_compute; discriminate |]. apply Z.pow_le_mono_r; lia.
   - simpl. lia.
-  - change (StaticFilter.roundings p (lifted_volume a b c d e)) with 16%nat.
+  - change (StaticFilter.roundings p (lifted_volume a b c d e unweighted)) with 16%nat.
     apply Rle_trans with (bpow radix2 24 * Format.u p).
     + apply Rmult_le_compat_r; [generalize (u_positive p); lra |].
       rewrite INR_IZR_INZ, <- mult_IZR, <- IZR_Zpower by lia. now apply IZR_le.
@@ -175,3 +239,15 @@ Proof.
 Qed.
 
 End Predicates.
+
+Theorem power_incircle_scales s a b c d :
+  let by_s := scaled (weighted_degrees 4 3) 3 s in
+  exact (power_incircle (by_s 0%nat a) (by_s 1%nat b) (by_s 2%nat c) (by_s 3%nat d)) =
+  s ^ 4 * exact (power_incircle a b c d).
+Proof. simpl. unfold scaled. simpl. ring. Qed.
+
+Theorem power_insphere_scales s a b c d e :
+  let by_s := scaled (weighted_degrees 5 4) 4 s in
+  exact (power_insphere (by_s 0%nat a) (by_s 1%nat b) (by_s 2%nat c) (by_s 3%nat d) (by_s 4%nat e)) =
+  s ^ 5 * exact (power_insphere a b c d e).
+Proof. simpl. unfold scaled. simpl. ring. Qed.

@@ -46,4 +46,5 @@ Extraction "filters.ml" StaticFilter.roundings StaticFilter.products StaticFilte
   StaticFilter.size StaticFilter.full StaticFilter.bound StaticFilter.machine_sign
   SemiStatic.degree SemiStatic.mass SemiStatic.allowances SemiStatic.constants_not_zero SemiStatic.trusted
   SemiStatic.semi_static_bound
-  Predicates.area Predicates.volume Predicates.lifted_area Predicates.lifted_volume.
+  Predicates.area Predicates.volume Predicates.lifted_area Predicates.lifted_volume
+  Predicates.unweighted.

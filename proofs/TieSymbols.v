@@ -4,7 +4,7 @@
 
 From Coq Require Import Reals Extraction ExtrOcamlBasic ExtrOcamlNatInt ExtrOcamlZInt.
 From Errbound Require Import Sign Bernstein BscCode.
-From Errbound Require Decisions Predicates.
+From Errbound Require Decisions Predicates ImplicitPoints.
 
 (** Coq's construction of real numbers, of which nothing is computed, comes with their name. *)
 Extract Constant ClassicalDedekindReals.sig_forall_dec => "(fun _ -> assert false)".
@@ -17,4 +17,7 @@ Definition forms_inside_edges := @Decisions.inside_edges_forms.
 
 Extraction "symbols.ml" root_with_nonnegative value_at product elevated derivative split halves sign_inside
   sign_throughout certainly_rootless forms_difference forms_y forms_inside_face forms_inside_edges
-  Predicates.area Predicates.volume Predicates.lifted_area Predicates.lifted_volume.
+  Predicates.area Predicates.volume Predicates.lifted_area Predicates.lifted_volume Predicates.unweighted
+  Predicates.power_incircle Predicates.power_insphere Predicates.weighted_degrees
+  Predicates.compare_distances2d Predicates.compare_distances3d
+  ImplicitPoints.orient2d_line_line ImplicitPoints.orient3d_line_plane ImplicitPoints.compare_x_line_line.

@@ -81,8 +81,8 @@ let put_semi_static f e =
 let predicates : (string * (point array -> expression)) list =
   [ "area", (fun q -> area q.(0) q.(1) q.(2));
     "volume", (fun q -> volume q.(0) q.(1) q.(2) q.(3));
-    "lifted_area", (fun q -> lifted_area q.(0) q.(1) q.(2) q.(3));
-    "lifted_volume", (fun q -> lifted_volume q.(0) q.(1) q.(2) q.(3) q.(4)) ]
+    "lifted_area", (fun q -> lifted_area q.(0) q.(1) q.(2) q.(3) unweighted);
+    "lifted_volume", (fun q -> lifted_volume q.(0) q.(1) q.(2) q.(3) q.(4) unweighted) ]
 
 let c q k = Coordinate (q.(k) 0)
 let d q k i = Difference (q.(k) i, q.(k + 1) i)

@@ -88,8 +88,11 @@ let rec named_expression = function
   | Minus (a, b) -> named 1 (named_expression a) (named_expression b)
   | Product (a, b) -> named 2 (named_expression a) (named_expression b)
   | Negation a -> named 3 (named_expression a) 0
-let put_predicate expression =
-  put_both (named_expression (expression (fun k i -> Obj.magic (given ((10 * k) + i)))))
+let sign_of_expression e = sign_of_name (named_expression e)
+let point k i = Obj.magic (given ((10 * k) + i))
+(* A predicate's expression, or its sign, and of which degrees coordinates are, if not all of degree 1. *)
+let put_expression e = put_both (named_expression e)
+let put_weighted e count dimension = put_expression e; List.iter put_word (weighted_degrees count dimension)
 
 let () =
   let begin_case family i = rates := List.assoc family families; seed := i in
@@ -102,10 +105,20 @@ let () =
     [ 0; 1; 2; 3; 4; 7 ];
   once "vertex_face_forms" (fun () -> put_forms false);
   once "edge_edge_forms" (fun () -> put_forms true);
-  once "area" (fun () -> put_predicate (fun q -> area (q 0) (q 1) (q 2)));
-  once "volume" (fun () -> put_predicate (fun q -> volume (q 0) (q 1) (q 2) (q 3)));
-  once "lifted_area" (fun () -> put_predicate (fun q -> lifted_area (q 0) (q 1) (q 2) (q 3)));
-  once "lifted_volume" (fun () -> put_predicate (fun q -> lifted_volume (q 0) (q 1) (q 2) (q 3) (q 4)));
+  let expression name of_points = once name (fun () -> put_expression (of_points ())) in
+  let p = point in
+  expression "orient2d" (fun () -> area (p 0) (p 1) (p 2));
+  expression "orient3d" (fun () -> volume (p 0) (p 1) (p 2) (p 3));
+  expression "incircle" (fun () -> lifted_area (p 0) (p 1) (p 2) (p 3) unweighted);
+  expression "insphere" (fun () -> lifted_volume (p 0) (p 1) (p 2) (p 3) (p 4) unweighted);
+  once "power_incircle" (fun () -> put_weighted (power_incircle (p 0) (p 1) (p 2) (p 3)) 4 3);
+  once "power_insphere" (fun () -> put_weighted (power_insphere (p 0) (p 1) (p 2) (p 3) (p 4)) 5 4);
+  expression "compare_distances2d" (fun () -> compare_distances2d (p 0) (p 1) (p 2));
+  expression "compare_distances3d" (fun () -> compare_distances3d (p 0) (p 1) (p 2));
+  let sign name of_points = drawn name 1000 (fun () -> put_sign (of_points sign_of_expression)) in
+  sign "orient2d_line_line" (fun s -> orient2d_line_line s (p 0) (p 1) (p 2) (p 3) (p 4) (p 5));
+  sign "orient3d_line_plane" (fun s -> orient3d_line_plane s (p 0) (p 1) (p 2) (p 3) (p 4) (p 5) (p 6) (p 7));
+  sign "compare_x_line_line" (fun s -> compare_x_line_line s (p 0) (p 1) (p 2) (p 3) (p 4) (p 5) (p 6) (p 7));
   List.iter (fun n -> drawn (Printf.sprintf "signs<%d>" n) 1000 (fun () -> put_signs n)) [ 1; 2; 3; 4 ];
   drawn "root_with_nonnegative<3>" 40000 (fun () -> put_root 3);
   drawn "root_with_nonnegative<4>" 40000 (fun () -> put_root 4)

@@ -71,7 +71,7 @@ def functions(path):
                  if name not in ("requires", "decltype", "noexcept", "explicit")]
         name = names[0] if names else head.split()[0]
         if name == "]":  # of a lambda, what it is kept as
-            name = re.search(r"(\w+)\s*=\s*\[", head)[1]
+            name = re.search(r"(\w+)\s*=[^=]*\[", head)[1]
         yield name, first, lines
 
 

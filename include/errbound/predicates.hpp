@@ -207,6 +207,7 @@ inline constexpr auto insphere = predicate<points<3, 3, 3, 3, 3>>(
     });
 
 /// Of Count weighted points of that dimension: the last coordinate of each is a square.
+/// Proof: proofs/Predicates.v, power_incircle_scales, power_insphere_scales.
 template <std::size_t Count, std::size_t Dimension>
 struct weighted_options : predicate_options {
     static constexpr std::array<int, Count* Dimension> degrees = [] {
@@ -218,6 +219,7 @@ struct weighted_options : predicate_options {
 
 /// incircle for weighted points x, y, w: circles of squared radius w. Positive if the power
 /// distance of d to the circle orthogonal to a, b and c is negative, for a, b, c that turn left.
+/// Proof of its static filter: proofs/Predicates.v, power_incircle_sign_certain.
 inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_options<4, 3>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d) {
         return forms::lifted_area(a, b, c, d, [&d](const auto& p, const auto& squared) {
@@ -226,6 +228,7 @@ inline constexpr auto power_incircle = predicate<points<3, 3, 3, 3>, weighted_op
     });
 
 /// insphere for weighted points x, y, z, w: spheres of squared radius w.
+/// Proof of its static filter: proofs/Predicates.v, power_insphere_sign_certain.
 inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted_options<5, 4>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e) {
         return forms::lifted_volume(a, b, c, d, e, [&e](const auto& p, const auto& squared) {
@@ -234,6 +237,8 @@ inline constexpr auto power_insphere = predicate<points<4, 4, 4, 4, 4>, weighted
     });
 
 /// Negative if p is nearer to a than to b, zero if it is as far from both.
+/// Proof of its static filter: proofs/Predicates.v, compare_distances2d_sign_certain,
+/// compare_distances3d_sign_certain.
 inline constexpr auto compare_distances2d =
     predicate<points<2, 2, 2>>([](const auto& p, const auto& a, const auto& b) {
         return forms::squared_distance2d(p, a) - forms::squared_distance2d(p, b);
@@ -264,7 +269,8 @@ inline constexpr auto segment_intersects_triangle =
         });
 
 /// orient2d of three points, the first of which is where the lines ab and cd meet: (a, b, c, d, q,
-/// r). Zero if the lines are parallel.
+/// r). Zero if the lines are parallel. Proof: proofs/ImplicitPoints.v, orient2d_line_line_right,
+/// orient2d_line_line_sign_certain.
 inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& q, const auto& r) {
         const auto p = forms::line_line(a, b, c, d);
@@ -273,7 +279,8 @@ inline constexpr auto orient2d_line_line = predicate<points<2, 2, 2, 2, 2, 2>>(
     });
 
 /// orient3d of four points, the first of which is where the line ab meets the plane pqr: (a, b, p,
-/// q, r, s, t, u). Zero if they are parallel.
+/// q, r, s, t, u). Zero if they are parallel. Proof: proofs/ImplicitPoints.v,
+/// orient3d_line_plane_right, orient3d_line_plane_sign_certain.
 inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3, 3>>(
     [](const auto& a, const auto& b, const auto& p, const auto& q, const auto& r, const auto& s,
        const auto& t, const auto& u) {
@@ -288,7 +295,8 @@ inline constexpr auto orient3d_line_plane = predicate<points<3, 3, 3, 3, 3, 3, 3
     });
 
 /// The order, by x, of the points where lines ab and cd, and ef and gh, meet: negative if the first
-/// is less. Zero if either does not exist.
+/// is less. Zero if either does not exist. Proof: proofs/ImplicitPoints.v,
+/// compare_x_line_line_right, compare_x_line_line_sign_certain.
 inline constexpr auto compare_x_line_line = predicate<points<2, 2, 2, 2, 2, 2, 2, 2>>(
     [](const auto& a, const auto& b, const auto& c, const auto& d, const auto& e, const auto& f,
        const auto& g, const auto& h) {

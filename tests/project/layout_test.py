@@ -80,7 +80,7 @@ def kind_of_brace(head):
     if re.search(r"\brequires\s*$", plain):
         return "part of the head"
     if "operator" not in plain and "=" in plain:
-        return "function" if re.search(r"=\s*\[[^]]*\]\s*\(", head) else "value"
+        return "function" if re.search(r"=\s*(?:[\w:]+<[^;{]*>\(\s*)?\[[^]]*\]\s*\(", head) else "value"
     if "(" not in head or head.count("(") > head.count(")"):  # a default argument's
         return "value"
     in_initialisers = re.search(r"\)[^()]*:[^:]", head) and re.search(r"[\w>]\s*$", head)

@@ -8,6 +8,7 @@
 #include <errbound/bsc.hpp>
 #include <errbound/predicates.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -98,40 +99,27 @@ void put_forms(hash& h) {
     for (const auto& g : f.inside()) put(h, g);
 }
 
-/// The expression that a predicate is the sign of.
-template <std::size_t... Points>
-void put_predicate(hash& h, const auto& form, std::index_sequence<Points...>) {
+/// A predicate's expression, or its sign, and of which degrees coordinates are, if not all of
+/// degree 1.
+template <class Shape, class F, class Options>
+void put(hash& h, const errbound::predicate_type<Shape, F, Options>&) {
     const auto point = [](std::uint64_t k) {
         return std::array{symbol::given(10 * k), symbol::given(10 * k + 1),
-                          symbol::given(10 * k + 2)};
+                          symbol::given(10 * k + 2), symbol::given(10 * k + 3)};
     };
-    h.put_both(form(point(Points)...).name());
+    const auto x = [&]<std::size_t... K>(std::index_sequence<K...>) {
+        return F()(point(K)...);
+    }
+    (std::make_index_sequence<Shape::count>());
+    if constexpr (std::is_same_v<decltype(x), const symbol>)
+        h.put_both(x.name());
+    else
+        h.put(static_cast<std::uint32_t>(x));
+    for (const int degree : Options::degrees) h.put(static_cast<std::uint32_t>(degree));
 }
-void put_area(hash& h) {
-    put_predicate(
-        h, [](const auto&... p) { return errbound::forms::area(p...); },
-        std::make_index_sequence<3>());
-}
-void put_volume(hash& h) {
-    put_predicate(
-        h, [](const auto&... p) { return errbound::forms::volume(p...); },
-        std::make_index_sequence<4>());
-}
-void put_lifted_area(hash& h) {
-    put_predicate(
-        h,
-        [](const auto&... p) {
-            return errbound::forms::lifted_area(p..., errbound::forms::unweighted);
-        },
-        std::make_index_sequence<4>());
-}
-void put_lifted_volume(hash& h) {
-    put_predicate(
-        h,
-        [](const auto&... p) {
-            return errbound::forms::lifted_volume(p..., errbound::forms::unweighted);
-        },
-        std::make_index_sequence<5>());
+template <const auto& Predicate>
+void put_predicate(hash& h) {
+    put(h, Predicate);
 }
 
 std::vector<tie::line> all_lines() {
@@ -158,10 +146,17 @@ std::vector<tie::line> all_lines() {
     once("polynomial<7>", put_polynomial<7>);
     once("vertex_face_forms", put_forms<ccd::vertex_face<symbol>>);
     once("edge_edge_forms", put_forms<ccd::edge_edge<symbol>>);
-    once("area", put_area);
-    once("volume", put_volume);
-    once("lifted_area", put_lifted_area);
-    once("lifted_volume", put_lifted_volume);
+    once("orient2d", put_predicate<errbound::orient2d>);
+    once("orient3d", put_predicate<errbound::orient3d>);
+    once("incircle", put_predicate<errbound::incircle>);
+    once("insphere", put_predicate<errbound::insphere>);
+    once("power_incircle", put_predicate<errbound::power_incircle>);
+    once("power_insphere", put_predicate<errbound::power_insphere>);
+    once("compare_distances2d", put_predicate<errbound::compare_distances2d>);
+    once("compare_distances3d", put_predicate<errbound::compare_distances3d>);
+    drawn("orient2d_line_line", 1000, put_predicate<errbound::orient2d_line_line>);
+    drawn("orient3d_line_plane", 1000, put_predicate<errbound::orient3d_line_plane>);
+    drawn("compare_x_line_line", 1000, put_predicate<errbound::compare_x_line_line>);
     drawn("signs<1>", 1000, put_signs<1>);
     drawn("signs<2>", 1000, put_signs<2>);
     drawn("signs<3>", 1000, put_signs<3>);

@@ -55,6 +55,14 @@ static_assert(errbound::orient2d.counts.roundings == 3 &&
               errbound::orient3d.counts.roundings == 7 &&
               errbound::incircle.counts.roundings == 10 &&
               errbound::insphere.counts.roundings == 15);
+// As the theorems of their static filters have them.
+static_assert(errbound::power_incircle.counts.roundings == 11 &&
+              errbound::power_insphere.counts.roundings == 16 &&
+              errbound::compare_distances2d.counts.roundings == 4 &&
+              errbound::compare_distances3d.counts.roundings == 5 &&
+              errbound::orient2d_line_line.counts.roundings == 9 &&
+              errbound::orient3d_line_plane.counts.roundings == 17 &&
+              errbound::compare_x_line_line.counts.roundings == 12);
 
 // In constant expressions, in every stage.
 static_assert(errbound::orient2d(point2{0, 0}, point2{1, 0}, point2{0, 1}) == sign_type::positive);
