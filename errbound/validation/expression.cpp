@@ -365,8 +365,9 @@ std::string cpp_text(const expression_operation& o) {
 
 std::string cpp_text(const expression& e, number_type type, std::string_view rule) {
     const std::string number(entry_of(type).cpp_name);
-    std::string text =
-        "using number = errbound::tracked<" + number + ", errbound::" + std::string(rule) + ">;\n";
+    // A directive: a rule of one's own may be in no namespace.
+    std::string text = "using namespace errbound;\nusing number = tracked<" + number + ", " +
+                       std::string(rule) + ">;\n";
     for (std::size_t i = 0; i < e.input_count; ++i) {
         const expression_input& in = e.inputs[i];
         text += "const number " + name_of_value(i) + " = ";

@@ -123,9 +123,8 @@ void claim_checker::add(const claim& r, const char* broken, const tiny_account& 
     found_.first.push_back(
         {std::string(broken) + " (rounding " + std::string(direction_) + "): value " +
              hexadecimal(r.value) + ", bound " + hexadecimal(r.error),
-         "using format = " + found_.cpp_name +
-             ";\nusing number = errbound::tracked<format, errbound::" + std::string(rule_) +
-             ">;\n" + text_of(how)});
+         "using namespace errbound;\nusing format = " + found_.cpp_name +
+             ";\nusing number = tracked<format, " + std::string(rule_) + ">;\n" + text_of(how)});
 }
 
 namespace {

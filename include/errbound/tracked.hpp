@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <concepts>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/number_traits.hpp>
@@ -24,8 +25,39 @@
 #include <errbound/rules/tight.hpp>
 #include <errbound/sign.hpp>
 #include <limits>
+#include <type_traits>
 
 namespace errbound {
+
+namespace detail {
+
+/// A number, of the language's or a compiler's types but bool, that converts to T and is none.
+template <class Number, class T>
+concept number_other_than =
+    !std::same_as<Number, T> && !std::same_as<Number, bool> && !std::is_class_v<Number> &&
+    !std::is_enum_v<Number> && requires(const Number& x, const T& converted) {
+    static_cast<T>(x);
+    static_cast<Number>(converted);
+};
+
+/// Whether v, to which `value` was converted, is that number, or not finite, which is known of it.
+template <class T, class Number>
+constexpr bool is_exactly(const T& v, Number value) {
+    using traits = number_traits<T>;
+    if (!traits::is_finite(v)) return true;
+    if constexpr (static_cast<Number>(0.5) != Number(0)) {
+        return static_cast<Number>(v) == value;  // which is exact: a type holds the other's numbers
+    } else {
+        static_assert(std::integral<Number>, "errbound: this type of integers is not one of C++'s");
+        // A conversion back may overflow. Zeros at the end take no room.
+        if constexpr (std::numeric_limits<Number>::digits <= traits::digits) return true;
+        using bits = std::make_unsigned_t<Number>;
+        const bits size = value < 0 ? bits(bits(0) - bits(value)) : bits(value);
+        return static_cast<int>(std::bit_width(size)) - std::countr_zero(size) <= traits::digits;
+    }
+}
+
+}  // namespace detail
 
 /// T: float, double, long double or any type with the same operations and a number_traits.
 /// Rule: how bounds propagate, a bound_rule (errbound/rules/rule.hpp says what that is).
@@ -50,9 +82,10 @@ class tracked {
     constexpr tracked() : tracked(T(0)) {}
     /// Exactly `value`. Implicit, so that generic code may mix numbers and tracked numbers.
     constexpr tracked(const T& value) : tracked(exactly(detail::rounded(value))) {}
-    /// `value`, for literals such as 2: exact if T holds it (every int in double, up to 2^24 in
-    /// float), else within the rounding error of its conversion.
-    constexpr tracked(int value) requires(!std::same_as<T, int>) : tracked(from_int(value)) {}
+    /// `value`, a number of another type, such as the literal 2: exact if T holds it (every int in
+    /// double, up to 2^24 in float), else within the rounding error of its conversion.
+    template <detail::number_other_than<T> Number>
+    constexpr tracked(Number value) : tracked(from_other(value)) {}
     /// A number that is known to lie within `error` of `value`; unknown unless error >= 0.
     static constexpr tracked within(const T& value, const T& error) {
         const T v = detail::rounded(value);
@@ -126,13 +159,16 @@ class tracked {
 
   private:
     static constexpr tracked exactly(const T& value) { return {value, Rule::exact(value)}; }
-    static constexpr tracked from_int(int value) {
+    template <class Number>
+    static constexpr tracked from_other(Number value) {
         using traits = number_traits<T>;
-        const T converted = static_cast<T>(value);
-        // |value| <= 2^31, so that the way back fits a long long, unless it overflowed.
-        if (!traits::is_finite(converted)) return tracked(converted);
-        if (static_cast<long long>(converted) == value) return tracked(converted);
-        return within(converted, 2 * traits::epsilon() * traits::abs(converted));
+        const T v = detail::rounded(static_cast<T>(value));
+        if (detail::is_exactly<T>(v, value)) return exactly(v);
+        // What overflows may be the largest number, in some directions of rounding.
+        if (traits::abs(v) == traits::largest()) return {v, Rule::within(v, traits::infinity())};
+        // Of a normal number in any direction at most ε|v|, in two roundings less than 2ε|v|.
+        const T relative = detail::rounded_product(traits::abs(v), T(2 * traits::epsilon()));
+        return {v, Rule::within(v, T(relative + traits::underflow_unit()))};
     }
 
     constexpr tracked(const T& value, const bound_type& bound) : value_(value), bound_(bound) {}

@@ -12,10 +12,11 @@
 
 namespace errbound {
 
-/// Everything as in Rule: its state, its operations, what it says of itself. Self, the rule that is
-/// made, hides what it has another of. Rule's operations call Rule's own (its `subtract` its
-/// `add`), not Self's. What Rule promises no longer follows where an operation is changed: say so
-/// by error_is, or prove it, and have it validated.
+/// Everything as in Rule: its state, its operations, what it says of itself; but for a dot_bound,
+/// which would not see what is different: dot products are one operation after the other. Self, the
+/// rule that is made, hides what it has another of. Rule's operations call Rule's own (its
+/// `subtract` its `add`), not Self's. What Rule promises no longer follows where an operation is
+/// changed: say so by error_is, or prove it, and have it validated.
 template <class Self, class Rule>
 struct derived_rule : Rule {
     template <class T>
