@@ -269,7 +269,8 @@ Definition tracked_copysign (x y : number) : number :=
   | zero | positive => size
   | uncertain =>
       let v := if fst y < #0 then - fst size else fst size in
-      within v (enlarged T A (#2 * fst size + error_of size))
+      if negb (is_finite (fst y)) || negb (is_finite (error_of y)) then within v (infinity T A)
+      else within v (enlarged T A (#2 * fst size + error_of size))
   end.
 
 End Functions.

@@ -793,7 +793,7 @@ Proof.
     apply makes_at_once; auto. now left.
   - rewrite Rlt_bool_false by lra. now apply makes_at_once.
   - rewrite Rlt_bool_false by lra. now apply makes_at_once.
-  - apply gives_once; auto. apply of_within. intros H _.
+  - destruct (_ || _); apply gives_once; auto; apply of_within; intros H _; [discriminate H |].
     apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [H ->].
     apply plus_finite in H. destruct H as (H1 & H2 & ->). apply times_finite in H1. destruct H1 as (_ & FS & ->).
     assert (ES : B2R (fst size) = Rabs (B2R (fst x))).

@@ -252,7 +252,7 @@ Proof.
   - rewrite Rlt_bool_true by exact S. now apply (negate_known p emax B rule holds Rule).
   - rewrite Rlt_bool_false by lra. exact KS.
   - rewrite Rlt_bool_false by lra. exact KS.
-  - apply (promise_within _ _ _ _ _ Rule). intros H _.
+  - destruct (_ || _); apply (promise_within _ _ _ _ _ Rule); intros H _; [discriminate H |].
     apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [H ->].
     apply plus_finite in H. destruct H as (H1 & H2 & ->). apply times_finite in H1. destruct H1 as (_ & FS & ->).
     destruct (AV FS) as [_ ES]. assert (KE := promise_error _ _ _ _ _ Rule _ _ _ KS).

@@ -155,7 +155,8 @@ Definition numbered_copysign (x y : number) : counted number :=
   | zero | positive => at_once size
   | uncertain =>
       let v := if fst y < #0 then - fst size else fst size in
-      numbered_within v (enlarged T A (#2 * fst size + error_of size))
+      if negb (is_finite (fst y)) || negb (is_finite (error_of y)) then numbered_within v (infinity T A)
+      else numbered_within v (enlarged T A (#2 * fst size + error_of size))
   end.
 
 End Numbered.
@@ -239,7 +240,7 @@ Qed.
 Theorem numbered_copysign_constant x y k : fst (numbered_copysign T A B rules x y k) = tracked_copysign T A B R x y.
 Proof.
   unfold numbered_copysign, tracked_copysign, after, numbered_abs, numbered_within, once. cbv zeta.
-  now destruct (tracked_sign _ _ _ _).
+  destruct (tracked_sign _ _ _ _); auto. now destruct (_ || _).
 Qed.
 
 End Constant.

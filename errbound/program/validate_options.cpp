@@ -138,7 +138,9 @@ validate_arguments validate_options::checked() {
 
 void validate_options::require_use_of_options(const validate_arguments& all) const {
     const bool random = all.expressions || !all.functions.functions.empty();
+    const bool rules = all.expressions || all.tiny || !all.queries.empty();
     const std::tuple<const char*, bool, const char*> needs[] = {
+        {"--rules", rules, "--expressions, --tiny or --queries"},
         {"--kind", !all.queries.empty(), "--queries"},
         {"--round", !all.queries.empty(), "--queries"},
         {"--operations", all.expressions, "--expressions"},

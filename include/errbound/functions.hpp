@@ -218,15 +218,18 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
                                                  T(inherited + 2 * traits::underflow_unit())));
 }
 
-/// |x| with the sign of the exact y, zero's taken for positive; of unknown sign where y's is.
-/// Proof: proofs/IeeeCompound.v, copysign_known; in any direction, proofs/Functions.v,
-/// copysign_sound.
+/// |x| with the sign of the exact y, zero's taken for positive; of unknown sign where y's is, and
+/// unknown where y is, which then may not exist. Proof: proofs/IeeeCompound.v, copysign_known; in
+/// any direction, proofs/Functions.v, copysign_sound.
 template <class T, class Rule>
 constexpr tracked<T, Rule> copysign(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
     const tracked<T, Rule> size = abs(x);
     const sign_type sign = sign_of(y);
     if (certain(sign)) return sign == sign_type::negative ? -size : size;
+    using traits = number_traits<T>;
     const T v = y.value() < 0 ? T(-size.value()) : size.value();
+    if (!traits::is_finite(y.value()) || !traits::is_finite(y.error()))
+        return tracked<T, Rule>::within(v, traits::infinity());
     return tracked<T, Rule>::within(v, detail::enlarged<T>(2 * size.value() + size.error()));
 }
 

@@ -1,7 +1,7 @@
 // Tracked numbers as decimals: digits that are certain, or all with the radius.
 //
-//   std::cout << x;                         // 0.3000000000000000
-//   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 5.6e-17
+//   std::cout << x;                         // 0.300000000000000
+//   std::cout << errbound::with_radius(x);  // 0.30000000000000004 ± 6.7e-17
 //   std::format("{:>20}", x);               // where the standard library has it
 //
 // A decimal that `<<` prints is within one unit of its last digit of the exact number: its digits
@@ -95,7 +95,12 @@ std::string certain_digits(T value, T error) {
         const bool is_zero = fixed.find_first_not_of("-0.") == std::string::npos;
         return is_zero && fixed[0] == '-' ? fixed.substr(1) : fixed;
     }
-    if (leading >= k) return decimal(value, std::chars_format::scientific, leading - k);
+    if (leading >= k) {
+        const std::string rounded = decimal(value, std::chars_format::scientific, leading - k);
+        // Less than 10^leading even so: its 18 digits had been rounded up to that.
+        if (decimal_exponent(rounded) >= leading) return rounded;
+        return decimal(value, std::chars_format::scientific, leading - k - 1);
+    }
     if (leading + 1 < k) return with_exponent("0", k);
     // |value| < 10^k: half of that is told from it by the digits, unless they are just these.
     const std::string_view half = "5.00000000000000000";

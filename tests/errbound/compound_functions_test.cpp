@@ -144,6 +144,10 @@ TEST(CompoundFunctionsOfDoubles, AreTight) {
     EXPECT_EQ(pow(number(2), -2).value(), 0.25);
     EXPECT_EQ(sign_of(copysign(number(2), number(-0.5))), sign_type::negative);
     EXPECT_EQ(sign_of(copysign(number(2), number::within(-0.5, 1))), sign_type::uncertain);
+    // The sign of what may not exist: the result may not, either.
+    const number root = sqrt(number(-1));
+    EXPECT_FALSE(std::isfinite(copysign(number(2), root).error()));
+    EXPECT_EQ(sign_of(copysign(number(0), root)), sign_type::uncertain);
     using safe_number = tracked<double, errbound::safe>;
     EXPECT_EQ(sign_of(pow(safe_number(2), 3)), sign_type::positive);
     EXPECT_EQ(sign_of(pow(safe_number(2), -3)), sign_type::uncertain);

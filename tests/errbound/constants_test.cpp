@@ -1,5 +1,6 @@
-// Tracked numbers made of numbers of other types, against rationals, in every direction of rounding:
-// exact where the type holds the number, else within the bound, and unknown where it overflows.
+// Tracked numbers made of numbers of other types, against rationals, in every direction of
+// rounding: exact where the type holds the number, else within the bound, and unknown where it
+// overflows.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -28,7 +29,7 @@ Number any_constant(std::mt19937_64& random) {
     if constexpr (std::integral<Number>)
         // Of any length, some with zeros at the end.
         return static_cast<Number>(static_cast<Number>(random()) >> random() % (8 * sizeof(Number))
-                                                                 << random() % 4);
+                                                                        << random() % 4);
     else
         return any_number<Number>(random);
 }

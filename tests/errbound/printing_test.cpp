@@ -99,6 +99,20 @@ TYPED_TEST(Printing, EveryDigitIsCertain) {
     }
 }
 
+TYPED_TEST(Printing, EveryDigitIsCertainNextToPowersOfTen) {
+    using T = TypeParam;
+    using traits = errbound::number_traits<T>;
+    std::mt19937_64 random(3);
+    for (T power(1); power < traits::largest() / T(16); power = power * T(10)) {
+        for (int k = 0; k < 8 && !testing::Test::HasFatalFailure(); ++k) {
+            const T below = power * (T(1) - T(k % 4) * traits::unit_roundoff());
+            const int halvings = static_cast<int>(random() % 90);
+            check(below, traits::scale(below, -halvings));
+            check(T(-1) / below, traits::scale(T(1) / below, -halvings));
+        }
+    }
+}
+
 TYPED_TEST(Printing, ValueAndRadiusHoldTheNumber) {
     using T = TypeParam;
     using printed = errbound::detail::printed_type<T>;
@@ -138,6 +152,8 @@ TEST(PrintingText, IsAsOneWouldWriteIt) {
     EXPECT_EQ(text_of(0.1), "0.1");
     EXPECT_EQ(text_of(-3.0), "-3");
     EXPECT_EQ(text_of(-0.0), "0");
+    // 1e153 is less than that: so is 2^434, which it is known to, than one unit of the last digit.
+    EXPECT_EQ(text_of(within(1e153, 0x1p434)), "9.999999999999999997334e+152");
     EXPECT_EQ(text_of(within(123456, 1000)), "1.2e+05");
     EXPECT_EQ(text_of(within(-123456, 0.01)), "-123456.0");
     EXPECT_EQ(text_of(within(9.96, 0.04)), "10.0");
