@@ -8,6 +8,8 @@
 // of the result as `within`. What the result's type holds exactly is kept exactly, value and bound.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <errbound/tracked.hpp>
 #include <type_traits>
 
@@ -38,13 +40,36 @@ constexpr auto type_of_both() {
 template <class From, class To>
 using wider_of = decltype(type_of_both<From, To>());
 
+/// The double nearest to x or, if that is not x, of the two around it the one whose last bit is 1.
+/// Rounding that to nearest with fewer than 52 bits is rounding x (Boldo, Melquiond 2008).
+template <class Wide>
+constexpr double rounded_to_odd(const Wide& x) {
+    const auto nearest = static_cast<double>(x);
+    const auto back = static_cast<Wide>(nearest);
+    const auto code = std::bit_cast<std::uint64_t>(nearest);
+    if (!(back < x || back > x) || code % 2 == 1) return nearest;
+    return std::bit_cast<double>((back < x) == (x > 0) ? code + 1 : code - 1);
+}
+
+/// x, rounded once to nearest. A small_float converts from float and double, and to the language's
+/// own types; from and to wider types it goes by way of those.
+template <class To, class From>
+constexpr To nearest_in(const From& x) {
+    if constexpr (requires { static_cast<To>(x); })
+        return static_cast<To>(x);
+    else if constexpr (holds_numbers_of<To, From>)
+        return static_cast<To>(static_cast<float>(x));
+    else
+        return static_cast<To>(rounded_to_odd(x));
+}
+
 /// At least x >= 0, x a number of the wider type; 0 only for 0. What overflows or is NaN is
 /// infinite or NaN.
 template <class To, class Wide>
 constexpr To rounded_up(const Wide& x) {
     using traits = number_traits<To>;
-    const To nearest = static_cast<To>(x);
-    if (!traits::is_finite(nearest) || static_cast<Wide>(nearest) >= x) return nearest;
+    const To nearest = nearest_in<To>(x);
+    if (!traits::is_finite(nearest) || nearest_in<Wide>(nearest) >= x) return nearest;
     // ε times it is at least its last place, or η is.
     return nearest + (rounded_product(nearest, traits::epsilon()) + traits::underflow_unit());
 }
@@ -64,11 +89,12 @@ constexpr auto convert(const tracked<From, Rule>& x) {
     static_assert(
         detail::holds_numbers_of<wide, From> && detail::holds_numbers_of<wide, To>,
         "errbound: convert between types of which one holds the other's numbers, or float both's");
-    const To v = static_cast<To>(x.value());
-    const wide error = static_cast<wide>(x.error());
+    const To v = detail::nearest_in<To>(x.value());
+    const wide error = detail::nearest_in<wide>(x.error());
     if (!number_traits<To>::is_finite(v) || !(error >= 0))
         return number::within(v, number_traits<To>::infinity());
-    const wide lost = traits::abs(static_cast<wide>(v) - static_cast<wide>(x.value()));
+    const wide lost =
+        traits::abs(detail::nearest_in<wide>(v) - detail::nearest_in<wide>(x.value()));
     if (lost == 0) return number::within(v, detail::rounded_up<To>(error));
     const wide sum = error + lost;
     return number::within(

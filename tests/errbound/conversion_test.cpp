@@ -2,7 +2,9 @@
 // bound, and what the type holds stays exact.
 #include <gtest/gtest.h>
 
+#include <cfloat>
 #include <cmath>
+#include <errbound/binary128.hpp>
 #include <errbound/conversion.hpp>
 #include <errbound/small_floats.hpp>
 #include <limits>
@@ -19,6 +21,30 @@ using errbound::convert;
 using errbound::number_traits;
 using errbound::tracked;
 
+/// The number of a small format nearest to x, ties to even, by its neighbours.
+template <class To>
+To nearest(const rational& x) {
+    // What would come after the largest number is as far from it as the one before.
+    const auto number_of = [](int code) {
+        const auto of = [](int c) { return exactly_of(To::from_code(c)); };
+        return code <= To::largest_code ? of(code) : rational(2 * of(code - 1) - of(code - 2));
+    };
+    const rational size = boost::multiprecision::abs(x);
+    int below = 0;
+    for (int step = To::codes / 4; step > 0; step /= 2)
+        if (below + step <= To::largest_code && number_of(below + step) <= size) below += step;
+    const rational twice = 2 * size - number_of(below) - number_of(below + 1);
+    const To y = To::from_code(twice > 0 || (twice == 0 && below % 2 == 1) ? below + 1 : below);
+    return x < 0 ? -y : y;
+}
+template <class To, class From>
+To nearest_to(const From& value) {
+    if constexpr (requires { static_cast<To>(value); })
+        return static_cast<To>(value);
+    else
+        return nearest<To>(exactly_of(value));
+}
+
 template <class Rule, class To, class From>
 void check(From value, From error) {
     const auto x = tracked<From, Rule>::within(value, error);
@@ -33,7 +59,7 @@ void check(From value, From error) {
         ASSERT_EQ(sign_of(y), errbound::sign_type::uncertain) << what;
         return;
     }
-    const To plain = static_cast<To>(value);
+    const To plain = nearest_to<To>(value);
     if (!traits::is_finite(plain) || !traits::is_finite(y.error())) {
         ASSERT_EQ(sign_of(y), errbound::sign_type::uncertain) << what;
         // Only what is too large for the type is unknown.
@@ -64,16 +90,17 @@ using errbound::float8_e4m3;
 using errbound::float8_e5m2;
 template <class Pair>
 class Conversion : public testing::Test {};
-using pairs =
-    testing::Types<pair_of_types<double, float>, pair_of_types<float, double>,
-                   pair_of_types<double, double>, pair_of_types<support::long_double, double>,
-                   pair_of_types<support::long_double, float>,
-                   pair_of_types<double, support::long_double>, pair_of_types<double, float16>,
-                   pair_of_types<float, bfloat16>, pair_of_types<double, bfloat16>,
-                   pair_of_types<float16, bfloat16>, pair_of_types<bfloat16, float16>,
-                   pair_of_types<float16, float8_e4m3>, pair_of_types<bfloat16, float8_e5m2>,
-                   pair_of_types<float8_e5m2, float8_e4m3>, pair_of_types<float8_e4m3, float8_e5m2>,
-                   pair_of_types<float8_e4m3, double>>;
+using pairs = testing::Types<
+    pair_of_types<double, float>, pair_of_types<float, double>, pair_of_types<double, double>,
+    pair_of_types<support::long_double, double>, pair_of_types<support::long_double, float>,
+    pair_of_types<double, support::long_double>, pair_of_types<double, float16>,
+    pair_of_types<float, bfloat16>, pair_of_types<double, bfloat16>,
+    pair_of_types<float16, bfloat16>, pair_of_types<bfloat16, float16>,
+    pair_of_types<float16, float8_e4m3>, pair_of_types<bfloat16, float8_e5m2>,
+    pair_of_types<float8_e5m2, float8_e4m3>, pair_of_types<float8_e4m3, float8_e5m2>,
+    pair_of_types<float8_e4m3, double>, pair_of_types<support::long_double, float16>,
+    pair_of_types<support::long_double, bfloat16>, pair_of_types<support::long_double, float8_e4m3>,
+    pair_of_types<float16, support::long_double>>;
 TYPED_TEST_SUITE(Conversion, pairs);
 
 TYPED_TEST(Conversion, KeepsTheExactNumberWithinItsBound) {
@@ -111,6 +138,60 @@ TEST(Conversions, OfEvery8BitNumberWithEveryBound) {
     check_all<float8_e5m2, float8_e4m3>();
     check_all<float8_e4m3, float8_e5m2>();
     check_all<float8_e5m2, float16>();
+}
+
+/// From next to each midpoint of two numbers, closer than double's last place.
+template <class From, class To>
+void check_midpoints() {
+    for (int code = 0; code < To::largest_code; ++code) {
+        const double below(To::from_code(code)), above(To::from_code(code + 1));
+        const From middle = below + (above - below) / 2;
+        const From off = number_traits<From>::scale(middle, 3 - number_traits<From>::digits);
+        const int even = code + code % 2;
+        for (const int sign : {1, -1}) {
+            const auto converted = [&](const From& x) {
+                return convert<To>(tracked<From>(From(sign) * x)) * tracked<To>(To(sign));
+            };
+            ASSERT_EQ(converted(middle - off).value().code(), code);
+            ASSERT_EQ(converted(middle).value().code(), even);
+            ASSERT_EQ(converted(middle + off).value().code(), code + 1);
+            // The bound is half of the difference, and rounded up what is beyond.
+            ASSERT_GE(From(static_cast<double>(converted(middle - off).error())),
+                      middle - off - below);
+            ASSERT_GT(From(static_cast<double>(converted(middle + off).error())),
+                      above - middle - 2 * off);
+        }
+    }
+}
+template <class From>
+void check_all_midpoints() {
+    check_midpoints<From, float16>();
+    check_midpoints<From, bfloat16>();
+    check_midpoints<From, float8_e4m3>();
+    check_midpoints<From, float8_e5m2>();
+}
+TEST(Conversions, FromTypesWiderThanDoubleAreRoundedOnce) {
+    check_all_midpoints<double>();
+    check_all_midpoints<support::long_double>();
+#if LDBL_MANT_DIG == 113 || defined(__SIZEOF_FLOAT128__)
+    using errbound::float128;
+    check_all_midpoints<float128>();
+    for (int code = 0; code < float16::codes; ++code) {
+        const float16 x = float16::from_code(code);
+        if (!number_traits<float16>::is_finite(x)) continue;
+        const auto wide = convert<float128>(tracked<float16>::within(x, float16(0.1)));
+        ASSERT_TRUE(wide.value() == float128(static_cast<double>(x)));
+        ASSERT_TRUE(wide.error() == float128(static_cast<double>(float16(0.1))));
+        ASSERT_EQ(convert<float16>(wide).value(), x);
+    }
+    const auto tiny =
+        convert<float16>(tracked<float128>(number_traits<float128>::underflow_unit()));
+    EXPECT_EQ(tiny.value(), float16(0));
+    EXPECT_EQ(tiny.error(), number_traits<float16>::underflow_unit());
+    const auto huge = convert<float8_e4m3>(tracked<float128>(number_traits<float128>::largest()));
+    EXPECT_EQ(sign_of(huge), errbound::sign_type::uncertain);
+#endif
+    static_assert(convert<float16>(tracked<support::long_double>(0.5)).value() == float16(0.5));
 }
 
 TEST(Conversions, ToAnotherRuleAndInConstantExpressions) {
