@@ -26,14 +26,20 @@ class reference {
   public:
     reference() : values_(expression::max_values, ball(precisions[0])), off_(values_.size()) {}
 
-    /// computed: claims of any rule, for their values.
     void compute(const expression& e, mpfr_prec_t precision, const claim* computed) {
         for (std::size_t n = 0; n < e.size(); ++n)
             if (mpfr_get_prec(values_[n].middle()) != precision) values_[n].restart(precision);
         validation::evaluate(e, values_.data());
-        for (std::size_t n = 0; n < e.size(); ++n)
-            if (std::isfinite(computed[n].value) && values_[n].is_defined())
+        measure(e, computed, nullptr);
+    }
+    /// How far these are off, after others of the same expression, if there are. Values are mostly
+    /// those of all rules, but zeros may have other signs, of which atan2 makes π and −π.
+    void measure(const expression& e, const claim* computed, const claim* before) {
+        for (std::size_t n = 0; n < e.size(); ++n) {
+            const bool known = before && before[n].value == computed[n].value;
+            if (!known && std::isfinite(computed[n].value) && values_[n].is_defined())
                 off_[n].compute(computed[n].value, values_[n]);
+        }
     }
     const ball& value(std::size_t n) const { return values_[n]; }
     const deviation& off(std::size_t n) const { return off_[n]; }
@@ -80,17 +86,21 @@ struct examination {
         const bool divides = e.divides();
         const auto left_out = [&](const rule& r) { return divides && !r.has_division; };
         claims.resize(rules.size());
-        const claim* computed = nullptr;
+        const claim* computed = nullptr;  // whose errors `exact` has
         for (std::size_t k = 0; k < rules.size(); ++k) {
             if (left_out(rules[k])) continue;
             evaluate(rules[k], type, e, claims[k].data());
             if (!computed) computed = claims[k].data();
         }
         if (!computed) return;
+        const auto measure = [&](std::size_t k) {
+            exact.measure(e, claims[k].data(), std::exchange(computed, claims[k].data()));
+        };
         for (const mpfr_prec_t precision : precisions) {
             exact.compute(e, precision, computed);
             const auto undetermined = [&](std::size_t k) {
                 if (left_out(rules[k]) || !rules[k].promises()) return false;
+                measure(k);
                 for (std::size_t n = 0; n < e.size(); ++n)
                     if (exact.finding_at(e, n, claims[k][n]) == finding::undetermined) return true;
                 return false;
@@ -101,8 +111,11 @@ struct examination {
         }
         auto& of_type = tallies[type];
         of_type.resize(rules.size());
-        for (std::size_t k = 0; k < rules.size(); ++k)
-            if (!left_out(rules[k])) count(rules[k], e, claims[k].data(), of_type[k], index);
+        for (std::size_t k = 0; k < rules.size(); ++k) {
+            if (left_out(rules[k])) continue;
+            measure(k);
+            count(rules[k], e, claims[k].data(), of_type[k], index);
+        }
     }
 
     void count(const rule& r, const expression& e, const claim* c, tally& to,

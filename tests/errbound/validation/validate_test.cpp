@@ -63,6 +63,18 @@ TEST(Validate, EveryRuleKeepsItsPromisesInSmallFormats) {
         << caught.violations.front().code;
 }
 
+TEST(Validate, ErrorsAreOfEachRulesOwnValues) {
+    // Expression 8,531,125 has π of a rule that knows a zero's sign not, and −π of `none`.
+    const rule rules[] = {validation::rule_of<errbound::none>(),
+                          validation::rule_of<errbound::tight>()};
+    const validation::expression_options options{.expressions = 10'000'000,
+                                                 .numbers = {validation::number_type::double_type}};
+    const validation::report r =
+        validation::evidence_of_expressions(rules, options).report_of(8'531'125 / 33'334);
+    EXPECT_EQ(r.violation_count(), 0U);
+    EXPECT_EQ(r.counts.front().cases, 33'334U);
+}
+
 TEST(Validate, SameResultForEveryNumberOfThreads) {
     validation::expression_options options{.expressions = 5000, .seed = 3, .threads = 1};
     const rule rules[] = {validation::rule_of<errbound::tight>(),
