@@ -136,7 +136,8 @@ TEST(Validate, ThePrintedRuleWithoutAnUnderflowTermIsCaught) {
     bool by_underflow = false;
     for (const validation::violation& v : caught_in_expressions(broken)) {
         const auto lines = std::count(v.code.begin(), v.code.end(), '\n');
-        EXPECT_LE(lines, 5) << v.what << "\n" << v.code;  // namespace, type, two operands, an operation
+        EXPECT_LE(lines, 5) << v.what << "\n"
+                            << v.code;  // namespace, type, two operands, an operation
         by_underflow = by_underflow || v.code.find(" * ") != std::string::npos;
     }
     EXPECT_TRUE(by_underflow);
