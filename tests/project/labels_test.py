@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 MAIN = {"unit", "property", "program", "install"}
-OTHERS = {"sanitize", "threads", "device", "sources", "bench-smoke"}
+OTHERS = {"sanitize", "memory", "threads", "device", "sources", "bench-smoke"}
 
 ctest, build = sys.argv[1:3]
 shown = subprocess.run([ctest, "--test-dir", build, "--show-only=json-v1"], check=True,
@@ -20,6 +20,9 @@ for test in tests:
     if len(labels & MAIN) != 1 or labels - MAIN - OTHERS:
         print(f"{test['name']}: found the labels {sorted(labels)}, expected one of {sorted(MAIN)}, "
               f"and else of {sorted(OTHERS)}")
+        wrong += 1
+    if "memory" in labels and "sanitize" not in labels:
+        print(f"{test['name']}: has the label memory, which is of tests that have sanitize, too")
         wrong += 1
 print(f"{len(tests)} tests, {wrong} with wrong labels")
 sys.exit(wrong != 0)
