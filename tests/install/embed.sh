@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds errbound as a part of another project, shared and with hidden names, runs what links it,
-# installs that, and builds against it by pkg-config alone.
+# installs that, and builds against it by pkg-config alone. What is linked is the same without optimising.
 # Arguments: source folder, C++ compiler, CMake generator, cmake (by default the one on the PATH).
 set -euo pipefail
 source=$1 compiler=$2 generator=$3 cmake=${4:-cmake}
@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 logged() { "$@" &>"$work/log" || { cat "$work/log"; exit 1; }; }
 logged "$cmake" -G "$generator" -S "$source/tests/install/embedding" -B "$work/build" \
-    -DERRBOUND_SOURCE="$source" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
+    -DERRBOUND_SOURCE="$source" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE='-O0 -DNDEBUG' \
     -DERRBOUND_WITH_CUDA=OFF -DERRBOUND_WITH_MPI=OFF
 logged "$cmake" --build "$work/build"
 if grep -q 'warning: ' "$work/log"; then cat "$work/log"; exit 1; fi
