@@ -26,10 +26,23 @@ elementary_function function_named(const std::string& name) {
         .function;
 }
 std::vector<elementary_function> functions_named(const std::string& names) {
-    if (names != "all") return support::all_named(names, function_named);
-    std::vector<elementary_function> all;
-    for (const named_function& f : named_functions) all.push_back(f.function);
-    return all;
+    std::vector<elementary_function> found;
+    if (names != "all") {
+        found = support::all_named(names, function_named);
+        for (auto f = found.begin(); f != found.end(); ++f)
+            if (std::find(found.begin(), f, *f) != f)
+                throw support::usage_error("--functions: found " + std::string{name_of(*f)} +
+                                           " twice, expected each once");
+    } else {
+        for (const named_function& f : named_functions) found.push_back(f.function);
+    }
+    return found;
+}
+
+void require_use_of_every_float(const function_options& asked) {
+    if (std::ranges::all_of(asked.functions, has_two_arguments) ||
+        std::ranges::find(asked.numbers, number_type::float_type) == asked.numbers.end())
+        throw support::usage_error("--every-float: found no function of one argument in float");
 }
 
 }  // namespace
@@ -128,6 +141,7 @@ validate_arguments validate_options::checked() {
     if (!all.functions.functions.empty() &&
         std::ranges::none_of(all.functions.numbers, has_functions))
         throw support::usage_error("--functions: found --numbers without float and double");
+    if (all.functions.every_float) require_use_of_every_float(all.functions);
     all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||
