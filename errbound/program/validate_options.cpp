@@ -26,17 +26,10 @@ elementary_function function_named(const std::string& name) {
         .function;
 }
 std::vector<elementary_function> functions_named(const std::string& names) {
-    std::vector<elementary_function> found;
-    if (names != "all") {
-        found = support::all_named(names, function_named);
-        for (auto f = found.begin(); f != found.end(); ++f)
-            if (std::find(found.begin(), f, *f) != f)
-                throw support::usage_error("--functions: found " + std::string{name_of(*f)} +
-                                           " twice, expected each once");
-    } else {
-        for (const named_function& f : named_functions) found.push_back(f.function);
-    }
-    return found;
+    if (names != "all") return support::all_named(names, function_named);
+    std::vector<elementary_function> all;
+    for (const named_function& f : named_functions) all.push_back(f.function);
+    return all;
 }
 
 void require_use_of_every_float(const function_options& asked) {

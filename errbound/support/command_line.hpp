@@ -9,6 +9,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -23,14 +24,18 @@ struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What `named` makes of the names of a list N[,N...].
+/// What `named` makes of the names of a list N[,N...]. Throws usage_error where one is there twice.
 template <class Named>
 auto all_named(const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
+    std::set<std::string> names;
     std::size_t begin = 0;
     for (std::size_t comma = 0; comma != std::string::npos; begin = comma + 1) {
         comma = list.find(',', begin);
-        result.push_back(named(list.substr(begin, comma - begin)));
+        const std::string name = list.substr(begin, comma - begin);
+        if (!names.insert(name).second)
+            throw usage_error("found '" + name + "' twice in '" + list + "', expected each once");
+        result.push_back(named(name));
     }
     return result;
 }

@@ -135,7 +135,7 @@ class Validate(unittest.TestCase):
                           ("validate", "--functions", "exp", "--numbers", "float16"),
                           ("validate", "--every-float"), ("validate", "--units", "1"),
                           ("validate", "--functions", "sin", "--units", "nan"),
-                          ("validate", "--functions", "exp,sin,exp"),
+                          ("validate", "--functions", "exp,sin,exp"), ("validate", "--rules", "tight,tight"),
                           ("validate", "--functions", "atan2", "--every-float"),
                           ("validate", "--functions", "sin", "--numbers", "double", "--every-float"),
                           ("validate", "--functions", "sin", "--units", "0"),
