@@ -497,7 +497,7 @@ Proof.
   { replace (1.009 * (E * (eps * V))) with (V * (1.009 * (E * eps))) by ring.
     apply Rmult_le_compat_l; auto. }
   set (x := E * (eps * V)) in *.
-  assert (Px : 0 <= x) by (unfold x; assert (0 <= eps * V) by (apply Rmult_le_pos; lra); nra).
+  assert (Px : 0 <= x) by (unfold x; assert (0 <= eps * V) by (apply Rmult_le_pos; lra); apply Rmult_le_pos; lra).
   assert (A4 : 1.008 * x <= V * rel * (1 - 4 * eps)) by nra.
   assert (A5 : 1.0079 * x - th / 999 - eta <= a) by nra.
   set (y := Un * th) in *. assert (Py : th <= y) by (unfold y; nra).

@@ -388,7 +388,8 @@ Proof.
   assert (P : (2 ^ (Z.max m m' + 1) = 2 * 2 ^ Z.max m m')%Z) by (rewrite Z.pow_add_r by lia; ring).
   pose proof (Z.pow_le_mono_r 2 m (Z.max m m') ltac:(lia) ltac:(lia)).
   pose proof (Z.pow_le_mono_r 2 m' (Z.max m m') ltac:(lia) ltac:(lia)).
-  unfold near_exact. cbn [BoundedInteger.add BoundedInteger.sub BoundedInteger.value BoundedInteger.error_bits]. lia.
+  unfold near_exact. cbn [BoundedInteger.add BoundedInteger.sub BoundedInteger.value BoundedInteger.error_bits].
+  split; (split; [clear M M' E E'; lia | split; [clear - M M'; lia | clear - E E'; lia]]).
 Qed.
 Lemma near_product m e m' e' x y : (0 <= e)%Z -> (0 <= e')%Z -> near_exact m e x -> near_exact m' e' y ->
   near_exact (m + m') (m + m' + e + e' + 3) (BoundedInteger.mul x y).

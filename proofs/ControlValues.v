@@ -692,7 +692,7 @@ Definition binomial_row (n : nat) : list Z := row_from (Z.of_nat n) 0 1 n.
 Fixpoint common_multiple (m : Z) (l : list Z) : Z :=
   match l with [] => m | c :: l => common_multiple (m * (c / Z.gcd m c)) l end.
 Definition weights (n : nat) : list Z :=
-  let b := binomial_row n in map (fun c => common_multiple 1 b / c) b.
+  let b := binomial_row n in let m := common_multiple 1 b in map (fun c => m / c) b.
 
 Lemma common_multiple_right l : Forall (fun c => 0 < c) l -> forall m, 0 < m ->
   (m | common_multiple m l) /\ 0 < common_multiple m l /\ Forall (fun c => (c | common_multiple m l)) l.
@@ -767,7 +767,8 @@ Theorem weights_fit n : (n <= 40)%nat ->
   Forall (fun z => z < 2 ^ 64) (row_products (Z.of_nat n) 0 1 n ++ multiples 1 (binomial_row n) ++ weights n).
 Proof.
   intros N. assert (H : forallb (fun n => forallb (fun z => z <? 2 ^ 64)
-    (row_products (Z.of_nat n) 0 1 n ++ multiples 1 (binomial_row n) ++ weights n)) (seq 0 41) = true) by now vm_compute.
+    (row_products (Z.of_nat n) 0 1 n ++ multiples 1 (binomial_row n) ++ weights n)) (seq 0 41) = true).
+  { change (2 ^ 64) with 18446744073709551616. now vm_compute. }
   rewrite forallb_forall in H. specialize (H n ltac:(apply in_seq; lia)). rewrite forallb_forall in H.
   apply Forall_forall. intros z Z. now apply Z.ltb_lt, H.
 Qed.

@@ -205,7 +205,7 @@ Qed.
 
 (** The same, quicker: width, and the bound as m 2^k with a small m. *)
 Definition checked (w : nat) (m k : Z) : option (nat * Z * Z) :=
-  if (0 <=? k) && (k + 1 <=? 64 * Z.of_nat w) && (m <? 2 ^ (64 * Z.of_nat w - 1 - k)) then Some (w, m, k) else None.
+  if (0 <=? k) && (Z.log2 m + k + 1 <? 64 * Z.of_nat w) then Some (w, m, k) else None.
 Definition checked_sum (x y : option (nat * Z * Z)) : option (nat * Z * Z) :=
   match x, y with
   | Some (w, m, k), Some (v, n, l) =>
@@ -237,8 +237,11 @@ Lemma checked_within e w m k r : checked w m k = Some r -> width e = w -> bound 
   within e = true /\ r = (w, m, k) /\ 0 <= k.
 Proof.
   unfold checked, within. destruct (Z.leb_spec 0 k) as [K |]; [| discriminate].
-  destruct (Z.leb_spec (k + 1) (64 * Z.of_nat w)) as [L |]; [| discriminate].
-  destruct (Z.ltb_spec m (2 ^ (64 * Z.of_nat w - 1 - k))) as [H |]; [| discriminate]. cbn [andb].
+  destruct (Z.ltb_spec (Z.log2 m + k + 1) (64 * Z.of_nat w)) as [L |]; [| discriminate]. cbn [andb].
+  pose proof (Z.log2_nonneg m) as M.
+  assert (H : m < 2 ^ (64 * Z.of_nat w - 1 - k)).
+  { destruct (Z.lt_ge_cases 0 m) as [P |]; [apply Z.log2_lt_pow2; lia |].
+    assert (0 < 2 ^ (64 * Z.of_nat w - 1 - k)) by (apply Z.pow_pos_nonneg; lia). lia. }
   intros E W Bd. injection E as <-. split; auto. rewrite W, Bd. apply Z.ltb_lt. unfold base. rewrite <- Z.pow_mul_r by lia.
   replace (64 * Z.of_nat w) with (1 + (64 * Z.of_nat w - 1 - k) + k) by lia. rewrite !Z.pow_add_r by lia.
   assert (0 < 2 ^ k) by (apply Z.pow_pos_nonneg; lia). change (2 ^ 1) with 2. nia.

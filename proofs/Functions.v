@@ -335,7 +335,7 @@ Proof.
     assert (D4 : (sc + 3 * eta) * q <= C3) by (apply sum_relative; auto using number_3_eta; lra).
     assert (D5 : (P + C3) * q <= S1) by (apply sum_relative; auto; apply rnd_number).
     assert (D6 : (R0 + S1) * q <= S) by (apply sum_relative; auto; apply rnd_number).
-    assert (Q2 : 0 <= q * q) by nra. assert (Q3 : 0 <= q * q * q) by nra.
+    assert (Q2 : 0 <= q * q) by apply Rle_0_sqr. assert (Q3 : 0 <= q * q * q) by (apply Rmult_le_pos; lra).
     assert (G1 : (K * q + T * q * q - 2 * h) * q <= P).
     { apply Rle_trans with (2 := D3). apply Rmult_le_compat_r; [lra |].
       assert (T * q * q <= sa * t * q) by (apply Rmult_le_compat_r; lra). lra. }
@@ -387,7 +387,8 @@ Proof.
       with (R * f + K * f + T * (f * q) + sc * f + (4 * eta - 2 * h) * f) by ring.
     assert (R <= R * f) by (apply no_less; lra). assert (K <= K * f) by (apply no_less; lra).
     assert (T <= T * (f * q)) by (apply no_less; [lra | apply f_q1]).
-    assert (sc <= sc * f) by nra. assert (4 * eta - 2 * h <= (4 * eta - 2 * h) * f) by nra. lra.
+    assert (sc <= sc * f) by (apply no_less; lra).
+    assert (4 * eta - 2 * h <= (4 * eta - 2 * h) * f) by (apply no_less; lra). lra.
 Qed.
 
 Lemma number_8_eta : number (8 * eta).

@@ -470,6 +470,8 @@ Definition ratio_right (f b : quadratic) (p q : R) (place : place_in_time) : Pro
   | _ => False
   end.
 
+(** lra without the implications among what is known, each of which multiplies the cases that it proves. *)
+Ltac plain_lra := repeat match goal with H : _ -> _ |- _ => clear H end; lra.
 Lemma first_of_two f2 p q b : f2 <> 0 -> p < q -> p <> 0 -> 0 < q ->
   let f := Quadratic (f2 * (p * q)) (- (f2 * (p + q))) f2 in
   ratio_right f b p q (first_root_nonpositive f b).
@@ -539,18 +541,18 @@ Proof.
   clear There Slope First D Ef El0 El1 E Eb Bp Bq. clearbody L0 L1 u v f. intros Itself.
   cases_of_sign f2; [| easy |]; (cases_of_sign p; [| easy |]); cases_of_sign L0; cases_of_sign L1.
   all: cbn [times same_sign sign_inside_from certain certainly_nonpositive andb orb negb opposite_sign].
-  all: try (apply Same; lra).
-  all: try (split; [reflexivity |]; split; [lra |]; apply Below; lra).
+  all: try (apply Same; plain_lra).
+  all: try (split; [reflexivity |]; split; [plain_lra |]; apply Below; plain_lra).
   all: first [destruct (Falling ltac:(assumption) ltac:(assumption)) as (U & V & A & A1)
              | destruct (Rising ltac:(assumption) ltac:(assumption)) as (U & V & A & A1)].
   all: specialize (Apart A1); clear Falling Rising Same Below; set (gp := L0 + L1 * p) in *;
     set (gq := L0 + L1 * q) in *; clearbody gp gq.
-  all: cases_of_sign u; cases_of_sign v; try lra;
-    try (exfalso; assert (0 < u) by (apply Single; assumption); lra).
-  all: try rewrite (sign_positive _ (Earlier ltac:(assumption) ltac:(lra) ltac:(lra) ltac:(lra)));
-    try rewrite (sign_negative _ (After ltac:(assumption) ltac:(lra) ltac:(lra) ltac:(lra))).
+  all: cases_of_sign u; cases_of_sign v; try plain_lra;
+    try (exfalso; assert (0 < u) by (apply Single; assumption); plain_lra).
+  all: try rewrite (sign_positive _ (Earlier ltac:(assumption) ltac:(plain_lra) ltac:(plain_lra) ltac:(plain_lra)));
+    try rewrite (sign_negative _ (After ltac:(assumption) ltac:(plain_lra) ltac:(plain_lra) ltac:(plain_lra))).
   all: cbn [times same_sign certain certainly_nonpositive andb orb negb opposite_sign].
-  all: repeat split; try reflexivity; lra.
+  all: repeat split; try reflexivity; plain_lra.
 Qed.
 
 (** The time that a place tells, with what the search for its bracket needs. *)

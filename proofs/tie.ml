@@ -66,15 +66,11 @@ let tiny p exponent_bits =
   let results operation = table2 (fun x y -> encode (operation x y)) in
   let roots = Array.map (fun x -> encode (f.root x)) decoded in
   let opposites = Array.map (fun x -> encode (f.opposite x)) decoded in
-  let integers = Hashtbl.create 100 in
-  let integer = function
-    | Z0 -> 0
-    | n -> (
-        match Hashtbl.find_opt integers n with
-        | Some c -> c
-        | None ->
-            let c = encode (f.integer n) in
-            Hashtbl.add integers n c; c) in
+  let known = 256 in  (* of integers, what is asked most *)
+  let integers = Array.init known (fun n -> encode (f.integer (z n))) in
+  let integer n =
+    let i = of_z n in
+    if 0 <= i && i < known then integers.(i) else encode (f.integer n) in
   let max_scale = 64 in
   let scaled =
     Array.map (fun x -> Array.init ((2 * max_scale) + 1)

@@ -70,8 +70,7 @@ class small_float {
         : small_float(static_cast<float>(value)) {}
     /// Implicit, for constants; likewise the nearest.
     template <std::integral Source>
-    requires(sizeof(Source) <= sizeof(int)) constexpr small_float(Source value)
-        : small_float(static_cast<double>(value)) {}
+    constexpr small_float(Source value) : small_float(as_double(value)) {}
     static constexpr small_float from_code(int code) {
         small_float x;
         x.code_ = static_cast<code_type>(code);
@@ -108,6 +107,22 @@ class small_float {
     }
 
   private:
+    /// The integer, or one of 46 to 53 bits that rounds to the same: its last bit says whether all
+    /// below it were 0.
+    template <class Source>
+    static constexpr double as_double(Source value) {
+        constexpr int digits = std::numeric_limits<double>::digits;
+        if constexpr (std::numeric_limits<Source>::digits <= digits) {
+            return static_cast<double>(value);
+        } else {
+            using size_type = std::make_unsigned_t<Source>;
+            const auto bits = static_cast<size_type>(value);
+            size_type size = value < 0 ? static_cast<size_type>(0 - bits) : bits;
+            double unit = value < 0 ? -1 : 1;
+            for (; size >> digits != 0; unit *= 256) size = (size >> 8) | (size % 256 != 0 ? 1 : 0);
+            return unit * static_cast<double>(size);
+        }
+    }
     /// ⌊m/2^shift⌉, ties to even; 1 <= shift.
     template <class Bits>
     static constexpr Bits shifted(Bits m, int shift) {

@@ -116,6 +116,35 @@ TYPED_TEST(SmallFloats, ConversionsRoundOnce) {
     check_conversion_from<TypeParam, double>();
 }
 
+/// Integers beside each tie, up to 2^64: more bits than a double has.
+TYPED_TEST(SmallFloats, IntegersOfEveryLengthAreRoundedOnce) {
+    using T = TypeParam;
+    for (int code = 0; code <= T::largest_code; ++code) {
+        const double tie = (by_definition<T>(code) + by_definition<T>(code + 1)) / 2;
+        if (tie != std::floor(tie) || tie >= 0x1p64) continue;
+        const auto at = static_cast<std::uint64_t>(tie);
+        const int even = code % 2 == 0 ? code : code + 1;
+        ASSERT_EQ(T(at - 1).code(), code) << at;
+        ASSERT_EQ(T(at).code(), even) << at;
+        ASSERT_EQ(T(at + 1).code(), code + 1) << at;
+        if (at >= std::uint64_t{1} << 63) continue;
+        const auto negative = -static_cast<std::int64_t>(at);
+        const int bit = T::codes / 2;
+        ASSERT_EQ(T(negative + 1).code(), (tie == 1 ? 0 : bit) + code) << at;
+        ASSERT_EQ(T(negative).code(), bit + even) << at;
+        ASSERT_EQ(T(negative - 1).code(), bit + code + 1) << at;
+    }
+    for (const std::int64_t size : {std::numeric_limits<std::int64_t>::max(), std::int64_t{0}})
+        ASSERT_EQ(T(size).code(), T(static_cast<double>(size)).code());
+    const auto least = std::numeric_limits<std::int64_t>::min();
+    ASSERT_EQ(T(least).code(), T(static_cast<double>(least)).code());
+    const errbound::tracked<T> x = std::size_t{3};
+    ASSERT_EQ(double(x.error()), 0);
+    const errbound::tracked<T> beyond = ~std::uint64_t{0};
+    ASSERT_GT(double(errbound::tracked<T>(std::uint64_t{17}).error()), T::precision == 4 ? 0 : -1);
+    ASSERT_NE(double(beyond.error()), 0);
+}
+
 TEST(SmallFloats, DoublesAreNotRoundedToFloatsOnTheWay) {
     const double above_tie = 1 + 0x1p-11 + 0x1p-40;
     EXPECT_EQ(double(float16(above_tie)), 1 + 0x1p-10);
@@ -162,7 +191,7 @@ TEST(SmallFloats, WorkInConstantExpressions) {
     static_assert(sign_of(number(y) * number(y) - number(9)) == errbound::sign_type::uncertain);
     static_assert(sign_of(number(y) * number(y) - number(8)) == errbound::sign_type::positive);
     static_assert(!std::is_convertible_v<double, float16> && std::is_convertible_v<int, float16> &&
-                  !std::is_constructible_v<float16, long long>);
+                  std::is_convertible_v<std::size_t, float16>);
 }
 
 template <class T>
