@@ -3,6 +3,7 @@
 
 #include <errbound/explain/explanation.hpp>
 #include <ostream>
+#include <string>
 #include <vector>
 
 #include "errbound/program/explanation_file.hpp"
@@ -11,6 +12,11 @@
 #include "errbound/support/output_file.hpp"
 
 namespace errbound::explaining {
+
+/// As tables show it: a file may call a result whatever it likes.
+static std::string shown_name(const explanation& result) {
+    return detail::printable(result.name);
+}
 
 explain_command::explain_command(CLI::App& program)
     : line_(*program.add_subcommand(
@@ -32,7 +38,7 @@ int explain_command::run() const {
     support::require_good_outputs({picture_}, {file_});
     std::vector<explanation> results = parse_explanations(support::read_whole(file_), file_);
     if (line_.count("--result") > 0)
-        results = {support::entry_named("--result", result_, results, &explanation::name)};
+        results = {support::entry_named("--result", result_, results, shown_name)};
     if (picture_) support::write_whole(*picture_, flame_graphs(results));
     std::ostream& people = support::stream_for_people({picture_});
     for (std::size_t i = 0; i < results.size(); ++i)

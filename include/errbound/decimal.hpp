@@ -8,8 +8,10 @@
 // that read it: digits in, a power of ten out.
 #pragma once
 
+#include <errbound/environment.hpp>
 #include <errbound/tracked.hpp>
 #include <string_view>
+#include <type_traits>
 
 namespace errbound {
 
@@ -23,8 +25,8 @@ struct decimal_digits {
     bool well_formed = false, negative = false;
 };
 
-/// [+-]d...[.d...][(e|E)[+-]d...], at least one digit. Digit separators of literals are passed
-/// over.
+/// [+-]d...[.d...][(e|E)[+-]d...], at least one digit. Separators of literals' digits are passed
+/// over where they are between two.
 template <class Number>
 constexpr decimal_digits<Number> read_decimal(std::string_view text) {
     decimal_digits<Number> r;
@@ -34,12 +36,18 @@ constexpr decimal_digits<Number> read_decimal(std::string_view text) {
         if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
         return minus;
     };
-    const auto is_digit = [&] { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+    const auto is_digit_at = [&](std::size_t k) {
+        return k < text.size() && text[k] >= '0' && text[k] <= '9';
+    };
+    const auto is_digit = [&] { return is_digit_at(i); };
+    const auto is_separator = [&] {
+        return i > 0 && i < text.size() && text[i] == '\'' && is_digit_at(i - 1) &&
+               is_digit_at(i + 1);
+    };
     r.negative = sign();
     bool any = false, fraction = false;
     int zeros = 0;  // at the end so far: no rounding for what does not count
-    for (; is_digit() || (i < text.size() && (text[i] == '\'' || (text[i] == '.' && !fraction)));
-         ++i) {
+    for (; is_digit() || is_separator() || (i < text.size() && text[i] == '.' && !fraction); ++i) {
         if (text[i] == '.') fraction = true;
         if (!is_digit()) continue;
         any = true;
@@ -62,6 +70,9 @@ constexpr decimal_digits<Number> read_decimal(std::string_view text) {
     return r;
 }
 
+/// Called in no program: it is no constant expression.
+void tracked_is_for_decimal_literals();
+
 /// 5^n.
 template <class Number>
 constexpr Number power_of_five(int n) {
@@ -76,11 +87,12 @@ constexpr Number power_of_five(int n) {
 }  // namespace detail
 
 /// The decimal number, in Number, a tracked type: exact where its value type holds it and its
-/// digits and power of five, else within its error. Unknown where the text is none or on the way
-/// something overflows. Text is as in C++: [-]123.25e-2.
+/// digits and power of five, else within its error. Unknown where the text is none, where on the
+/// way something overflows, and, at run time, where rounding is not to nearest. Text is as in C++:
+/// [-]123.25e-2; digits are decimal ones.
 ///
 /// Digits and power of five are exact as long as the rule `residual` says so, which sees what each
-/// operation loses; the power of two is a scaling.
+/// operation loses, rounding to nearest; the power of two is a scaling.
 template <class Number>
 constexpr Number from_decimal(std::string_view text) {
     using T = typename Number::value_type;
@@ -89,6 +101,8 @@ constexpr Number from_decimal(std::string_view text) {
     const auto read = detail::read_decimal<reader>(text);
     const T unknown = traits::infinity();
     if (!read.well_formed) return Number::within(T(0), unknown);
+    if (!std::is_constant_evaluated())
+        if (!detail::rounds_to_nearest<double>()) return Number::within(T(0), unknown);
     const reader digits = read.negative ? -read.digits : read.digits;
     if (sign_of(digits) == sign_type::zero) return Number(T(0));
     // Beyond these the power of five overflows by itself.
@@ -103,9 +117,15 @@ constexpr Number from_decimal(std::string_view text) {
 /// Suffixes of numbers: using namespace errbound::literals.
 namespace literals {
 
-/// A tenth as 0.1_tracked; whole numbers too, 3_tracked.
-constexpr tracked<double> operator""_tracked(const char* text) {
-    return from_decimal<tracked<double>>(text);
+/// A tenth as 0.1_tracked; whole numbers too, 3_tracked. Read by the compiler; what is no decimal,
+/// 0x10 or the octal 010, does not compile.
+consteval tracked<double> operator""_tracked(const char* text) {
+    const std::string_view decimal(text);
+    const bool octal = decimal.size() > 1 && decimal[0] == '0' &&
+                       decimal.find_first_of(".eE") == std::string_view::npos;
+    if (octal || !detail::read_decimal<tracked<double>>(decimal).well_formed)
+        detail::tracked_is_for_decimal_literals();
+    return from_decimal<tracked<double>>(decimal);
 }
 
 }  // namespace literals

@@ -139,7 +139,7 @@ tracked<T, Rule> atanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atanh>(x);
 }
 
-/// The cube root, of negative numbers too; exact where x is and its root is a T.
+/// The cube root, of negative numbers too; exact where x is and the system's root is its.
 template <class T, class Rule>
 tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
@@ -183,6 +183,15 @@ tracked<T, Rule> atan2(const tracked<T, Rule>& y, const tracked<T, Rule>& x) {
         const auto result = detail::angle_of_ranges<T>(y.value(), y.error(), x.value(), x.error());
         return tracked<T, Rule>::within(result.value, result.error);
     }
+}
+/// Where one of them is exact.
+template <class T, class Rule>
+tracked<T, Rule> atan2(const tracked<T, Rule>& y, const std::type_identity_t<T>& x) {
+    return atan2(y, tracked<T, Rule>(x));
+}
+template <class T, class Rule>
+tracked<T, Rule> atan2(const std::type_identity_t<T>& y, const tracked<T, Rule>& x) {
+    return atan2(tracked<T, Rule>(y), x);
 }
 
 }  // namespace errbound

@@ -1,5 +1,8 @@
-// Everything of errbound that needs nothing but the standard library; printing.hpp, which brings
-// streams along, is by itself.
+// Numbers, predicates and roots: what most programs take of errbound, and what needs nothing but
+// the standard library. By themselves are printing.hpp, which brings streams along;
+// explain/explain.hpp, where an error comes from; binary128.hpp and multiprecision.hpp; rules that
+// few compute with (rules/affine.hpp, relative.hpp, stochastic.hpp), and derived.hpp for rules of
+// your own; and what needs Eigen (eigen.hpp, certified_solve.hpp) or MPFR (validation/).
 #pragma once
 
 #include <errbound/bernstein.hpp>

@@ -8,6 +8,34 @@
 
 namespace errbound {
 
+/// What std::ldexp and std::frexp give, for constant expressions: some compilers' are none.
+namespace detail {
+
+/// By steps of which one rounds at most: the last that does not make it 0.
+template <class T>
+constexpr T scaled_by_steps(const T& x, int e) {
+    constexpr int most = std::numeric_limits<T>::max_exponent, step = most - most / 8;
+    T y = x;
+    for (int rest = e < -4 * most ? -4 * most : e > 4 * most ? 4 * most : e; rest != 0;) {
+        const int next = rest % step != 0 ? rest % step : rest < 0 ? -step : step;
+        T power = 1;
+        for (int i = 0; i < (next < 0 ? -next : next); ++i) power *= next < 0 ? T(0.5) : T(2);
+        y *= power;
+        rest -= next;
+    }
+    return y;
+}
+template <class T>
+constexpr int exponent_by_steps(const T& x) {
+    int e = 0;
+    T y = x < 0 ? -x : x;
+    for (; y >= 1; ++e) y /= 2;
+    for (; y < T(0.5); --e) y *= 2;
+    return e;
+}
+
+}  // namespace detail
+
 /// Specialise for a type of one's own (a SIMD pack, a multi-precision float); the defaults serve
 /// every type with a std::numeric_limits.
 template <class T>
@@ -78,11 +106,15 @@ struct number_traits {
     }
     /// x·2^e, rounded once.
     static constexpr T scale(const T& x, int e) {
+        if constexpr (std::is_floating_point_v<T>)
+            if (std::is_constant_evaluated()) return detail::scaled_by_steps(x, e);
         using std::ldexp;
         return ldexp(x, e);
     }
     /// e with 2^(e−1) <= |x| < 2^e, for x finite and not zero.
     static constexpr int exponent(const T& x) {
+        if constexpr (std::is_floating_point_v<T>)
+            if (std::is_constant_evaluated()) return detail::exponent_by_steps(x);
         using std::frexp;
         int e = 0;
         (void)T(frexp(x, &e));

@@ -84,15 +84,15 @@ auto unless_given_up(const Find& find) -> std::optional<decltype(find())> {
 /// The distinct roots of p in [a, b], a <= b, each in an interval of its own, with multiplicities.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b) {
-    using integer = roots::integer_for_t<Integer, C>;
-    return real_roots<integer>(roots::staged<integer>(p), a, b);
+    using exact = roots::integer_for_t<Integer, C>;
+    return real_roots<exact>(roots::staged<exact>(p), a, b);
 }
 /// The same, or nothing where it would go beyond the limits.
 template <class Integer = void, class C>
 auto isolate_roots(const polynomial<C>& p, double a, double b, const root_limits& limits) {
-    using integer = roots::integer_for_t<Integer, C>;
+    using exact = roots::integer_for_t<Integer, C>;
     return roots::unless_given_up(
-        [&] { return real_roots<integer>(roots::staged<integer>(p), a, b, limits); });
+        [&] { return real_roots<exact>(roots::staged<exact>(p), a, b, limits); });
 }
 
 /// The distinct real roots of p, ascending, each rounded to the nearest double as nearest_double of
@@ -113,9 +113,9 @@ namespace roots {
 /// Throws gave_up beyond the limits.
 template <class Integer, class C>
 std::size_t count_within(const polynomial<C>& p, double a, double b, const root_limits& limits) {
-    using integer = roots::integer_for_t<Integer, C>;
+    using exact = roots::integer_for_t<Integer, C>;
     assert(roots::is_interval(a, b));
-    if constexpr (std::is_same_v<C, double> || std::is_same_v<C, integer>) {
+    if constexpr (std::is_same_v<C, double> || std::is_same_v<C, exact>) {
         // No intervals are made, and no integers copied, where the filter decides.
         const auto c = roots::floating_coefficients(p.coefficients());
         const std::size_t zeros = roots::leading_zeros(c);
@@ -123,11 +123,10 @@ std::size_t count_within(const polynomial<C>& p, double a, double b, const root_
         if (!others.empty() && a < b) {
             const roots::root_filter<tight> filter(others, a, b);
             if (filter.decides()) return filter.parts().size() + (zeros > 0 && a <= 0 && 0 <= b);
-            return real_roots<integer>::count(roots::staged<integer>(p), a, b, filter.parts(),
-                                              limits);
+            return real_roots<exact>::count(roots::staged<exact>(p), a, b, filter.parts(), limits);
         }
     }
-    const real_roots<integer> roots(roots::staged<integer>(p), a, b, limits);
+    const real_roots<exact> roots(roots::staged<exact>(p), a, b, limits);
     return roots.everywhere() ? infinitely_many : roots.size();
 }
 
@@ -175,9 +174,9 @@ std::optional<std::size_t> count_roots(const polynomial<tracked<double, Rule>>& 
 /// The greatest common divisor, primitive over the integers.
 template <class Integer = void, class C>
 auto common_factor(const polynomial<C>& p, const polynomial<C>& q) {
-    using integer = roots::integer_for_t<Integer, C>;
-    return polynomial<integer>(
-        roots::common_factor(roots::staged<integer>(p).exact(), roots::staged<integer>(q).exact()));
+    using exact = roots::integer_for_t<Integer, C>;
+    return polynomial<exact>(
+        roots::common_factor(roots::staged<exact>(p).exact(), roots::staged<exact>(q).exact()));
 }
 
 /// The roots that p and q have in common in [a, b], a <= b, with the lower of their multiplicities.
@@ -189,8 +188,8 @@ auto common_roots(const polynomial<C>& p, const polynomial<C>& q, double a, doub
 /// The signs that p takes on [a, b], a <= b.
 template <class Integer = void, class C>
 occurring_signs sign_on(const polynomial<C>& p, double a, double b) {
-    using integer = roots::integer_for_t<Integer, C>;
-    return real_roots<integer>(roots::staged<integer>(p), a, b).signs_on(a, b);
+    using exact = roots::integer_for_t<Integer, C>;
+    return real_roots<exact>(roots::staged<exact>(p), a, b).signs_on(a, b);
 }
 
 namespace roots {
@@ -250,12 +249,12 @@ existence by_bsc(const staged_polynomial<Integer>& f,
 template <class Integer = void, class C>
 bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial<C>>& g, double a,
                             double b) {
-    using integer = roots::integer_for_t<Integer, C>;
+    using exact = roots::integer_for_t<Integer, C>;
     assert(roots::is_interval(a, b));
-    auto root_of = roots::staged<integer>(f);
-    std::vector<roots::staged_polynomial<integer>> constraints;
-    for (const polynomial<C>& p : g) constraints.push_back(roots::staged<integer>(p));
-    const auto holds_at_any = [&](real_roots<integer> roots) {
+    auto root_of = roots::staged<exact>(f);
+    std::vector<roots::staged_polynomial<exact>> constraints;
+    for (const polynomial<C>& p : g) constraints.push_back(roots::staged<exact>(p));
+    const auto holds_at_any = [&](real_roots<exact> roots) {
         for (std::size_t k = 0; k < roots.size(); ++k) {
             const auto holds = [&](auto& p) { return roots.sign_at(p, k) != sign_type::negative; };
             if (std::all_of(constraints.begin(), constraints.end(), holds)) return true;
@@ -265,15 +264,15 @@ bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial
     if (!root_of.is_zero()) {
         const existence quick = roots::by_bsc(root_of, constraints, a, b);
         if (quick == existence::yes || quick == existence::no) return quick == existence::yes;
-        return holds_at_any(real_roots<integer>(std::move(root_of), a, b));
+        return holds_at_any(real_roots<exact>(std::move(root_of), a, b));
     }
     // Where all g_i >= 0 is a closed set: if it is neither empty nor holds the point of [a, b] next
     // to 0, then its end towards that point is a root of some g_i.
     const double next_to_zero = std::min(std::max(0.0, a), b);
-    const roots::staged_polynomial<integer> shifted(std::vector{-next_to_zero, 1.0});
-    if (holds_at_any(real_roots<integer>(shifted, next_to_zero, next_to_zero))) return true;
+    const roots::staged_polynomial<exact> shifted(std::vector{-next_to_zero, 1.0});
+    if (holds_at_any(real_roots<exact>(shifted, next_to_zero, next_to_zero))) return true;
     for (const auto& p : constraints)
-        if (holds_at_any(real_roots<integer>(p, a, b))) return true;
+        if (holds_at_any(real_roots<exact>(p, a, b))) return true;
     return false;
 }
 

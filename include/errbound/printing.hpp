@@ -41,9 +41,11 @@ inline constexpr bool is_small_float<small_float<P, E, HasInfinity>> = true;
 
 }  // namespace detail
 
-/// float, double, long double and those of 8 and 16 bits.
+/// float, double, long double and those of 8 and 16 bits. Others are converted first (convert),
+/// with the error of that.
 template <class T>
-concept printable_number = std::floating_point<T> || detail::is_small_float<T>;
+concept printable_number = std::same_as<T, float> || std::same_as<T, double> ||
+    std::same_as<T, long double> || detail::is_small_float<T>;
 
 namespace detail {
 

@@ -116,8 +116,8 @@ class small_float {
             return static_cast<double>(value);
         } else {
             using size_type = std::make_unsigned_t<Source>;
-            const auto bits = static_cast<size_type>(value);
-            size_type size = value < 0 ? static_cast<size_type>(0 - bits) : bits;
+            auto size = static_cast<size_type>(value);
+            if (value < 0) size = static_cast<size_type>(0 - size);
             double unit = value < 0 ? -1 : 1;
             for (; size >> digits != 0; unit *= 256) size = (size >> 8) | (size % 256 != 0 ? 1 : 0);
             return unit * static_cast<double>(size);

@@ -57,6 +57,9 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
+/// There is none: the type of an order that tracked numbers do not have.
+struct take_compare_or_by_value;
+
 }  // namespace detail
 
 /// T: float, double, long double or any type with the same operations and a number_traits.
@@ -156,6 +159,8 @@ class tracked {
     friend constexpr sign_type compare(const tracked& a, const tracked& b) {
         return sign_of(a - b);
     }
+    /// What a compiler then says names what to take.
+    friend detail::take_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
     static constexpr tracked exactly(const T& value) { return {value, Rule::exact(value)}; }

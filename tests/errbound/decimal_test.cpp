@@ -1,6 +1,7 @@
 // Decimals as tracked numbers, against rationals.
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <errbound/decimal.hpp>
 #include <random>
@@ -99,11 +100,26 @@ TEST(Decimals, ATenthIsNotTheDoubleNearestToIt) {
 }
 
 TEST(Decimals, WhatIsNoneIsUnknown) {
-    for (const char* text : {"", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 ", " 1", "nan", "1e5x",
-                             "1e99999999999", "1e-99999999999"}) {
+    for (const char* text :
+         {"", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 ", " 1", "nan", "1e5x", "1e99999999999",
+          "1e-99999999999", "'1", "1'", "1''0", "1'.5", "1.'5"}) {
         const auto x = from_decimal<tracked<double>>(text);
         EXPECT_EQ(sign_of(x), sign_type::uncertain) << text;
         EXPECT_FALSE(std::isfinite(x.error())) << text;
+    }
+}
+
+/// Reading is exact only to nearest. What the compiler has read is right in every direction.
+TEST(Decimals, AreUnknownInAnotherRoundingDirection) {
+    for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        std::fesetround(direction);
+        const auto read = from_decimal<tracked<double>>("353e-23");
+        const auto half = from_decimal<tracked<errbound::float16>>("0.5");
+        const auto tenth = 0.1_tracked;
+        std::fesetround(FE_TONEAREST);
+        EXPECT_FALSE(std::isfinite(read.error()));
+        EXPECT_FALSE(std::isfinite(static_cast<double>(half.error())));
+        EXPECT_LT(tenth.error(), 0x1p-56);
     }
 }
 

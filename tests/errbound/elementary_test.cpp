@@ -322,6 +322,8 @@ TYPED_TEST(ElementaryFunctionsOfDoubles, AreOffByLittleMoreThanTheyHaveToBe) {
         expect(pow(number(2), three), std::log(2) * 8, three);
         expect(atan2(three, number(4)), 4.0 / 25, three);
         expect(atan2(number(4), three), 4.0 / 25, three);
+        expect(atan2(three, 4), 4.0 / 25, three);
+        expect(atan2(4, three), 4.0 / 25, three);
     }
     // At an extreme of the second order; at most the range.
     EXPECT_LE(cos(number::within(0, 0x1p-20)).error(), 1.01 * 0x1p-41);

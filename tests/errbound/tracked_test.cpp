@@ -284,6 +284,31 @@ TEST(Tracked, ExactZeroIsNeitherPositiveNorUncertain) {
     EXPECT_EQ(sign_of(tracked<double>::within(1.0, 1.0)), sign_type::uncertain);
 }
 
+/// Of every size, subnormal and next to overflow among them, by every power of two that matters.
+template <class T>
+void check_steps() {
+    constexpr int most = std::numeric_limits<T>::max_exponent;
+    std::mt19937_64 random(7);
+    for (int i = 0; i < support::scaled(100000); ++i) {
+        const T m = static_cast<T>(random()) * (random() % 2 == 0 ? T(1) : T(-1));
+        const int at = static_cast<int>(random() % (2 * most)) - most - 64;
+        const T x = std::ldexp(i % 3 == 0 ? T(3) : m, at);
+        const int e = static_cast<int>(random() % (5 * most)) - (5 * most) / 2;
+        ASSERT_EQ(errbound::detail::scaled_by_steps(x, e), std::ldexp(x, e)) << x << " " << e;
+        if (x == 0 || !std::isfinite(x)) continue;
+        ASSERT_EQ(errbound::detail::exponent_by_steps(x), errbound::number_traits<T>::exponent(x));
+    }
+    for (const int e : {std::numeric_limits<int>::min(), std::numeric_limits<int>::max()})
+        ASSERT_EQ(errbound::detail::scaled_by_steps(T(1.5), e), std::ldexp(T(1.5), e));
+}
+
+TEST(Tracked, ScalingInConstantExpressionsIsRoundedOnce) {
+    check_steps<float>();
+    check_steps<double>();
+    static_assert(errbound::number_traits<double>::scale(1.5, -1075) == 0x1p-1074);
+    static_assert(errbound::number_traits<double>::scale(1.25, -1074) == 0x1p-1074);
+}
+
 template <class Rule>
 void check_range() {
     using number = tracked<double, Rule>;

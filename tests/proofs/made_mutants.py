@@ -39,7 +39,8 @@ FOUND = re.compile("|".join(f"(?P<{kind}>{pattern})" for kind, pattern in KINDS.
 SUPPOSING = [r"\(\*", "->", r"\bterms_?\[", r"\broot_of\("]
 # What is of types alone, and what only the compiler asks.
 TYPES = [r"\bdecltype\([^;{]*?\)(?=[;,>])", r"static_assert\([^;]*;", r"^ *template <[^\n]*>$",
-         r"\brequires\s*\(.*?\)(?= (?:constexpr|friend|inline))", r"enum class[^{;]*\{[^}]*\};",
+         r"\bconcept \w+ =.*?;$(?=\n\n)", r"\brequires\s*\(.*?\)(?= (?:constexpr|friend|inline))",
+         r"enum class[^{;]*\{[^}]*\};",
          r"^ *(?:const )?(?:double|float|S) [^=(;]*\[[^=(;]*;$", r"std::array<S, [^>]*>",
          r"\(&\w+\)(?:\[\d+\])+", r"\bif constexpr \([^\n]*\)(?= |$)"]
 

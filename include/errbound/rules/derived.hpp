@@ -15,10 +15,14 @@ namespace errbound {
 /// Everything as in Rule: its state, its operations, what it says of itself; but for a dot_bound,
 /// which would not see what is different: dot products are one operation after the other. Self, the
 /// rule that is made, hides what it has another of. Rule's operations call Rule's own (its
-/// `subtract` its `add`), not Self's. What Rule promises no longer follows where an operation is
-/// changed: say so by error_is, or prove it, and have it validated.
+/// `subtract` its `add`), not Self's. Self has Rule's name in tables unless it has one of its own.
+/// What Rule promises no longer follows where an operation is changed: say so by error_is, or prove
+/// it, and have it validated.
 template <class Self, class Rule>
 struct derived_rule : Rule {
+    /// What a proof needs less than others is not taken for proved of Self, too: Self may say it.
+    static constexpr bool holds_in_directed_rounding = false, holds_without_subnormals = false;
+
     template <class T>
     using bound = typename Rule::template bound<T>;
 

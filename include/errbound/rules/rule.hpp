@@ -32,9 +32,11 @@
 //                                                bound is promised
 //   claimed_rate                                 of an estimate: the probability, by what it is
 //                                                made for, that the error is no larger
-// All are static; see rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp. A
-// rule that differs from another in a part is derived from it: rules/derived.hpp. The state may be
-// of any size, terms by source for instance: rules/affine.hpp.
+// Of T a rule may use + − × ÷ (with two operands: a += b is not in every type), negation,
+// comparisons, construction from int and what number_traits<T> has. All are static; see
+// rules/tight.hpp for one that fits on a page, and examples/own_rule.cpp. A rule that differs from
+// another in a part is derived from it: rules/derived.hpp. The state may be of any size, terms by
+// source for instance: rules/affine.hpp.
 #pragma once
 
 #include <concepts>

@@ -66,6 +66,8 @@ TEST(DerivedRule, ChangesWhatItHides) {
         (tracked<double, errbound::sharp>(0.1) * tracked<double, errbound::sharp>(0.2)).error());
     EXPECT_STREQ(careless::name, "careless");
     static_assert(!errbound::promises_bound<careless>);
+    static_assert(!same_as_rule<errbound::tight>::holds_in_directed_rounding &&
+                  errbound::tight::holds_in_directed_rounding);
     constexpr number c = number(1) / number(3) + a;
     static_assert(sign_of(c) == sign_type::positive);
 }
