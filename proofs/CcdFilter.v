@@ -120,7 +120,7 @@ Definition g_relative (inside : query -> list form) : R :=
 Definition g_absolute (inside : query -> list form) : R :=
   absolute (worst underflow (concat (map quartic (inside any_query)))) 4.
 
-(** sizes::error_of_y and error_of_g. *)
+(** difference_extents::error_of_y and error_of_g. *)
 Definition error_of_y (mx my mz : R) : R :=
   fl (fl (fl (fl (mx * my) * mz) * y_relative) + y_absolute).
 Definition error_of_g (inside : query -> list form) (mx my mz : R) : R :=

@@ -361,7 +361,7 @@ Definition within_error (error : R) (l : list R) : bool := Rle_bool (size_of l) 
 Definition hopeless (error : R) (more : nat) (y : list R) : bool :=
   (3 <=? max_depth - S more)%nat && within_error error y.
 
-(** run_stages: `sides` is separated's, b to p the ends and starts of the differences. *)
+(** axes_to_subdivision: `sides` is separated's, b to p the ends and starts of the differences. *)
 Definition filter (sides : sides_of) (inside : query -> list form)
     (b_end b_start c_end c_start p_end p_start : Contact.moving) : Subdivision.outcome :=
   let d := differences_of b_end b_start c_end c_start p_end p_start in

@@ -133,7 +133,7 @@ def main(build):
         return
     checker.compile_all(proofs, build, proofs.glob("*.ml"))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:  # each on one core; what takes longest first
-        compiled = pool.submit(checker.check_compiled, build, LIBRARY, dict.fromkeys(name for name, _ in found))
+        compiled = pool.submit(checker.check_compiled, build, LIBRARY, checker.files_of(proofs, LIBRARY))
         tables = tie_lines(pool, build)
         used = pool.submit(checker.assumptions, build, LIBRARY, found)
         stated = pool.submit(checker.statements, build, LIBRARY, found)

@@ -289,7 +289,7 @@ ccd::kind kind_of_file(const fs::path& path, std::optional<ccd::kind> kind) {
         throw file_error(path.string() +
                          ": found no kind of query in the path, expected a folder "
                          "'vertex-face', 'edge-edge', 'vf' or 'ee', a name that ends in 'vf' or "
-                         "'ee', or --kind");
+                         "'ee', or a kind that is named (--kind)");
     }
     return *kind;
 }

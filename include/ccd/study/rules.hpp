@@ -126,7 +126,9 @@ std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
 template <class... Rules>
 int rules_main(int argc, const char* const* argv) {
     if (argc < 2) {
-        std::fprintf(stderr, "usage: %s FILE...   stored queries, as ccd query takes them\n",
+        std::fprintf(stderr,
+                     "usage: %s FILE...   stored queries, as ccd query takes them, in folders\n"
+                     "called vertex-face and edge-edge, or with names that end in vf or ee\n",
                      argc > 0 ? argv[0] : "rules");
         return 2;
     }
