@@ -7,6 +7,7 @@ theorem states is printed, to be held against a text that people read.
 """
 import os
 import re
+import secrets
 import shutil
 import subprocess
 from pathlib import Path
@@ -26,11 +27,16 @@ ALLOWED_FULL = re.compile(
     r"Coq\.(Reals\.ClassicalDedekindReals\.(sig_not_dec|sig_forall_dec)"
     r"|Logic\.(FunctionalExtensionality\.functional_extensionality_dep|Classical_Prop\.classic)"
     r"|Reals\.Rdefinitions\.R\w+Impl\.\w+|ssr\.ssrunder\.Under_rel\.\w+)")
-# What leaves a statement without proof, or switches a check of Coq's off.
-UNPROVED = re.compile(
+# What leaves a statement without proof, or switches a check of Coq's off; what changes how statements are
+# printed; and modules, in which a theorem would have another name.
+REFUSED = re.compile(
     r"\b(Admitted|admit|Abort|Axioms?|Parameters?|Conjecture|Admit\s+Obligations|bypass_check)\b"
-    r"|\b(Unset|Set)\s+(Guard|Positivity|Universe)\s+Checking"
+    r"|\b(Unset|Set)\s+(Guard|Positivity|Universe)\s+Checking|\bDefinitional\s+UIP\b"
+    r"|\b(Unset|Set)\s+Printing\b|\b(Module|Functor|Include|Redirect)\b"
     r"|\b(Load|Declare\s+ML\s+Module|Add\s+(Rec\s+)?(LoadPath|ML\s+Path))\b")
+# Of programs, which only files of these names make.
+EXTRACTION, EXTRACTING = re.compile(r"\b(Recursive\s+|Separate\s+)?Extraction\b"), re.compile("Tie")
+SUPPOSED = re.compile(r"\b(?:(Section)\s+\w+|(End)\s+\w+|(Hypothes[ie]s|Variables?|Context))\b")
 
 
 class Refused(Exception):
@@ -55,6 +61,7 @@ def code_of(text):
             depth, i = depth + 1, i + 2
         elif pair == "*)" and depth:
             depth, i = depth - 1, i + 2
+            out.append("" if depth else " ")  # words on both sides are two
         else:
             if not depth:
                 out.append(text[i])
@@ -88,44 +95,64 @@ def theorems(folder, library):
             text = code_of((folder / f"{name}.v").read_text())
         except Refused as why:
             raise Refused(f"{name}.v: {why}") from None
-        if hole := UNPROVED.search(text):
+        if hole := REFUSED.search(text) or (not EXTRACTING.match(name) and EXTRACTION.search(text)):
             raise Refused(f"{name}.v: found {hole.group()}")
-        found += [(name, theorem) for theorem in re.findall(r"^Theorem (\w+)", text, re.MULTILINE)]
+        if supposed := supposed_outside(text):
+            raise Refused(f"{name}.v: found {supposed} outside of sections")
+        named = re.findall(r"^Theorem ([\w']+)", text, re.MULTILINE)
+        if len(named) != len(re.findall(r"\bTheorem\b", text)):
+            raise Refused(f"{name}.v: found a Theorem that does not begin a line, with its name behind it")
+        found += [(name, theorem) for theorem in named]
     return found
 
 
-def run(folder, *command):
-    """What it prints, errors among it."""
-    result = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if result.returncode:
-        raise Refused(f"{' '.join(command[:4])}\n{result.stdout}")
+def supposed_outside(text):
+    """What the text supposes where no section ends that; or None."""
+    depth = 0
+    for start, end, word in SUPPOSED.findall(text):
+        depth += bool(start) - bool(end)
+        if word and not depth:
+            return word
+    return None
+
+
+def run(folder, *command, silent=False):
+    """What it prints, errors and warnings among it: none if it has to be `silent` of these."""
+    result = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE if silent else subprocess.STDOUT, text=True)
+    if result.returncode or result.stderr:
+        raise Refused(f"{' '.join(command[:4])}\n{result.stdout}{result.stderr or ''}")
     return result.stdout
 
 
 def compile_all(folder, build, more=()):
-    """Compiles a copy of the folder's files, and puts `more` beside them."""
+    """Compiles a copy of the folder's files, and then puts `more` beside them."""
+    if folder.resolve().is_relative_to(build.resolve()):
+        raise Refused(f"{build}: found a build folder that holds the proofs, expected another: what it holds is removed")
     shutil.rmtree(build, ignore_errors=True)
     build.mkdir(parents=True)
-    for path in [*folder.glob("*.v"), folder / "_CoqProject", *more]:
+    for path in [*folder.glob("*.v"), folder / "_CoqProject"]:
         shutil.copy(path, build)
     run(build, "coq_makefile", "-f", "_CoqProject", "-o", "Makefile")
     run(build, "make", f"-j{os.cpu_count()}")
+    for path in more:
+        shutil.copy(path, build)
 
 
 def asked(build, library, found, subject, questions, *before):
-    """Coq's answers to questions, by what each is about; after other commands."""
-    script = ["Set Printing Width 100.", *before,
-              f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}."]
+    """Coq's answers to questions, by what each is about; after other commands. Nothing that a file can make Coq print
+    is taken for an answer: what separates them is drawn each time."""
+    mark = secrets.token_hex(16)
+    script = [f"From {library} Require {' '.join(dict.fromkeys(name for name, _ in found))}.", *before,
+              "Set Printing Width 100.", "Set Printing Depth 1000000.", "Set Printing Implicit."]
     for about, question in questions.items():
-        script += [f'Goal True. idtac "about {about}". exact I. Qed.', question]
+        script += [f'Goal True. idtac "{mark} {about}". exact I. Qed.', question]
     file = f"asked_{subject}.v"
     (build / file).write_text("\n".join(script) + "\n")
-    blocks = re.split(r"^about (\S+)\n", run(build, "coqc", "-Q", ".", library, file), flags=re.MULTILINE)
-    answers = dict(zip(blocks[1::2], blocks[2::2]))
-    for about in questions:
-        if about not in answers:
-            raise Refused(f"Coq said nothing of {about}")
-    return answers
+    blocks = re.split(rf"^{mark} (\S+)\n", run(build, "coqc", "-Q", ".", library, file, silent=True), flags=re.MULTILINE)
+    if blocks[0] or blocks[1::2] != list(questions):
+        raise Refused(f"Coq did not answer each question of {subject} once: {blocks[0][:200]}")
+    return dict(zip(blocks[1::2], blocks[2::2]))
 
 
 def axioms_of(text):
@@ -171,7 +198,10 @@ def statements(build, library, found):
     """What the theorems state, with what sections supposed, in the real numbers' notations and no others."""
     notations = ("From Coq Require Import ZArith Reals.", "Open Scope R_scope.")
     names = [f"{name}.{theorem}" for name, theorem in found]
-    answers = asked(build, library, found, "statements", {name: f"Check {name}." for name in names}, *notations)
+    answers = asked(build, library, found, "statements", {name: f"Check @{name}." for name in names}, *notations)
+    for name, answer in answers.items():
+        if not re.match(rf"@?{re.escape(name)}\n +: ", answer) or "..." in answer or "\nwhere" in answer:
+            raise Refused(f"{name}: found '{answer}', expected a whole statement")
     return "".join(re.sub(r"^\S+\n", f"{name}\n", answers[name].rstrip("\n")) + "\n\n" for name in names)
 
 

@@ -78,9 +78,10 @@ Proof. exact ((fun b => match b with make f => f b end) (make (fun b => match b 
     def test_axioms_of_allowed_names(self):
         name = "Classical_Prop.v"
         text = "Hypothesis classic : False.\nTheorem wrong : 1 = 2.\nProof. destruct classic. Qed.\n"
-        self.refused("rests on .*classic : False", {name: text})
+        self.refused("Classical_Prop.v: found Hypothesis outside of sections", {name: text})
+        self.refused("rests on .*classic : False", {name: text}, scanned=False)
         same = "Hypothesis classic : forall P : Prop, P \\/ ~ P.\nTheorem t : True \\/ ~ True.\nProof. apply classic. Qed.\n"
-        self.refused("coqchk: Axioms: .*Attack.Classical_Prop.classic", {name: same})
+        self.refused("coqchk: Axioms: .*Attack.Classical_Prop.classic", {name: same}, scanned=False)
 
     def test_hypotheses_of_sections_are_in_statements(self):
         def text(more):
@@ -91,6 +92,91 @@ Proof. exact ((fun b => match b with make f => f b end) (make (fun b => match b 
     def test_weakened_statements(self):
         self.refused("statements.txt is not what Coq says", {"A.v": "Theorem good : True.\nProof. exact I. Qed.\n"},
                      statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
+
+    def test_forged_answers(self):
+        hint = """Class C : Prop := c : False.
+Theorem good {h : C} : 1 = 2.
+Proof. destruct h. Qed.
+#[global] Hint Extern 0 C => idtac "about A.good
+A.good
+     : (1 + 1)%nat = 2%nat
+about junk"; fail : typeclass_instances.
+"""
+        self.refused("statements.txt is not what Coq says", {"A.v": hint},
+                     statements="A.good\n     : (1 + 1)%nat = 2%nat\n\n")
+        warning = """Lemma weak : True.
+Proof. exact I. Qed.
+#[deprecated(since="1", note="\nabout A.good\nA.good\n     : (1 + 1)%nat = 2%nat\n")] Notation good := weak.
+"""
+        with self.assertRaisesRegex(checker.Refused, "deprecated"):
+            folder = BUILD / "attack" / "deprecated"
+            folder.mkdir(parents=True, exist_ok=True)
+            (folder / "A.v").write_text(warning)
+            (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
+            checker.compile_all(folder, folder / "build")
+            checker.statements(folder / "build", "Attack", [("A", "good")])
+
+    def statement_of(self, text):
+        """What is printed of theorem t."""
+        with self.assertRaises(checker.Refused):
+            self.check({"A.v": text}, statements="none")
+        return (BUILD / "attack" / self.id().rsplit(".", 1)[-1] / "build/statements.txt").read_text()
+
+    def test_statements_are_whole(self):
+        def nested(inner):
+            return f"Theorem t : forall x : nat, {'S (' * 200}{inner}{')' * 200} = 1 -> True.\nProof. auto. Qed.\n"
+        self.assertNotEqual(self.statement_of(nested("x")), self.statement_of(nested("x + x")))
+
+        def implicit(number):
+            return ("Definition fits {p : nat} (x : nat) := x + p = p + x.\n"
+                    f"Theorem t : forall x, @fits {number} x.\nProof. unfold fits. auto using PeanoNat.Nat.add_comm. Qed.\n"
+                    ).replace("Definition", "Require Import PeanoNat.\nDefinition", 1)
+        self.assertNotEqual(self.statement_of(implicit(53)), self.statement_of(implicit(24)))
+        self.assertIn("False ->", self.statement_of("Theorem t {h : False} : 1 = 2.\nProof. destruct h. Qed.\n"))
+
+    def test_printing_is_left_alone(self):
+        self.refused("A.v: found Set Printing", {"A.v": "Global Set Printing Depth 8.\n" + GOOD})
+
+    def test_theorems_are_found_or_refused(self):
+        for text in (" Theorem t : True.\nProof. exact I. Qed.\n", "Theorem\n t : True.\nProof. exact I. Qed.\n",
+                     "#[local] Theorem t : True.\nProof. exact I. Qed.\n"):
+            self.refused("found a Theorem that does not begin a line", {"A.v": GOOD + text})
+        self.refused("A.v: found Module", {"A.v": "Module M.\nEnd M.\n" + GOOD})
+        primed = GOOD.replace("good", "good'") + "Lemma good : True.\nProof. exact I. Qed.\n"
+        self.check({"A.v": primed}, statements="A.good'\n     : (1 + 1)%nat = 2%nat\n\n")
+
+    def test_comments_between_words(self):
+        for hole in ("Axiom(**)a(**): False.", "Unset(**)Guard Checking.", 'Declare(**)ML(**)Module "extraction_plugin".',
+                     'Add(* (* *) *)LoadPath "x" as Out.'):
+            self.refused("A.v: found ", {"A.v": GOOD + hole})
+
+    def test_suppositions_outside_of_sections(self):
+        within = "Section s.\nVariable n : nat.\nTheorem t : n = n.\nProof. reflexivity. Qed.\nEnd s.\n"
+        self.check({"A.v": within}, statements="A.t\n     : forall n : nat, n = n\n\n")
+        for word in ("Hypothesis", "Variable", "Hypotheses", "Context"):
+            self.refused(f"A.v: found {word} outside of sections", {"A.v": within + f"{word} (h : False).\n"})
+
+    def test_programs_are_made_by_ties_alone(self):
+        text = "Require Import Extraction.\nExtraction \"tie.ml\" plus.\n"
+        self.refused("A.v: found Extraction", {"A.v": GOOD + text})
+
+    def test_sources_are_not_removed(self):
+        folder = BUILD / "attack" / "sources"
+        folder.mkdir(parents=True, exist_ok=True)
+        for build in folder, folder.parent:
+            with self.assertRaisesRegex(checker.Refused, "found a build folder that holds the proofs"):
+                checker.compile_all(folder, build)
+
+    def test_coqchk_by_itself(self):
+        universe = "Unset Universe Checking.\nDefinition t : Type := Type.\nDefinition u := (t : t).\n"
+        for text, part in ((universe, "type-in-type"), (GUARD, "fixpoints")):
+            folder = BUILD / "attack" / "by_itself"
+            folder.mkdir(parents=True, exist_ok=True)
+            (folder / "A.v").write_text(text)
+            (folder / "_CoqProject").write_text("-Q . Attack\nA.v")
+            checker.compile_all(folder, folder / "build")
+            with self.assertRaisesRegex(checker.Refused, f"coqchk: .*{part}"):
+                checker.check_compiled(folder / "build", "Attack", ["A"])
 
     def test_unproved(self):
         for hole in ("Theorem t : False.\nAdmitted.\n", "Axiom a : False.\n", "Parameter p : False.\n",
