@@ -139,7 +139,7 @@ tracked<T, Rule> atanh(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::atanh>(x);
 }
 
-/// The cube root, of negative numbers too; exact where x is and the system's root is its.
+/// The cube root, of negative numbers too; exact where x is and the system gives its root.
 template <class T, class Rule>
 tracked<T, Rule> cbrt(const tracked<T, Rule>& x) {
     return detail::function_of<elementary_function::cbrt>(x);
