@@ -21,6 +21,19 @@ rule rule_named(const std::string& name) {
 number_type number_named(const std::string& name) {
     return support::entry_named("--numbers", name, number_types, &named_number_type::name).type;
 }
+std::string names_of_numbers() {
+    std::string names;
+    for (const named_number_type& one : number_types)
+        names += (names.empty() ? "" : ", ") + std::string(one.name);
+    return names;
+}
+/// Of every number type there must be a rule.
+void require_rules_of_numbers(const validate_arguments& all) {
+    for (const number_type number : all.options.numbers)
+        if (std::ranges::none_of(all.rules, [&](const rule& r) { return r.serves(number); }))
+            throw support::usage_error("--numbers: found " + std::string(name_of(number)) +
+                                       ", expected one that a rule of --rules serves");
+}
 elementary_function function_named(const std::string& name) {
     return support::entry_named("--functions", name, named_functions, &named_function::name)
         .function;
@@ -70,9 +83,9 @@ validate_options::validate_options(CLI::App& program, int threads)
     line_.add_flag("--round", arguments_.round,
                    "Round rationals that no double equals, instead of refusing them");
     line_
-        .add_option("--numbers", numbers_,
-                    "Number types N[,N...] of expressions: double, float, float16, bfloat16, "
-                    "float8_e5m2, float8_e4m3; else the first two")
+        .add_option(
+            "--numbers", numbers_,
+            "Number types N[,N...] of expressions: " + names_of_numbers() + "; else the first two")
         ->type_name("N[,N...]");
     line_.add_flag("--tiny", arguments_.tiny, "Every case of number formats of 6 to 8 bits");
     line_.add_flag("--every-bound", arguments_.every_bound,
@@ -139,6 +152,7 @@ validate_arguments validate_options::checked() {
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||
                       (!all.tiny && all.queries.empty() && all.functions.functions.empty());
+    if (all.expressions) require_rules_of_numbers(all);
     require_use_of_options(all);
     return all;
 }

@@ -10,5 +10,6 @@ namespace errbound::validation {
 /// Of every rule of all_rules, in its order.
 void set_query_checks(std::span<rule> rules);
 void set_tiny_checks(std::span<rule> rules);
+void set_boost_checks(std::span<rule> rules);
 
 }  // namespace errbound::validation

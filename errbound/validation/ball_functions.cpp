@@ -8,9 +8,9 @@ namespace {
 /// Arguments of waves have at most so many bits before the point: MPFR needs as many of π.
 constexpr mpfr_exp_t largest_exponent_of_angles = 20000;
 
-/// Functions' results beyond 2^±limit are taken for unknown or for nearly zero: for every format
-/// they are, and exponents stay within what max_operations allows.
-constexpr mpfr_exp_t largest_exponent = 1 << 14;
+/// Functions' results beyond 2^±this are taken for unknown or for nearly zero, as for every format
+/// that has functions they are.
+constexpr mpfr_exp_t largest_exponent_of_results = 1 << 15;
 
 bool is_wave(elementary_function f) {
     return f == elementary_function::sin || f == elementary_function::cos ||
@@ -104,20 +104,20 @@ void ball::set_between(mpfr_srcptr lower, mpfr_srcptr upper) {
     mpfr_sub(radius_.get(), upper, middle_.get(), MPFR_RNDU);
     mpfr_sub(below, middle_.get(), lower, MPFR_RNDU);
     mpfr_max(radius_.get(), radius_.get(), below, MPFR_RNDU);
-    confine();
+    confine(largest_exponent_of_results);
 }
 
 void ball::set_computed(int off) {
     if (off != 0 && mpfr_zero_p(middle_.get())) mpfr_nextabove(radius_.get());
     rounded(off);
-    confine();
+    confine(largest_exponent_of_results);
 }
 
-void ball::confine() {
+void ball::confine(mpfr_exp_t largest) {
     if (mpfr_zero_p(middle_.get())) return;
-    if (mpfr_number_p(middle_.get()) == 0 || mpfr_get_exp(middle_.get()) > largest_exponent) {
+    if (mpfr_number_p(middle_.get()) == 0 || mpfr_get_exp(middle_.get()) > largest) {
         set_unknown();
-    } else if (mpfr_get_exp(middle_.get()) < -largest_exponent) {
+    } else if (mpfr_get_exp(middle_.get()) < -largest) {
         MPFR_DECL_INIT(size, radius_precision);
         mpfr_abs(size, middle_.get(), MPFR_RNDU);
         mpfr_add(radius_.get(), radius_.get(), size, MPFR_RNDU);

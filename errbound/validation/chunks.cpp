@@ -48,13 +48,13 @@ evidence with_mpfr(evidence what) {
             .report_of =
                 [work = std::move(what.report_of)](std::uint64_t chunk) {
                     const freed_mpfr_cache cache;
-                    const widest_exponents range;
+                    const exponents range = exponents::widest();
                     return work(chunk);
                 },
             .tell =
                 [work = std::move(what.tell)](report& found) {
                     const freed_mpfr_cache cache;
-                    const widest_exponents range;
+                    const exponents range = exponents::widest();
                     work(found);
                 }};
 }

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <errbound/validation/expression.hpp>
-#include <limits>
+#include <type_traits>
 
+#include "errbound/validation/any_number_type.hpp"
 #include "errbound/validation/random_source.hpp"
 
 namespace errbound::validation {
@@ -24,29 +25,36 @@ constexpr int operand_scales = 6;
 
 template <class T>
 class input_maker {
-    using limits = std::numeric_limits<T>;
+    using traits = number_traits<T>;
+    // Numbers are made as doubles where these hold all of T.
+    using maker = std::conditional_t<fits_double<T>, double, T>;
+    using making = number_traits<maker>;
     // 2^least is the smallest positive number, 2^most just too large.
-    static constexpr int least = limits::min_exponent - limits::digits, most = limits::max_exponent;
+    static constexpr int least =
+        has_subnormals<T> ? traits::min_exponent - traits::digits : traits::min_exponent - 1;
+    static constexpr int most = traits::max_exponent;
 
   public:
     input_maker(random_source& random, operand_scale scale)
         : random_(random), scale_(scale), middle_(of_exponent(random.between(-2, 2))) {}
 
-    double value() {
-        if (random_.one_in(32)) return 0;
+    maker value() {
+        if (random_.one_in(32)) return maker(0);
         switch (scale_) {
             case operand_scale::ordinary:
                 return of_exponent(random_.between(-4, 5));
             case operand_scale::underflowing:
                 switch (random_.below(4)) {
-                    case 0:
-                        return std::copysign(rounded(std::ldexp(random_.below(20), least)), sign());
+                    case 0: {
+                        const maker sign = random_.one_in(2) ? -1 : 1;
+                        return rounded(scaled(sign * maker(random_.below(20)), least));
+                    }
                     case 1:
-                        return of_exponent(least + random_.between(1, limits::digits + 4));
+                        return of_exponent(least + random_.between(1, traits::digits + 4));
                     case 2:
                         return of_exponent(random_.between(-4, 5));
                     default:
-                        return of_exponent(least / 2 + random_.between(-4, limits::digits));
+                        return of_exponent(least / 2 + random_.between(-4, traits::digits));
                 }
             case operand_scale::overflowing:
                 switch (random_.below(3)) {
@@ -60,40 +68,50 @@ class input_maker {
             case operand_scale::mixed:
                 return of_exponent(random_.between(least + 1, most));
             case operand_scale::small_integers:
-                return random_.between(-8, 8);
+                return maker(random_.between(-8, 8));
             case operand_scale::nearly_cancelling: {
                 const int places = random_.one_in(4) ? random_.below(1 << 10) : random_.below(4);
-                const double near = middle_ * (1 + places * double{limits::epsilon()});
-                return std::copysign(rounded(near), sign());
+                const maker near = middle_ * (1 + places * maker{traits::epsilon()});
+                return signed_randomly(rounded(near));
             }
         }
-        return 0;
+        return maker(0);
     }
     /// A bound for an input of this value: from far below its last place to its own size.
-    double error(double value) {
-        if (value == 0 || random_.one_in(8)) return std::abs(this->value());
-        const double size = std::ldexp(std::abs(value), -random_.between(-1, limits::digits + 8));
-        return std::abs(rounded(size * (1 + 0.25 * random_.below(4))));
+    maker error(const maker& value) {
+        if (value == 0 || random_.one_in(8)) return making::abs(this->value());
+        const maker size = scaled(making::abs(value), -random_.between(-1, traits::digits + 8));
+        return making::abs(rounded(size * (1 + 0.25 * random_.below(4))));
     }
 
   private:
-    double sign() { return random_.one_in(2) ? -1 : 1; }
+    static maker scaled(const maker& x, int e) { return making::scale(x, e); }
+    maker signed_randomly(const maker& x) {
+        const maker size = making::abs(x);
+        return random_.one_in(2) ? maker(-size) : size;
+    }
     /// What a T holds of x, or its largest number.
-    static double rounded(double x) {
-        const double largest = double{limits::max()};
-        return double{static_cast<T>(std::clamp(x, -largest, largest))};
+    static maker rounded(const maker& x) {
+        const maker largest = maker{traits::largest()};
+        return maker{static_cast<T>(x < -largest ? maker(-largest) : x > largest ? largest : x)};
     }
     /// Between 2^(e−1) and 2^e, of few bits or of all.
-    double of_exponent(int e) {
-        const int bits = random_.one_in(3) ? random_.between(2, 6) : limits::digits;
-        const double mantissa =
-            static_cast<double>(random_.bits() >> (65 - bits)) + std::ldexp(1.0, bits - 1);
-        return std::copysign(rounded(std::ldexp(mantissa, e - bits)), sign());
+    maker of_exponent(int e) {
+        const int bits = random_.one_in(3) ? random_.between(2, 6) : traits::digits;
+        const int first = std::min(bits, 53);
+        maker mantissa = static_cast<maker>(static_cast<double>(random_.bits() >> (65 - first)) +
+                                            std::ldexp(1.0, first - 1));
+        for (int left = bits - first; left > 0; left -= 53) {
+            const int more = std::min(left, 53);
+            mantissa = scaled(mantissa, more) +
+                       static_cast<maker>(static_cast<double>(random_.bits() >> (64 - more)));
+        }
+        return signed_randomly(rounded(scaled(mantissa, e - bits)));
     }
 
     random_source& random_;
     operand_scale scale_;
-    double middle_;
+    maker middle_;
 };
 
 /// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, dot product, polynomial, any
@@ -121,16 +139,16 @@ operation_kind kind_from(const operation_mix& mix, random_source& random) {
 
 template <class T>
 expression made(random_source& random, std::uint64_t index, int longest) {
-    using limits = std::numeric_limits<T>;
     expression e;
     input_maker<T> inputs(random, static_cast<operand_scale>(random.below(operand_scales)));
     const int bounded = random.below(3);  // no input, some, or every one has a bound of its own
     e.input_count = static_cast<std::size_t>(random.between(1, expression::max_inputs));
     for (std::size_t i = 0; i < e.input_count; ++i) {
         expression_input& in = e.inputs[i];
-        in.value = inputs.value();
+        const auto value = inputs.value();
+        in.value = exactly(value);
         if (bounded == 0 || (bounded == 1 && !random.one_in(3))) continue;
-        in.error = inputs.error(in.value);
+        in.error = exactly(inputs.error(value));
         in.quarters = random.one_in(2) ? (random.one_in(2) ? 4 : -4) : random.between(-4, 4);
     }
 
@@ -143,7 +161,8 @@ expression made(random_source& random, std::uint64_t index, int longest) {
     for (std::size_t i = 0; i < e.operation_count; ++i) {
         const int values = static_cast<int>(e.input_count + i);
         expression_operation& o = e.operations[i];
-        o.kind = kind_from(mix, random);
+        do o.kind = kind_from(mix, random);
+        while (!has_operation<T>(o.kind));
         const int recent =
             deep && i > 0 ? values - 1 - random.below(std::min(values, 2)) : random.below(values);
         const int other = random.below(values);
@@ -151,7 +170,7 @@ expression made(random_source& random, std::uint64_t index, int longest) {
         o.left = static_cast<std::uint8_t>(exchanged ? other : recent);
         o.right = static_cast<std::uint8_t>(exchanged ? recent : other);
         if (o.has_third()) o.third = static_cast<std::uint8_t>(random.below(values));
-        const int reach = random.one_in(4) ? limits::max_exponent : 8;
+        const int reach = random.one_in(4) ? number_traits<T>::max_exponent : 8;
         if (o.kind == operation_kind::scale) o.exponent = random.between(-reach, reach);
     }
     return e;
@@ -181,7 +200,7 @@ expression random_expression(std::uint64_t seed, std::uint64_t index, number_typ
     random_source mixed(seed);
     const auto t = static_cast<std::uint64_t>(type);
     random_source random(mixed.bits() ^ (2 * index + t % 2) ^ (t / 2 << 60));
-    return with_number_type(type, [&]<class T>() { return made<T>(random, index, longest); });
+    return with_any_number_type(type, [&]<class T>() { return made<T>(random, index, longest); });
 }
 
 namespace {
@@ -323,12 +342,26 @@ void evaluate(const expression& e, ball* values) {
     }
 }
 
-std::string hexadecimal(double x, number_type type) {
+namespace {
+
+std::string hexadecimal_double(double x, number_type type) {
     char text[64];
     std::snprintf(text, sizeof text, "%a", x);
     if (type == number_type::double_type) return text;
     if (type == number_type::float_type) return std::string(text) + "F";
+    if (type == number_type::long_double_type) return std::string(text) + "L";
     return std::string(entry_of(type).cpp_name) + "(" + text + ")";
+}
+
+}  // namespace
+
+std::string hexadecimal(const exact_value& x, number_type type) {
+    std::string sum = hexadecimal_double(x.leading, type);
+    for (const double part : x.rest)
+        if (part != 0) sum += " + " + hexadecimal_double(part, type);
+    if (x.exponent == 0) return sum;
+    return "errbound::number_traits<" + std::string(entry_of(type).cpp_name) + ">::scale(" + sum +
+           ", " + std::to_string(x.exponent) + ")";
 }
 
 namespace {

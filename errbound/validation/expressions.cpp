@@ -11,10 +11,13 @@
 namespace errbound::validation {
 namespace {
 
-/// The first is enough for most expressions, and every sum of doubles is exact in the third.
-constexpr std::array<mpfr_prec_t, 4> precisions{192, 768, 3072, 12288};
+/// The first is enough for most expressions; every sum of doubles is exact in the third, of long
+/// doubles and of binary128 in the last.
+constexpr std::array<mpfr_prec_t, 5> precisions{192, 768, 3072, 12288, 49152};
 /// As long as errors are not told from zero, it goes on to this one; for promises, to the last.
 constexpr mpfr_prec_t precision_for_errors = 3072;
+/// Beyond this one only sums and products are evaluated: others are not exact in any.
+constexpr mpfr_prec_t precision_for_functions = 12288;
 constexpr std::uint64_t least_chunk = 1000;
 
 void evaluate(const rule& r, number_type type, const expression& e, claim* claims) {
@@ -37,7 +40,10 @@ class reference {
     void measure(const expression& e, const claim* computed, const claim* before) {
         for (std::size_t n = 0; n < e.size(); ++n) {
             const bool known = before && before[n].value == computed[n].value;
-            if (!known && std::isfinite(computed[n].value) && values_[n].is_defined())
+            // (No precision may tell an input from its exact one, if one is far smaller.)
+            if (n < e.input_count && e.inputs[n].value == computed[n].value)
+                off_[n].set(e.inputs[n].error, e.inputs[n].quarters);
+            else if (!known && computed[n].value.is_finite() && values_[n].is_defined())
                 off_[n].compute(computed[n].value, values_[n]);
         }
     }
@@ -54,7 +60,7 @@ class reference {
     /// Whether every error is known in size, or known to be zero.
     bool tells_errors(const expression& e, const claim* computed) const {
         for (std::size_t n = e.input_count; n < e.size(); ++n)
-            if (std::isfinite(computed[n].value) && values_[n].is_defined() && !off_[n].is_zero() &&
+            if (computed[n].value.is_finite() && values_[n].is_defined() && !off_[n].is_zero() &&
                 off_[n].is_negligible())
                 return false;
         return true;
@@ -84,7 +90,9 @@ struct examination {
     void check(std::span<const rule> rules, const expression& e, number_type type,
                std::uint64_t index) {
         const bool divides = e.divides();
-        const auto left_out = [&](const rule& r) { return divides && !r.has_division; };
+        const auto left_out = [&](const rule& r) {
+            return !r.serves(type) || (divides && !r.has_division);
+        };
         claims.resize(rules.size());
         const claim* computed = nullptr;  // whose errors `exact` has
         for (std::size_t k = 0; k < rules.size(); ++k) {
@@ -97,6 +105,7 @@ struct examination {
             exact.measure(e, claims[k].data(), std::exchange(computed, claims[k].data()));
         };
         for (const mpfr_prec_t precision : precisions) {
+            if (precision > precision_for_functions && !e.is_polynomial()) break;
             exact.compute(e, precision, computed);
             const auto undetermined = [&](std::size_t k) {
                 if (left_out(rules[k]) || !rules[k].promises()) return false;
@@ -189,6 +198,7 @@ struct study {
         report result;
         for (std::size_t k = 0; k < rules.size(); ++k)
             for (const number_type type : options.numbers) {
+                if (!rules[k].serves(type)) continue;
                 auto& of_type = found.tallies[type];
                 of_type.resize(rules.size());
                 add(result, rules[k], name_of(type), of_type[k]);

@@ -49,15 +49,15 @@ std::string_view measure_of(error_meaning meaning) {
 void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ball& x,
                const deviation& off) {
     const bool claims = meaning != error_meaning::nothing;
-    if (!std::isfinite(c.value) || !x.is_defined() || (claims && !std::isfinite(c.error))) {
+    if (!c.value.is_finite() || !x.is_defined() || (claims && !c.error.is_finite())) {
         to.add_unknown();
     } else if (off.is_negligible()) {
         to.add_exact();
     } else if (meaning == error_meaning::bound) {
         // A bound that holds is no less than the error: logarithms are rounded.
-        to.add(std::max(0.0, std::log10(c.error) - off.log10()));
+        to.add(std::max(0.0, log10_of(c.error) - off.log10()));
     } else if (claims) {
-        to.add(c.error > 0 ? std::log10(c.error) - off.log10() : distribution::least_log);
+        to.add(c.error.leading > 0 ? log10_of(c.error) - off.log10() : distribution::least_log);
     } else if (mpfr_regular_p(x.middle())) {
         to.add(off.log10() - deviation::log10_of(x.middle()));
     } else {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "errbound/validation/any_number_type.hpp"
+
 namespace errbound::validation {
 namespace {
 
@@ -33,6 +35,13 @@ expression cut(const expression& e, std::size_t root) {
     return r;
 }
 
+/// Those that are closer to 0, in steps of which a few hundred lead from any.
+std::vector<int> nearer_exponents(int e) {
+    std::vector<int> r{0, e / 2, e - e / 16, e - e / 256};
+    if (std::abs(e) < 4096) r.push_back(e + (e > 0 ? -1 : 1));
+    return r;
+}
+
 int bits_of(double x) {
     if (x == 0) return 0;
     int e = 0, bits = 0;
@@ -42,6 +51,11 @@ int bits_of(double x) {
 
 double size_of(double x) {
     return x == 0 ? 0 : bits_of(x) + std::abs(std::ilogb(x)) / 64.0 + (x < 0 ? 0.5 : 0);
+}
+double size_of(const exact_value& x) {
+    double size = size_of(x.leading) + std::abs(x.exponent / 64.0);
+    for (const double part : x.rest) size += part == 0 ? 0 : 53 + bits_of(part);
+    return size;
 }
 
 /// Made of several, the first of which is left·right.
@@ -55,7 +69,7 @@ double size_of(const expression& e) {
         1e6 * static_cast<double>(e.operation_count) + 1e4 * static_cast<double>(e.input_count);
     for (std::size_t i = 0; i < e.operation_count; ++i) {
         if (e.operations[i].kind == operation_kind::scale)
-            size += std::abs(e.operations[i].exponent);
+            size += std::abs(static_cast<double>(e.operations[i].exponent));
         if (is_compound(e.operations[i].kind)) size += 1e5;
     }
     for (std::size_t i = 0; i < e.input_count; ++i) {
@@ -66,7 +80,7 @@ double size_of(const expression& e) {
     return size;
 }
 
-/// Numbers that are simpler than x and still of its format.
+/// Numbers that are simpler than x and, as doubles, still of its format.
 std::vector<double> simpler_numbers(double x) {
     std::vector<double> r;
     if (x == 0) return r;
@@ -79,6 +93,24 @@ std::vector<double> simpler_numbers(double x) {
     }
     for (const int nearer : {0, e / 2, e > 0 ? e - 1 : e + 1})
         r.push_back(std::ldexp(x, nearer - e));
+    return r;
+}
+
+/// Of a number beyond doubles also its leading part, and one of exponents nearer to 0.
+std::vector<exact_value> simpler_numbers(const exact_value& x) {
+    std::vector<exact_value> r;
+    for (const double leading : simpler_numbers(x.leading)) {
+        r.push_back(x);
+        r.back().leading = leading;
+    }
+    if (x.is_double()) return r;
+    r.push_back(x.leading);
+    for (const int exponent : nearer_exponents(x.exponent)) {
+        r.push_back(x);
+        r.back().exponent = exponent;
+    }
+    r.push_back(x);
+    for (double& part : r.back().rest) part = 0;
     return r;
 }
 
@@ -111,11 +143,11 @@ expression with_other(const expression& e, std::size_t n, std::size_t m) {
 std::vector<expression> smaller(const expression& e, number_type type) {
     std::vector<expression> r;
     std::array<claim, expression::max_values> plain;
-    with_number_type(type, [&]<class T>() { evaluate<none, T>(e, plain.data()); });
+    with_any_number_type(type, [&]<class T>() { evaluate<none, T>(e, plain.data()); });
     for (std::size_t n = e.input_count; n < e.size(); ++n) {
         expression_operation o = e.operations[n - e.input_count];
         o.for_each_operand([&](std::uint8_t& v) { r.push_back(with_other(e, n, v)); });
-        if (std::isfinite(plain[n].value))
+        if (plain[n].value.is_finite())
             if (auto with = with_input(e, n, {.value = plain[n].value})) r.push_back(*with);
         if (is_compound(o.kind)) {
             expression product = e;
@@ -123,7 +155,7 @@ std::vector<expression> smaller(const expression& e, number_type type) {
             r.push_back(cut(product, e.size() - 1));
         }
         if (o.kind == operation_kind::scale)
-            for (const int exponent : {0, o.exponent / 2, o.exponent + (o.exponent > 0 ? -1 : 1)}) {
+            for (const int exponent : nearer_exponents(o.exponent)) {
                 r.push_back(e);
                 r.back().operations[n - e.input_count].exponent = exponent;
             }
@@ -131,12 +163,16 @@ std::vector<expression> smaller(const expression& e, number_type type) {
     for (std::size_t i = 0; i < e.input_count; ++i) {
         const auto change = [&](const expression_input& in) {
             r.push_back(e);
-            r.back().inputs[i] = in;
+            with_any_number_type(type, [&]<class T>() {
+                r.back().inputs[i] = {.value = exactly(number_of<T>(in.value)),
+                                      .error = exactly(number_of<T>(in.error)),
+                                      .quarters = in.quarters};
+            });
         };
         expression_input in = e.inputs[i];
-        for (const double value : simpler_numbers(in.value))
+        for (const exact_value& value : simpler_numbers(in.value))
             change({.value = value, .error = in.error, .quarters = in.quarters});
-        for (const double error : simpler_numbers(in.error))
+        for (const exact_value& error : simpler_numbers(in.error))
             change({.value = in.value, .error = error, .quarters = in.quarters});
         if (in.error != 0)
             for (const int quarters : {4, -4, 0})

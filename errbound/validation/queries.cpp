@@ -17,7 +17,7 @@ void shadow_session::note(std::string_view quantity, const claim& c, const ball&
     auto found = quantities_.find(quantity);
     if (found == quantities_.end())
         found = quantities_.emplace(std::string(quantity), distribution()).first;
-    if (std::isfinite(c.value) && x.is_defined()) off_.compute(c.value, x);
+    if (c.value.is_finite() && x.is_defined()) off_.compute(c.value, x);
     add_ratio(found->second, meaning, c, x, off_);
 }
 

@@ -16,10 +16,13 @@ class random_source {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
         return z ^ (z >> 31);
     }
-    /// 0 <= result < n. (n is small: the bias is far below one in 2^50.)
+    /// 0 <= result < n. (n is small: the bias is far below one in 2^30.)
     int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
     /// first <= result <= last.
-    int between(int first, int last) { return first + below(last - first + 1); }
+    int between(int first, int last) {
+        const auto count = static_cast<std::uint64_t>(std::int64_t{last} - first + 1);
+        return static_cast<int>(first + static_cast<std::int64_t>(bits() % count));
+    }
     bool one_in(int n) { return below(n) == 0; }
 
   private:

@@ -31,7 +31,7 @@ std::string text_of(const tiny_account& how) {
 
 }  // namespace
 
-void claim_checker::check(const claim& r, const exact_range& exact, const tiny_account& how) {
+void claim_checker::check(const tiny_claim& r, const exact_range& exact, const tiny_account& how) {
     ++found_.values;
     if (!std::isfinite(r.value) || !exact.defined()) {
         if (certain(r.sign) || std::isfinite(r.error))
@@ -58,7 +58,7 @@ int compare_product(double x, double y, double z) {
 
 }  // namespace
 
-void claim_checker::check_product(const claim& r, const exact_range& a, const exact_range& b,
+void claim_checker::check_product(const tiny_claim& r, const exact_range& a, const exact_range& b,
                                   const tiny_account& how) {
     if (!a.defined() || !b.defined() || !std::isfinite(r.value)) {
         check(r, {}, how);
@@ -80,7 +80,7 @@ void claim_checker::check_product(const claim& r, const exact_range& a, const ex
     check_sign(r, low, high, how);
 }
 
-void claim_checker::check_quotient(const claim& r, const exact_range& n, const exact_range& d,
+void claim_checker::check_quotient(const tiny_claim& r, const exact_range& n, const exact_range& d,
                                    const tiny_account& how) {
     if (!n.defined() || !d.defined() || !(d.low > 0 || d.high < 0) || !std::isfinite(r.value)) {
         check(r, {}, how);
@@ -98,7 +98,7 @@ void claim_checker::check_quotient(const claim& r, const exact_range& n, const e
     check_sign(r, dividends.low, dividends.high, how);
 }
 
-void claim_checker::check_root(const claim& r, const exact_range& x, const tiny_account& how) {
+void claim_checker::check_root(const tiny_claim& r, const exact_range& x, const tiny_account& how) {
     if (!x.defined() || x.low < 0 || !std::isfinite(r.value)) {
         check(r, {}, how);
         return;
@@ -111,14 +111,15 @@ void claim_checker::check_root(const claim& r, const exact_range& x, const tiny_
     check_sign(r, x.low, x.high, how);
 }
 
-void claim_checker::check_sign(const claim& r, double low, double high, const tiny_account& how) {
+void claim_checker::check_sign(const tiny_claim& r, double low, double high,
+                               const tiny_account& how) {
     if ((r.sign == sign_type::positive && !(low > 0)) ||
         (r.sign == sign_type::negative && !(high < 0)) ||
         (r.sign == sign_type::zero && !(low == 0 && high == 0)))
         add(r, "the sign is wrong", how);
 }
 
-void claim_checker::add(const claim& r, const char* broken, const tiny_account& how) {
+void claim_checker::add(const tiny_claim& r, const char* broken, const tiny_account& how) {
     if (++found_.violations > report::kept_violations) return;
     found_.first.push_back(
         {std::string(broken) + " (rounding " + std::string(direction_) + "): value " +

@@ -18,6 +18,7 @@ std::span<const rule> rules() {
         });
         set_query_checks(r);
         set_tiny_checks(r);
+        set_boost_checks(r);
         return r;
     }();
     return all;

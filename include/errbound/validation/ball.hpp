@@ -3,36 +3,47 @@
 // Sums and products are exact, radius 0, as long as they fit the precision. Every rounding of a
 // midpoint adds half a last place to the radius, and radii are rounded up, so that the enclosure
 // holds whatever the precision; a larger one only makes it narrower. The exponent range must be
-// MPFR's widest (widest_exponents): no program here has as many operations as it takes to leave it.
+// MPFR's widest (exponents::widest).
 #pragma once
 
 #include <mpfr.h>
 
 #include <errbound/sign.hpp>
+#include <errbound/validation/exact_value.hpp>
 #include <errbound/validation/mpfr_functions.hpp>
+#include <limits>
 #include <utility>
 
 namespace errbound::validation {
 
-/// MPFR's exponents reach ±2^62, and each operation at most doubles an exponent: fewer than 50
-/// operations on double's ±1100 stay inside.
+/// Operations in an expression, at most.
 inline constexpr int max_operations = 48;
 
-/// Sets the calling thread's range of exponents to the widest while it lives.
-class widest_exponents {
+/// Exponents of no format come near these, and MPFR's are far beyond, ±2^62 where a long has 64
+/// bits: numbers that are larger are unknown, those that are smaller nearly zero.
+inline constexpr mpfr_exp_t largest_exponent =
+    std::numeric_limits<mpfr_exp_t>::digits > 40 ? mpfr_exp_t{1} << 20 << 20 : mpfr_exp_t{1} << 27;
+
+/// Sets the calling thread's range of exponents while it lives.
+class exponents {
   public:
-    widest_exponents() : least_(mpfr_get_emin()), most_(mpfr_get_emax()) {
-        mpfr_set_emin(mpfr_get_emin_min());
-        mpfr_set_emax(mpfr_get_emax_max());
-    }
-    ~widest_exponents() {
+    static exponents widest() { return {mpfr_get_emin_min(), mpfr_get_emax_max()}; }
+    /// What MPFR starts with, and Boost's numbers need.
+    static exponents initial() { return {initial_least, initial_most}; }
+
+    ~exponents() {
         mpfr_set_emin(least_);
         mpfr_set_emax(most_);
     }
-    widest_exponents(const widest_exponents&) = delete;
-    widest_exponents& operator=(const widest_exponents&) = delete;
+    exponents(const exponents&) = delete;
+    exponents& operator=(const exponents&) = delete;
 
   private:
+    exponents(mpfr_exp_t least, mpfr_exp_t most) : least_(mpfr_get_emin()), most_(mpfr_get_emax()) {
+        mpfr_set_emin(least);
+        mpfr_set_emax(most);
+    }
+    inline static const mpfr_exp_t initial_least = mpfr_get_emin(), initial_most = mpfr_get_emax();
     mpfr_exp_t least_, most_;
 };
 
@@ -59,6 +70,14 @@ class mpfr_number {
 
     mpfr_ptr get() { return x_; }
     mpfr_srcptr get() const { return x_; }
+    /// Rounded once, to nearest: exact at 212 bits. What mpfr_add tells of the rounding.
+    int set(const exact_value& x) {
+        if (x.is_double()) return mpfr_set_d(x_, x.leading, MPFR_RNDN);
+        MPFR_DECL_INIT(sum, 4 * 53);
+        mpfr_set_d(sum, x.leading, MPFR_RNDN);
+        for (const double part : x.rest) mpfr_add_d(sum, sum, part, MPFR_RNDN);
+        return mpfr_mul_2si(x_, sum, x.exponent, MPFR_RNDN);
+    }
 
   private:
     mpfr_t x_;
@@ -75,17 +94,19 @@ class ball {
         mpfr_set_zero(middle_.get(), 1);
         mpfr_set_zero(radius_.get(), 1);
     }
-    /// value, of at least 53 bits of precision.
-    void set(double value) {
-        mpfr_set_d(middle_.get(), value, MPFR_RNDN);
+    void set(const exact_value& value) {
         mpfr_set_zero(radius_.get(), 1);
+        rounded(middle_.set(value));
     }
     /// value + error·quarters/4.
-    void set(double value, double error, int quarters) {
-        set(error);
-        mpfr_mul_si(middle_.get(), middle_.get(), quarters, MPFR_RNDN);  // at most 53 + 3 bits
-        mpfr_mul_2si(middle_.get(), middle_.get(), -2, MPFR_RNDN);
-        rounded(mpfr_add_d(middle_.get(), middle_.get(), value, MPFR_RNDN));
+    void set(const exact_value& value, const exact_value& error, int quarters) {
+        mpfr_number sum(4 * 53), part(4 * 53 + 3);
+        sum.set(value);
+        part.set(error);
+        mpfr_mul_si(part.get(), part.get(), quarters, MPFR_RNDN);
+        mpfr_mul_2si(part.get(), part.get(), -2, MPFR_RNDN);
+        mpfr_set_zero(radius_.get(), 1);
+        rounded(mpfr_add(middle_.get(), sum.get(), part.get(), MPFR_RNDN));
     }
     void set_sum(const ball& a, const ball& b) {
         const int off = mpfr_add(middle_.get(), a.middle(), b.middle(), MPFR_RNDN);
@@ -223,8 +244,8 @@ class ball {
     void set_between(mpfr_srcptr lower, mpfr_srcptr upper);
     /// The midpoint has been set to a function's rounded value.
     void set_computed(int off);
-    /// Gives up a midpoint of an exponent far beyond those of all formats.
-    void confine();
+    /// Gives up a midpoint of an exponent beyond `largest`.
+    void confine(mpfr_exp_t largest);
 
     /// The one that `first` says; exact where that is certain and it is.
     void set_one(const ball& a, const ball& b, int (*first)(mpfr_srcptr, mpfr_srcptr)) {
@@ -247,11 +268,14 @@ class ball {
 
     /// Pays for the rounding of the midpoint, where there was one: half a last place.
     void rounded(int off) {
-        if (off == 0 || mpfr_regular_p(middle_.get()) == 0) return;
-        MPFR_DECL_INIT(half, radius_precision);
-        mpfr_set_ui_2exp(half, 1, mpfr_get_exp(middle_.get()) - mpfr_get_prec(middle_.get()) - 1,
-                         MPFR_RNDU);
-        mpfr_add(radius_.get(), radius_.get(), half, MPFR_RNDU);
+        if (mpfr_regular_p(middle_.get()) == 0) return;
+        const mpfr_exp_t e = mpfr_get_exp(middle_.get());
+        if (off != 0) {
+            MPFR_DECL_INIT(half, radius_precision);
+            mpfr_set_ui_2exp(half, 1, e - mpfr_get_prec(middle_.get()) - 1, MPFR_RNDU);
+            mpfr_add(radius_.get(), radius_.get(), half, MPFR_RNDU);
+        }
+        if (e > largest_exponent || e < -largest_exponent) confine(largest_exponent);
     }
 
     mpfr_number middle_, radius_;
@@ -263,10 +287,10 @@ enum class judgement { holds, violated, undetermined };
 /// |value − x| for a finite value and x in a ball: two-sided.
 class deviation {
   public:
-    deviation() : lower_(precision), upper_(precision), value_(53) {}
+    deviation() : lower_(precision), upper_(precision), value_(4 * 53) {}
 
-    void compute(double value, const ball& x) {
-        mpfr_set_d(value_.get(), value, MPFR_RNDN);
+    void compute(const exact_value& value, const ball& x) {
+        value_.set(value);
         const int off = mpfr_sub(lower_.get(), value_.get(), x.middle(), MPFR_RNDZ);
         mpfr_abs(lower_.get(), lower_.get(), MPFR_RNDN);
         mpfr_set(upper_.get(), lower_.get(), MPFR_RNDN);
@@ -275,9 +299,21 @@ class deviation {
         mpfr_add(upper_.get(), upper_.get(), x.radius(), MPFR_RNDU);
         mpfr_sub(lower_.get(), lower_.get(), x.radius(), MPFR_RNDD);
     }
-    judgement at_most(double bound) const {
-        if (mpfr_cmp_d(upper_.get(), bound) <= 0) return judgement::holds;
-        return mpfr_cmp_d(lower_.get(), bound) > 0 ? judgement::violated : judgement::undetermined;
+    /// Of a value and what stands error·quarters/4 from it.
+    void set(const exact_value& error, int quarters) {
+        value_.set(error);
+        mpfr_mul_si(upper_.get(), value_.get(), quarters,
+                    MPFR_RNDN);  // exact: it has few bits more
+        mpfr_mul_2si(upper_.get(), upper_.get(), -2, MPFR_RNDN);
+        mpfr_abs(upper_.get(), upper_.get(), MPFR_RNDN);
+        mpfr_set(lower_.get(), upper_.get(), MPFR_RNDN);
+    }
+    judgement at_most(const exact_value& bound) const {
+        mpfr_number most(4 * 53);
+        most.set(bound);
+        if (mpfr_lessequal_p(upper_.get(), most.get())) return judgement::holds;
+        return mpfr_greater_p(lower_.get(), most.get()) ? judgement::violated
+                                                        : judgement::undetermined;
     }
     bool is_zero() const { return mpfr_zero_p(upper_.get()) != 0; }
     /// Zero, or too small for the enclosure to tell its size.
@@ -293,7 +329,7 @@ class deviation {
     static double log10_of(mpfr_srcptr x);
 
   private:
-    static constexpr mpfr_prec_t precision = 64;
+    static constexpr mpfr_prec_t precision = 4 * 53;  // more than bounds have
     mpfr_number lower_, upper_, value_;
 };
 

@@ -1,17 +1,20 @@
 // Straight-line programs: expressions whose parts may be shared, for validation.
 //
 // Values are numbered: first the inputs, then the results of the operations, each of which takes
-// earlier values. Inputs are doubles that are numbers of the type that the program is run in.
+// earlier values. Inputs are numbers of the type that the program is run in.
 #pragma once
 
 #include <array>
+#include <cfloat>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/binary128.hpp>
 #include <errbound/elementary.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
 #include <errbound/validation/ball.hpp>
+#include <errbound/validation/exact_value.hpp>
 #include <errbound/validation/rule_list.hpp>
 #include <string>
 #include <string_view>
@@ -49,7 +52,7 @@ constexpr elementary_function function_of(operation_kind kind) {
 
 /// Stands for value + error·quarters/4, and is known to within error of value; error 0: exact.
 struct expression_input {
-    double value = 0, error = 0;
+    exact_value value = 0, error = 0;
     int quarters = 0;
 };
 
@@ -91,8 +94,21 @@ struct expression {
 
     std::size_t size() const { return input_count + operation_count; }
     bool divides() const {
+        return has([](operation_kind kind) { return kind == operation_kind::divide; });
+    }
+    /// Whether enough bits hold all values exactly.
+    bool is_polynomial() const {
+        return !has([](operation_kind kind) {
+            return kind == operation_kind::divide || kind == operation_kind::root ||
+                   is_function(kind);
+        });
+    }
+
+  private:
+    template <class Condition>
+    bool has(const Condition& condition) const {
         for (std::size_t i = 0; i < operation_count; ++i)
-            if (operations[i].kind == operation_kind::divide) return true;
+            if (condition(operations[i].kind)) return true;
         return false;
     }
 };
@@ -103,21 +119,36 @@ enum class number_type : std::uint8_t {
     float16_type,
     bfloat16_type,
     float8_e5m2_type,
-    float8_e4m3_type
+    float8_e4m3_type,
+    long_double_type,
+    float128_type,
+    cpp_bin_float_type,
+    mpfr_float_type
 };
-inline constexpr std::size_t number_type_count = 6;
+inline constexpr std::size_t number_type_count = 10;
 /// A number type and what it is called, in tables and in C++.
 struct named_number_type {
     number_type type;
     std::string_view name, cpp_name;
 };
-inline constexpr std::array<named_number_type, number_type_count> number_types{
-    {{number_type::double_type, "double", "double"},
-     {number_type::float_type, "float", "float"},
-     {number_type::float16_type, "float16", "errbound::float16"},
-     {number_type::bfloat16_type, "bfloat16", "errbound::bfloat16"},
-     {number_type::float8_e5m2_type, "float8_e5m2", "errbound::float8_e5m2"},
-     {number_type::float8_e4m3_type, "float8_e4m3", "errbound::float8_e4m3"}}};
+/// Those that the system has: long double where it has more bits than double, float128 where that
+/// is not it. The last two are Boost.Multiprecision's.
+inline constexpr named_number_type number_types[] = {
+    {number_type::double_type, "double", "double"},
+    {number_type::float_type, "float", "float"},
+    {number_type::float16_type, "float16", "errbound::float16"},
+    {number_type::bfloat16_type, "bfloat16", "errbound::bfloat16"},
+    {number_type::float8_e5m2_type, "float8_e5m2", "errbound::float8_e5m2"},
+    {number_type::float8_e4m3_type, "float8_e4m3", "errbound::float8_e4m3"},
+#if LDBL_MANT_DIG == 64 || LDBL_MANT_DIG == 113
+    {number_type::long_double_type, "long_double", "long double"},
+#endif
+#if LDBL_MANT_DIG != 113 && defined(__SIZEOF_FLOAT128__)
+    {number_type::float128_type, "float128", "errbound::float128"},
+#endif
+    {number_type::cpp_bin_float_type, "cpp_bin_float_quad",
+     "boost::multiprecision::cpp_bin_float_quad"},
+    {number_type::mpfr_float_type, "mpfr_float_50", "boost::multiprecision::mpfr_float_50"}};
 constexpr const named_number_type& entry_of(number_type type) {
     std::size_t i = 0;
     while (number_types[i].type != type) ++i;
@@ -126,8 +157,11 @@ constexpr const named_number_type& entry_of(number_type type) {
 constexpr std::string_view name_of(number_type type) {
     return entry_of(type).name;
 }
+constexpr bool is_boost(number_type type) {
+    return type == number_type::cpp_bin_float_type || type == number_type::mpfr_float_type;
+}
 
-/// `f.operator()<T>()` of the type.
+/// `f.operator()<T>()` of the type. Precondition: it is among number_types and !is_boost(type).
 template <class F>
 constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     switch (type) {
@@ -141,9 +175,26 @@ constexpr decltype(auto) with_number_type(number_type type, const F& f) {
             return f.template operator()<float8_e5m2>();
         case number_type::float8_e4m3_type:
             return f.template operator()<float8_e4m3>();
+#if LDBL_MANT_DIG == 64 || LDBL_MANT_DIG == 113
+        case number_type::long_double_type:
+            return f.template operator()<long double>();
+#endif
+#if LDBL_MANT_DIG != 113 && defined(__SIZEOF_FLOAT128__)
+        case number_type::float128_type:
+            return f.template operator()<float128>();
+#endif
         default:
             return f.template operator()<double>();
     }
+}
+
+/// Whether tracked numbers of type T have the operation: without subnormal numbers there are no
+/// roots and fused products, and not all types have elementary functions.
+template <class T>
+constexpr bool has_operation(operation_kind kind) {
+    if (kind == operation_kind::root || kind == operation_kind::fused) return has_subnormals<T>;
+    if (is_function(kind)) return detail::has_system_functions<detail::function_type<T>>;
+    return true;
 }
 
 /// The expression of this index: the same for the same seed. Every fourth one may divide, and
@@ -153,12 +204,12 @@ expression random_expression(std::uint64_t seed, std::uint64_t index, number_typ
 
 /// What a rule says of a value.
 struct claim {
-    double value, error;
+    exact_value value, error;
     sign_type sign;
 };
 
-/// The result of an operation on values that are there. Precondition: it does not divide, or the
-/// rule has division.
+/// The result of an operation on values that are there. Precondition: T has it, and it does not
+/// divide, or the rule has division.
 template <class Rule, class T>
 tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* x) {
     const auto &left = x[o.left], &right = x[o.right];
@@ -177,7 +228,8 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
         case operation_kind::scale:
             return scale(left, o.exponent);
         case operation_kind::root:
-            return sqrt(left);
+            if constexpr (has_operation<T>(operation_kind::root)) return sqrt(left);
+            break;
         case operation_kind::absolute:
             return abs(left);
         case operation_kind::lesser:
@@ -185,26 +237,29 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
         case operation_kind::greater:
             return max(left, right);
         case operation_kind::fused:
-            return fma(left, right, x[o.third]);
+            if constexpr (has_operation<T>(operation_kind::fused))
+                return fma(left, right, x[o.third]);
+            break;
         case operation_kind::dot:
             return dot(std::array{left, x[o.third]}, std::array{right, left});
         case operation_kind::horner:
             return horner(std::array{x[o.third], right, x[o.third]}, left);
         default:
-            return with_function(function_of(o.kind), [&]<elementary_function F>() {
-                if constexpr (F == elementary_function::pow)
-                    return pow(left, right);
-                else if constexpr (F == elementary_function::atan2)
-                    return atan2(left, right);
-                else
-                    return detail::function_of<F>(left);
-            });
+            if constexpr (has_operation<T>(operation_kind::function))
+                return with_function(function_of(o.kind), [&]<elementary_function F>() {
+                    if constexpr (F == elementary_function::pow)
+                        return pow(left, right);
+                    else if constexpr (F == elementary_function::atan2)
+                        return atan2(left, right);
+                    else
+                        return detail::function_of<F>(left);
+                });
     }
     return {};
 }
 
-/// Every value of the expression in tracked<T, Rule>. Precondition: it does not divide, or the rule
-/// has division.
+/// Every value of the expression in tracked<T, Rule>. Precondition: T has its operations, and it
+/// does not divide, or the rule has division.
 template <class Rule, class T>
 void evaluate(const expression& e, claim* claims) {
     using number = tracked<T, Rule>;
@@ -212,14 +267,13 @@ void evaluate(const expression& e, claim* claims) {
     std::size_t n = 0;
     for (; n < e.input_count; ++n) {
         const expression_input& in = e.inputs[n];
-        const T value = static_cast<T>(in.value);
-        x[n] = in.error == 0 ? number(value) : number::within(value, static_cast<T>(in.error));
+        const T value = number_of<T>(in.value);
+        x[n] = in.error == 0 ? number(value) : number::within(value, number_of<T>(in.error));
     }
     for (std::size_t i = 0; i < e.operation_count; ++i, ++n)
         x[n] = applied(e.operations[i], x.data());
     for (std::size_t i = 0; i < n; ++i)
-        claims[i] = {static_cast<double>(x[i].value()), static_cast<double>(x[i].error()),
-                     sign_of(x[i])};
+        claims[i] = {exactly(T(x[i].value())), exactly(T(x[i].error())), sign_of(x[i])};
 }
 
 /// Every value of the expression, as what it stands for: an enclosure each.
@@ -228,7 +282,8 @@ void evaluate(const expression& e, ball* values);
 /// The expression in C++, a line per value, for a person to paste.
 std::string cpp_text(const expression& e, number_type type, std::string_view rule);
 
-/// "0x1.8p-3"; of another type as its constant, "0x1.8p-3F" or "errbound::float16(0x1.8p-3)".
-std::string hexadecimal(double x, number_type type = number_type::double_type);
+/// "0x1.8p-3"; of another type as its constant, "0x1.8p-3F" or "errbound::float16(0x1.8p-3)"; of
+/// more bits or larger exponents as what makes it.
+std::string hexadecimal(const exact_value& x, number_type type = number_type::double_type);
 
 }  // namespace errbound::validation

@@ -1,7 +1,6 @@
 // What comparing one value with its reference finds. Internal.
 #pragma once
 
-#include <cmath>
 #include <errbound/validation/ball.hpp>
 #include <errbound/validation/distribution.hpp>
 #include <errbound/validation/expression.hpp>
@@ -24,16 +23,16 @@ constexpr bool is_violation(finding f) {
 
 /// Compares; `off` must be the claim's deviation from x wherever both are finite.
 inline finding compare(const claim& c, const ball& x, const deviation& off) {
-    if (!certain(c.sign) && !std::isfinite(c.error)) return finding::holds;  // nothing is claimed
-    if (!std::isfinite(c.value) || !x.is_defined()) return finding::baseless;
+    if (!certain(c.sign) && !c.error.is_finite()) return finding::holds;  // nothing is claimed
+    if (!c.value.is_finite() || !x.is_defined()) return finding::baseless;
     if (x.is_unknown()) return finding::undetermined;
     if (certain(c.sign)) {
         const sign_type exact = x.sign();
         if (!certain(exact)) return finding::undetermined;
         if (exact != c.sign) return finding::sign_wrong;
     }
-    if (!std::isfinite(c.error)) return finding::holds;
-    if (!(c.error >= 0)) return finding::bound_broken;
+    if (!c.error.is_finite()) return finding::holds;
+    if (c.error.leading < 0) return finding::bound_broken;
     switch (off.at_most(c.error)) {
         case judgement::holds:
             return finding::holds;

@@ -12,20 +12,25 @@
 
 namespace errbound::validation {
 
+using evaluation = void (*)(const expression&, claim*);
+
 /// Made by rule_of; a rule that is not in errbound/validation/rule_list.hpp can be validated as
-/// well.
+/// well. Boost's number types: set_boost_checks (errbound/validation/boost_numbers.hpp).
 struct rule {
     std::string_view name;
     error_meaning error_is = error_meaning::nothing;
     double claimed_rate = 0;  ///< of an estimate
     bool has_division = false;
-    /// What it says of an expression, by number_type.
-    std::array<void (*)(const expression&, claim*), number_type_count> evaluate{};
+    /// What it says of an expression, by number_type; null of types that it does not serve.
+    std::array<evaluation, number_type_count> evaluate{};
     void (*check_vertex_face)(const ccd::vertex_face<double>&, shadow_session&) = nullptr;
     void (*check_edge_edge)(const ccd::edge_edge<double>&, shadow_session&) = nullptr;
     void (*check_tiny)(std::size_t format, bool every_bound, tiny_findings&) = nullptr;
 
     bool promises() const { return error_is == error_meaning::bound; }
+    bool serves(number_type type) const {
+        return evaluate[static_cast<std::size_t>(type)] != nullptr;
+    }
 };
 
 /// The rule's name and promises, and what it says of expressions.
@@ -36,8 +41,12 @@ constexpr void set_expression_checks(rule& r) {
     r.claimed_rate = claimed_rate<Rule>;
     r.has_division = has_division<Rule>;
     for (const named_number_type& number : number_types)
-        r.evaluate[static_cast<std::size_t>(number.type)] =
-            with_number_type(number.type, []<class T>() { return &evaluate<Rule, T>; });
+        if (!is_boost(number.type))
+            r.evaluate[static_cast<std::size_t>(number.type)] =
+                with_number_type(number.type, []<class T>() -> evaluation {
+                    if constexpr (bound_rule<Rule, T>) return &evaluate<Rule, T>;
+                    return nullptr;
+                });
 }
 template <class Rule>
 constexpr void set_query_checks(rule& r) {

@@ -33,7 +33,7 @@ class shadow_session {
     template <class Describe>
     void check(const claim& c, const ball& x, const Describe& how) {
         ++values_;
-        if (std::isfinite(c.value) && x.is_defined()) off_.compute(c.value, x);
+        if (c.value.is_finite() && x.is_defined()) off_.compute(c.value, x);
         const finding f = compare(c, x, off_);
         if (f == finding::undetermined) ++undetermined_;
         if (!is_violation(f)) return;

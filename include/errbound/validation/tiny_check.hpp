@@ -119,6 +119,12 @@ struct tiny_account {
     int exponent = 0;  ///< of the operation "scale"
 };
 
+/// What a rule says of a result.
+struct tiny_claim {
+    double value, error;
+    sign_type sign;
+};
+
 /// Holds results to what they may be the results of. Exact references are doubles here: every sum
 /// and difference of what formats of 8 bits and their bounds hold fits 53 bits; a product is
 /// compared with such, exactly, and quotients are compared multiplied out.
@@ -127,22 +133,22 @@ class claim_checker {
     claim_checker(tiny_findings& found, std::string_view rule, std::string_view direction)
         : found_(found), rule_(rule), direction_(direction) {}
 
-    void check(const claim& r, const exact_range& exact, const tiny_account& how);
+    void check(const tiny_claim& r, const exact_range& exact, const tiny_account& how);
     /// A product of what lies in these ranges: at the corners, among which are the extremes.
-    void check_product(const claim& r, const exact_range& a, const exact_range& b,
+    void check_product(const tiny_claim& r, const exact_range& a, const exact_range& b,
                        const tiny_account& how);
     /// A quotient of what lies in these ranges: compared multiplied by the divisor, at the corners,
     /// among which are the extremes if the divisor cannot be zero.
-    void check_quotient(const claim& r, const exact_range& n, const exact_range& d,
+    void check_quotient(const tiny_claim& r, const exact_range& n, const exact_range& d,
                         const tiny_account& how);
 
     /// The root of what lies in a range: compared squared.
-    void check_root(const claim& r, const exact_range& x, const tiny_account& how);
+    void check_root(const tiny_claim& r, const exact_range& x, const tiny_account& how);
 
   private:
     /// A certain sign must be that of all numbers from low to high.
-    void check_sign(const claim& r, double low, double high, const tiny_account& how);
-    void add(const claim& r, const char* broken, const tiny_account& how);
+    void check_sign(const tiny_claim& r, double low, double high, const tiny_account& how);
+    void add(const tiny_claim& r, const char* broken, const tiny_account& how);
 
     tiny_findings& found_;
     std::string_view rule_, direction_;
@@ -206,15 +212,17 @@ class tiny_checker {
     }
     void check(const number& r, const exact_range& exact, tiny_account& how,
                const char* operation) {
-        check_by([&](const claim& c) { claims_.check(c, exact, how); }, r, how, operation);
+        check_by([&](const tiny_claim& c) { claims_.check(c, exact, how); }, r, how, operation);
     }
     void check_product(const number& r, const exact_range& a, const exact_range& b,
                        tiny_account& how, const char* operation) {
-        check_by([&](const claim& c) { claims_.check_product(c, a, b, how); }, r, how, operation);
+        check_by([&](const tiny_claim& c) { claims_.check_product(c, a, b, how); }, r, how,
+                 operation);
     }
     void check_quotient(const number& r, const exact_range& n, const exact_range& d,
                         tiny_account& how, const char* operation) {
-        check_by([&](const claim& c) { claims_.check_quotient(c, n, d, how); }, r, how, operation);
+        check_by([&](const tiny_claim& c) { claims_.check_quotient(c, n, d, how); }, r, how,
+                 operation);
     }
 
     /// Every operation on two operands.
@@ -264,7 +272,7 @@ class tiny_checker {
                std::max(sizes[0], sizes[1])},
               how, "abs(a)");
         check_by(
-            [&](const claim& c) {
+            [&](const tiny_claim& c) {
                 claims_.check_root(c, {a.low, a.high}, how);
             },
             sqrt(a.x), how, "sqrt(a)");

@@ -80,6 +80,12 @@ struct too_small : errbound::derived_rule<too_small, errbound::tight> {
     }
 };
 
+/// The same, for numbers without subnormal ones, too.
+struct too_small_for_sums : errbound::derived_rule<too_small_for_sums, too_small> {
+    static constexpr const char* name = "too_small_for_sums";
+    static constexpr bool holds_without_subnormals = true;
+};
+
 inline std::string all_violations(const validation::report& r) {
     std::string text;
     for (const auto& v : r.violations)

@@ -1,0 +1,162 @@
+// Decisions in integers of fixed width over integers that count bits (tests/proofs/counted): at the
+// largest extents that a width is used for, no number that they compute exceeds its words, whatever
+// the values are. proofs/FixedWidths.v proves that of expressions read off the code; this is of the
+// code as it runs, on the queries and forms of the ties, which come to all its branches.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ccd/methods/forms.hpp>
+#include <ccd/methods/transform.hpp>
+#include <ccd/query.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <errbound/integers/fixed_integer.hpp>
+#include <iostream>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "ccd/exact/axis_units.hpp"
+#include "ccd/exact/integer_decision.hpp"
+#include "ccd/exact/interior_contact.hpp"
+#include "tests/proofs/table.hpp"
+#include "tests/proofs/whole_forms.hpp"
+#include "tests/proofs/whole_query.hpp"
+#include "tests/support/scaled.hpp"
+
+namespace {
+
+using ccd::detail::extent_limit;
+using ccd::detail::integer_units;
+using errbound::integers::counted;
+using errbound::integers::fixed_integer;
+
+/// Counts while it lives.
+struct counting {
+    counting() { counted.on = true; }
+    ~counting() { counted.on = false; }
+    counting(const counting&) = delete;
+    counting& operator=(const counting&) = delete;
+};
+
+/// Where the query fits: its differences are taken for as large as 2^bits along every axis.
+template <int Words, class Query>
+void decide(const Query& query, int bits) {
+    integer_units units(query);
+    if (!units.finite() || units.bits() > bits) return;
+    units.x.bits = units.y.bits = units.z.bits = bits;
+    const auto in_words = ccd::transformed(units.converted<Words>(query), [bits](const auto& x) {
+        return fixed_integer<Words>::coordinate(x.plain(), bits);
+    });
+    const counting now;
+    (void)ccd::detail::decide_converted<Words>(in_words, query, units);
+}
+template <int Words>
+void decide(const tie::drawn_query& q, int bits) {
+    if (q.edges)
+        decide<Words>(q.as<ccd::edge_edge<double>>(), bits);
+    else
+        decide<Words>(q.as<ccd::vertex_face<double>>(), bits);
+    decide<Words>(ccd::vertex_edge<double>{q.moving(0), q.moving(1), q.moving(2)}, bits);
+    decide<Words>(ccd::vertex_vertex<double>{q.moving(0), q.moving(1)}, bits);
+}
+
+template <int Words, template <class, int> class Forms>
+struct opened_contact : ccd::detail::interior_contact<Words, Forms> {
+    using base = ccd::detail::interior_contact<Words, Forms>;
+    using base::base, base::throughout, base::without_halving, base::normal_vanishes;
+    using base::distinct_, base::three_real_roots_;
+    using typename base::part;
+};
+
+/// About the root of all forms, in T words and with brackets of any width.
+template <int T, class Contact>
+void ask_throughout(const Contact& contact, const tie::drawn_forms& f) {
+    const int bits = std::clamp(64 * T - 4 - f.bits(0) + f.cut, 1, 64 * T - 2);
+    const auto place = f.place(bits).from_bit<T>(0).plain();
+    const counting now;
+    const auto low = fixed_integer<T>::given(place, bits);
+    for (const int width_bits : {0, 5, 15, 27})
+        (void)contact.template throughout<T>(low, bits, width_bits);
+}
+
+/// Forms with contact or almost, whose decision comes to later brackets and halves.
+template <int Words, template <class, int> class Forms>
+void decide_forms(const tie::drawn_forms& f, int bits) {
+    if (f.bits() > bits) return;
+    integer_units units(ccd::vertex_vertex<double>{});
+    units.x.bits = units.y.bits = units.z.bits = bits;
+    const auto given = [bits](const auto& x) {
+        return fixed_integer<Words>::given(x.template from_bit<Words>(0).plain(), bits);
+    };
+    std::optional<counting> now(std::in_place);
+    const auto forms = f.as<Forms>(given);
+    const auto y = forms.y();
+    opened_contact<Words, Forms> contact(forms, y, units);
+    (void)contact.decide();
+    // The part of the most halvings about the root.
+    using part = typename opened_contact<Words, Forms>::part;
+    part some{{}, ccd::detail::inner_sign_changes(y), 0, 0};
+    for (int i = 0; i <= 3; ++i) some.y[i] = y[i];
+    std::uint64_t path = f.path;
+    for (; some.level < f.level; ++some.level, path >>= 1) {
+        const auto left = left_half(some.y), right = reversed(left_half(reversed(some.y)));
+        const ccd::detail::inner_sign_changes on_left(left), on_right(right);
+        const bool to_right = !on_left.opposite && (on_right.opposite || path % 2 == 1);
+        some.y = to_right ? right : left;
+        some.roots = to_right ? on_right : on_left;
+        some.index = 2 * some.index + to_right;
+    }
+    contact.three_real_roots_ = true;
+    (void)contact.without_halving(some);
+    now.reset();
+    ask_throughout<1>(contact, f);
+    ask_throughout<2>(contact, f);
+    ask_throughout<3>(contact, f);
+    ask_throughout<4>(contact, f);
+}
+
+template <int Words>
+void decide_all(int bits) {
+    tie::sequence numbers;
+    counted = {};
+    for (int k = 0; k < support::scaled(4000); ++k)
+        decide<Words>(tie::whole_query_maker(numbers).wide_query(), bits);
+    for (int k = 0; k < support::scaled(12000); ++k)
+        decide<Words>(tie::whole_query_maker(numbers).query(), bits);
+    for (int k = 0; k < support::scaled(1000); ++k) {
+        const auto f = tie::whole_forms_maker(numbers).forms();
+        if (f.edges)
+            decide_forms<Words, ccd::edge_edge_forms>(f, bits);
+        else
+            decide_forms<Words, ccd::vertex_face_forms>(f, bits);
+    }
+}
+
+template <class Words>
+class Widths : public testing::Test {};
+using all_words = testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 2>,
+                                 std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(Widths, all_words);
+
+TYPED_TEST(Widths, HoldAllNumbersAtTheLargestExtents) {
+    constexpr int words = TypeParam::value;
+    decide_all<words>(extent_limit(words));
+    EXPECT_EQ(counted.beyond, 0U) << counted.first;
+    // The longest were come to: forms at roots of Y whose places have so many words, and at
+    // multiple ones.
+    for (int place = 1; place <= (words == 1 ? 3 : 4); ++place)
+        EXPECT_TRUE(counted.fullest.contains(4 * (words + place))) << place;
+    EXPECT_TRUE(counted.fullest.contains(28 * words));
+    std::cout << counted.numbers << " numbers; the most bits by words:";
+    for (const auto& [of, bits] : counted.fullest)
+        std::cout << ' ' << of << ": " << bits << '/' << 64 * of - 1;
+    std::cout << '\n';
+}
+TYPED_TEST(Widths, AreTooFewBeyond) {
+    constexpr int words = TypeParam::value;
+    decide_all<words>(extent_limit(words) + 1);
+    EXPECT_GT(counted.beyond, 0U);
+}
+
+}  // namespace
