@@ -1,7 +1,7 @@
 // Decisions in integers of fixed width over integers that count bits (tests/proofs/counted): at the
 // largest extents that a width is used for, no number that they compute exceeds its words, whatever
-// the values are. proofs/FixedWidths.v proves that of expressions read off the code; this is of the
-// code as it runs, on the queries and forms of the ties, which come to all its branches.
+// the values are. FixedWidths.v of the proofs proves that of expressions read off the code; this is
+// of the code as it runs, on the queries and forms of the ties, which come to all its branches.
 #include <gtest/gtest.h>
 
 #include <algorithm>

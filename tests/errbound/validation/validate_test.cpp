@@ -114,7 +114,7 @@ void check_exact_values(std::uint64_t seed, const Set& set) {
             x = traits::scale(x, 53) + static_cast<T>(static_cast<double>(random() >> 11));
         if (i % 2 != 0) x = -x;
         const int reach = i % 4 == 0 ? 8 : traits::max_exponent / 2;
-        x = traits::scale(x, static_cast<int>(random() % (2U * reach)) - reach);
+        x = traits::scale(x, static_cast<int>(random() % static_cast<unsigned>(2 * reach)) - reach);
         const validation::exact_value exact = validation::exactly(x);
         ASSERT_TRUE(validation::number_of<T>(exact) == x);
         EXPECT_EQ(ours.set(exact), 0);

@@ -1,6 +1,7 @@
 // In place of the library's header: integers of fixed width that count bits. Beside its words each
 // has what it can be at most, which depends on how it was computed and not on its value, as
-// expressions have in proofs/FixedWidths.v (`bound`); where that exceeds its words, it is told.
+// expressions have in FixedWidths.v of the proofs (`bound`); where that exceeds its words, it is
+// told.
 #pragma once
 
 // The library's own, under another name.
@@ -9,7 +10,7 @@
 #undef fixed_integer
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
+#include <bit>
 #include <compare>
 #include <cstdint>
 #include <map>
@@ -17,6 +18,41 @@
 #include <type_traits>
 
 namespace errbound::integers {
+
+/// At most m·2^k, rounded up to 32 bits.
+struct upper_bound {
+    std::uint64_t m = 0;
+    int k = 0;
+
+    static constexpr upper_bound of(std::uint64_t m, int k) {
+        for (; m >> 32 != 0; ++k) m = (m >> 1) + (m & 1);
+        return {m, k};
+    }
+    /// As a multiple of 2^to, for to >= k.
+    constexpr upper_bound raised(int to) const {
+        const int by = to - k;
+        if (m == 0 || by >= 32) return {std::uint64_t{m != 0}, to};
+        return {(m + (std::uint64_t{1} << by) - 1) >> by, to};
+    }
+    friend constexpr upper_bound operator+(const upper_bound& a, const upper_bound& b) {
+        const int k = std::max(a.k, b.k);
+        return of(a.raised(k).m + b.raised(k).m, k);
+    }
+    friend constexpr upper_bound operator*(const upper_bound& a, const upper_bound& b) {
+        return of(a.m * b.m, a.k + b.k);
+    }
+    friend constexpr bool operator<(const upper_bound& a, const upper_bound& b) {
+        const int k = std::max(a.k, b.k);
+        return a.raised(k).m < b.raised(k).m;
+    }
+    /// Times 2^e, rounded up to a whole number.
+    constexpr upper_bound times_power(int e) const {
+        const upper_bound whole = k + e < 0 ? raised(-e) : *this;
+        return {whole.m, whole.k + e};
+    }
+    /// The number is below 2^bits().
+    constexpr int bits() const { return m == 0 ? 0 : k + static_cast<int>(std::bit_width(m)); }
+};
 
 /// What was counted. Nothing is, and no bound is known, unless `on`.
 struct bit_count {
@@ -29,52 +65,52 @@ inline bit_count counted;
 
 template <int Words>
 class fixed_integer {
-    using bound_type = boost::multiprecision::cpp_int;
     using numbers = words_alone<Words>;
 
   public:
     static constexpr int width = numbers::width;
 
-    fixed_integer() = default;
-    fixed_integer(std::int64_t value) : x_(value) {
-        if (counted.on) known(boost::multiprecision::abs(bound_type(value)), "a constant");
+    constexpr fixed_integer() = default;
+    constexpr fixed_integer(std::int64_t value) : x_(value) {
+        const auto size = static_cast<std::uint64_t>(value);
+        known(upper_bound::of(value < 0 ? 0 - size : size, 0), "a constant");
     }
     template <int Narrower>
-    requires(Narrower < Words) fixed_integer(const fixed_integer<Narrower>& x) : x_(x.x_) {
+    requires(Narrower < Words) constexpr fixed_integer(const fixed_integer<Narrower>& x)
+        : x_(x.x_) {
         known(x.bound_, "conversion");
     }
-    static fixed_integer shifted(words::word magnitude, int shift) {
-        fixed_integer r{numbers::shifted(magnitude, shift), bound_type(magnitude) << shift,
+    static constexpr fixed_integer shifted(words::word magnitude, int shift) {
+        fixed_integer r{numbers::shifted(magnitude, shift), upper_bound::of(magnitude, shift),
                         "shifted"};
         r.is_unit_ = magnitude == 1;
         return r;
     }
     /// x, which is below 2^bits in size.
-    static fixed_integer given(const numbers& x, int bits) {
-        return {x, bound_type(1) << bits, "given"};
+    static constexpr fixed_integer given(const numbers& x, int bits) {
+        return {x, upper_bound{1, bits}, "given"};
     }
     /// A coordinate modulo its width: differences of such are below 2^bits, and nothing else is
     /// known.
-    static fixed_integer coordinate(const numbers& x, int bits) {
+    static constexpr fixed_integer coordinate(const numbers& x, int bits) {
         fixed_integer r;
         r.x_ = x;
         r.difference_bits_ = bits;
         return r;
     }
 
-    const numbers& plain() const { return x_; }
-    words::word operator[](int i) const { return x_[i]; }
-    bool negative() const { return x_.negative(); }
+    constexpr const numbers& plain() const { return x_; }
+    constexpr words::word operator[](int i) const { return x_[i]; }
+    constexpr bool negative() const { return x_.negative(); }
 
-    friend fixed_integer operator+(const fixed_integer& a, const fixed_integer& b) {
+    friend constexpr fixed_integer operator+(const fixed_integer& a, const fixed_integer& b) {
         return {a.x_ + b.x_, a.bound_ + b.bound_, "+", a, b};
     }
-    friend fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
+    friend constexpr fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
         if (a.difference_bits_ >= 0 && b.difference_bits_ == a.difference_bits_)
             return given(a.x_ - b.x_, a.difference_bits_);
-        // The rest of the step after a place in it: both are at most the step, 2^bits, as places
-        // are (proofs/CubicRoots.v, bracket_near_right; proofs/Places.v), which sums of bounds tell
-        // not.
+        // The rest of the step after a place in it: both are at most the step, 2^bits, which sums
+        // of bounds tell not. Proof: proofs/CubicRoots.v, bracket_near_right.
         if (a.is_unit_ && !b.negative() && b <= a) {
             b.bound_ = std::min(b.bound_, a.bound_);
             b.is_place_ = true;
@@ -84,30 +120,34 @@ class fixed_integer {
             return {a.x_ - b.x_, std::max(a.bound_, b.bound_), "-", a, b};
         return {a.x_ - b.x_, a.bound_ + b.bound_, "-", a, b};
     }
-    fixed_integer operator-() const { return {-x_, bound_, "opposite", *this, *this}; }
-    friend fixed_integer operator<<(const fixed_integer& x, int bits) {
-        return {x.x_ << bits, x.bound_ << bits, "<<", x, x};
+    constexpr fixed_integer operator-() const { return {-x_, bound_, "opposite", *this, *this}; }
+    friend constexpr fixed_integer operator<<(const fixed_integer& x, int bits) {
+        return {x.x_ << bits, x.bound_.times_power(bits), "<<", x, x};
     }
-    friend bool operator==(const fixed_integer& a, const fixed_integer& b) { return a.x_ == b.x_; }
-    friend std::strong_ordering operator<=>(const fixed_integer& a, const fixed_integer& b) {
+    friend constexpr bool operator==(const fixed_integer& a, const fixed_integer& b) {
+        return a.x_ == b.x_;
+    }
+    friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
+                                                      const fixed_integer& b) {
         return a.x_ <=> b.x_;
     }
-    friend sign_type sign_of(const fixed_integer& x) { return sign_of(x.x_); }
-    int bit_length() const { return x_.bit_length(); }
+    friend constexpr sign_type sign_of(const fixed_integer& x) { return sign_of(x.x_); }
+    constexpr int bit_length() const { return x_.bit_length(); }
 
     template <int Result>
-    fixed_integer<Result> from_bit(int shift) const {
-        return {x_.template from_bit<Result>(shift), (bound_ >> shift) + 1, "from_bit"};
+    constexpr fixed_integer<Result> from_bit(int shift) const {
+        return {x_.template from_bit<Result>(shift), bound_.times_power(-shift) + upper_bound{1, 0},
+                "from_bit"};
     }
     /// Modulo 2^64, where that is meant.
-    std::int64_t word_from_bit(int shift) const { return x_.word_from_bit(shift); }
+    constexpr std::int64_t word_from_bit(int shift) const { return x_.word_from_bit(shift); }
     /// The number, which has to fit.
-    std::int64_t low_word() const {
+    constexpr std::int64_t low_word() const {
         if (counted.on && !(numbers(x_.low_word()) == x_)) told("low_word");
         return x_.low_word();
     }
     template <int B>
-    fixed_integer<Words + B> times(const fixed_integer<B>& b) const {
+    constexpr fixed_integer<Words + B> times(const fixed_integer<B>& b) const {
         fixed_integer<Words + B> r{x_ * b.x_, bound_ * b.bound_, "*"};
         if (counted.on && (difference_bits_ >= 0 || b.difference_bits_ >= 0)) told("*");
         return r;
@@ -117,21 +157,20 @@ class fixed_integer {
     template <int>
     friend class fixed_integer;
 
-    fixed_integer(const numbers& x, const bound_type& bound, const char* how) : x_(x) {
+    constexpr fixed_integer(const numbers& x, const upper_bound& bound, const char* how) : x_(x) {
         known(bound, how);
     }
-    fixed_integer(const numbers& x, const bound_type& bound, const char* how,
-                  const fixed_integer& a, const fixed_integer& b)
+    constexpr fixed_integer(const numbers& x, const upper_bound& bound, const char* how,
+                            const fixed_integer& a, const fixed_integer& b)
         : fixed_integer(x, bound, how) {
         if (counted.on && (a.difference_bits_ >= 0 || b.difference_bits_ >= 0)) told(how);
     }
-    void known(const bound_type& bound, const char* how) {
+    constexpr void known(const upper_bound& bound, const char* how) {
         if (!counted.on) return;
         bound_ = bound;
         ++counted.numbers;
-        const int bits = bound_ == 0 ? 0 : static_cast<int>(boost::multiprecision::msb(bound_)) + 1;
-        counted.fullest[Words] = std::max(counted.fullest[Words], bits);
-        if (bits >= width) told(how);
+        counted.fullest[Words] = std::max(counted.fullest[Words], bound_.bits());
+        if (bound_.bits() >= width) told(how);
     }
     static void told(const char* how) {
         if (counted.beyond++ == 0)
@@ -139,18 +178,18 @@ class fixed_integer {
     }
 
     numbers x_;
-    mutable bound_type bound_ = 0;
+    mutable upper_bound bound_{};
     mutable bool is_place_ = false;
     bool is_unit_ = false;
     int difference_bits_ = -1;
 };
 
 template <int A, int B>
-fixed_integer<A + B> operator*(const fixed_integer<A>& a, const fixed_integer<B>& b) {
+constexpr fixed_integer<A + B> operator*(const fixed_integer<A>& a, const fixed_integer<B>& b) {
     return a.times(b);
 }
 template <int Words>
-fixed_integer<Words> scale(const fixed_integer<Words>& x, int e) {
+constexpr fixed_integer<Words> scale(const fixed_integer<Words>& x, int e) {
     return x << e;
 }
 
