@@ -146,7 +146,8 @@ validate_arguments validate_options::checked() {
     };
     if (!all.functions.functions.empty() &&
         std::ranges::none_of(all.functions.numbers, has_functions))
-        throw support::usage_error("--functions: found --numbers without float and double");
+        throw support::usage_error(
+            "--functions: found --numbers without float and double, expected one of them");
     if (all.functions.every_float) require_use_of_every_float(all.functions);
     all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <errbound/validation/expression.hpp>
 #include <type_traits>
@@ -29,10 +30,6 @@ class input_maker {
     // Numbers are made as doubles where these hold all of T.
     using maker = std::conditional_t<fits_double<T>, double, T>;
     using making = number_traits<maker>;
-    // 2^least is the smallest positive number, 2^most just too large.
-    static constexpr int least =
-        has_subnormals<T> ? traits::min_exponent - traits::digits : traits::min_exponent - 1;
-    static constexpr int most = traits::max_exponent;
 
   public:
     input_maker(random_source& random, operand_scale scale)
@@ -47,26 +44,26 @@ class input_maker {
                 switch (random_.below(4)) {
                     case 0: {
                         const maker sign = random_.one_in(2) ? -1 : 1;
-                        return rounded(scaled(sign * maker(random_.below(20)), least));
+                        return rounded(scaled(sign * maker(random_.below(20)), least_));
                     }
                     case 1:
-                        return of_exponent(least + random_.between(1, traits::digits + 4));
+                        return of_exponent(least_ + random_.between(1, traits::digits + 4));
                     case 2:
                         return of_exponent(random_.between(-4, 5));
                     default:
-                        return of_exponent(least / 2 + random_.between(-4, traits::digits));
+                        return of_exponent(least_ / 2 + random_.between(-4, traits::digits));
                 }
             case operand_scale::overflowing:
                 switch (random_.below(3)) {
                     case 0:
-                        return of_exponent(most - random_.below(3));
+                        return of_exponent(most_ - random_.below(3));
                     case 1:
                         return of_exponent(random_.between(-4, 5));
                     default:
-                        return of_exponent(most / 2 + random_.between(-2, 2));
+                        return of_exponent(most_ / 2 + random_.between(-2, 2));
                 }
             case operand_scale::mixed:
-                return of_exponent(random_.between(least + 1, most));
+                return of_exponent(random_.between(least_ + 1, most_));
             case operand_scale::small_integers:
                 return maker(random_.between(-8, 8));
             case operand_scale::nearly_cancelling: {
@@ -111,19 +108,23 @@ class input_maker {
 
     random_source& random_;
     operand_scale scale_;
+    // 2^least is the smallest positive number, 2^most just too large.
+    int least_ = has_subnormals<T> ? traits::min_exponent - traits::digits
+                                   : traits::exponent(traits::smallest_normal()) - 1;
+    int most_ = traits::exponent(traits::largest());
     maker middle_;
 };
 
-/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, dot product, polynomial, any
-/// elementary function.
+/// Out of so many: + − × ÷, −x, ·2^e, √x, |x|, min, max, fma, dot product, polynomial, copysign,
+/// midpoint, lerp, hypot, x^n, any elementary function.
 using operation_mix = std::array<int, first_function + 1>;
 constexpr std::array<operation_mix, 6> mixes{
-    {{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0, 2, 2, 0},  // polynomials
-     {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0},  // sums
-     {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0},  // products
-     {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4, 1, 1, 0},  // functions
-     {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0},
-     {3, 3, 4, 0, 1, 2, 1, 1, 1, 1, 1, 1, 1, 8}}};
+    {{3, 3, 6, 0, 1, 1, 0, 0, 0, 0, 0, 2, 2, 0, 0, 0, 0, 0, 0},  // polynomials
+     {4, 6, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0},  // sums
+     {1, 1, 6, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},  // products
+     {4, 3, 6, 0, 1, 1, 6, 4, 2, 2, 4, 1, 1, 2, 2, 3, 3, 2, 0},  // functions
+     {2, 3, 3, 4, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0},
+     {3, 3, 4, 0, 1, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 9}}};
 constexpr std::size_t mix_with_quotients = 4, mix_with_elementary_functions = 5;
 
 operation_kind kind_from(const operation_mix& mix, random_source& random) {
@@ -172,6 +173,7 @@ expression made(random_source& random, std::uint64_t index, int longest) {
         if (o.has_third()) o.third = static_cast<std::uint8_t>(random.below(values));
         const int reach = random.one_in(4) ? number_traits<T>::max_exponent : 8;
         if (o.kind == operation_kind::scale) o.exponent = random.between(-reach, reach);
+        if (o.kind == operation_kind::power) o.exponent = random.between(-3, 6);
     }
     return e;
 }
@@ -190,8 +192,9 @@ std::string name_of_value(std::size_t value) {
 std::string_view name_of(operation_kind kind) {
     if (is_function(kind)) return name_of(function_of(kind));
     constexpr std::array<std::string_view, first_function> names{
-        "add", "subtract", "multiply", "divide", "negate", "scale", "sqrt",
-        "abs", "min",      "max",      "fma",    "dot",    "horner"};
+        "add",    "subtract", "multiply", "divide", "negate", "scale",
+        "sqrt",   "abs",      "min",      "max",    "fma",    "dot",
+        "horner", "copysign", "midpoint", "lerp",   "hypot",  "pow(x, n)"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -258,7 +261,7 @@ class multiples {
     struct multiple {
         std::size_t of = 0;
         bool negative = false;
-        int power = 0;
+        std::int64_t power = 0;
     };
     std::array<multiple, expression::max_values> known_;
 };
@@ -274,6 +277,41 @@ void set_polynomial(ball& result, const ball& left, const ball& right, const bal
     ball inner(mpfr_get_prec(result.middle()));
     inner.set_fused(third, left, right);
     result.set_fused(inner, left, third);
+}
+
+/// √(left² + right²).
+void set_hypotenuse(ball& result, const ball& left, const ball& right) {
+    ball square(mpfr_get_prec(result.middle())), sum(square);
+    square.set_product(left, left);
+    sum.set_fused(right, right, square);
+    result.set_root_of_squares(sum);
+}
+/// left + third·(right − left).
+void set_interpolated(ball& result, const ball& left, const ball& right, const ball& third) {
+    const bool defined = left.is_defined() && right.is_defined() && third.is_defined();
+    const bool whole = third.is_exact() && mpfr_cmp_ui(third.middle(), 1) == 0;
+    if (defined && (whole || third.is_zero())) {
+        result = whole ? right : left;  // without the difference's rounding
+        return;
+    }
+    ball difference(mpfr_get_prec(result.middle()));
+    difference.set_difference(right, left);
+    result.set_fused(third, difference, left);
+}
+/// x^n; undefined for n < 0 and x = 0.
+void set_power(ball& result, const ball& x, int n) {
+    ball one(mpfr_get_prec(result.middle())), power(one);
+    one.set(1);
+    power.set_product(one, x);  // as undefined as x
+    if (n == 0 && x.is_defined()) power = one;
+    for (int i = 1; i < std::abs(n); ++i) {
+        const ball before = power;
+        power.set_product(before, x);
+    }
+    if (n < 0)
+        result.set_quotient(one, power);
+    else
+        result = power;
 }
 
 /// The result of an operation on others of the values.
@@ -317,6 +355,24 @@ void set_result(ball& result, const expression_operation& o, const ball* values)
             break;
         case operation_kind::horner:
             set_polynomial(result, values[o.left], values[o.right], values[o.third]);
+            break;
+        case operation_kind::copy_sign:
+            result.set_with_sign(values[o.left], values[o.right]);
+            break;
+        case operation_kind::middle: {
+            ball sum(mpfr_get_prec(result.middle()));
+            sum.set_sum(values[o.left], values[o.right]);
+            result.set_scaled(sum, -1);
+            break;
+        }
+        case operation_kind::interpolate:
+            set_interpolated(result, values[o.left], values[o.right], values[o.third]);
+            break;
+        case operation_kind::hypotenuse:
+            set_hypotenuse(result, values[o.left], values[o.right]);
+            break;
+        case operation_kind::power:
+            set_power(result, values[o.left], o.exponent);
             break;
         default:
             result.set_function(function_of(o.kind), values[o.left], values[o.right]);
@@ -382,6 +438,8 @@ std::string cpp_text(const expression_operation& o) {
             return "-" + left;
         case operation_kind::scale:
             return "scale(" + left + ", " + std::to_string(o.exponent) + ")";
+        case operation_kind::power:
+            return "pow(" + left + ", " + std::to_string(o.exponent) + ")";
         case operation_kind::dot:
             return "dot(std::array{" + left + ", " + third + "}, std::array{" + right + ", " +
                    left + "})";

@@ -14,6 +14,14 @@ std::string decimal(mpfr_srcptr x) {
     return text;
 }
 
+/// "0x1.8p-3", or "(0x1.8p-1 + 0x1p-60)*2^5000".
+std::string number_text(const exact_value& x) {
+    std::string sum = hexadecimal(x.leading);
+    for (const double part : x.rest)
+        if (part != 0) sum += " + " + hexadecimal(part);
+    return x.is_double() ? sum : "(" + sum + ")*2^" + std::to_string(x.exponent);
+}
+
 std::string_view name_of(sign_type s) {
     switch (s) {
         case sign_type::negative:
@@ -66,7 +74,7 @@ void add_ratio(distribution& to, error_meaning meaning, const claim& c, const ba
 }
 
 std::string sentence(finding f, const claim& c, const ball& x, const deviation& off) {
-    const std::string value = "value " + hexadecimal(c.value) + ", bound " + hexadecimal(c.error) +
+    const std::string value = "value " + number_text(c.value) + ", bound " + number_text(c.error) +
                               ", sign " + std::string(name_of(c.sign));
     const std::string exact =
         x.is_defined() ? "exact value near " + decimal(x.middle()) : "no exact value";

@@ -43,7 +43,7 @@ std::vector<int> nearer_exponents(int e) {
 }
 
 int bits_of(double x) {
-    if (x == 0) return 0;
+    if (x == 0 || !std::isfinite(x)) return 0;
     int e = 0, bits = 0;
     for (double m = std::frexp(x, &e); m != 0; m -= std::trunc(m), ++bits) m *= 2;
     return bits;
@@ -60,7 +60,12 @@ double size_of(const exact_value& x) {
 
 /// Made of several, the first of which is left·right.
 bool is_compound(operation_kind kind) {
-    return kind == operation_kind::dot || kind == operation_kind::horner;
+    return kind == operation_kind::dot || kind == operation_kind::horner ||
+           kind == operation_kind::interpolate;
+}
+
+bool has_exponent(operation_kind kind) {
+    return kind == operation_kind::scale || kind == operation_kind::power;
 }
 
 /// Falls with every accepted step: operations first, then inputs, then their digits.
@@ -68,7 +73,7 @@ double size_of(const expression& e) {
     double size =
         1e6 * static_cast<double>(e.operation_count) + 1e4 * static_cast<double>(e.input_count);
     for (std::size_t i = 0; i < e.operation_count; ++i) {
-        if (e.operations[i].kind == operation_kind::scale)
+        if (has_exponent(e.operations[i].kind))
             size += std::abs(static_cast<double>(e.operations[i].exponent));
         if (is_compound(e.operations[i].kind)) size += 1e5;
     }
@@ -154,7 +159,7 @@ std::vector<expression> smaller(const expression& e, number_type type) {
             product.operations[n - e.input_count].kind = operation_kind::multiply;
             r.push_back(cut(product, e.size() - 1));
         }
-        if (o.kind == operation_kind::scale)
+        if (has_exponent(o.kind))
             for (const int exponent : nearer_exponents(o.exponent)) {
                 r.push_back(e);
                 r.back().operations[n - e.input_count].exponent = exponent;
@@ -162,12 +167,14 @@ std::vector<expression> smaller(const expression& e, number_type type) {
     }
     for (std::size_t i = 0; i < e.input_count; ++i) {
         const auto change = [&](const expression_input& in) {
-            r.push_back(e);
+            expression_input held = in;
             with_any_number_type(type, [&]<class T>() {
-                r.back().inputs[i] = {.value = exactly(number_of<T>(in.value)),
-                                      .error = exactly(number_of<T>(in.error)),
-                                      .quarters = in.quarters};
+                held.value = exactly(number_of<T>(in.value));
+                held.error = exactly(number_of<T>(in.error));
             });
+            if (!held.value.is_finite() || !held.error.is_finite()) return;
+            r.push_back(e);
+            r.back().inputs[i] = held;
         };
         expression_input in = e.inputs[i];
         for (const exact_value& value : simpler_numbers(in.value))

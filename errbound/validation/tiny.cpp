@@ -1,4 +1,5 @@
 // Every rule in every case of tiny formats.
+#include <algorithm>
 #include <cmath>
 #include <errbound/validation/tiny_check.hpp>
 #include <errbound/validation/validation.hpp>
@@ -26,7 +27,7 @@ std::string text_of(const tiny_account& how) {
     if (how.inner != nullptr) text += "const number d = " + std::string(how.inner) + ";\n";
     std::string operation = how.operation;
     if (operation == "scale") operation = "scale(a, " + std::to_string(how.exponent) + ")";
-    return text + "const number " + (how.inner != nullptr ? "e" : "c") + " = " + operation + ";\n";
+    return text + "const number " + (how.count == 3 ? "e" : "c") + " = " + operation + ";\n";
 }
 
 }  // namespace
@@ -109,6 +110,32 @@ void claim_checker::check_root(const tiny_claim& r, const exact_range& x, const 
                                   compare_product(most, most, x.high) >= 0))
         add(r, "the bound is too small", how);
     check_sign(r, x.low, x.high, how);
+}
+
+void claim_checker::check_fused(const tiny_claim& r, std::span<const fused_value> ends,
+                                const tiny_account& how) {
+    const auto is_finite = [](const fused_value& v) {
+        return std::isfinite(v.left) && std::isfinite(v.right) && std::isfinite(v.addend);
+    };
+    if (!std::ranges::all_of(ends, is_finite) || !std::isfinite(r.value)) {
+        check(r, {}, how);
+        return;
+    }
+    ++found_.values;
+    // Sums of results, bounds and operands fit 53 bits.
+    const double least = r.value - r.error, most = r.value + r.error;
+    int low = 1, high = -1;
+    for (const auto& [left, right, addend] : ends) {
+        const int sign = compare_product(left, right, -addend);
+        low = std::min(low, sign);
+        high = std::max(high, sign);
+        if (std::isnan(r.error) || (compare_product(left, right, least - addend) >= 0 &&
+                                    compare_product(left, right, most - addend) <= 0))
+            continue;
+        add(r, "the bound is too small", how);
+        return;
+    }
+    check_sign(r, low, high, how);
 }
 
 void claim_checker::check_sign(const tiny_claim& r, double low, double high,

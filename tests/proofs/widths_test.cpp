@@ -1,7 +1,8 @@
 // Decisions in integers of fixed width over integers that count bits (tests/proofs/counted): at the
-// largest extents that a width is used for, no number that they compute exceeds its words, whatever
-// the values are. FixedWidths.v of the proofs proves that of expressions read off the code; this is
-// of the code as it runs, on the queries and forms of the ties, which come to all its branches.
+// largest extents that a width is used for, no number that they compute exceeds its words, by
+// how it is computed. FixedWidths.v of the proofs proves that of expressions read off the code;
+// this is of the code as it runs, on the queries and forms of the ties, which come to all its
+// branches.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,9 +46,16 @@ void decide(const Query& query, int bits) {
     integer_units units(query);
     if (!units.finite() || units.bits() > bits) return;
     units.x.bits = units.y.bits = units.z.bits = bits;
-    const auto in_words = ccd::transformed(units.converted<Words>(query), [bits](const auto& x) {
-        return fixed_integer<Words>::coordinate(x.plain(), bits);
-    });
+    const auto coordinate = [bits](const auto& x, int axis_and_end) {
+        return fixed_integer<Words>::coordinate(x.plain(), axis_and_end, bits);
+    };
+    const auto in_words =
+        ccd::transformed_motions(units.converted<Words>(query), [&](const auto& p) {
+            using point = ccd::point<fixed_integer<Words>>;
+            return ccd::moving_point<fixed_integer<Words>>{
+                point{coordinate(p.t0.x, 0), coordinate(p.t0.y, 1), coordinate(p.t0.z, 2)},
+                point{coordinate(p.t1.x, 3), coordinate(p.t1.y, 4), coordinate(p.t1.z, 5)}};
+        });
     const counting now;
     (void)ccd::detail::decide_converted<Words>(in_words, query, units);
 }
@@ -87,7 +95,7 @@ void decide_forms(const tie::drawn_forms& f, int bits) {
     integer_units units(ccd::vertex_vertex<double>{});
     units.x.bits = units.y.bits = units.z.bits = bits;
     const auto given = [bits](const auto& x) {
-        return fixed_integer<Words>::given(x.template from_bit<Words>(0).plain(), bits);
+        return fixed_integer<Words>::given(x.plain().template from_bit<Words>(0), bits);
     };
     std::optional<counting> now(std::in_place);
     const auto forms = f.as<Forms>(given);

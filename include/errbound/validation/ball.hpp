@@ -190,9 +190,32 @@ class ball {
         }
         rounded(mpfr_sqrt(middle_.get(), a.middle(), MPFR_RNDN));
     }
+    /// √ of a sum of squares, which is not below 0 even where the enclosure is.
+    void set_root_of_squares(const ball& a) {
+        MPFR_DECL_INIT(most, radius_precision);
+        mpfr_sub(most, a.middle(), a.radius(), MPFR_RNDD);
+        if (!a.is_defined() || a.is_unknown() || mpfr_sgn(most) >= 0) return set_root(a);
+        mpfr_add(most, a.middle(), a.radius(), MPFR_RNDU);
+        mpfr_set_zero(middle_.get(), 1);
+        mpfr_sqrt(radius_.get(), most, MPFR_RNDU);
+    }
     void set_absolute(const ball& a) {
         mpfr_abs(middle_.get(), a.middle(), MPFR_RNDN);
         mpfr_set(radius_.get(), a.radius(), MPFR_RNDU);
+    }
+    /// |x| with the sign of what is in b, zero's taken for positive; where b does not tell, what is
+    /// between −|x| and |x|.
+    void set_with_sign(const ball& a, const ball& b) {
+        if (!a.is_defined() || !b.is_defined()) return set_undefined();
+        if (b.is_unknown()) return set_unknown();
+        const sign_type sign = b.sign();
+        set_absolute(a);
+        if (sign == sign_type::negative) mpfr_neg(middle_.get(), middle_.get(), MPFR_RNDN);
+        if (certain(sign)) return;
+        MPFR_DECL_INIT(size, radius_precision);
+        mpfr_set(size, middle_.get(), MPFR_RNDU);
+        mpfr_add(radius_.get(), radius_.get(), size, MPFR_RNDU);
+        mpfr_set_zero(middle_.get(), 1);
     }
     /// Of the two the lesser or the greater: |max(x, y) − max(a, b)| <= max(ra, rb).
     void set_lesser(const ball& a, const ball& b) { set_one(a, b, mpfr_lessequal_p); }

@@ -36,6 +36,11 @@ enum class operation_kind : std::uint8_t {
     fused,
     dot,
     horner,
+    copy_sign,
+    middle,
+    interpolate,
+    hypotenuse,
+    power,
     function  ///< and after it all others of elementary_function, in its order
 };
 inline constexpr std::size_t first_function = static_cast<std::size_t>(operation_kind::function);
@@ -57,9 +62,9 @@ struct expression_input {
 };
 
 /// left ∘ right; −left, √left, |left|; left·2^exponent; left·right + third; the dot product
-/// left·right
-/// + third·left, the polynomial third + right·left + third·left²; a function of left, or of left
-/// and right.
+/// left·right + third·left, the polynomial third + right·left + third·left²; |left| with right's
+/// sign, the middle of left and right, left + third·(right − left), √(left² + right²);
+/// left^exponent; a function of left, or of left and right.
 struct expression_operation {
     operation_kind kind = operation_kind::add;
     std::uint8_t left = 0, right = 0, third = 0;
@@ -68,11 +73,12 @@ struct expression_operation {
     bool has_right() const {
         if (is_function(kind)) return has_two_arguments(function_of(kind));
         return kind != operation_kind::negate && kind != operation_kind::scale &&
-               kind != operation_kind::root && kind != operation_kind::absolute;
+               kind != operation_kind::root && kind != operation_kind::absolute &&
+               kind != operation_kind::power;
     }
     bool has_third() const {
         return kind == operation_kind::fused || kind == operation_kind::dot ||
-               kind == operation_kind::horner;
+               kind == operation_kind::horner || kind == operation_kind::interpolate;
     }
     /// Calls visit with each operand's place.
     template <class Visit>
@@ -100,6 +106,7 @@ struct expression {
     bool is_polynomial() const {
         return !has([](operation_kind kind) {
             return kind == operation_kind::divide || kind == operation_kind::root ||
+                   kind == operation_kind::hypotenuse || kind == operation_kind::power ||
                    is_function(kind);
         });
     }
@@ -189,10 +196,14 @@ constexpr decltype(auto) with_number_type(number_type type, const F& f) {
 }
 
 /// Whether tracked numbers of type T have the operation: without subnormal numbers there are no
-/// roots and fused products, and not all types have elementary functions.
+/// roots and fused products, nor what is made of these; not all types have elementary functions.
 template <class T>
 constexpr bool has_operation(operation_kind kind) {
-    if (kind == operation_kind::root || kind == operation_kind::fused) return has_subnormals<T>;
+    if (kind == operation_kind::root || kind == operation_kind::fused ||
+        kind == operation_kind::interpolate)
+        return has_subnormals<T>;
+    if (kind == operation_kind::hypotenuse)
+        return has_subnormals<T> && number_traits<T>::digits >= 8;
     if (is_function(kind)) return detail::has_system_functions<detail::function_type<T>>;
     return true;
 }
@@ -244,6 +255,19 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
             return dot(std::array{left, x[o.third]}, std::array{right, left});
         case operation_kind::horner:
             return horner(std::array{x[o.third], right, x[o.third]}, left);
+        case operation_kind::copy_sign:
+            return copysign(left, right);
+        case operation_kind::middle:
+            return midpoint(left, right);
+        case operation_kind::interpolate:
+            if constexpr (has_operation<T>(operation_kind::interpolate))
+                return lerp(left, right, x[o.third]);
+            break;
+        case operation_kind::hypotenuse:
+            if constexpr (has_operation<T>(operation_kind::hypotenuse)) return hypot(left, right);
+            break;
+        case operation_kind::power:
+            return pow(left, o.exponent);
         default:
             if constexpr (has_operation<T>(operation_kind::function))
                 return with_function(function_of(o.kind), [&]<elementary_function F>() {

@@ -12,6 +12,7 @@
 #include <errbound/validation/tiny_float.hpp>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -125,6 +126,11 @@ struct tiny_claim {
     sign_type sign;
 };
 
+/// left·right + addend.
+struct fused_value {
+    double left, right, addend;
+};
+
 /// Holds results to what they may be the results of. Exact references are doubles here: every sum
 /// and difference of what formats of 8 bits and their bounds hold fits 53 bits; a product is
 /// compared with such, exactly, and quotients are compared multiplied out.
@@ -144,6 +150,9 @@ class claim_checker {
 
     /// The root of what lies in a range: compared squared.
     void check_root(const tiny_claim& r, const exact_range& x, const tiny_account& how);
+    /// A result that lies between some of these.
+    void check_fused(const tiny_claim& r, std::span<const fused_value> ends,
+                     const tiny_account& how);
 
   private:
     /// A certain sign must be that of all numbers from low to high.
@@ -247,6 +256,40 @@ class tiny_checker {
         if (Tiny::exponent_bits == 3 && a.as_operand.error == 0)
             check(horner(std::array{a.x, number(1), a.x}, b.x), values_of_square(a.low, b), how,
                   "horner(std::array{a, number(1), a}, b)");
+        check(midpoint(a.x, b.x), {(a.low + b.low) / 2, (a.high + b.high) / 2}, how,
+              "midpoint(a, b)");
+        check(copysign(a.x, b.x), both ? signed_sizes(a, b) : exact_range{}, how, "copysign(a, b)");
+        check_fused_pair(a, b, how);
+    }
+    /// |x| with the sign of y, zero's taken for positive.
+    static exact_range signed_sizes(const operand_range& x, const operand_range& y) {
+        const exact_range sizes = sizes_of(x);
+        if (y.low >= 0) return sizes;
+        return {-sizes.high, y.high < 0 ? -sizes.low : sizes.high};
+    }
+    static exact_range sizes_of(const operand_range& x) {
+        const double sizes[] = {std::abs(x.low), std::abs(x.high)};
+        return {x.low <= 0 && x.high >= 0 ? 0 : std::min(sizes[0], sizes[1]),
+                std::max(sizes[0], sizes[1])};
+    }
+    void check_fused(const number& r, std::span<const fused_value> ends, tiny_account& how,
+                     const char* operation) {
+        check_by([&](const tiny_claim& c) { claims_.check_fused(c, ends, how); }, r, how,
+                 operation);
+    }
+    /// ab + a and a + t(b − a), which are between their values at the ends.
+    void check_fused_pair(const operand_range& a, const operand_range& b, tiny_account& how) {
+        constexpr double t = -1.5;
+        std::array<fused_value, 4> fused, between;
+        std::size_t i = 0;
+        for (const double x : {a.low, a.high})
+            for (const double y : {b.low, b.high}) {
+                fused[i] = {x, y, x};
+                between[i++] = {t, y - x, x};
+            }
+        check_fused(fma(a.x, b.x, a.x), fused, how, "fma(a, b, a)");
+        check_fused(lerp(a.x, b.x, number(Tiny(t))), between, how,
+                    "lerp(a, b, number(format(-1.5)))");
     }
     /// Where c + t + ct² lies for t in a range: its values at the ends and in the middle.
     static exact_range values_of_square(double c, const operand_range& t) {
@@ -260,17 +303,21 @@ class tiny_checker {
         }
         return values;
     }
-    /// The operand itself, −x, |x|, √x, and x·2^e for every e that leaves something.
+    /// The operand itself, −x, |x|, x², 1/x, √x, of an exact one x³, and x·2^e for every e that
+    /// leaves something.
     void check_one(const operand_range& a) {
         tiny_account how{{a.as_operand}, 1};
         format::clear_flag();
         check(a.x, {a.low, a.high}, how, "a");
         check(-a.x, {-a.high, -a.low}, how, "-a");
-        const double sizes[] = {std::abs(a.low), std::abs(a.high)};
-        check(abs(a.x),
-              {a.low <= 0 && a.high >= 0 ? 0 : std::min(sizes[0], sizes[1]),
-               std::max(sizes[0], sizes[1])},
-              how, "abs(a)");
+        const exact_range sizes = sizes_of(a);
+        check(abs(a.x), sizes, how, "abs(a)");
+        check_product(pow(a.x, 2), sizes, sizes, how, "pow(a, 2)");
+        if (a.low == a.high) {
+            const double cube = a.low * a.low * a.low;
+            check(pow(a.x, 3), {cube, cube}, how, "pow(a, 3)");
+        }
+        check_quotient(pow(a.x, -1), {1, 1}, {a.low, a.high}, how, "pow(a, -1)");
         check_by(
             [&](const tiny_claim& c) {
                 claims_.check_root(c, {a.low, a.high}, how);
@@ -329,6 +376,16 @@ class tiny_checker {
                 check_with_third(number(a) + number(b), x + y, how, "a + b");
                 check_with_third(number(a) - number(b), x - y, how, "a - b");
                 check_with_third(number(a) * number(b), x * y, how, "a * b");
+                how.inner = nullptr;
+                for (const Tiny c : finite_) {
+                    const double z = double(c);
+                    how.operands[2] = {z, 0};
+                    format::clear_flag();
+                    check_fused(fma(number(a), number(b), number(c)),
+                                std::array{fused_value{x, y, z}}, how, "fma(a, b, c)");
+                    check_fused(lerp(number(a), number(b), number(c)),
+                                std::array{fused_value{z, y - x, x}}, how, "lerp(a, b, c)");
+                }
             }
     }
     void check_with_third(const number& inner, double exact, tiny_account& how,

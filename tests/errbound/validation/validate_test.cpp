@@ -9,11 +9,13 @@
 #include <errbound/validation/boost_numbers.hpp>
 #include <errbound/validation/validation.hpp>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "errbound/validation/minimise.hpp"
 #include "tests/errbound/validation/validation_rules.hpp"
 #include "tests/support/long_double.hpp"
 #include "tests/support/query_families.hpp"
@@ -134,6 +136,30 @@ TEST(Validate, NumbersOfEveryFormatAreTakenExactly) {
     using number = boost::multiprecision::mpfr_float_50;
     check_exact_values<number>(
         3, [](mpfr_ptr to, const number& x) { mpfr_set(to, x.backend().data(), MPFR_RNDN); });
+}
+
+TEST(Validate, WhatIsMadeSmallerStaysFinite) {
+    // A number of the largest exponents times another of its bits would overflow.
+    using number = support::long_double;
+    constexpr int most = errbound::number_traits<number>::max_exponent - 1;
+    validation::expression e;
+    e.inputs[0].value = validation::exactly(std::ldexp(number(1.75), most));
+    e.inputs[1].value = validation::exactly(std::ldexp(number(1.3), most));
+    e.input_count = 2;
+    e.operations[0] = {validation::operation_kind::subtract, 0, 1, 0, 0};
+    e.operation_count = 1;
+    const auto type = errbound::number_traits<number>::digits > 53
+                          ? validation::number_type::long_double_type
+                          : validation::number_type::double_type;
+    std::size_t tried = 0;
+    const auto small = validation::minimised(e, type, [&](const validation::expression& x) {
+        ++tried;
+        for (std::size_t i = 0; i < x.input_count; ++i) EXPECT_TRUE(x.inputs[i].value.is_finite());
+        return x.operation_count == 1 ? std::optional(x.size() - 1) : std::nullopt;
+    });
+    EXPECT_EQ(small.operation_count, 1U);
+    EXPECT_EQ(small.inputs[0].value, validation::exact_value(0));
+    EXPECT_GT(tried, 2U);
 }
 
 TEST(Validate, ErrorsAreOfEachRulesOwnValues) {

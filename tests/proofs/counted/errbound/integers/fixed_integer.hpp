@@ -1,7 +1,7 @@
 // In place of the library's header: integers of fixed width that count bits. Beside its words each
-// has what it can be at most, which depends on how it was computed and not on its value, as
-// expressions have in FixedWidths.v of the proofs (`bound`); where that exceeds its words, it is
-// told.
+// has what it can be at most, which depends on how it was computed, as expressions have in
+// FixedWidths.v of the proofs (`bound`), and not on its value, but that of constants, and that
+// places in the step are known to be in it. Where it exceeds its words, it is told.
 #pragma once
 
 // The library's own, under another name.
@@ -54,7 +54,7 @@ struct upper_bound {
     constexpr int bits() const { return m == 0 ? 0 : k + static_cast<int>(std::bit_width(m)); }
 };
 
-/// What was counted. Nothing is, and no bound is known, unless `on`.
+/// What was counted. Nothing is unless `on`, and of what is made meanwhile no bound is known.
 struct bit_count {
     bool on = false;
     std::uint64_t numbers = 0, beyond = 0;
@@ -78,6 +78,7 @@ class fixed_integer {
     template <int Narrower>
     requires(Narrower < Words) constexpr fixed_integer(const fixed_integer<Narrower>& x)
         : x_(x.x_) {
+        x.used("conversion");
         known(x.bound_, "conversion");
     }
     static constexpr fixed_integer shifted(words::word magnitude, int shift) {
@@ -90,28 +91,33 @@ class fixed_integer {
     static constexpr fixed_integer given(const numbers& x, int bits) {
         return {x, upper_bound{1, bits}, "given"};
     }
-    /// A coordinate modulo its width: differences of such are below 2^bits, and nothing else is
-    /// known.
-    static constexpr fixed_integer coordinate(const numbers& x, int bits) {
+    /// A coordinate modulo its width, along one axis and at one end of the step, which are
+    /// numbered: differences of such are below 2^bits, and nothing else is known.
+    static constexpr fixed_integer coordinate(const numbers& x, int axis_and_end, int bits) {
         fixed_integer r;
         r.x_ = x;
+        r.is_known_ = false;
+        r.coordinate_ = axis_and_end;
         r.difference_bits_ = bits;
         return r;
     }
 
     constexpr const numbers& plain() const { return x_; }
     constexpr words::word operator[](int i) const { return x_[i]; }
-    constexpr bool negative() const { return x_.negative(); }
+    constexpr bool negative() const {
+        used("a sign");
+        return x_.negative();
+    }
 
     friend constexpr fixed_integer operator+(const fixed_integer& a, const fixed_integer& b) {
         return {a.x_ + b.x_, a.bound_ + b.bound_, "+", a, b};
     }
     friend constexpr fixed_integer operator-(const fixed_integer& a, const fixed_integer& b) {
-        if (a.difference_bits_ >= 0 && b.difference_bits_ == a.difference_bits_)
+        if (a.coordinate_ >= 0 && b.coordinate_ == a.coordinate_)
             return given(a.x_ - b.x_, a.difference_bits_);
         // The rest of the step after a place in it: both are at most the step, 2^bits, which sums
         // of bounds tell not. Proof: proofs/CubicRoots.v, bracket_near_right.
-        if (a.is_unit_ && !b.negative() && b <= a) {
+        if (a.is_unit_ && !b.x_.negative() && b.x_ <= a.x_) {
             b.bound_ = std::min(b.bound_, a.bound_);
             b.is_place_ = true;
             return {a.x_ - b.x_, a.bound_, "-", a, b};
@@ -125,32 +131,44 @@ class fixed_integer {
         return {x.x_ << bits, x.bound_.times_power(bits), "<<", x, x};
     }
     friend constexpr bool operator==(const fixed_integer& a, const fixed_integer& b) {
+        a.used("=="), b.used("==");
         return a.x_ == b.x_;
     }
     friend constexpr std::strong_ordering operator<=>(const fixed_integer& a,
                                                       const fixed_integer& b) {
+        a.used("<=>"), b.used("<=>");
         return a.x_ <=> b.x_;
     }
-    friend constexpr sign_type sign_of(const fixed_integer& x) { return sign_of(x.x_); }
-    constexpr int bit_length() const { return x_.bit_length(); }
+    friend constexpr sign_type sign_of(const fixed_integer& x) {
+        x.used("a sign");
+        return sign_of(x.x_);
+    }
+    constexpr int bit_length() const {
+        used("bit_length");
+        return x_.bit_length();
+    }
 
     template <int Result>
     constexpr fixed_integer<Result> from_bit(int shift) const {
+        used("from_bit");
         return {x_.template from_bit<Result>(shift), bound_.times_power(-shift) + upper_bound{1, 0},
                 "from_bit"};
     }
     /// Modulo 2^64, where that is meant.
-    constexpr std::int64_t word_from_bit(int shift) const { return x_.word_from_bit(shift); }
-    /// The number, which has to fit.
+    constexpr std::int64_t word_from_bit(int shift) const {
+        used("word_from_bit");
+        return x_.word_from_bit(shift);
+    }
+    /// The number, which has to fit, as its value tells: of two places in a bracket, say.
     constexpr std::int64_t low_word() const {
+        used("low_word");
         if (counted.on && !(numbers(x_.low_word()) == x_)) told("low_word");
         return x_.low_word();
     }
     template <int B>
     constexpr fixed_integer<Words + B> times(const fixed_integer<B>& b) const {
-        fixed_integer<Words + B> r{x_ * b.x_, bound_ * b.bound_, "*"};
-        if (counted.on && (difference_bits_ >= 0 || b.difference_bits_ >= 0)) told("*");
-        return r;
+        used("*"), b.used("*");
+        return {x_ * b.x_, bound_ * b.bound_, "*"};
     }
 
   private:
@@ -163,9 +181,14 @@ class fixed_integer {
     constexpr fixed_integer(const numbers& x, const upper_bound& bound, const char* how,
                             const fixed_integer& a, const fixed_integer& b)
         : fixed_integer(x, bound, how) {
-        if (counted.on && (a.difference_bits_ >= 0 || b.difference_bits_ >= 0)) told(how);
+        a.used(how), b.used(how);
+    }
+    /// Where no bound is known, nothing is to be computed.
+    constexpr void used(const char* how) const {
+        if (counted.on && !is_known_) told(how);
     }
     constexpr void known(const upper_bound& bound, const char* how) {
+        is_known_ = counted.on;
         if (!counted.on) return;
         bound_ = bound;
         ++counted.numbers;
@@ -180,8 +203,9 @@ class fixed_integer {
     numbers x_;
     mutable upper_bound bound_{};
     mutable bool is_place_ = false;
+    bool is_known_ = true;  // of zero
     bool is_unit_ = false;
-    int difference_bits_ = -1;
+    int coordinate_ = -1, difference_bits_ = 0;
 };
 
 template <int A, int B>
