@@ -314,68 +314,61 @@ void set_power(ball& result, const ball& x, int n) {
         result = power;
 }
 
-/// The result of an operation on others of the values.
-void set_result(ball& result, const expression_operation& o, const ball* values) {
+/// Of operations that are made of others.
+void set_compound(ball& result, const expression_operation& o, const ball* values) {
+    const ball &left = values[o.left], &right = values[o.right], &third = values[o.third];
     switch (o.kind) {
-        case operation_kind::add:
-            result.set_sum(values[o.left], values[o.right]);
-            break;
-        case operation_kind::subtract:
-            result.set_difference(values[o.left], values[o.right]);
-            break;
-        case operation_kind::multiply:
-            result.set_product(values[o.left], values[o.right]);
-            break;
-        case operation_kind::divide:
-            result.set_quotient(values[o.left], values[o.right]);
-            break;
-        case operation_kind::negate:
-            result.set_negative(values[o.left]);
-            break;
-        case operation_kind::scale:
-            result.set_scaled(values[o.left], o.exponent);
-            break;
-        case operation_kind::root:
-            result.set_root(values[o.left]);
-            break;
-        case operation_kind::absolute:
-            result.set_absolute(values[o.left]);
-            break;
-        case operation_kind::lesser:
-            result.set_lesser(values[o.left], values[o.right]);
-            break;
-        case operation_kind::greater:
-            result.set_greater(values[o.left], values[o.right]);
-            break;
         case operation_kind::fused:
-            result.set_fused(values[o.left], values[o.right], values[o.third]);
-            break;
+            return result.set_fused(left, right, third);
         case operation_kind::dot:
-            set_dot(result, values[o.left], values[o.right], values[o.third]);
-            break;
+            return set_dot(result, left, right, third);
         case operation_kind::horner:
-            set_polynomial(result, values[o.left], values[o.right], values[o.third]);
-            break;
+            return set_polynomial(result, left, right, third);
         case operation_kind::copy_sign:
-            result.set_with_sign(values[o.left], values[o.right]);
-            break;
+            return result.set_with_sign(left, right);
         case operation_kind::middle: {
             ball sum(mpfr_get_prec(result.middle()));
-            sum.set_sum(values[o.left], values[o.right]);
-            result.set_scaled(sum, -1);
-            break;
+            sum.set_sum(left, right);
+            return result.set_scaled(sum, -1);
         }
         case operation_kind::interpolate:
-            set_interpolated(result, values[o.left], values[o.right], values[o.third]);
-            break;
+            return set_interpolated(result, left, right, third);
         case operation_kind::hypotenuse:
-            set_hypotenuse(result, values[o.left], values[o.right]);
-            break;
-        case operation_kind::power:
-            set_power(result, values[o.left], o.exponent);
-            break;
+            return set_hypotenuse(result, left, right);
         default:
-            result.set_function(function_of(o.kind), values[o.left], values[o.right]);
+            return set_power(result, left, o.exponent);
+    }
+}
+
+/// The result of an operation on others of the values.
+void set_result(ball& result, const expression_operation& o, const ball* values) {
+    const ball &left = values[o.left], &right = values[o.right];
+    switch (o.kind) {
+        case operation_kind::add:
+            return result.set_sum(left, right);
+        case operation_kind::subtract:
+            return result.set_difference(left, right);
+        case operation_kind::multiply:
+            return result.set_product(left, right);
+        case operation_kind::divide:
+            return result.set_quotient(left, right);
+        case operation_kind::negate:
+            return result.set_negative(left);
+        case operation_kind::scale:
+            return result.set_scaled(left, o.exponent);
+        case operation_kind::root:
+            return result.set_root(left);
+        case operation_kind::absolute:
+            return result.set_absolute(left);
+        case operation_kind::lesser:
+            return result.set_lesser(left, right);
+        case operation_kind::greater:
+            return result.set_greater(left, right);
+        default:
+            if (is_function(o.kind))
+                result.set_function(function_of(o.kind), left, right);
+            else
+                set_compound(result, o, values);
     }
 }
 

@@ -219,6 +219,56 @@ struct claim {
     sign_type sign;
 };
 
+/// An elementary function of values that are there. Precondition: T has it.
+template <class Rule, class T>
+tracked<T, Rule> applied_elementary(elementary_function f, const tracked<T, Rule>& left,
+                                    const tracked<T, Rule>& right) {
+    if constexpr (has_operation<T>(operation_kind::function))
+        return with_function(f, [&]<elementary_function F>() {
+            if constexpr (F == elementary_function::pow)
+                return pow(left, right);
+            else if constexpr (F == elementary_function::atan2)
+                return atan2(left, right);
+            else
+                return detail::function_of<F>(left);
+        });
+    return {};
+}
+
+/// Of those that are made of roots, fused products and others.
+template <class Rule, class T>
+tracked<T, Rule> applied_compound(const expression_operation& o, const tracked<T, Rule>* x) {
+    const auto &left = x[o.left], &right = x[o.right], &third = x[o.third];
+    switch (o.kind) {
+        case operation_kind::root:
+            if constexpr (has_operation<T>(operation_kind::root)) return sqrt(left);
+            break;
+        case operation_kind::fused:
+            if constexpr (has_operation<T>(operation_kind::fused)) return fma(left, right, third);
+            break;
+        case operation_kind::dot:
+            return dot(std::array{left, third}, std::array{right, left});
+        case operation_kind::horner:
+            return horner(std::array{third, right, third}, left);
+        case operation_kind::copy_sign:
+            return copysign(left, right);
+        case operation_kind::middle:
+            return midpoint(left, right);
+        case operation_kind::interpolate:
+            if constexpr (has_operation<T>(operation_kind::interpolate))
+                return lerp(left, right, third);
+            break;
+        case operation_kind::hypotenuse:
+            if constexpr (has_operation<T>(operation_kind::hypotenuse)) return hypot(left, right);
+            break;
+        case operation_kind::power:
+            return pow(left, o.exponent);
+        default:
+            break;
+    }
+    return {};
+}
+
 /// The result of an operation on values that are there. Precondition: T has it, and it does not
 /// divide, or the rule has division.
 template <class Rule, class T>
@@ -233,53 +283,21 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
             return left * right;
         case operation_kind::divide:
             if constexpr (has_division<Rule>) return left / right;
-            break;
+            return {};
         case operation_kind::negate:
             return -left;
         case operation_kind::scale:
             return scale(left, o.exponent);
-        case operation_kind::root:
-            if constexpr (has_operation<T>(operation_kind::root)) return sqrt(left);
-            break;
         case operation_kind::absolute:
             return abs(left);
         case operation_kind::lesser:
             return min(left, right);
         case operation_kind::greater:
             return max(left, right);
-        case operation_kind::fused:
-            if constexpr (has_operation<T>(operation_kind::fused))
-                return fma(left, right, x[o.third]);
-            break;
-        case operation_kind::dot:
-            return dot(std::array{left, x[o.third]}, std::array{right, left});
-        case operation_kind::horner:
-            return horner(std::array{x[o.third], right, x[o.third]}, left);
-        case operation_kind::copy_sign:
-            return copysign(left, right);
-        case operation_kind::middle:
-            return midpoint(left, right);
-        case operation_kind::interpolate:
-            if constexpr (has_operation<T>(operation_kind::interpolate))
-                return lerp(left, right, x[o.third]);
-            break;
-        case operation_kind::hypotenuse:
-            if constexpr (has_operation<T>(operation_kind::hypotenuse)) return hypot(left, right);
-            break;
-        case operation_kind::power:
-            return pow(left, o.exponent);
         default:
-            if constexpr (has_operation<T>(operation_kind::function))
-                return with_function(function_of(o.kind), [&]<elementary_function F>() {
-                    if constexpr (F == elementary_function::pow)
-                        return pow(left, right);
-                    else if constexpr (F == elementary_function::atan2)
-                        return atan2(left, right);
-                    else
-                        return detail::function_of<F>(left);
-                });
+            return is_function(o.kind) ? applied_elementary(function_of(o.kind), left, right)
+                                       : applied_compound(o, x);
     }
-    return {};
 }
 
 /// Every value of the expression in tracked<T, Rule>. Precondition: T has its operations, and it
