@@ -192,9 +192,8 @@ std::string name_of_value(std::size_t value) {
 std::string_view name_of(operation_kind kind) {
     if (is_function(kind)) return name_of(function_of(kind));
     constexpr std::array<std::string_view, first_function> names{
-        "add",    "subtract", "multiply", "divide", "negate", "scale",
-        "sqrt",   "abs",      "min",      "max",    "fma",    "dot",
-        "horner", "copysign", "midpoint", "lerp",   "hypot",  "pow(x, n)"};
+        "add", "subtract", "multiply", "divide", "negate",   "scale",    "sqrt", "abs",   "min",
+        "max", "fma",      "dot",      "horner", "copysign", "midpoint", "lerp", "hypot", "power"};
     return names[static_cast<std::size_t>(kind)];
 }
 
