@@ -347,6 +347,10 @@ TEST(Tracked, SafeKnowsNothingBeyondTheOperationsThatItCounts) {
     const tracked<double, errbound::safe> c = 0.1;
     EXPECT_EQ(sign_of(x * (c - c)), sign_type::uncertain);
     EXPECT_EQ(sign_of(x), sign_type::uncertain);
+    // As many as 1/ε, and one more.
+    using single = tracked<float, errbound::safe>;
+    EXPECT_TRUE(std::isfinite(single::from_bound(1, {1, 1 << 23}).error()));
+    EXPECT_TRUE(std::isinf(single::from_bound(1, {1, (1 << 23) + 1}).error()));
 }
 
 TEST(Tracked, ARuleMayKnowMoreThanItsError) {
