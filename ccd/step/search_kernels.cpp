@@ -74,8 +74,8 @@ inline float extreme(const float (&column)[size], bool most) {
         __builtin_memcpy(&y, &column[i], sizeof(y));
         x = extreme(x, y, most);
     }
-    x = extreme(x, __builtin_shufflevector(x, x, 2, 3, 0, 1), most);
-    x = extreme(x, __builtin_shufflevector(x, x, 1, 0, 3, 2), most);
+    x = extreme(x, chosen<2, 3, 0, 1>(x, x), most);
+    x = extreme(x, chosen<1, 0, 3, 2>(x, x), most);
     return x[0];
 }
 
