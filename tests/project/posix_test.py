@@ -23,8 +23,10 @@ pthread_cond_wait pthread_create pthread_join pthread_mutex_lock pthread_mutex_u
 pthread_self realpath sched_yield shmdt sigaction stat sysconf unlink waitpid write _exit""".split()
 # Neither, but macOS's and BSDs', too.
 BSD = ["flock", "getloadavg"]
+# glibc's alone, asked only where it is (include/errbound/validation/expression.hpp).
+GLIBC = ["fmaf128", "sqrtf128"]
 # What the compiler (sincos: of sin and cos) and the C++ library take for themselves.
-INTERNAL = re.compile(r"__\w+|sincosf?|syscall")
+INTERNAL = re.compile(r"__\w+|sincos[fl]?|syscall")
 MATHEMATICS = {f"{name}{suffix}" for name in C for suffix in "fl"}
 
 parser = argparse.ArgumentParser()
@@ -39,7 +41,7 @@ def undefined(*arguments):
                           text=True).stdout
 
 
-known = {*C, *POSIX, *BSD, *MATHEMATICS}
+known = {*C, *POSIX, *BSD, *GLIBC, *MATHEMATICS}
 for library in options.beside:
     known |= set(re.findall(r" U (\w+)$", undefined(library), re.M))
 found = set()

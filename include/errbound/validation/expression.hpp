@@ -139,7 +139,7 @@ struct named_number_type {
     std::string_view name, cpp_name;
 };
 /// Those that the system has: long double where it has more bits than double, float128 where that
-/// is not it. The last two are Boost.Multiprecision's.
+/// is not it and the C library has its functions. The last two are Boost.Multiprecision's.
 inline constexpr named_number_type number_types[] = {
     {number_type::double_type, "double", "double"},
     {number_type::float_type, "float", "float"},
@@ -150,7 +150,7 @@ inline constexpr named_number_type number_types[] = {
 #if LDBL_MANT_DIG == 64 || LDBL_MANT_DIG == 113
     {number_type::long_double_type, "long_double", "long double"},
 #endif
-#if LDBL_MANT_DIG != 113 && defined(__SIZEOF_FLOAT128__)
+#if LDBL_MANT_DIG != 113 && defined(__SIZEOF_FLOAT128__) && defined(__GLIBC__)
     {number_type::float128_type, "float128", "errbound::float128"},
 #endif
     {number_type::cpp_bin_float_type, "cpp_bin_float_quad",
@@ -186,7 +186,7 @@ constexpr decltype(auto) with_number_type(number_type type, const F& f) {
         case number_type::long_double_type:
             return f.template operator()<long double>();
 #endif
-#if LDBL_MANT_DIG != 113 && defined(__SIZEOF_FLOAT128__)
+#if LDBL_MANT_DIG != 113 && defined(__SIZEOF_FLOAT128__) && defined(__GLIBC__)
         case number_type::float128_type:
             return f.template operator()<float128>();
 #endif
