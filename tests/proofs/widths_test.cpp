@@ -72,8 +72,7 @@ void decide(const tie::drawn_query& q, int bits) {
 template <int Words, template <class, int> class Forms>
 struct opened_contact : ccd::detail::interior_contact<Words, Forms> {
     using base = ccd::detail::interior_contact<Words, Forms>;
-    using base::base, base::throughout, base::without_halving, base::normal_vanishes;
-    using base::distinct_, base::three_real_roots_;
+    using base::base, base::throughout, base::without_halving, base::three_real_roots_;
     using typename base::part;
 };
 
@@ -102,18 +101,13 @@ void decide_forms(const tie::drawn_forms& f, int bits) {
     const auto y = forms.y();
     opened_contact<Words, Forms> contact(forms, y, units);
     (void)contact.decide();
-    // The part of the most halvings about the root.
-    using part = typename opened_contact<Words, Forms>::part;
-    part some{{}, ccd::detail::inner_sign_changes(y), 0, 0};
+    // A part of the most halvings: bounds are those of any other.
+    typename opened_contact<Words, Forms>::part some{{}, ccd::detail::inner_sign_changes(y), 0, 0};
     for (int i = 0; i <= 3; ++i) some.y[i] = y[i];
-    std::uint64_t path = f.path;
-    for (; some.level < f.level; ++some.level, path >>= 1) {
-        const auto left = left_half(some.y), right = reversed(left_half(reversed(some.y)));
-        const ccd::detail::inner_sign_changes on_left(left), on_right(right);
-        const bool to_right = !on_left.opposite && (on_right.opposite || path % 2 == 1);
-        some.y = to_right ? right : left;
-        some.roots = to_right ? on_right : on_left;
-        some.index = 2 * some.index + to_right;
+    for (; some.level < some.max_halvings; ++some.level) {
+        const bool right = some.level % 2 != 0;
+        some.y = right ? reversed(left_half(reversed(some.y))) : left_half(some.y);
+        some.index = 2 * some.index + right;
     }
     contact.three_real_roots_ = true;
     (void)contact.without_halving(some);
