@@ -118,10 +118,7 @@ void ball::confine(mpfr_exp_t largest) {
     if (mpfr_number_p(middle_.get()) == 0 || mpfr_get_exp(middle_.get()) > largest) {
         set_unknown();
     } else if (mpfr_get_exp(middle_.get()) < -largest) {
-        MPFR_DECL_INIT(size, radius_precision);
-        mpfr_abs(size, middle_.get(), MPFR_RNDU);
-        mpfr_add(radius_.get(), radius_.get(), size, MPFR_RNDU);
-        mpfr_set_zero(middle_.get(), 1);
+        widen_about_zero();
     }
 }
 

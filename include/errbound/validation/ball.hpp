@@ -22,7 +22,7 @@ inline constexpr int max_operations = 48;
 /// Exponents of no format come near these, and MPFR's are far beyond, ±2^62 where a long has 64
 /// bits: numbers that are larger are unknown, those that are smaller nearly zero.
 inline constexpr mpfr_exp_t largest_exponent =
-    std::numeric_limits<mpfr_exp_t>::digits > 40 ? mpfr_exp_t{1} << 20 << 20 : mpfr_exp_t{1} << 27;
+    mpfr_exp_t{1} << (std::numeric_limits<mpfr_exp_t>::digits > 40 ? 40 : 27);
 
 /// Sets the calling thread's range of exponents while it lives.
 class exponents {
@@ -70,10 +70,10 @@ class mpfr_number {
 
     mpfr_ptr get() { return x_; }
     mpfr_srcptr get() const { return x_; }
-    /// Rounded once, to nearest: exact at 212 bits. What mpfr_add tells of the rounding.
+    /// Rounded once, to nearest: exact at exact_bits. What mpfr_add tells of the rounding.
     int set(const exact_value& x) {
         if (x.is_double()) return mpfr_set_d(x_, x.leading, MPFR_RNDN);
-        MPFR_DECL_INIT(sum, 4 * 53);
+        MPFR_DECL_INIT(sum, exact_bits);
         mpfr_set_d(sum, x.leading, MPFR_RNDN);
         for (const double part : x.rest) mpfr_add_d(sum, sum, part, MPFR_RNDN);
         return mpfr_mul_2si(x_, sum, x.exponent, MPFR_RNDN);
@@ -100,7 +100,7 @@ class ball {
     }
     /// value + error·quarters/4.
     void set(const exact_value& value, const exact_value& error, int quarters) {
-        mpfr_number sum(4 * 53), part(4 * 53 + 3);
+        mpfr_number sum(exact_bits), part(exact_bits + 3);
         sum.set(value);
         part.set(error);
         mpfr_mul_si(part.get(), part.get(), quarters, MPFR_RNDN);
@@ -211,11 +211,7 @@ class ball {
         const sign_type sign = b.sign();
         set_absolute(a);
         if (sign == sign_type::negative) mpfr_neg(middle_.get(), middle_.get(), MPFR_RNDN);
-        if (certain(sign)) return;
-        MPFR_DECL_INIT(size, radius_precision);
-        mpfr_set(size, middle_.get(), MPFR_RNDU);
-        mpfr_add(radius_.get(), radius_.get(), size, MPFR_RNDU);
-        mpfr_set_zero(middle_.get(), 1);
+        if (!certain(sign)) widen_about_zero();
     }
     /// Of the two the lesser or the greater: |max(x, y) − max(a, b)| <= max(ra, rb).
     void set_lesser(const ball& a, const ball& b) { set_one(a, b, mpfr_lessequal_p); }
@@ -267,6 +263,13 @@ class ball {
     void set_between(mpfr_srcptr lower, mpfr_srcptr upper);
     /// The midpoint has been set to a function's rounded value.
     void set_computed(int off);
+    /// To all numbers that are no larger than some of its.
+    void widen_about_zero() {
+        MPFR_DECL_INIT(size, radius_precision);
+        mpfr_abs(size, middle_.get(), MPFR_RNDU);
+        mpfr_add(radius_.get(), radius_.get(), size, MPFR_RNDU);
+        mpfr_set_zero(middle_.get(), 1);
+    }
     /// Gives up a midpoint of an exponent beyond `largest`.
     void confine(mpfr_exp_t largest);
 
@@ -310,7 +313,7 @@ enum class judgement { holds, violated, undetermined };
 /// |value − x| for a finite value and x in a ball: two-sided.
 class deviation {
   public:
-    deviation() : lower_(precision), upper_(precision), value_(4 * 53) {}
+    deviation() : lower_(precision), upper_(precision), value_(exact_bits) {}
 
     void compute(const exact_value& value, const ball& x) {
         value_.set(value);
@@ -325,14 +328,14 @@ class deviation {
     /// Of a value and what stands error·quarters/4 from it.
     void set(const exact_value& error, int quarters) {
         value_.set(error);
-        mpfr_mul_si(upper_.get(), value_.get(), quarters,
-                    MPFR_RNDN);  // exact: it has few bits more
+        // Exact: formats have fewer bits.
+        mpfr_mul_si(upper_.get(), value_.get(), quarters, MPFR_RNDN);
         mpfr_mul_2si(upper_.get(), upper_.get(), -2, MPFR_RNDN);
         mpfr_abs(upper_.get(), upper_.get(), MPFR_RNDN);
         mpfr_set(lower_.get(), upper_.get(), MPFR_RNDN);
     }
     judgement at_most(const exact_value& bound) const {
-        mpfr_number most(4 * 53);
+        mpfr_number most(exact_bits);
         most.set(bound);
         if (mpfr_lessequal_p(upper_.get(), most.get())) return judgement::holds;
         return mpfr_greater_p(lower_.get(), most.get()) ? judgement::violated
@@ -352,7 +355,7 @@ class deviation {
     static double log10_of(mpfr_srcptr x);
 
   private:
-    static constexpr mpfr_prec_t precision = 4 * 53;  // more than bounds have
+    static constexpr mpfr_prec_t precision = exact_bits;
     mpfr_number lower_, upper_, value_;
 };
 

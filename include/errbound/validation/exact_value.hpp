@@ -10,9 +10,11 @@
 
 namespace errbound::validation {
 
-/// (leading + rest[0] + rest[1] + ...)·2^exponent, a number of up to 212 bits; or an infinity or
-/// NaN, which `leading` is. What a double holds is `leading` alone. Equal values are equal in
-/// parts.
+inline constexpr int exact_bits = 4 * std::numeric_limits<double>::digits;
+
+/// (leading + rest[0] + rest[1] + ...)·2^exponent, a number of up to exact_bits bits; or an
+/// infinity or NaN, which `leading` is. What a double holds is `leading` alone. Equal values are
+/// equal in parts.
 struct exact_value {
     double leading = 0;
     std::array<double, 3> rest{};
@@ -24,14 +26,6 @@ struct exact_value {
     constexpr bool is_finite() const { return std::isfinite(leading); }
     constexpr bool is_double() const { return exponent == 0 && rest[0] == 0; }
     constexpr bool operator==(const exact_value&) const = default;
-
-    friend exact_value abs(const exact_value& x) { return x.leading < 0 ? -x : x; }
-    exact_value operator-() const {
-        exact_value r = *this;
-        r.leading = -r.leading;
-        for (double& part : r.rest) part = -part;
-        return r;
-    }
 };
 
 /// log10 |x| of a number that is finite and not zero, to double's accuracy.
@@ -41,13 +35,14 @@ inline double log10_of(const exact_value& x) {
 
 /// Whether every T is a double.
 template <class T>
-inline constexpr bool fits_double =
-    number_traits<T>::digits <=
-    std::numeric_limits<double>::digits&& number_traits<T>::max_exponent <=
-    std::numeric_limits<double>::max_exponent&& number_traits<T>::min_exponent >=
-    std::numeric_limits<double>::min_exponent;
+inline constexpr bool fits_double = [] {
+    using traits = number_traits<T>;
+    using doubles = number_traits<double>;
+    return traits::digits <= doubles::digits && traits::max_exponent <= doubles::max_exponent &&
+           traits::min_exponent >= doubles::min_exponent;
+}();
 
-/// Precondition: T has at most 212 bits.
+/// Precondition: T has at most exact_bits bits.
 template <class T>
 exact_value exactly(const T& x) {
     using traits = number_traits<T>;
@@ -55,7 +50,7 @@ exact_value exactly(const T& x) {
     if constexpr (fits_double<T>) {
         return near;
     } else {
-        static_assert(traits::digits <= 4 * std::numeric_limits<double>::digits);
+        static_assert(traits::digits <= exact_bits);
         // (numeric_limits of MPFR's numbers has not the largest one: is_finite is too strict.)
         if (!(T(x - x) == 0) || T(near) == x) return near;
         exact_value r;

@@ -122,7 +122,6 @@ void check_exact_values(std::uint64_t seed, const Set& set) {
         EXPECT_EQ(ours.set(exact), 0);
         set(theirs.get(), x);
         ASSERT_NE(mpfr_equal_p(ours.get(), theirs.get()), 0);
-        ASSERT_TRUE(validation::exactly(T(-x)) == -exact);
     }
     EXPECT_FALSE(validation::exactly(T(traits::infinity())).is_finite());
     EXPECT_TRUE(
