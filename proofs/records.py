@@ -36,14 +36,14 @@ def digest(tie):
 
 
 class Record:
-    """How mutants of a tie were found: made and found, those listed as equivalent, when, and of what."""
+    """How mutants of a tie were found: made and found, those listed with the reason, when, and of what."""
 
-    def __init__(self, made, found, equivalent, date, digest):
-        self.made, self.found, self.equivalent = int(made), int(found), int(equivalent)
+    def __init__(self, made, found, listed, date, digest):
+        self.made, self.found, self.listed = int(made), int(found), int(listed)
         self.date, self.digest = date, digest
 
     def line(self, tie):
-        return f"{tie} {self.made} {self.found} {self.equivalent} {self.date} {self.digest}"
+        return f"{tie} {self.made} {self.found} {self.listed} {self.date} {self.digest}"
 
 
 def kept():
@@ -62,16 +62,17 @@ def keep(more):
 def table():
     """What is tied, as text."""
     (tied, others), inputs, mutants = ties.count(), ties.cases(), kept()
-    lines = [f"{'tie':<10}{'functions':>11}{'inputs':>13}{'mutants found / made':>24}{'equivalent':>12}"]
+    lines = [f"{'tie':<10}{'functions':>11}{'inputs':>13}{'mutants found / made':>24}{'listed':>12}"]
     for tie, number in tied.items():
         r = mutants.get(tie)
-        tried = f"{f'{r.found} / {r.made}':>24}{r.equivalent:>12}" if r else f"{'no record':>24}"
+        tried = f"{f'{r.found} / {r.made}':>24}{r.listed:>12}" if r else f"{'no record':>24}"
         of = ""
         if r:
-            left = r.made - r.found - r.equivalent
+            left = r.made - r.found - r.listed
             of = (f"  {r.date}" + ("" if r.digest == digest(tie) else ", changed since") +
-                  (f"; {left} neither found nor equivalent" if left else ""))
+                  (f"; {left} neither found nor listed" if left else ""))
         lines.append(f"{tie:<10}{number:>11}{inputs[tie]:>13}{tried}{of}")
     lines.append(f"{sum(tied.values())} functions are tied of {sum(tied.values()) + others} that decide; README.md names "
-                 "the others.\nMutants are those that ./run mutants recorded (mutants.txt); they are not run here.")
+                 "the others.\nMutants are those that ./run mutants recorded (mutants.txt); they are not run here.\n"
+                 "Listed with the reason, equivalent or not: tests/proofs/equivalent_mutants.txt.")
     return "\n".join(lines)
