@@ -62,28 +62,29 @@ Definition query_bits (query : list given) : Z :=
 
 Notation double_number := (Format.number 53 (-1074)).
 
-Lemma least_in l x : In (fold_left Rmin l x) (x :: l) /\ forall y, In y (x :: l) -> (fold_left Rmin l x <= y)%R.
+(** Of Rmin and Rmax, and the order in which their results come first. *)
+Lemma extreme_in (f : R -> R -> R) (first : R -> R -> Prop) :
+  (forall x, first x x) -> (forall x y z, first x y -> first y z -> first x z) ->
+  (forall x y, (f x y = x \/ f x y = y) /\ first (f x y) x /\ first (f x y) y) ->
+  forall l x, In (fold_left f l x) (x :: l) /\ forall y, In y (x :: l) -> first (fold_left f l x) y.
 Proof.
-  revert x. induction l as [| z l IH]; intros x; cbn [fold_left].
-  - split; [now left |]. intros y [<- | []]. apply Rle_refl.
-  - destruct (IH (Rmin x z)) as [I L]. pose proof (L _ (or_introl eq_refl)) as M. split.
-    + destruct I as [<- | I]; [| now right; right]. unfold Rmin. destruct (Rle_dec x z); [now left | now right; left].
-    + intros y [<- | [<- | Y]]; [| | now apply L; right]; apply Rle_trans with (Rmin x z); auto using Rmin_l, Rmin_r.
-Qed.
-Lemma most_in l x : In (fold_left Rmax l x) (x :: l) /\ forall y, In y (x :: l) -> (y <= fold_left Rmax l x)%R.
-Proof.
-  revert x. induction l as [| z l IH]; intros x; cbn [fold_left].
-  - split; [now left |]. intros y [<- | []]. apply Rle_refl.
-  - destruct (IH (Rmax x z)) as [I L]. pose proof (L _ (or_introl eq_refl)) as M. split.
-    + destruct I as [<- | I]; [| now right; right]. unfold Rmax. destruct (Rle_dec x z); [now right; left | now left].
-    + intros y [<- | [<- | Y]]; [| | now apply L; right]; apply Rle_trans with (Rmax x z); auto using Rmax_l, Rmax_r.
+  intros Same Then Of l. induction l as [| z l IH]; intros x; cbn [fold_left].
+  - split; [now left |]. now intros y [<- | []].
+  - destruct (IH (f x z)) as [I L]. pose proof (L _ (or_introl eq_refl)) as M. destruct (Of x z) as (O & X & Z). split.
+    + destruct I as [<- | I]; [| now right; right]. destruct O as [-> | ->]; [now left | now right; left].
+    + intros y [<- | [<- | Y]]; [eauto | eauto | now apply L; right].
 Qed.
 Lemma ends l : l <> [] -> In (least l) l /\ In (most l) l /\ forall y, In y l -> (least l <= y <= most l)%R.
 Proof.
   destruct l as [| x l]; [easy | intros _]. unfold least, most. cbn [hd].
-  destruct (least_in (x :: l) x) as [I L], (most_in (x :: l) x) as [J M].
+  destruct (extreme_in Rmin Rle) with (l := x :: l) (x := x) as [I L];
+    [apply Rle_refl | apply Rle_trans | intros y z; repeat split; [| apply Rmin_l | apply Rmin_r] |].
+  { unfold Rmin. destruct (Rle_dec y z); tauto. }
+  destruct (extreme_in Rmax Rge) with (l := x :: l) (x := x) as [J M];
+    [apply Rge_refl | apply Rge_trans | intros y z; repeat split; [| apply Rle_ge, Rmax_l | apply Rle_ge, Rmax_r] |].
+  { unfold Rmax. destruct (Rle_dec y z); tauto. }
   split; [destruct I as [<- | I]; [now left | exact I] |]. split; [destruct J as [<- | J]; [now left | exact J] |].
-  intros y Y. split; [apply L | apply M]; now right.
+  intros y Y. split; [apply L | apply Rge_le, M]; now right.
 Qed.
 
 Theorem differences_fit axis e query m m' : e = at0 \/ e = at1 ->
