@@ -50,6 +50,14 @@ class element {
         if (!value_.is_number()) refuse("a number or null");
         return value_.get<double>();
     }
+    /// Infinities are strings; null is no number.
+    double value() const {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        if (value_ == "inf") return infinity;
+        if (value_ == "-inf") return -infinity;
+        if (!value_.is_null() && !value_.is_number()) refuse("a number, \"inf\", \"-inf\" or null");
+        return number(std::numeric_limits<double>::quiet_NaN());
+    }
     /// At least 0; null is infinite.
     double amount() const {
         const double x = number(std::numeric_limits<double>::infinity());
@@ -90,8 +98,7 @@ contribution read_contribution(const element& e) {
             e.member("amount").amount(), e.member("known").number(0)};
 }
 explanation read_explanation(const element& e) {
-    return {e.member("name").text(), e.member("rule").text(),
-            e.member("value").number(std::numeric_limits<double>::quiet_NaN()),
+    return {e.member("name").text(), e.member("rule").text(), e.member("value").value(),
             e.member("error").amount(), e.member("contributions").all(read_contribution)};
 }
 

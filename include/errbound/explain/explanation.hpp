@@ -122,6 +122,12 @@ inline std::string json_number(double x) {
     return std::isfinite(x) ? decimal(x) : "null";
 }
 
+/// The same of a result's value, whose infinities are strings.
+inline std::string json_value(double x) {
+    if (std::isinf(x)) return x > 0 ? "\"inf\"" : "\"-inf\"";
+    return json_number(x);
+}
+
 inline std::string json_of(const contribution& c) {
     std::string scopes;
     for (const place& s : c.scopes)
@@ -138,7 +144,7 @@ inline std::string json_of(const explanation& e) {
         contributions += (contributions.empty() ? "\n" : ",\n") + json_of(c);
     return "    {\n      \"name\": " + json_string(e.name) +
            ",\n      \"rule\": " + json_string(e.rule) +
-           ",\n      \"value\": " + json_number(e.value) +
+           ",\n      \"value\": " + json_value(e.value) +
            ",\n      \"error\": " + json_number(e.error) + ",\n      \"contributions\": [" +
            contributions + (contributions.empty() ? "]\n    }" : "\n      ]\n    }");
 }

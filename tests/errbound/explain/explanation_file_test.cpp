@@ -45,6 +45,10 @@ TEST(ExplanationFile, IsReadAsItWasWritten) {
     EXPECT_TRUE(parse_explanations(json_of(std::vector<explanation>()), "file").empty());
     const explanation zero{"zero", "tight", -0.0, 0, {}};
     EXPECT_TRUE(std::signbit(parse_explanations(json_of({zero}), "file")[0].value));
+    const explanation large{"large", "tight", -infinity, infinity, {}};
+    EXPECT_EQ(parse_explanations(json_of({large}), "file")[0].value, -infinity);
+    const explanation none{"none", "tight", std::nan(""), infinity, {}};
+    EXPECT_TRUE(std::isnan(parse_explanations(json_of({none}), "file")[0].value));
 }
 
 /// The file with one text in place of another.
@@ -69,7 +73,8 @@ TEST(ExplanationFile, IsRefusedWithPlaceFoundAndExpected) {
               "f.json: results[0].error: found -0.004, expected a number that is not negative, or "
               "null");
     EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": \"0.1\""),
-              "f.json: results[0].value: found \"0.1\", expected a number or null");
+              "f.json: results[0].value: found \"0.1\", expected a number, \"inf\", \"-inf\" "
+              "or null");
     EXPECT_EQ(message_with("\"value\": 0.1", "\"value\": 1e999"),
               "f.json: found a number out of range, expected those of double");
     EXPECT_EQ(message_with("\"line\": 14", "\"line\": -1"),
