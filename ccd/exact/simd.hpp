@@ -1,7 +1,8 @@
-// Packs of doubles and of floats, and what xsimd 8 lacks of them. Internal: see
-// ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
+// Packs of doubles and of floats, and what xsimd lacks of them, of any version from 8 on. Internal:
+// see ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
@@ -76,15 +77,29 @@ lanes lanes_of(const mask_of<T>& m) {
 #endif
 }
 
+#ifndef ERRBOUND_VECTOR_PACKS
+/// The same bits as another pack, which xsimd 8 is told by the pack's type, later ones by its
+/// numbers'.
+template <class To, class From>
+To with_bits_of(const From& x) {
+    if constexpr (requires {
+                      { xsimd::bitwise_cast<To>(x) } -> std::same_as<To>;
+                  })
+        return xsimd::bitwise_cast<To>(x);
+    else
+        return xsimd::bitwise_cast<typename To::value_type>(x);
+}
+#endif
+
 /// The double after t > 0, or before it.
 inline pack neighbour(const pack& t, const pack_mask& after) {
 #ifdef ERRBOUND_VECTOR_PACKS
     return select(after, pack::of_bits(bits_of(t) + 1), pack::of_bits(bits_of(t) - 1));
 #else
     using integers = pack_of<std::int64_t>;
-    const integers bits = xsimd::bitwise_cast<integers>(t);
-    return select(after, xsimd::bitwise_cast<pack>(bits + integers(1)),
-                  xsimd::bitwise_cast<pack>(bits - integers(1)));
+    const auto bits = with_bits_of<integers>(t);
+    return select(after, with_bits_of<pack>(bits + integers(1)),
+                  with_bits_of<pack>(bits - integers(1)));
 #endif
 }
 

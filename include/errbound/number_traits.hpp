@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <errbound/detail/rounded.hpp>
 #include <errbound/environment.hpp>
 #include <limits>
 #include <type_traits>
@@ -33,6 +34,13 @@ constexpr int exponent_by_steps(const T& x) {
     for (; y < T(0.5); --e) y *= 2;
     return e;
 }
+
+/// Whether a fused product is the C library's, not an instruction.
+#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__CUDA_ARCH__)
+inline constexpr bool fma_is_called = false;
+#else
+inline constexpr bool fma_is_called = true;
+#endif
 
 }  // namespace detail
 
@@ -102,6 +110,9 @@ struct number_traits {
         // (Boost.Multiprecision's rounds twice.)
         static_assert(std::is_floating_point_v<T>,
                       "errbound: specialise errbound::number_traits for an fma that rounds once");
+        // Of a product that underflows musl's loses the sign when it adds zero.
+        if constexpr (detail::fma_is_called)
+            if (c == 0 && a != 0 && b != 0) return detail::rounded(a * b);
         return std::fma(a, b, c);
     }
     /// x·2^e, rounded once.

@@ -94,6 +94,14 @@ TYPED_TEST(Functions, FusedProductsAreRoundedOnce) {
     EXPECT_EQ(fused.value(), -0x1p-60);
     EXPECT_EQ(sign_of(fused), sign_type::negative);
     EXPECT_EQ(fma(number(0), number(5), number(7)).error(), 0);
+    // What underflows keeps its sign.
+    for (const double tiny : {0x1p-1000, -0x1p-1000})
+        for (const double zero : {0.0, -0.0}) {
+            const number underflows = fma(number(tiny), number(0x1p-100), number(zero));
+            EXPECT_EQ(underflows.value(), 0);
+            EXPECT_EQ(std::signbit(underflows.value()), std::signbit(tiny));
+            EXPECT_FALSE(certain(sign_of(underflows)));
+        }
     EXPECT_EQ(sign_of(fma(number(a), number(b), number::within(-1, 1e-9))), sign_type::uncertain);
 }
 

@@ -5,6 +5,7 @@ What a target needs beside its compiler is made in out/everywhere: oneTBB and Go
 source, for tests GMP, too, and a folder of the headers that are the same for all targets.
 """
 import argparse
+import dataclasses
 import os
 import pathlib
 import re
@@ -14,17 +15,19 @@ import sys
 import time
 
 import instructions
+import zig
 from targets import TARGETS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OUT = ROOT / "out" / "everywhere"
 HEADERS = OUT / "headers"
 ROW = "{:<18}{:<40}{:>10}{:>8}{:>8}  {}"
-# Of Debian's packages: header-only libraries, and where their files for CMake are.
-INCLUDES = ["boost", "xsimd", "CLI", "nlohmann", "eigen3"]
-CMAKE_FILES = {"/usr/share/cmake/CLI11": "share/cmake/CLI11",
-               "/usr/share/cmake/nlohmann_json": "share/cmake/nlohmann_json",
-               "/usr/share/eigen3/cmake": "share/cmake/eigen3"}
+# Of Debian's packages: header-only libraries, and where their files for CMake are in it and among the targets'
+# headers. Some have xtl, and xsimd's not in a folder of the processor's.
+INCLUDES = ["boost", "xsimd", "CLI", "nlohmann", "eigen3", "xtl"]
+CMAKE_FILES = {"share/cmake/CLI11": "share/cmake/CLI11", "share/cmake/nlohmann_json": "share/cmake/nlohmann_json",
+               "share/eigen3/cmake": "share/cmake/eigen3", "share/cmake/xsimd": "share/cmake/xsimd",
+               "share/cmake/xtl": "share/cmake/xtl", "lib/*/cmake/xsimd": "lib/host/cmake/xsimd"}
 
 
 # Floating-point instructions of SIMD kernels as objdump shows them: of packs, and of single numbers.
@@ -37,6 +40,7 @@ ARITHMETIC = {
 LEAST_PACKED = 0.95
 # How much random tests try under an emulator (tests/support/scaled.hpp), as under valgrind.
 EMULATED_SCALE = "0.01"
+PROGRAMS = ["errbound_everywhere", "ccd_program"]
 # Whose baseline kernels have packs of two doubles: instructions of the second are held against the first's.
 COUNTED = ["x86-64", "aarch64"]
 
@@ -51,10 +55,11 @@ def link_headers():
         return
     (HEADERS / "include").mkdir(parents=True)
     for name in INCLUDES:
-        (HEADERS / "include" / name).symlink_to(f"/usr/include/{name}")
-    xsimd = next(pathlib.Path("/usr/lib").glob("*/cmake/xsimd"))
-    for source, to in {**CMAKE_FILES, str(xsimd): "lib/host/cmake/xsimd"}.items():
-        shutil.copytree(source, HEADERS / to)
+        if pathlib.Path("/usr/include", name).exists():
+            (HEADERS / "include" / name).symlink_to(f"/usr/include/{name}")
+    for source, to in CMAKE_FILES.items():
+        for folder in pathlib.Path("/usr").glob(source):
+            shutil.copytree(folder, HEADERS / to)
 
 
 class Build:
@@ -70,7 +75,7 @@ class Build:
         libraries = OUT / (target.libraries or target.name) / "libraries"
         values = {"SYSTEM": target.system, "PROCESSOR": target.processor, "TRIPLE": target.triple,
                   "CC": target.cc, "CXX": target.cxx, "FLAGS": target.flags, "CXX_FLAGS": target.cxx_flags,
-                  "EMULATOR": ";".join(target.emulator), "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
+                  "AR": target.ar, "RANLIB": target.ranlib, "EMULATOR": ";".join(target.emulator), "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
         self.libraries = libraries
         self.environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(self.folder / "wine"),
                             **{"ERRBOUND_" + name: value for name, value in values.items()}}
@@ -178,7 +183,7 @@ class Build:
     def packed(self):
         """Which part of the baseline kernels' arithmetic is of packs, as text, and whether nearly all is."""
         patterns = ARITHMETIC.get(self.target.processor)
-        objdump = f"{self.target.triple}-objdump".lstrip("-")
+        objdump = shutil.which(f"{self.target.triple}-objdump") or "objdump"
         if patterns is None or self.target.system != "Linux" or self.target.level == "-O0":
             return "-", True
         folder = self.folder / "build/rooms/ccd/batch/CMakeFiles/errbound_kernels_baseline.dir"
@@ -190,14 +195,19 @@ class Build:
         part = of_packs / (of_packs + single) if of_packs else 0
         return f"{part:.1%}", part >= LEAST_PACKED
 
+    def make_all(self, label):
+        """The programs, and the tests with that label."""
+        self.make("build", *PROGRAMS, *(self.test_targets(chosen_by(label)) if label else []))
+
+    def test_targets(self, chosen):
+        helper = [sys.executable, ROOT / "cmake" / "test_targets.py", self.folder / "build", *chosen]
+        return subprocess.run(helper, env=self.environment, check=True, stdout=subprocess.PIPE,
+                              text=True).stdout.split()
+
     def tests(self, label):
         """How many of the tests with that label passed, as text, and whether all did."""
-        build = self.folder / "build"
-        chosen = ["-L", label, "-LE", "^sources$"]
-        helper = [sys.executable, ROOT / "cmake" / "test_targets.py", build, *chosen]
-        targets = subprocess.run(helper, env=self.environment, check=True, stdout=subprocess.PIPE,
-                                 text=True).stdout.split()
-        self.make("build", *targets)
+        build, chosen = self.folder / "build", chosen_by(label)
+        self.make("build", *self.test_targets(chosen))
         report = self.folder / "tests.xml"
         self.run("ctest", "--test-dir", build, "--output-on-failure", *chosen, "--output-junit", report,
                  f"-j{self.jobs}", why="", check=False)
@@ -205,6 +215,11 @@ class Build:
                   re.findall(r'\b(tests|failures|skipped|disabled)="(\d+)"', report.read_text())}
         run = counts["tests"] - counts["skipped"] - counts["disabled"]
         return f"{run - counts['failures']} of {run}", counts["failures"] == 0
+
+
+def chosen_by(label):
+    """Options of ctest."""
+    return ["-L", label, "-LE", "^sources$"]
 
 
 def source_of(package):
@@ -215,9 +230,19 @@ def source_of(package):
     return source
 
 
+def with_compiler(target):
+    """The target with its tools where they are."""
+    if not target.zig:
+        return target
+    try:
+        tools = zig.make_tools(OUT / "zig", target.zig)
+    except subprocess.CalledProcessError as error:
+        raise Failed(f"cannot be run: zig cannot be installed ({error})") from error
+    return dataclasses.replace(target, cc=str(tools / "zig-cc"), cxx=str(tools / "zig-c++"), ar=str(tools / "zig-ar"),
+                               ranlib=str(tools / "zig-ranlib"), options=target.options + zig.options(target.zig))
+
+
 def compiler_of(target):
-    if target.missing:
-        raise Failed("cannot be run: " + target.missing)
     for tool in (target.cxx, *target.emulator[:1]):
         if shutil.which(tool) is None:
             raise Failed(f"cannot be run: no {tool} here (packages {', '.join(target.packages)})")
@@ -232,20 +257,25 @@ def print_row(target, label, jobs):
     start = time.monotonic()
     compiler, tests, packed = "", "-", "-"
     try:
+        target = with_compiler(target)
         compiler = compiler_of(target)
         build = Build(target, jobs)
         passed = equal = True
         if target.refused:
             text = build.refusal()
+        elif target.only_compiled:
+            build.prepare(bool(label))
+            build.make_all(label)
+            text = "compiles: " + target.only_compiled
         else:
             build.prepare(bool(label))
             text, equal = build.hash()
             packed, vectorised = build.packed()
             equal = equal and vectorised
-        if label and not target.refused:
+        if label and not target.refused and not target.only_compiled:
             tests, passed = build.tests(label)
     except Failed as why:
-        text, equal, passed = str(why), bool(target.missing), True
+        text, equal, passed = str(why), False, True
     print(ROW.format(target.name, compiler[:39], tests, packed, f"{time.monotonic() - start:.0f} s", text),
           flush=True)
     return equal and passed

@@ -7,6 +7,8 @@ class Target:
     name: str
     cxx: str
     cc: str
+    ar: str = ""  # the archiver and its index's maker, where they are not the host's
+    ranlib: str = ""
     processor: str = "x86_64"
     system: str = "Linux"
     triple: str = ""  # of a cross compiler, whose C library is in /usr/TRIPLE
@@ -16,9 +18,10 @@ class Target:
     level: str = "-O2"
     packages: tuple = ()
     options: tuple = ()  # more of CMake's
-    missing: str = ""  # why it cannot be run
     refused: bool = False  # the headers must say that they do not compile for it, and why
     libraries: str = ""  # the target whose oneTBB, GoogleTest and GMP it takes, else its own
+    zig: str = ""  # zig's name for it, where its compiler is zig's (zig.py)
+    only_compiled: str = ""  # why its programs are not run
 
 
 def cross(name, processor, triple, qemu, emulator=None, **more):
@@ -37,6 +40,14 @@ def clang(name, version="", **more):
                   **more)
 
 
+def zig(name, zig, triple, **more):
+    """By the clang of zig, which brings libc++ and the C libraries of systems that Debian does not have."""
+    return Target(name, "zig-c++", "zig-cc", triple=triple, zig=zig, packages=("python3-venv",),
+                  cxx_flags=LIBCXX_FLAGS, **more)
+
+
+# Of what C++17 removed, Boost 1.74 takes a class.
+LIBCXX_FLAGS = "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION"
 # x86-64 runs i386's programs itself; qemu 7.2 does not come to an end (docs/platforms.md).
 I386_LOADER = ("/usr/i686-linux-gnu/lib/ld-linux.so.2", "--library-path", "/usr/i686-linux-gnu/lib")
 
@@ -59,17 +70,20 @@ TARGETS = [
     gcc("x86-64-contract", cxx_flags="-march=x86-64-v3 -ffp-contract=fast"),
     gcc("x86-64-c++23", options=("-DCMAKE_CXX_STANDARD=23",)),
     gcc("x86-64-g++-11", "-11"),
+    gcc("x86-64-g++-13", "-13"),
+    gcc("x86-64-g++-14", "-14"),
     clang("x86-64-clang"),
+    clang("x86-64-clang-17", "-17"),
+    clang("x86-64-clang-18", "-18"),
     clang("x86-64-clang-19", "-19"),
-    Target("x86-64-libc++", "clang++-16", "clang-16",
-           # Of what C++17 removed, Boost 1.74 takes a class.
-           cxx_flags="-stdlib=libc++ -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION",
+    Target("x86-64-libc++", "clang++-16", "clang-16", cxx_flags="-stdlib=libc++ " + LIBCXX_FLAGS,
            packages=("clang-16", "libc++-16-dev", "libc++abi-16-dev")),
     Target("windows", "x86_64-w64-mingw32-g++-posix", "x86_64-w64-mingw32-gcc-posix", system="Windows",
            triple="x86_64-w64-mingw32", emulator=("/usr/lib/wine/wine64",),
            # Without -mfma the C library's fma is asked, which rounds twice: the headers refuse it.
            flags="-mfma", cxx_flags="-static",
            packages=("g++-mingw-w64-x86-64", "wine64")),
-    Target("musl", "musl-gcc", "musl-gcc", missing="Debian has no C++ library for musl"),
-    Target("macos", "clang++", "clang", missing="neither its headers nor a system to run it on"),
+    zig("musl", "x86_64-linux-musl", "x86_64-linux-musl"),
+    zig("macos", "aarch64-macos", "aarch64-apple-darwin", processor="arm64", system="Darwin",
+        only_compiled="no macOS to run it on"),
 ]
