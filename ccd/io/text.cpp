@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <errbound/support/error.hpp>
 #include <limits>
-#include <locale>
 #include <numeric>
-#include <sstream>
 #include <system_error>
+
+#include "errbound/support/decimal.hpp"
 
 namespace ccd::io {
 namespace {
@@ -139,20 +139,12 @@ number parse_hexadecimal(std::string_view token, bool round) {
 /// A decimal number after its sign.
 template <class T>
 number parse_decimal(std::string_view token) {
-    T value = 0;
-    const char* const end = token.data() + token.size();
-    // Without this from_chars would take a second minus.
+    using errbound::support::decimal_status;
+    // A second minus would be taken.
     if (token.starts_with('-')) return fail(number_status::malformed);
-    const auto [rest, ec] = std::from_chars(token.data(), end, value);
-    if (ec == std::errc::invalid_argument || rest != end) return fail(number_status::malformed);
-    if (ec == std::errc::result_out_of_range) {
-        // from_chars does not say which of too large and too small; the stream does, and yields the
-        // nearest (zero or subnormal) value for the latter.
-        std::istringstream stream{std::string(token)};
-        stream.imbue(std::locale::classic());
-        stream.exceptions(std::ios::badbit);  // no memory is no overflow
-        if (!(stream >> value)) return fail(number_status::overflow);
-    }
+    const auto [value, status] = errbound::support::parse_decimal<T>(token);
+    if (status == decimal_status::malformed) return fail(number_status::malformed);
+    if (status == decimal_status::overflow) return fail(number_status::overflow);
     if (!std::isfinite(value)) return fail(number_status::not_finite);
     return {static_cast<double>(value), number_status::ok};
 }

@@ -24,7 +24,7 @@ HEADERS = OUT / "headers"
 ROW = "{:<18}{:<40}{:>10}{:>8}{:>8}  {}"
 # Of Debian's packages: header-only libraries, and where their files for CMake are in it and among the targets'
 # headers. Some have xtl, and xsimd's not in a folder of the processor's.
-INCLUDES = ["boost", "xsimd", "CLI", "nlohmann", "eigen3", "xtl"]
+INCLUDES = ["boost", "xsimd", "CLI", "nlohmann", "eigen3", "xtl", "fast_float"]
 CMAKE_FILES = {"share/cmake/CLI11": "share/cmake/CLI11", "share/cmake/nlohmann_json": "share/cmake/nlohmann_json",
                "share/eigen3/cmake": "share/cmake/eigen3", "share/cmake/xsimd": "share/cmake/xsimd",
                "share/cmake/xtl": "share/cmake/xtl", "lib/*/cmake/xsimd": "lib/host/cmake/xsimd"}

@@ -42,7 +42,7 @@ def clang(name, version="", **more):
 
 def zig(name, zig, triple, **more):
     """By the clang of zig, which brings libc++ and the C libraries of systems that Debian does not have."""
-    return Target(name, "zig-c++", "zig-cc", triple=triple, zig=zig, packages=("python3-venv",),
+    return Target(name, "zig-c++", "zig-cc", triple=triple, zig=zig, packages=("python3-venv", "libfast-float-dev"),
                   cxx_flags=LIBCXX_FLAGS, **more)
 
 
@@ -77,7 +77,7 @@ TARGETS = [
     clang("x86-64-clang-18", "-18"),
     clang("x86-64-clang-19", "-19"),
     Target("x86-64-libc++", "clang++-16", "clang-16", cxx_flags="-stdlib=libc++ " + LIBCXX_FLAGS,
-           packages=("clang-16", "libc++-16-dev", "libc++abi-16-dev")),
+           packages=("clang-16", "libc++-16-dev", "libc++abi-16-dev", "libfast-float-dev")),
     Target("windows", "x86_64-w64-mingw32-g++-posix", "x86_64-w64-mingw32-gcc-posix", system="Windows",
            triple="x86_64-w64-mingw32", emulator=("/usr/lib/wine/wine64",),
            # Without -mfma the C library's fma is asked, which rounds twice: the headers refuse it.

@@ -1,7 +1,6 @@
 #include "examples/simulation/output/summary.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <errbound/support/error.hpp>
@@ -10,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "errbound/support/decimal.hpp"
 #include "errbound/support/output_file.hpp"
 #include "examples/simulation/output/run_folder.hpp"
 
@@ -26,12 +26,10 @@ std::vector<std::string> cells_of(const std::string& line) {
 /// NaN where it is empty.
 double number_of(const std::string& cell, const std::string& place) {
     if (cell.empty()) return std::nan("");
-    double x = 0;
-    const char* const end = cell.data() + cell.size();
-    const auto read = std::from_chars(cell.data(), end, x);
-    if (read.ec != std::errc() || read.ptr != end)
+    const auto read = errbound::support::parse_decimal<double>(cell);
+    if (read.status != errbound::support::decimal_status::ok)
         throw errbound::support::file_error(place + "found '" + cell + "', expected a number");
-    return x;
+    return read.value;
 }
 
 /// Every column by its name; NaN where a cell is empty.

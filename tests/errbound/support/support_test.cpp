@@ -1,10 +1,13 @@
-// Output files are written whole or not at all; scratch files go away.
+// Output files are written whole or not at all; scratch files go away; decimals are read.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <string>
 
+#include "errbound/support/decimal.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/scratch_file.hpp"
 #include "tests/support/files.hpp"
@@ -101,6 +104,44 @@ TEST(Scratch, NeedsAFolder) {
         setenv("TMPDIR", kept.c_str(), 1);
     else
         unsetenv("TMPDIR");
+}
+
+template <class T>
+void expect_decimal(std::string_view text, T value) {
+    const decimal<T> read = parse_decimal<T>(text);
+    EXPECT_EQ(read.status, decimal_status::ok) << text;
+    EXPECT_EQ(read.value, value) << text;
+    EXPECT_EQ(std::signbit(read.value), std::signbit(value)) << text;
+}
+
+TEST(Decimal, IsTheNearest) {
+    expect_decimal("0.1", 0.1);
+    expect_decimal("-2.5e-3", -2.5e-3);
+    expect_decimal(".5", 0.5);
+    expect_decimal("5.", 5.0);
+    expect_decimal("-0", -0.0);
+    expect_decimal("9007199254740993", 9007199254740992.0);
+    expect_decimal("9007199254740993.000000000000000000001", 9007199254740994.0);
+    expect_decimal("16777217", 16777216.0F);
+    expect_decimal("16777217.0000000000001", 16777218.0F);  // not by way of double
+    expect_decimal("1.7976931348623157e308", std::numeric_limits<double>::max());
+    expect_decimal("4.9e-324", 0x1p-1074);
+    expect_decimal("2e-320", 2e-320);
+    expect_decimal("1e-45", 0x1p-149F);
+    expect_decimal("1e-400", 0.0);
+    expect_decimal("-1e-99999999999", -0.0);
+    expect_decimal("1e-50", 0.0F);
+    expect_decimal("-inf", -std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(std::isnan(parse_decimal<double>("nan").value));
+}
+
+TEST(Decimal, IsRefused) {
+    for (const char* text :
+         {"", "-", ".", "+1", "--1", "1 ", " 1", "1e", "1e+", "e5", "1.5.", "0x1", "1,5", "x"})
+        EXPECT_EQ(parse_decimal<double>(text).status, decimal_status::malformed) << text;
+    for (const char* text : {"1e309", "-1e309", "1.7976931348623159e308", "1e99999999999"})
+        EXPECT_EQ(parse_decimal<double>(text).status, decimal_status::overflow) << text;
+    EXPECT_EQ(parse_decimal<float>("3.5e38").status, decimal_status::overflow);
 }
 
 }  // namespace
