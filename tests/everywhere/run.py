@@ -75,7 +75,8 @@ class Build:
         libraries = OUT / (target.libraries or target.name) / "libraries"
         values = {"SYSTEM": target.system, "PROCESSOR": target.processor, "TRIPLE": target.triple,
                   "CC": target.cc, "CXX": target.cxx, "FLAGS": target.flags, "CXX_FLAGS": target.cxx_flags,
-                  "AR": target.ar, "RANLIB": target.ranlib, "EMULATOR": ";".join(target.emulator), "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
+                  "AR": target.ar, "RANLIB": target.ranlib, "EMULATOR": ";".join(target.emulator),
+                  "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
         self.libraries = libraries
         self.environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(self.folder / "wine"),
                             **{"ERRBOUND_" + name: value for name, value in values.items()}}
