@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <errbound/detail/rounded.hpp>
 #include <errbound/environment.hpp>
 #include <limits>
 #include <type_traits>
@@ -35,8 +34,8 @@ constexpr int exponent_by_steps(const T& x) {
     return e;
 }
 
-/// Whether a fused product is the C library's, not an instruction.
-#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__CUDA_ARCH__)
+/// Whether a fused product is the C library's, for want of an instruction.
+#if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__AVX512F__) || defined(__CUDA_ARCH__)
 inline constexpr bool fma_is_called = false;
 #else
 inline constexpr bool fma_is_called = true;
@@ -112,7 +111,7 @@ struct number_traits {
                       "errbound: specialise errbound::number_traits for an fma that rounds once");
         // Of a product that underflows musl's loses the sign when it adds zero.
         if constexpr (detail::fma_is_called)
-            if (c == 0 && a != 0 && b != 0) return detail::rounded(a * b);
+            if (c == 0 && a != 0 && b != 0) return a * b;
         return std::fma(a, b, c);
     }
     /// x·2^e, rounded once.
