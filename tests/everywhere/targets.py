@@ -32,7 +32,9 @@ def cross(name, processor, triple, qemu, emulator=None, **more):
 
 
 def gcc(name, version="", **more):
-    return Target(name, "g++" + version, "gcc" + version, packages=("g++" + version,), libraries="x86-64", **more)
+    # Libraries of a newer g++ may ask for more than an older one's libstdc++ has.
+    return Target(name, "g++" + version, "gcc" + version, packages=("g++" + version,),
+                  libraries="" if version else "x86-64", **more)
 
 
 def clang(name, version="", **more):

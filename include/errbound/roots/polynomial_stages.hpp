@@ -64,25 +64,27 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     constexpr double epsilon = number_traits<double>::epsilon();
     std::size_t size = p.size();
     while (size > 0 && p[size - 1] == 0) --size;
-    std::vector<floating_coefficient> c;
-    c.reserve(size);
-    double largest = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-        // Conversions of other types may be off by some units in the last place.
-        const double x = static_cast<double>(p[i]), size_of_x = std::abs(x);
-        largest = std::max(largest, size_of_x);
-        c.push_back(size_of_x < 0x1p52 ? floating_coefficient(x)
-                                       : floating_coefficient::within(x, 4 * epsilon * size_of_x));
-    }
-    if (largest < 0x1p+500) return c;
+    // Asked first: types may throw where a conversion overflows, as Boost 1.83 does.
     int unit = 0;
     for (std::size_t i = 0; i < size; ++i)
         if (p[i] != 0) unit = std::max(unit, floor_log2(p[i]));
+    const bool in_range = unit < 500;
+    std::vector<floating_coefficient> c;
+    c.reserve(size);
     for (std::size_t i = 0; i < size; ++i) {
-        const double x = nearby_double(p[i], -unit);
-        if (p[i] != 0)
-            c[i] = floating_coefficient::within(
-                x, 2 * epsilon * std::abs(x) + number_traits<double>::underflow_unit());
+        if (p[i] == 0) {
+            c.emplace_back(0.0);
+        } else if (in_range) {
+            // Conversions of other types may be off by some units in the last place.
+            const double x = static_cast<double>(p[i]), size_of_x = std::abs(x);
+            c.push_back(size_of_x < 0x1p52
+                            ? floating_coefficient(x)
+                            : floating_coefficient::within(x, 4 * epsilon * size_of_x));
+        } else {
+            const double x = nearby_double(p[i], -unit);
+            c.push_back(floating_coefficient::within(
+                x, 2 * epsilon * std::abs(x) + number_traits<double>::underflow_unit()));
+        }
     }
     return c;
 }
