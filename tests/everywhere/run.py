@@ -59,7 +59,7 @@ def link_headers():
             (HEADERS / "include" / name).symlink_to(f"/usr/include/{name}")
     for source, to in CMAKE_FILES.items():
         for folder in pathlib.Path("/usr").glob(source):
-            shutil.copytree(folder, HEADERS / to)
+            shutil.copytree(folder, HEADERS / to, dirs_exist_ok=True)
 
 
 class Build:
