@@ -7,8 +7,6 @@ class Target:
     name: str
     cxx: str
     cc: str
-    ar: str = ""  # the archiver and its index's maker, where they are not the host's
-    ranlib: str = ""
     processor: str = "x86_64"
     system: str = "Linux"
     triple: str = ""  # of a cross compiler, whose C library is in /usr/TRIPLE
@@ -21,6 +19,8 @@ class Target:
     refused: bool = False  # the headers must say that they do not compile for it, and why
     libraries: str = ""  # the target whose oneTBB, GoogleTest and GMP it takes, else its own
     zig: str = ""  # zig's name for it, where its compiler is zig's (zig.py)
+    ar: str = ""  # the archiver and its index's maker, where they are not the host's
+    ranlib: str = ""
     only_compiled: str = ""  # why its programs are not run
 
 
