@@ -1,5 +1,5 @@
-// Packs of doubles and of floats, and what xsimd lacks of them, of any version from 8 on. Internal:
-// see ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
+// Packs of doubles and of floats, and what xsimd 8 lacks of them. Internal: see
+// ccd/batch/batch_kernels.hpp for what is special about everything the kernels include.
 #pragma once
 
 #include <concepts>

@@ -32,7 +32,7 @@ decimal<T> parse_decimal(std::string_view text) {
         stream.exceptions(std::ios::badbit);  // no memory is no overflow
         if (!(stream >> value) && std::abs(value) >= 1) return {0, decimal_status::overflow};
     }
-    // fast_float before 4 makes it an infinity without a word.
+    // fast_float 3.9 makes it an infinity without a word.
     const bool has_digits = text.find_first_of("0123456789") != std::string_view::npos;
     if (std::isinf(value) && has_digits) return {0, decimal_status::overflow};
     return {value, decimal_status::ok};
