@@ -1,10 +1,10 @@
 #include "ccd/program/options.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "ccd/io/text.hpp"
 #include "errbound/support/command_line.hpp"
+#include "errbound/support/hexadecimal.hpp"
 
 namespace ccd::program {
 
@@ -71,9 +71,8 @@ double number_option::value(double otherwise, double most) const {
 
 std::string text_of_time(const first_time& time) {
     if (time.outcome != outcome::collides) return "-";
-    char text[64];
-    std::snprintf(text, sizeof text, "%a,%a", time.low, time.high);
-    return text;
+    return errbound::support::hexadecimal(time.low) + "," +
+           errbound::support::hexadecimal(time.high);
 }
 
 void add_threads_option(CLI::App& line, int& threads, const std::string& description) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <errbound/validation/expression.hpp>
 #include <type_traits>
 
+#include "errbound/support/hexadecimal.hpp"
 #include "errbound/validation/any_number_type.hpp"
 #include "errbound/validation/random_source.hpp"
 
@@ -393,11 +393,10 @@ void evaluate(const expression& e, ball* values) {
 namespace {
 
 std::string hexadecimal_double(double x, number_type type) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%a", x);
+    const std::string text = support::hexadecimal(x);
     if (type == number_type::double_type) return text;
-    if (type == number_type::float_type) return std::string(text) + "F";
-    if (type == number_type::long_double_type) return std::string(text) + "L";
+    if (type == number_type::float_type) return text + "F";
+    if (type == number_type::long_double_type) return text + "L";
     return std::string(entry_of(type).cpp_name) + "(" + text + ")";
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <initializer_list>
 #include <random>
 #include <string>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "ccd/io/stored_kinds.hpp"
+#include "errbound/support/hexadecimal.hpp"
 
 namespace ccd::stress {
 
@@ -56,9 +56,9 @@ inline source source_of(std::string_view family, std::initializer_list<std::uint
 inline std::string csv(const points& p, std::string_view last_column = {}) {
     std::string rows;
     const auto row = [&](const point<double>& at) {
-        std::array<char, 128> text;  // three numbers of at most 24 characters
-        std::snprintf(text.data(), text.size(), "%a,%a,%a", at.x, at.y, at.z);
-        rows.append(text.data()).append(last_column).append("\n");
+        using errbound::support::hexadecimal;
+        rows += hexadecimal(at.x) + "," + hexadecimal(at.y) + "," + hexadecimal(at.z);
+        rows.append(last_column).append("\n");
     };
     for (const auto& m : p) row(m.t0);
     for (const auto& m : p) row(m.t1);

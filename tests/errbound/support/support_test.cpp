@@ -1,16 +1,23 @@
-// Output files are written whole or not at all; scratch files go away; decimals are read.
+// Output files are written whole or not at all; scratch files go away; decimals are read;
+// doubles are written as exact text.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <random>
 #include <string>
 
 #include "errbound/support/decimal.hpp"
+#include "errbound/support/hexadecimal.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/scratch_file.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/scaled.hpp"
 
 namespace {
 
@@ -142,6 +149,39 @@ TEST(Decimal, IsRefused) {
     for (const char* text : {"1e309", "-1e309", "1.7976931348623159e308", "1e99999999999"})
         EXPECT_EQ(parse_decimal<double>(text).status, decimal_status::overflow) << text;
     EXPECT_EQ(parse_decimal<float>("3.5e38").status, decimal_status::overflow);
+}
+
+TEST(Hexadecimal, IsOneTextOnEverySystem) {
+    EXPECT_EQ(hexadecimal(1), "0x1p+0");
+    EXPECT_EQ(hexadecimal(-0.1), "-0x1.999999999999ap-4");
+    EXPECT_EQ(hexadecimal(0x1p52 + 1), "0x1.0000000000001p+52");
+    EXPECT_EQ(hexadecimal(0), "0x0p+0");
+    EXPECT_EQ(hexadecimal(-0.0), "-0x0p+0");
+    using limits = std::numeric_limits<double>;
+    EXPECT_EQ(hexadecimal(limits::denorm_min()), "0x0.0000000000001p-1022");
+    EXPECT_EQ(hexadecimal(limits::min() / 2), "0x0.8p-1022");
+    EXPECT_EQ(hexadecimal(limits::min()), "0x1p-1022");
+    EXPECT_EQ(hexadecimal(limits::max()), "0x1.fffffffffffffp+1023");
+    EXPECT_EQ(hexadecimal(-limits::infinity()), "-inf");
+    EXPECT_EQ(hexadecimal(limits::quiet_NaN()), "nan");
+}
+
+TEST(Hexadecimal, IsReadBackAsTheSameNumber) {
+    std::mt19937_64 random(1);
+    for (int i = 0; i < support::scaled(100000); ++i) {
+        std::uint64_t bits = random();
+        if (i % 4 == 0) bits &= ~(std::uint64_t(0x7ff) << 52);       // below the least normal one
+        if (i % 3 == 0) bits &= ~std::uint64_t(0) << random() % 53;  // zeros at the end
+        const double x = std::bit_cast<double>(bits);
+        if (!std::isfinite(x)) continue;
+        const std::string text = hexadecimal(x);
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)), bits) << text;
+#ifdef __GLIBC__
+        char printed[64];
+        std::snprintf(printed, sizeof printed, "%a", x);
+        ASSERT_EQ(text, printed);
+#endif
+    }
 }
 
 }  // namespace

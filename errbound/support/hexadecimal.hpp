@@ -1,0 +1,30 @@
+// Doubles as exact text, the same of every C library: their printf's write numbers below the least
+// normal one, and some all, in ways of their own.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace errbound::support {
+
+/// As C's hexadecimal floating-point literals, with one digit before the point, 0 below the least
+/// normal number, and no zeros that end the others: -0x1.8p+1, 0x0.8p-1022, 0x0p+0; inf and nan.
+inline std::string hexadecimal(double x) {
+    const std::string sign = std::signbit(x) ? "-" : "";
+    if (!std::isfinite(x)) return sign + (std::isnan(x) ? "nan" : "inf");
+    constexpr int fraction_bits = 52, bias = 1023;
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const int biased = static_cast<int>(bits >> fraction_bits & 0x7ff);
+    std::string digits;
+    // The digits are moved out at the fraction's upper end.
+    for (std::uint64_t rest = bits << (64 - fraction_bits); rest != 0; rest <<= 4)
+        digits += "0123456789abcdef"[rest >> 60];
+    int exponent = biased - bias;
+    if (biased == 0) exponent = digits.empty() ? 0 : 1 - bias;
+    return sign + (biased == 0 ? "0x0" : "0x1") + (digits.empty() ? "" : ".") + digits +
+           (exponent < 0 ? "p" : "p+") + std::to_string(exponent);
+}
+
+}  // namespace errbound::support
