@@ -21,7 +21,7 @@ methods_option::methods_option(CLI::App& line)
 }
 
 std::vector<ccd::method> methods_option::methods() const {
-    if (was_given()) return errbound::support::all_named(list_, method_named);
+    if (was_given()) return errbound::support::all_named("--method", list_, method_named);
     std::vector<ccd::method> all;
     for (const method_info& entry : ccd::methods()) all.push_back(entry.method);
     return all;

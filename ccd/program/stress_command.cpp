@@ -57,7 +57,7 @@ stress::plan stress_run::checked_plan() const {
     for (const ccd::method m : methods_.methods())
         plan.subjects.push_back(stress::subject_of(info(m)));
     if (line_.count("--family") > 0)
-        plan.families = errbound::support::all_named(families_, family_named);
+        plan.families = errbound::support::all_named("--family", families_, family_named);
     else
         for (const stress::family& entry : stress::families()) plan.families.push_back(&entry);
     plan.queries = quick_ && line_.count("--queries") == 0 ? 100 : queries_;

@@ -39,7 +39,7 @@ elementary_function function_named(const std::string& name) {
         .function;
 }
 std::vector<elementary_function> functions_named(const std::string& names) {
-    if (names != "all") return support::all_named(names, function_named);
+    if (names != "all") return support::all_named("--functions", names, function_named);
     std::vector<elementary_function> all;
     for (const named_function& f : named_functions) all.push_back(f.function);
     return all;
@@ -126,17 +126,12 @@ validate_arguments validate_options::checked() {
     if (line_.count("--rules") == 0)
         all.rules.assign(rules().begin(), rules().end());
     else
-        all.rules = support::all_named(rules_, rule_named);
+        all.rules = support::all_named("--rules", rules_, rule_named);
     if (line_.count("--numbers") > 0)
-        all.options.numbers = support::all_named(numbers_, number_named);
+        all.options.numbers = support::all_named("--numbers", numbers_, number_named);
     if (all.every_bound && !all.tiny)
         throw support::usage_error("found --every-bound without --tiny, expected both");
-    if (line_.count("--functions") > 0) {
-        all.functions.functions = functions_named(functions_);
-    } else if (all.functions.every_float || all.functions.units || all.functions_csv ||
-               line_.count("--samples") > 0) {
-        throw support::usage_error("found an option of --functions without it, expected both");
-    }
+    if (line_.count("--functions") > 0) all.functions.functions = functions_named(functions_);
     if (const auto units = all.functions.units; units && !(*units > 0 && *units <= most_units))
         throw support::usage_error("--units: found a number that is none from above 0 to 1024");
     support::require_one_standard_input("--queries", all.queries);
@@ -148,18 +143,19 @@ validate_arguments validate_options::checked() {
         std::ranges::none_of(all.functions.numbers, has_functions))
         throw support::usage_error(
             "--functions: found --numbers without float and double, expected one of them");
-    if (all.functions.every_float) require_use_of_every_float(all.functions);
     all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||
                       (!all.tiny && all.queries.empty() && all.functions.functions.empty());
     if (all.expressions) require_rules_of_numbers(all);
     require_use_of_options(all);
+    if (all.functions.every_float) require_use_of_every_float(all.functions);
     return all;
 }
 
 void validate_options::require_use_of_options(const validate_arguments& all) const {
-    const bool random = all.expressions || !all.functions.functions.empty();
+    const bool functions = !all.functions.functions.empty();
+    const bool random = all.expressions || functions;
     const bool rules = all.expressions || all.tiny || !all.queries.empty();
     const std::tuple<const char*, bool, const char*> needs[] = {
         {"--rules", rules, "--expressions, --tiny or --queries"},
@@ -168,6 +164,10 @@ void validate_options::require_use_of_options(const validate_arguments& all) con
         {"--operations", all.expressions, "--expressions"},
         {"--numbers", random, "--expressions or --functions"},
         {"--seed", random, "--expressions or --functions"},
+        {"--samples", functions, "--functions"},
+        {"--every-float", functions, "--functions"},
+        {"--units", functions, "--functions"},
+        {"--functions-csv", functions, "--functions"},
         {"--csv", all.expressions || !all.queries.empty(), "--expressions or --queries"}};
     for (const auto& [option, is_used, by] : needs)
         if (line_.count(option) > 0 && !is_used)

@@ -24,9 +24,10 @@ struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What `named` makes of the names of a list N[,N...]. Throws usage_error where one is there twice.
+/// What `named` makes of the names of an option's list N[,N...]. Throws usage_error where one is
+/// there twice.
 template <class Named>
-auto all_named(const std::string& list, const Named& named) {
+auto all_named(const std::string& option, const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
     std::set<std::string> names;
     std::size_t begin = 0;
@@ -34,7 +35,8 @@ auto all_named(const std::string& list, const Named& named) {
         comma = list.find(',', begin);
         const std::string name = list.substr(begin, comma - begin);
         if (!names.insert(name).second)
-            throw usage_error("found '" + name + "' twice in '" + list + "', expected each once");
+            throw usage_error(option + ": found '" + name + "' twice in '" + list +
+                              "', expected each once");
         result.push_back(named(name));
     }
     return result;

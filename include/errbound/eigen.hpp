@@ -40,7 +40,7 @@ struct NumTraits<errbound::tracked<T, Rule>> : GenericNumTraits<errbound::tracke
     using Real = Scalar;
     using NonInteger = Scalar;
     using Nested = Scalar;
-    using Literal = T;
+    using Literal = Scalar;  // plain numbers of other types are within their conversion's error
     enum {
         IsComplex = 0,
         IsInteger = 0,

@@ -15,6 +15,7 @@
 // device code: a device's functions have other errors, and no function_error names them.
 #pragma once
 
+#include <concepts>
 #include <errbound/conversion.hpp>
 #include <errbound/functions/function_error.hpp>
 #include <errbound/functions/function_of_range.hpp>
@@ -24,6 +25,11 @@
 namespace errbound {
 
 namespace detail {
+
+/// A plain number that a tracked one is made of, within the error of its conversion.
+template <class Number, class T, class Rule>
+concept plain_number_for =
+    !is_tracked<Number> && std::constructible_from<tracked<T, Rule>, const Number&>;
 
 /// F of a number, in the type whose functions serve it.
 template <elementary_function F, class T, class Rule>
@@ -161,13 +167,15 @@ tracked<T, Rule> pow(const tracked<T, Rule>& x, const tracked<T, Rule>& y) {
         return tracked<T, Rule>::within(result.value, result.error);
     }
 }
-/// Of an exact exponent; of an exact base.
-template <class T, class Rule>
-tracked<T, Rule> pow(const tracked<T, Rule>& x, const std::type_identity_t<T>& y) {
+/// Of a plain exponent; of a plain base. Exact where T holds it, else within the rounding error of
+/// its conversion.
+template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
+requires(!std::same_as<Number, int>) tracked<T, Rule> pow(const tracked<T, Rule>& x,
+                                                          const Number& y) {
     return pow(x, tracked<T, Rule>(y));
 }
-template <class T, class Rule>
-tracked<T, Rule> pow(const std::type_identity_t<T>& x, const tracked<T, Rule>& y) {
+template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
+tracked<T, Rule> pow(const Number& x, const tracked<T, Rule>& y) {
     return pow(tracked<T, Rule>(x), y);
 }
 
@@ -184,13 +192,13 @@ tracked<T, Rule> atan2(const tracked<T, Rule>& y, const tracked<T, Rule>& x) {
         return tracked<T, Rule>::within(result.value, result.error);
     }
 }
-/// Where one of them is exact.
-template <class T, class Rule>
-tracked<T, Rule> atan2(const tracked<T, Rule>& y, const std::type_identity_t<T>& x) {
+/// Where one of them is plain: as pow's.
+template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
+tracked<T, Rule> atan2(const tracked<T, Rule>& y, const Number& x) {
     return atan2(y, tracked<T, Rule>(x));
 }
-template <class T, class Rule>
-tracked<T, Rule> atan2(const std::type_identity_t<T>& y, const tracked<T, Rule>& x) {
+template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
+tracked<T, Rule> atan2(const Number& y, const tracked<T, Rule>& x) {
     return atan2(tracked<T, Rule>(y), x);
 }
 

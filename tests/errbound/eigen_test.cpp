@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <errbound/eigen.hpp>
 #include <errbound/predicate_batch.hpp>
 #include <errbound/predicates.hpp>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/interval.hpp>
+#include <errbound/rules/residual.hpp>
 #include <vector>
 
 namespace {
@@ -67,6 +71,41 @@ TEST(Eigen, VectorsOfASizeKnownAtRunTimeArePoints) {
     expect_left_turn(identity * a, c.reverse(), c.transpose() * identity);
     expect_left_turn(a.cast<float>(), Eigen::ArrayXf(b.cast<float>()), c.array());
     expect_left_turn(Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2, 1>(a), b, Eigen::Vector2d(c));
+}
+
+// 2^24 + 1 is no float.
+template <class Rule>
+void expect_plain_numbers_converted_within_their_error() {
+    using number = errbound::tracked<float, Rule>;
+    constexpr double plain = 16777217;
+    const Eigen::Matrix<number, 2, 2> fixed = Eigen::Matrix<number, 2, 2>::Constant(number(1));
+    const Eigen::Matrix<number, Eigen::Dynamic, Eigen::Dynamic> dynamic = fixed;
+    const Eigen::Array<number, 2, 2> array = fixed.array();
+    const auto expect_within = [](const auto& result, double truth) {
+        const number x = result.eval()(0, 0);
+        EXPECT_LE(std::abs(double(x.value()) - truth), double(x.error())) << Rule::name << truth;
+        EXPECT_LE(double(x.error()), 1e-5 * std::abs(truth)) << Rule::name << truth;
+    };
+    expect_within(fixed * plain, plain);
+    expect_within(plain * fixed, plain);
+    expect_within(dynamic * plain, plain);
+    expect_within(dynamic * 16777217L, plain);
+    expect_within(plain * dynamic, plain);
+    expect_within(dynamic / plain, 1 / plain);
+    expect_within(fixed * 0.1, 0.1);
+    expect_within(array + plain, plain + 1);
+    expect_within(plain / array, plain);
+    expect_within(dynamic * (plain * fixed), 2 * plain);
+    const number exact = (fixed * 2.0F)(0, 0), integer = (fixed * 2)(0, 0);
+    EXPECT_EQ(exact.error(), (number(1) * number(2)).error());
+    EXPECT_EQ(integer.error(), exact.error());
+}
+
+TEST(Eigen, PlainNumbersOfOtherTypesAreWithinTheErrorOfTheirConversion) {
+    expect_plain_numbers_converted_within_their_error<errbound::tight>();
+    expect_plain_numbers_converted_within_their_error<errbound::residual>();
+    expect_plain_numbers_converted_within_their_error<errbound::interval>();
+    expect_plain_numbers_converted_within_their_error<errbound::affine>();
 }
 
 TEST(Eigen, VectorsOfASizeKnownAtRunTimeMakeBatches) {

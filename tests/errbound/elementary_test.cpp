@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <errbound/elementary.hpp>
+#include <errbound/explain/elementary.hpp>
+#include <errbound/small_floats.hpp>
 #include <errbound/validation/ball.hpp>
 #include <errbound/validation/mpfr_functions.hpp>
 #include <limits>
@@ -371,6 +373,28 @@ TEST(Powers, AreByProductsForWholeExponentsOfTheLanguage) {
     EXPECT_EQ(pow(x, 0.5).value(), std::sqrt(3.0));
     EXPECT_EQ(pow(2, x).value(), 8);
     EXPECT_EQ(pow(tracked<float>(4.0F), 0.5).value(), 2);
+}
+
+TEST(PlainArguments, OfOtherTypesAreWithinTheErrorOfTheirConversion) {
+    const tracked<float> one = -1, two = 2, hundred = 100, least = 0x1p-149F;
+    // 2^24 + 1 is no float, and odd.
+    EXPECT_EQ(sign_of(pow(one, 16777217.0)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(pow(one, 16777217L)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(pow(tracked<double>(-1), 9007199254740993L)), sign_type::uncertain);
+    EXPECT_EQ(sign_of(pow(one, 16777215.0)), sign_type::negative);
+    const auto expect_within = [](const auto& x, double truth) {
+        EXPECT_LE(std::abs(double(x.value()) - truth), double(x.error()) * (1 + 1e-12)) << truth;
+        EXPECT_LE(double(x.error()), 1e-3 * truth);
+    };
+    expect_within(pow(two, 100.1), std::pow(2.0, 100.1));
+    expect_within(pow(1.1, hundred), std::pow(1.1, 100.0));
+    expect_within(pow(tracked<errbound::float16>(2), 0.1), std::pow(2.0, 0.1));
+    expect_within(pow(tracked<float, errbound::explained<errbound::tight>>(2), 100.1),
+                  std::pow(2.0, 100.1));
+    expect_within(atan2(tracked<float>(1), 0.1), std::atan2(1.0, 0.1));
+    expect_within(atan2(0.1, tracked<float>(1)), std::atan2(0.1, 1.0));
+    EXPECT_GE(atan2(least, 2e-45).error(), 0.17F);
+    EXPECT_EQ(pow(two, 4.0).error(), pow(two, tracked<float>(4)).error());
 }
 
 }  // namespace

@@ -13,11 +13,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <errbound/explain/elementary.hpp>
 #include <errbound/explain/explained.hpp>
 #include <errbound/explain/explanation.hpp>
 #include <errbound/explain/functions.hpp>
 #include <errbound/explain/scope.hpp>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -28,10 +30,11 @@ namespace errbound {
 /// what tables call x. Cost: a look-up for each source.
 template <class T, class Rule, std::size_t Limit>
 explanation explain(const tracked<T, explained<Rule, Limit>>& x, std::string name = "result") {
+    const auto error = static_cast<double>(x.error());
     explanation e{std::move(name),
                   Rule::name,
                   static_cast<double>(x.value()),
-                  static_cast<double>(x.error()),
+                  std::isnan(error) ? std::numeric_limits<double>::infinity() : error,
                   {}};
     const auto& all = detail::all_sources::instance();
     for (const auto& entry : x.bound().contributions.entries())

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
 #include <cstddef>
@@ -26,8 +27,9 @@ using rational = boost::multiprecision::number<boost::multiprecision::gmp_ration
 using point2 = std::array<double, 2>;
 using point3 = std::array<double, 3>;
 
+/// With fewer some stages have none.
 inline int inputs_per_family() {
-    return support::scaled(4000);
+    return std::max(support::scaled(4000), 400);
 }
 
 /// The same expression over rationals, all by itself.
