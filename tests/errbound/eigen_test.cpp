@@ -76,13 +76,13 @@ TEST(Eigen, VectorsOfASizeKnownAtRunTimeArePoints) {
 // 2^24 + 1 is no float.
 template <class Rule>
 void expect_plain_numbers_converted_within_their_error() {
-    using number = errbound::tracked<float, Rule>;
+    using scalar = errbound::tracked<float, Rule>;
     constexpr double plain = 16777217;
-    const Eigen::Matrix<number, 2, 2> fixed = Eigen::Matrix<number, 2, 2>::Constant(number(1));
-    const Eigen::Matrix<number, Eigen::Dynamic, Eigen::Dynamic> dynamic = fixed;
-    const Eigen::Array<number, 2, 2> array = fixed.array();
+    const Eigen::Matrix<scalar, 2, 2> fixed = Eigen::Matrix<scalar, 2, 2>::Constant(scalar(1));
+    const Eigen::Matrix<scalar, Eigen::Dynamic, Eigen::Dynamic> dynamic = fixed;
+    const Eigen::Array<scalar, 2, 2> array = fixed.array();
     const auto expect_within = [](const auto& result, double truth) {
-        const number x = result.eval()(0, 0);
+        const scalar x = result.eval()(0, 0);
         EXPECT_LE(std::abs(double(x.value()) - truth), double(x.error())) << Rule::name << truth;
         EXPECT_LE(double(x.error()), 1e-5 * std::abs(truth)) << Rule::name << truth;
     };
@@ -96,8 +96,8 @@ void expect_plain_numbers_converted_within_their_error() {
     expect_within(array + plain, plain + 1);
     expect_within(plain / array, plain);
     expect_within(dynamic * (plain * fixed), 2 * plain);
-    const number exact = (fixed * 2.0F)(0, 0), integer = (fixed * 2)(0, 0);
-    EXPECT_EQ(exact.error(), (number(1) * number(2)).error());
+    const scalar exact = (fixed * 2.0F)(0, 0), integer = (fixed * 2)(0, 0);
+    EXPECT_EQ(exact.error(), (scalar(1) * scalar(2)).error());
     EXPECT_EQ(integer.error(), exact.error());
 }
 
