@@ -129,8 +129,6 @@ validate_arguments validate_options::checked() {
         all.rules = support::all_named("--rules", rules_, rule_named);
     if (line_.count("--numbers") > 0)
         all.options.numbers = support::all_named("--numbers", numbers_, number_named);
-    if (all.every_bound && !all.tiny)
-        throw support::usage_error("found --every-bound without --tiny, expected both");
     if (line_.count("--functions") > 0) all.functions.functions = functions_named(functions_);
     if (const auto units = all.functions.units; units && !(*units > 0 && *units <= most_units))
         throw support::usage_error("--units: found a number that is none from above 0 to 1024");
@@ -164,6 +162,7 @@ void validate_options::require_use_of_options(const validate_arguments& all) con
         {"--operations", all.expressions, "--expressions"},
         {"--numbers", random, "--expressions or --functions"},
         {"--seed", random, "--expressions or --functions"},
+        {"--every-bound", all.tiny, "--tiny"},
         {"--samples", functions, "--functions"},
         {"--every-float", functions, "--functions"},
         {"--units", functions, "--functions"},

@@ -501,6 +501,8 @@ TEST(Contributions, TellWhatMadeANumberUnknown) {
     const explanation of_nan = explain(number(std::numeric_limits<double>::quiet_NaN()));
     ASSERT_EQ(of_nan.contributions.size(), 1U);
     EXPECT_EQ(of_nan.contributions[0].operation, "input");
+    EXPECT_TRUE(std::isinf(of_nan.error));
+    EXPECT_TRUE(std::isinf(explain(sqrt(number(-1))).error));
     // Known again, whatever it was.
     const number unsure = number::within(1, std::numeric_limits<double>::infinity());
     EXPECT_EQ((unsure * number(0)).error(), 0);

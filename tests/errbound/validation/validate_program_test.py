@@ -119,6 +119,16 @@ class Validate(unittest.TestCase):
         self.assertEqual(done.stdout, "")
         self.assertFalse(out.exists())
 
+    def test_options_that_make_no_sense_are_named(self):
+        for arguments, message in ((("--samples", 10), "--samples: found without --functions"),
+                                   (("--every-float",), "--every-float: found without --functions"),
+                                   (("--every-bound",), "--every-bound: found without --tiny"),
+                                   (("--rules", "tight,tight"), "--rules: found 'tight' twice"),
+                                   (("--functions", "exp,exp"), "--functions: found 'exp' twice")):
+            done = self.run_program("validate", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(message, done.stderr)
+
     def test_a_table_on_standard_output(self):
         done = self.run_program("validate", "--expressions", 100, "--rules", "tight", "--csv", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
