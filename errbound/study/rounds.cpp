@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "errbound/support/command_line.hpp"
+#include "errbound/support/joined_threads.hpp"
 
 namespace errbound::study {
 namespace {
@@ -97,9 +98,9 @@ class sharer {
         if (threads == 1) {
             compute();
         } else {
-            std::vector<std::jthread> running;
+            support::joined_threads running;
             for (std::size_t i = 0; i < std::min(threads, chunks_.size()); ++i)
-                running.emplace_back([this] { compute(); });
+                running.start([this] { compute(); });
         }
         done_.stopped = stop_;
         return std::move(done_);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "errbound/support/joined_threads.hpp"
 #include "errbound/support/output_file.hpp"
 
 namespace soak {
@@ -90,7 +91,7 @@ class comparing_threads {
                                    : std::max(1u, std::thread::hardware_concurrency());
         working_ = count;
         try {
-            for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
+            for (unsigned i = 0; i < count; ++i) threads_.start([this] { work(); });
         } catch (...) {  // no more threads: those begun end, too
             ending_ = true;
             throw;
@@ -143,7 +144,7 @@ class comparing_threads {
     collector found_;
     std::exception_ptr failure_;
     unsigned working_ = 0;
-    std::vector<std::jthread> threads_;  // joined before anything else goes
+    errbound::support::joined_threads threads_;  // joined before anything else goes
 };
 
 }  // namespace

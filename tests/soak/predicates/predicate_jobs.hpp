@@ -11,8 +11,8 @@
 #include <string_view>
 #include <thread>
 #include <tuple>
-#include <vector>
 
+#include "errbound/support/joined_threads.hpp"
 #include "tests/errbound/predicates/predicate_list.hpp"
 #include "tests/soak/predicates/predicates.hpp"
 
@@ -38,10 +38,11 @@ Findings in_chunks(const predicate_run& run, std::string_view name, const Work& 
             add(all, found);
         }
     };
-    std::vector<std::jthread> threads;
     const unsigned count = run.threads != 0 ? run.threads : std::thread::hardware_concurrency();
-    for (unsigned i = 0; i < std::max(count, 1u); ++i) threads.emplace_back(worker);
-    threads.clear();
+    {
+        errbound::support::joined_threads threads;
+        for (unsigned i = 0; i < std::max(count, 1u); ++i) threads.start(worker);
+    }
     return all;
 }
 
