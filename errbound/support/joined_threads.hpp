@@ -1,4 +1,5 @@
-// Threads that end with their scope: std::jthread, which libc++ has from version 20 on, without a token.
+// Threads that end with their scope: std::jthread, which libc++ has from version 20 on, without a
+// token.
 #pragma once
 
 #include <thread>

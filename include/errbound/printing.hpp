@@ -18,6 +18,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdlib>
+#include <errbound/detail/printf_decimal.hpp>
 #include <errbound/small_floats.hpp>
 #include <errbound/tracked.hpp>
 #include <limits>
@@ -53,10 +54,20 @@ namespace detail {
 template <class T>
 using printed_type = std::conditional_t<std::floating_point<T>, T, float>;
 
+#if defined(_LIBCPP_VERSION)
+template <class T>
+inline constexpr bool to_chars_narrows =
+    std::numeric_limits<T>::digits > std::numeric_limits<double>::digits;
+#else
+template <class>
+inline constexpr bool to_chars_narrows = false;
+#endif
+
 /// By std::to_chars, which rounds exactly; `how` is its format and precision, or nothing: the
 /// shortest that reads back.
 template <std::floating_point T, class... How>
 std::string decimal(T x, How... how) {
+    if constexpr (to_chars_narrows<T>) return printf_decimal(x, how...);
     std::string text(64, '\0');
     for (;;) {
         const auto [end, status] = std::to_chars(text.data(), text.data() + text.size(), x, how...);

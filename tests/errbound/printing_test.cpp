@@ -2,7 +2,10 @@
 // value and radius hold the number.
 #include <gtest/gtest.h>
 
+#include <cfenv>
+#include <charconv>
 #include <cmath>
+#include <errbound/detail/printf_decimal.hpp>
 #include <errbound/printing.hpp>
 #include <iomanip>
 #include <limits>
@@ -170,6 +173,34 @@ TEST(PrintingText, IsAsOneWouldWriteIt) {
     EXPECT_EQ(text_of(tracked<double>(1) / tracked<double>(0)), "?");
     EXPECT_EQ(with_radius(within(1, infinity)), "1 ± ?");
     EXPECT_EQ(with_radius(tracked<double>(0.1)), "0.1 ± 0");
+}
+
+// What libc++ takes for long doubles writes as std::to_chars does, in every rounding mode.
+TEST(PrintingText, ByPrintfIsByToChars) {
+    if (errbound::detail::to_chars_narrows<long double>) GTEST_SKIP();
+    using errbound::detail::decimal, errbound::detail::printf_decimal;
+    using limits = std::numeric_limits<long double>;
+    std::mt19937_64 random(4);
+    const auto check = [&](long double x) {
+        const int precision = static_cast<int>(random() % 40);
+        for (const auto how : {std::chars_format::scientific, std::chars_format::fixed})
+            ASSERT_EQ(printf_decimal(x, how, precision), decimal(x, how, precision));
+        const std::string shortest = printf_decimal(x, std::chars_format::scientific);
+        ASSERT_LE(shortest.size(), decimal(x, std::chars_format::scientific).size() + 1);
+        const errbound::detail::to_nearest reading;
+        for (const std::string& text : {shortest, printf_decimal(x)})
+            ASSERT_EQ(read_back<long double>(text), x) << text;
+    };
+    for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        std::fesetround(mode);
+        for (int k = 0; k < support::scaled(300) && !HasFatalFailure(); ++k)
+            check(any_number<long double>(random));
+        EXPECT_EQ(std::fegetround(), mode);
+        std::fesetround(FE_TONEAREST);
+    }
+    for (const long double x : {0.0L, -0.0L, 1.0L, -3.0L, 0.5L, 1e5L, 100000000000.0L, 123456.0L,
+                                1e-4L, 0.00012L, 1e-5L, limits::infinity(), -limits::infinity()})
+        EXPECT_EQ(printf_decimal(x), decimal(x));
 }
 
 TEST(PrintingText, LeavesTheStreamAsItIs) {
