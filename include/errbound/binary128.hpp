@@ -1,5 +1,5 @@
 // binary128 as a number type, errbound::float128, where the compiler has it: __float128 of GCC and
-// clang on x86-64, long double on AArch64. Elsewhere this header has nothing.
+// clang on x86, long double on AArch64. Elsewhere this header has nothing.
 //
 //   errbound::tracked<errbound::float128> x = 0.1;   // the double, exactly
 //
@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cfloat>
+#include <cstdint>
 #include <errbound/number_traits.hpp>
 
 #if LDBL_MANT_DIG == 113
@@ -17,7 +18,7 @@ namespace errbound {
 using float128 = long double;
 }  // namespace errbound
 
-#elif defined(__SIZEOF_FLOAT128__)
+#elif defined(__SIZEOF_FLOAT128__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 
 namespace errbound {
 
@@ -31,14 +32,14 @@ struct number_traits<float128> {
 
     static constexpr float128 epsilon() { return power_of_two(1 - digits); }
     static constexpr float128 unit_roundoff() { return power_of_two(-digits); }
-    static constexpr float128 underflow_unit() { return from_bits(1); }
+    static constexpr float128 underflow_unit() { return of({1, 0}); }
     static constexpr float128 smallest_normal() { return power_of_two(min_exponent - 1); }
-    static constexpr float128 largest() { return from_bits(infinite - 1); }
-    static constexpr float128 infinity() { return from_bits(infinite); }
+    static constexpr float128 largest() { return of({~std::uint64_t{0}, infinite - 1}); }
+    static constexpr float128 infinity() { return of({0, infinite}); }
 
-    static constexpr float128 abs(const float128& x) { return from_bits(size_of(x)); }
+    static constexpr float128 abs(const float128& x) { return of(size_of(x)); }
     static constexpr float128 max(const float128& x, const float128& y) { return x < y ? y : x; }
-    static constexpr bool is_finite(const float128& x) { return size_of(x) < infinite; }
+    static constexpr bool is_finite(const float128& x) { return size_of(x).high < infinite; }
     static float128 sqrt(const float128& x) { return __builtin_sqrtf128(x); }
     static float128 fma(const float128& a, const float128& b, const float128& c) {
         return __builtin_fmaf128(a, b, c);
@@ -54,22 +55,27 @@ struct number_traits<float128> {
         return y;
     }
     static constexpr int exponent(const float128& x) {
-        const bits size = size_of(x);
-        if (size >> (digits - 1) == 0) return exponent(x * power_of_two(digits)) - digits;
-        return static_cast<int>(size >> (digits - 1)) - (max_exponent - 2);
+        const int biased = static_cast<int>(size_of(x).high >> fraction_bits_of_high);
+        return biased == 0 ? exponent(x * power_of_two(digits)) - digits
+                           : biased - (max_exponent - 2);
     }
 
   private:
-    using bits = unsigned __int128;
-    static constexpr bits infinite = bits{2 * max_exponent - 1} << (digits - 1);
+    /// The number's bits. (Processors of 32 bits have no integers of 128.)
+    struct words {
+        std::uint64_t low, high;
+    };
+    static constexpr int fraction_bits_of_high = 48;
+    static constexpr std::uint64_t infinite = std::uint64_t{0x7fff} << fraction_bits_of_high;
 
-    static constexpr float128 from_bits(bits x) { return std::bit_cast<float128>(x); }
-    static constexpr bits size_of(const float128& x) {
-        return std::bit_cast<bits>(x) & ~(bits{1} << 127);
+    static constexpr float128 of(words x) { return std::bit_cast<float128>(x); }
+    static constexpr words size_of(const float128& x) {
+        const auto [low, high] = std::bit_cast<words>(x);
+        return {low, high & ~(std::uint64_t{1} << 63)};
     }
     /// 2^e of normal numbers.
     static constexpr float128 power_of_two(int e) {
-        return from_bits(static_cast<bits>(e + max_exponent - 1) << (digits - 1));
+        return of({0, static_cast<std::uint64_t>(e + max_exponent - 1) << fraction_bits_of_high});
     }
 };
 
