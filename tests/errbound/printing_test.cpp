@@ -22,8 +22,8 @@ namespace {
 using errbound::tracked;
 
 rational power_of_ten(int e) {
-    boost::multiprecision::mpz_int power = 1;
-    for (int i = 0; i < std::abs(e); ++i) power *= 10;
+    const auto power = boost::multiprecision::pow(boost::multiprecision::mpz_int(10),
+                                                  static_cast<unsigned>(std::abs(e)));
     return e < 0 ? rational(1, rational(power)) : rational(power);
 }
 

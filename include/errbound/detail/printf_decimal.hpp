@@ -1,10 +1,12 @@
-// Long doubles as std::to_chars writes them, by printf and strtold: libc++'s converts them to doubles
-// first, which are others.
+// Long doubles as std::to_chars writes them, by printf and strtold: libc++'s converts them to
+// doubles first, which are others.
 #pragma once
 
+#include <algorithm>
 #include <cfenv>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -25,11 +27,14 @@ class to_nearest {
 };
 
 inline std::string printf_text(const char* format, int precision, long double x) {
-    const int size = std::snprintf(nullptr, 0, format, precision, x);
-    std::string text(static_cast<std::size_t>(size) + 1, '\0');
-    std::snprintf(text.data(), text.size(), format, precision, x);
-    text.pop_back();
-    return text;
+    std::string text(64, '\0');
+    for (;;) {
+        const auto size =
+            static_cast<std::size_t>(std::snprintf(text.data(), text.size(), format, precision, x));
+        const bool fits = size < text.size();
+        text.resize(fits ? size : size + 1);
+        if (fits) return text;
+    }
 }
 inline std::string printf_decimal(long double x, std::chars_format how, int precision) {
     const to_nearest rounding;
@@ -43,28 +48,33 @@ inline std::string printf_decimal(long double x, std::chars_format how, int prec
     return text;
 }
 
-/// How many digits after the first x takes to be read back.
-inline int digits_to_read_back(long double x) {
+/// A precision of which the decimal reads back as x, found by bisection. (Next to powers of two the
+/// least can be missed by a digit or two: there the nearest decimal of more digits may not read
+/// back though one of fewer does.)
+inline int precision_to_read_back(long double x) {
     const to_nearest rounding;
-    int precision = 0;
-    while (precision + 1 < std::numeric_limits<long double>::max_digits10 &&
-           std::strtold(printf_text("%.*Le", precision, x).c_str(), nullptr) != x)
-        ++precision;
-    return precision;
+    int too_few = -1, enough = std::numeric_limits<long double>::max_digits10 - 1;
+    while (enough - too_few > 1) {
+        const int middle = too_few + (enough - too_few) / 2;
+        const bool same = std::strtold(printf_text("%.*Le", middle, x).c_str(), nullptr) == x;
+        (same ? enough : too_few) = middle;
+    }
+    return enough;
 }
-/// The shortest of the decimals nearest to x that reads back as x. (Next to powers of two one that
-/// is not the nearest may have a digit less.)
-inline std::string printf_decimal(long double x, std::chars_format how) {
-    return printf_decimal(x, how, std::isfinite(x) ? digits_to_read_back(x) : 0);
+inline std::string printf_decimal(long double x, std::chars_format) {
+    return printf_decimal(x, std::chars_format::scientific,
+                          std::isfinite(x) ? precision_to_read_back(x) : 0);
 }
 /// With an exponent where that is shorter.
 inline std::string printf_decimal(long double x) {
-    const std::string scientific = printf_decimal(x, std::chars_format::scientific);
-    if (!std::isfinite(x)) return scientific;
+    if (!std::isfinite(x)) return printf_decimal(x, std::chars_format::fixed, 0);
+    const int precision = precision_to_read_back(x);
+    std::string scientific = printf_decimal(x, std::chars_format::scientific, precision);
     const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
-    const int digits = digits_to_read_back(x);
-    const std::string fixed =
-        printf_decimal(x, std::chars_format::fixed, digits > exponent ? digits - exponent : 0);
+    // Digits before the point and zeros after it are one each.
+    if (std::abs(exponent) > static_cast<int>(scientific.size())) return scientific;
+    std::string fixed =
+        printf_decimal(x, std::chars_format::fixed, std::max(0, precision - exponent));
     return fixed.size() <= scientific.size() ? fixed : scientific;
 }
 
