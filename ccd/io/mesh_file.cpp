@@ -100,7 +100,7 @@ mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
     if (std::filesystem::file_size(path) == 0) return share_of(read_mesh(path), {share, shares});
     namespace shm = boost::interprocess;
     try {
-        const shm::file_mapping file(path.c_str(), shm::read_only);
+        const shm::file_mapping file(path.string().c_str(), shm::read_only);
         const shm::mapped_region region(file, shm::read_only);
         const std::string_view text(static_cast<const char*>(region.get_address()),
                                     region.get_size());

@@ -1,4 +1,5 @@
 // `ccd convert`: stored queries from CSV to a store and back.
+#include <array>
 #include <atomic>
 #include <boost/crc.hpp>
 #include <ccd/io/query_store.hpp>
@@ -22,6 +23,7 @@
 #include "errbound/support/progress_line.hpp"
 #include "errbound/support/scratch_file.hpp"
 #include "errbound/support/signals.hpp"
+#include "errbound/support/system/system.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -116,19 +118,6 @@ class converted {
     std::optional<errbound::support::scratch_file> rows_;
 };
 
-/// While one lives.
-class ignored_signal {
-  public:
-    explicit ignored_signal(int signal) : signal_(signal), before_(std::signal(signal, SIG_IGN)) {}
-    ~ignored_signal() { std::signal(signal_, before_); }
-    ignored_signal(const ignored_signal&) = delete;
-    ignored_signal& operator=(const ignored_signal&) = delete;
-
-  private:
-    int signal_;
-    void (*before_)(int);
-};
-
 class convert final : public command {
   public:
     explicit convert(CLI::App& program)
@@ -166,10 +155,9 @@ class convert final : public command {
         errbound::support::require_good_outputs({out, json_}, files_);
         int ended_by = 0;
         {
-            // Temporary files do not stay where they are; writing to a pipe that nobody reads
-            // fails.
+            // Temporary files do not stay where they are.
             const errbound::support::awaited_signals signals;
-            const ignored_signal pipe(SIGPIPE);
+            const errbound::support::system::failing_pipes pipes;
             stop_ = &signals.arrived();
             if (make(out, to_store)) return done;
             ended_by = signals.signal();

@@ -16,7 +16,7 @@
 #include "ccd/program/pair_lines.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
-#include "errbound/support/peak_memory.hpp"
+#include "errbound/support/system/system.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -271,7 +271,7 @@ class step final : public command {
             found.advance = ccd::advance(
                 before, after,
                 {.distances = {asked_.distance}, .threads = asked_.threads, .set = asked_.set});
-        found.memory = errbound::support::peak_memory_bytes();
+        found.memory = errbound::support::system::peak_memory_bytes();
         write(before, after, found);
         errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_})
             << text_of_step(asked_, before, found);

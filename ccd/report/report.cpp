@@ -1,14 +1,12 @@
 #include "ccd/report/report.hpp"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <ctime>
 #include <errbound/support/error.hpp>
 #include <system_error>
 
 #include "ccd/report/tasks.hpp"
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/system/system.hpp"
 
 namespace ccd::report {
 
@@ -100,18 +98,12 @@ std::vector<std::string> failures_of(const summary& report) {
 /// Runs plot.py in the folder. Its exit status; 127 if there is no Python, or it did not end well.
 int draw(const fs::path& folder) {
     const std::string script = (folder / "plot.py").string();
-    const pid_t child = fork();
-    if (child == 0) {
-        // Distribution packages belong to the distribution's Python, which need not be the first
-        // on PATH.
-        for (const char* python : {"/usr/bin/python3", "python3"}) {
-            execlp(python, python, script.c_str(), static_cast<char*>(nullptr));
-        }
-        _exit(127);
-    }
-    int status = 0;
-    const bool ended = child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status);
-    return ended ? WEXITSTATUS(status) : 127;
+    // Distribution packages belong to the distribution's Python, which need not be the first on
+    // PATH.
+    int status = 127;
+    for (const char* python : {"/usr/bin/python3", "python3", "python"})
+        if (status == 127) status = errbound::support::system::run(python, script);
+    return status;
 }
 
 const std::vector<picture>& possible_pictures() {

@@ -1,8 +1,6 @@
 // What a stress run found, as tables and files.
 #include "ccd/stress/output.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -16,6 +14,7 @@
 
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
+#include "errbound/support/system/system.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::stress {
@@ -246,7 +245,7 @@ void prepare(const outputs& to) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw file_error(folder.string() + ": cannot be made (" + error.message() + ")");
-    if (access(folder.c_str(), W_OK) != 0)
+    if (!errbound::support::system::may_write_in(errbound::support::system::native_name(folder)))
         throw file_error(folder.string() + ": cannot be written to");
 }
 

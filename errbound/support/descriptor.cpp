@@ -1,13 +1,13 @@
 // Writing goes on where the system took a part, or a signal came between.
 #include "errbound/support/descriptor.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <errbound/support/error.hpp>
 #include <string>
+
+#include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
 
@@ -15,7 +15,8 @@ void write_all(int descriptor, std::string_view bytes, const std::filesystem::pa
                bool (*interrupted)()) {
     constexpr std::size_t block = 1 << 20;
     while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), std::min(bytes.size(), block));
+        const std::ptrdiff_t written =
+            system::write(descriptor, bytes.data(), std::min(bytes.size(), block));
         const int error = errno;
         if (interrupted && interrupted())
             throw file_error(shown.string() + ": writing was interrupted");

@@ -1,12 +1,12 @@
 // How far the work is, for people at a terminal.
 #pragma once
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <string>
+
+#include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
 
@@ -45,7 +45,7 @@ class progress_line {
         std::fflush(stderr);
     }
 
-    bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+    bool is_terminal_ = system::is_terminal(2);
     bool shown_ = false;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -1,15 +1,13 @@
 // Temporary files: made, appended to, read, taken away.
 #include "errbound/support/scratch_file.hpp"
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <errbound/support/error.hpp>
 #include <system_error>
 
 #include "errbound/support/descriptor.hpp"
+#include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
 
@@ -19,14 +17,14 @@ scratch_file::scratch_file() {
     if (error)
         throw file_error("TMPDIR: found no folder for temporary files (" + error.message() + ")");
     std::string name = (folder / "errbound-XXXXXX").string();
-    descriptor_ = mkstemp(name.data());
+    descriptor_ = system::create_named(name);
     if (descriptor_ < 0) throw file_error(name + ": cannot be made (" + std::strerror(errno) + ")");
     path_ = name;
 }
 
 scratch_file::~scratch_file() {
-    ::close(descriptor_);
-    ::unlink(path_.c_str());
+    system::close(descriptor_);
+    system::remove(system::native_name(path_));
 }
 
 void scratch_file::append(std::string_view bytes) {
@@ -36,7 +34,7 @@ void scratch_file::append(std::string_view bytes) {
 void scratch_file::read(std::uint64_t offset, std::size_t size, void* to) const {
     auto* next = static_cast<char*>(to);
     while (size > 0) {
-        const ssize_t got = ::pread(descriptor_, next, size, static_cast<off_t>(offset));
+        const std::ptrdiff_t got = system::read_at(descriptor_, offset, next, size);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0)
             throw file_error(path_.string() + ": cannot be read (" +

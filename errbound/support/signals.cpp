@@ -1,10 +1,11 @@
 // Handlers of the signals that end long work.
 #include "errbound/support/signals.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
+#include <csignal>
 #include <cstddef>
+
+#include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
 namespace {
@@ -20,10 +21,9 @@ std::array<char, 4096> line_to_print;
 std::size_t line_length = 0;
 
 void catch_signal(int signal) {
+    std::signal(signal, SIG_DFL);
     which = signal;
-    if (caught.exchange(true)) return;
-    [[maybe_unused]] const ssize_t ignored =
-        ::write(STDERR_FILENO, line_to_print.data(), line_length);
+    if (!caught.exchange(true)) system::write(2, line_to_print.data(), line_length);
 }
 
 }  // namespace
@@ -32,17 +32,14 @@ awaited_signals::awaited_signals(const std::string& line) {
     caught = false;
     line_length = std::min(line.size(), line_to_print.size());
     std::copy_n(line.begin(), line_length, line_to_print.begin());
-    struct sigaction action {};
-    action.sa_handler = catch_signal;
-    action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        sigaction(signals[i], nullptr, &before_[i]);
-        if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &action, nullptr);
+        before_[i] = std::signal(signals[i], catch_signal);
+        if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);
     }
 }
 
 awaited_signals::~awaited_signals() {
-    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
+    for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
 }
 
 const std::atomic<bool>& awaited_signals::arrived() const {

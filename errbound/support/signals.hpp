@@ -1,8 +1,6 @@
 // SIGINT and SIGTERM, which end long work where it can go on later.
 #pragma once
 
-#include <signal.h>
-
 #include <array>
 #include <atomic>
 #include <string>
@@ -24,7 +22,7 @@ class awaited_signals {
     int signal() const;
 
   private:
-    std::array<struct sigaction, 2> before_;
+    std::array<void (*)(int), 2> before_;
 };
 
 }  // namespace errbound::support

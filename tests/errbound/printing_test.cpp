@@ -22,8 +22,8 @@ namespace {
 using errbound::tracked;
 
 rational power_of_ten(int e) {
-    const auto power = boost::multiprecision::pow(boost::multiprecision::mpz_int(10),
-                                                  static_cast<unsigned>(std::abs(e)));
+    using boost::multiprecision::mpz_int;
+    const mpz_int power = pow(mpz_int(10), static_cast<unsigned>(std::abs(e)));
     return e < 0 ? rational(1, rational(power)) : rational(power);
 }
 

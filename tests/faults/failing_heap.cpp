@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <vector>
@@ -12,6 +13,25 @@ constexpr std::uint64_t never = 0;
 std::atomic<std::uint64_t> first_failure = never, last_failure = never, count = 0;
 std::atomic<std::int64_t> in_use = 0;
 
+bool is_over_aligned(std::size_t alignment) {
+    return alignment > alignof(std::max_align_t);
+}
+#ifdef _WIN32
+void* allocate_aligned(std::size_t size, std::size_t alignment) {
+    return _aligned_malloc(size, alignment);
+}
+void free_aligned(void* p) {
+    _aligned_free(p);
+}
+#else
+void* allocate_aligned(std::size_t size, std::size_t alignment) {
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+void free_aligned(void* p) {
+    std::free(p);
+}
+#endif
+
 void* counted(std::size_t size, std::size_t alignment) {
     const std::uint64_t first = first_failure.load();
     if (first != never) {
@@ -19,18 +39,19 @@ void* counted(std::size_t size, std::size_t alignment) {
         if (n >= first && n <= last_failure.load()) throw std::bad_alloc();
     }
     const std::size_t at_least_one = std::max<std::size_t>(size, 1);
-    void* const p =
-        alignment <= alignof(std::max_align_t)
-            ? std::malloc(at_least_one)
-            : std::aligned_alloc(alignment, (at_least_one + alignment - 1) / alignment * alignment);
+    void* const p = is_over_aligned(alignment) ? allocate_aligned(at_least_one, alignment)
+                                               : std::malloc(at_least_one);
     if (p == nullptr) throw std::bad_alloc();
     ++in_use;
     return p;
 }
 
-void release(void* p) noexcept {
+void release(void* p, std::size_t alignment) noexcept {
     if (p != nullptr) --in_use;
-    std::free(p);
+    if (is_over_aligned(alignment))
+        free_aligned(p);
+    else
+        std::free(p);
 }
 
 struct row {
@@ -67,16 +88,16 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
     return counted(size, static_cast<std::size_t>(alignment));
 }
 void operator delete(void* p) noexcept {
-    release(p);
+    release(p, 1);
 }
 void operator delete(void* p, std::size_t) noexcept {
-    release(p);
+    release(p, 1);
 }
-void operator delete(void* p, std::align_val_t) noexcept {
-    release(p);
+void operator delete(void* p, std::align_val_t alignment) noexcept {
+    release(p, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-    release(p);
+void operator delete(void* p, std::size_t, std::align_val_t alignment) noexcept {
+    release(p, static_cast<std::size_t>(alignment));
 }
 
 namespace faults {

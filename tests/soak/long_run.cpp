@@ -200,7 +200,7 @@ void save(const state& s, const part& of, const fs::path& folder) {
     for (const difference& d : s.found.differences)
         if (!d.file.empty()) files[d.file] += d.lines;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename();
+        const std::string name = entry.path().filename().string();
         if (name.starts_with("differences") && !files.contains(name)) fs::remove(entry.path());
     }
     for (const auto& [name, lines] : files) errbound::support::write_whole(folder / name, lines);

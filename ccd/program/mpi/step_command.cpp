@@ -17,7 +17,7 @@
 #include "ccd/program/pair_lines.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
-#include "errbound/support/peak_memory.hpp"
+#include "errbound/support/system/system.hpp"
 #include "errbound/support/table.hpp"
 
 namespace ccd::program {
@@ -74,7 +74,7 @@ class distributed_step final : public command {
             mpi::step(MPI_COMM_WORLD, frames.part(), options, mpi::placement::root);
         own.work = found.work;
         if (found.decided) for_each_kind([&]<kind K>() { own.decided += found.decided->of<K>(); });
-        own.memory = errbound::support::peak_memory_bytes();
+        own.memory = errbound::support::system::peak_memory_bytes();
         const auto all = ranks.gather(std::vector{own}).items;
         ranks.agree([&] {
             if (is_root) write(found, all);

@@ -1,7 +1,5 @@
 #include "ccd/report/measuring/machine.hpp"
 
-#include <unistd.h>
-
 #include <ccd/batch.hpp>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include <thread>
 
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/system/system.hpp"
 
 namespace ccd::report {
 namespace {
@@ -34,9 +33,8 @@ machine this_machine() {
     here.cores = std::thread::hardware_concurrency();
     here.compiler = ERRBOUND_COMPILER;
     here.flags = ERRBOUND_FLAGS;
-    getloadavg(&here.load, 1);
-    const auto pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-    here.memory_gib = pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 30);
+    here.load = errbound::support::system::load();
+    here.memory_gib = errbound::support::system::memory_bytes() / (1 << 30);
     for (const instruction_set set : instruction_sets()) {
         here.instruction_sets.append(here.instruction_sets.empty() ? "" : ", ").append(name(set));
     }
@@ -45,7 +43,7 @@ machine this_machine() {
 
 std::string program_fingerprint() {
     try {
-        return fingerprint_of(read_whole("/proc/self/exe"));
+        return fingerprint_of(read_whole(errbound::support::system::program_file()));
     } catch (const file_error&) {
         return "0";
     }

@@ -1,9 +1,5 @@
 #include "examples/simulation/output/run_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <array>
 #include <ccd/io/mesh_file.hpp>
 #include <cerrno>
@@ -19,11 +15,13 @@
 #include <utility>
 
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/system/system.hpp"
 
 namespace simulation {
 namespace {
 
 using errbound::support::file_error;
+namespace system = errbound::support::system;
 using errbound::support::read_whole;
 using errbound::support::write_whole;
 
@@ -158,17 +156,15 @@ std::string csv_row(const frame_record& r) {
 }
 
 folder_lock::folder_lock(const std::filesystem::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    : descriptor_(system::lock(system::native_name(folder))) {
     // Where there are no locks, as on some file systems of other machines, it goes without.
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-        return;
-    ::close(descriptor_);
+    if (descriptor_ >= 0 || errno != EWOULDBLOCK) return;
     throw file_error(folder.string() +
                      ": found a run that is going on there, expected a folder of its own");
 }
 
 folder_lock::~folder_lock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_ >= 0) system::close(descriptor_);
 }
 
 run_folder::run_folder(std::filesystem::path folder, const std::string& description)

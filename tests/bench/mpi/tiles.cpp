@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "ccd/mpi/exchange.hpp"
-#include "errbound/support/peak_memory.hpp"
 #include "errbound/support/program.hpp"
+#include "errbound/support/system/system.hpp"
 
 namespace {
 
@@ -182,7 +182,7 @@ nlohmann::ordered_json measured(const arguments& given, exchanger& ranks) {
     });
     mine.hash = hash_of(found.pairs, found.times, [](const auto& numbers) { return numbers; });
     mine.vertices = own.numbers.size();
-    mine.memory = errbound::support::peak_memory_bytes();
+    mine.memory = errbound::support::system::peak_memory_bytes();
     std::uint64_t hash = 0, pairs = 0;
     for (const rank_row& r : ranks.gather(std::vector{mine}).items) {
         hash += r.hash;

@@ -1,0 +1,178 @@
+// As Windows has it, by the C runtime where that is enough.
+#define WIN32_LEAN_AND_MEAN
+#define NOMINMAX
+#include <fcntl.h>
+#include <io.h>
+#include <process.h>
+#include <sys/stat.h>
+#include <windows.h>
+// After windows.h.
+#include <psapi.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+#include "errbound/support/system/system.hpp"
+
+namespace errbound::support::system {
+namespace {
+
+constexpr std::array<int, 2> signals{SIGINT, SIGTERM};
+std::array<void (*)(int), signals.size()> before;
+volatile std::sig_atomic_t arrived = 0;
+
+// The handler is gone once it was called.
+void take_down(int signal) {
+    arrived = signal;
+    std::signal(signal, take_down);
+}
+
+int rights_of(const std::string& name, int rights) {
+    return _access(name.c_str(), rights);
+}
+constexpr int to_exist = 0, to_write = 2;
+
+int open(const std::string& file, int flags) {
+    return _open(file.c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
+}
+/// What one call of the C runtime takes.
+unsigned at_once(std::size_t size) {
+    return static_cast<unsigned>(std::min<std::size_t>(size, INT_MAX));
+}
+
+}  // namespace
+
+void start_program() {
+    for (std::FILE* standard : {stdin, stdout, stderr}) _setmode(_fileno(standard), _O_BINARY);
+}
+
+bool is_terminal(int descriptor) {
+    if (_isatty(descriptor) == 0) return false;
+    const auto console = reinterpret_cast<HANDLE>(_get_osfhandle(descriptor));
+    DWORD mode = 0;
+    constexpr DWORD control_sequences = 4;  // ENABLE_VIRTUAL_TERMINAL_PROCESSING
+    return GetConsoleMode(console, &mode) != 0 &&
+           SetConsoleMode(console, mode | control_sequences) != 0;
+}
+
+std::size_t peak_memory_bytes() {
+    PROCESS_MEMORY_COUNTERS counters{};
+    GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters);
+    return counters.PeakWorkingSetSize;
+}
+double memory_bytes() {
+    MEMORYSTATUSEX status{};
+    status.dwLength = sizeof status;
+    GlobalMemoryStatusEx(&status);
+    return static_cast<double>(status.ullTotalPhys);
+}
+double load() {
+    return 0;
+}
+std::filesystem::path program_file() {
+    std::array<wchar_t, 4096> name{};
+    const DWORD size = GetModuleFileNameW(nullptr, name.data(), name.size());
+    return size < name.size() ? std::filesystem::path(name.data()) : std::filesystem::path();
+}
+int process_number() {
+    return _getpid();
+}
+int run(const char* program, const std::string& argument) {
+    const auto status =
+        _spawnlp(_P_WAIT, program, program, ('"' + argument + '"').c_str(), nullptr);
+    return status < 0 ? 127 : static_cast<int>(status);
+}
+
+const std::string_view separators = "/\\";
+const bool has_device_files = false;
+std::string native_name(const std::filesystem::path& path) {
+    return path.string();
+}
+std::string real_name(const std::string& name) {
+    std::error_code error;
+    const std::filesystem::path real = std::filesystem::canonical(name, error);
+    if (error) errno = ENOENT;
+    return error ? "" : real.string();
+}
+bool exists(const std::string& name) {
+    return rights_of(name, to_exist) == 0;
+}
+bool may_write(const std::string& file) {
+    return rights_of(file, to_write) == 0;
+}
+bool may_write_in(const std::string& folder) {
+    return rights_of(folder, to_write) == 0;
+}
+bool replace(const std::string& from, const std::string& to) {
+    if (MoveFileExA(from.c_str(), to.c_str(), MOVEFILE_REPLACE_EXISTING) != 0) return true;
+    errno = EACCES;
+    return false;
+}
+bool remove(const std::string& file) {
+    return _unlink(file.c_str()) == 0;
+}
+
+int create(const std::string& file) {
+    return open(file, _O_WRONLY | _O_CREAT | _O_EXCL);
+}
+int open_to_write(const std::string& file) {
+    return open(file, _O_WRONLY);
+}
+int create_named(std::string& pattern) {
+    if (_mktemp_s(pattern.data(), pattern.size() + 1) != 0) return -1;
+    return open(pattern, _O_RDWR | _O_CREAT | _O_EXCL | _O_APPEND);
+}
+int close(int descriptor) {
+    return _close(descriptor);
+}
+std::ptrdiff_t write(int descriptor, const char* from, std::size_t size) {
+    return _write(descriptor, from, at_once(size));
+}
+std::ptrdiff_t read_at(int descriptor, std::uint64_t offset, char* to, std::size_t size) {
+    OVERLAPPED from{};
+    from.Offset = static_cast<DWORD>(offset);
+    from.OffsetHigh = static_cast<DWORD>(offset >> 32);
+    DWORD got = 0;
+    const auto file = reinterpret_cast<HANDLE>(_get_osfhandle(descriptor));
+    if (ReadFile(file, to, at_once(size), &got, &from) != 0) return got;
+    errno = EIO;
+    return GetLastError() == ERROR_HANDLE_EOF ? 0 : -1;
+}
+void copy_rights(int, const std::string&) {}
+
+// A file that nobody else may open, and that goes away with its descriptor.
+int lock(const std::string& folder) {
+    const HANDLE file = CreateFileA((folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
+                                    OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);
+    if (file != INVALID_HANDLE_VALUE) return _open_osfhandle(reinterpret_cast<intptr_t>(file), 0);
+    errno = GetLastError() == ERROR_SHARING_VIOLATION ? EWOULDBLOCK : EIO;
+    return -1;
+}
+
+deferred_signals::deferred_signals() {
+    arrived = 0;
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        before[i] = std::signal(signals[i], take_down);
+        if (before[i] != SIG_DFL) std::signal(signals[i], before[i]);
+    }
+}
+deferred_signals::~deferred_signals() {
+    for (std::size_t i = 0; i < signals.size(); ++i)
+        if (before[i] == SIG_DFL) std::signal(signals[i], SIG_DFL);
+    if (arrived != 0) std::raise(arrived);
+}
+bool deferred_signals::any() {
+    return arrived != 0;
+}
+
+// There are no signals of pipes.
+failing_pipes::failing_pipes() : before_(SIG_DFL) {}
+failing_pipes::~failing_pipes() = default;
+
+}  // namespace errbound::support::system
