@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <system_error>
 
 namespace test_files {
 
@@ -42,6 +43,13 @@ inline std::string message_of(const std::function<void()>& call) {
         return error.what();
     }
     return "no error";
+}
+
+/// False where the system or its user makes no links, as on many Windows.
+inline bool link(const std::filesystem::path& to, const std::filesystem::path& link) {
+    std::error_code error;
+    std::filesystem::create_symlink(to, link, error);
+    return !error;
 }
 
 inline std::string repeated(const std::string& text, int times) {

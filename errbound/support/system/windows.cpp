@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 #include "errbound/support/system/system.hpp"
@@ -97,6 +98,7 @@ std::string native_name(const std::filesystem::path& path) {
 std::string real_name(const std::string& name) {
     std::error_code error;
     const std::filesystem::path real = std::filesystem::canonical(name, error);
+    if (error == std::errc::not_enough_memory) throw std::bad_alloc();
     if (error) errno = ENOENT;
     return error ? "" : real.string();
 }

@@ -15,5 +15,5 @@ for object in "$@"; do
         exit 1
     fi
     # A table of kernels is there, so that an empty listing cannot pass for a good one.
-    nm --demangle --defined-only --extern-only "$object" | grep -q -E " D ccd::detail::$set::(kernels|searching)$"
+    nm --demangle --defined-only --extern-only "$object" | grep -q -E " [DR] ccd::detail::$set::(kernels|searching)$"
 done

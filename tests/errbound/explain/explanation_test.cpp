@@ -163,7 +163,7 @@ TEST(File, KeepsLinksAndPermissions) {
     test_files::write(file, "before");
     const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
     fs::permissions(file, own);
-    fs::create_symlink("out.json", link);
+    if (!test_files::link("out.json", link)) GTEST_SKIP() << "no symbolic links";
     errbound::write_explanations(link, {some()});
     EXPECT_TRUE(fs::is_symlink(link));
     EXPECT_EQ(fs::status(file).permissions(), own);

@@ -57,7 +57,11 @@ TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
         EXPECT_EQ(refusal(good), "no error") << good;
     EXPECT_NE(refusal(directory.path).find("found a directory"), std::string::npos);
     EXPECT_NE(refusal(directory.path / "no" / "out").find("No such file"), std::string::npos);
+#ifdef _WIN32  // which says something else
+    const std::string too_long;
+#else
     const std::string too_long = std::generic_category().message(ENAMETOOLONG);
+#endif
     EXPECT_NE(
         refusal(directory.path / std::string(300, 'n')).find("cannot be written (" + too_long),
         std::string::npos);
@@ -70,7 +74,7 @@ TEST(Output, LinksAndDevicesStayWhatTheyAre) {
     const temporary_directory directory;
     const fs::path file = directory.path / "out", link = directory.path / "link";
     write_whole(file, "one");
-    fs::create_symlink("out", link);
+    if (!test_files::link("out", link)) GTEST_SKIP() << "no symbolic links";
     write_whole(link, "two");
     EXPECT_TRUE(fs::is_symlink(link));
     EXPECT_EQ(read_whole(file), "two");
