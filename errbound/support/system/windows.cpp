@@ -15,9 +15,6 @@
 #include <climits>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
-#include <new>
-#include <system_error>
 
 #include "errbound/support/system/system.hpp"
 
@@ -96,11 +93,18 @@ std::string native_name(const std::filesystem::path& path) {
     return path.string();
 }
 std::string real_name(const std::string& name) {
-    std::error_code error;
-    const std::filesystem::path real = std::filesystem::canonical(name, error);
-    if (error == std::errc::not_enough_memory) throw std::bad_alloc();
-    if (error) errno = ENOENT;
-    return error ? "" : real.string();
+    const HANDLE file =
+        CreateFileA(name.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                    nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
+    std::array<char, 4096> real{};
+    DWORD size = 0;
+    if (file != INVALID_HANDLE_VALUE) {
+        size = GetFinalPathNameByHandleA(file, real.data(), real.size(), FILE_NAME_NORMALIZED);
+        CloseHandle(file);
+    }
+    if (size > 0 && size < real.size()) return {real.data(), size};
+    errno = file == INVALID_HANDLE_VALUE ? ENOENT : EIO;
+    return {};
 }
 bool exists(const std::string& name) {
     return rights_of(name, to_exist) == 0;

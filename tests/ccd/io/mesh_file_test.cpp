@@ -606,10 +606,11 @@ TEST(Shares, BadFilesAreToldOfBySomeShare) {
     EXPECT_EQ(first_error(ply<double, std::int32_t>(beyond, "ascii", "double", "int")),
               "face 20: found vertex index 23, expected less than 23");
     EXPECT_THROW(read_mesh_share(path, 3, 3), std::invalid_argument);
-    if (fs::exists("/dev/null"))  // not on Windows
+    if (fs::exists("/dev/null")) {  // not on Windows
         EXPECT_NE(
             message_of([&] { read_mesh_share("/dev/null", 0, 3); }).find("expected one, of which"),
             std::string::npos);
+    }
     EXPECT_NE(message_of([&] { read_mesh_share(directory.path / "none", 0, 3); }).find("no such"),
               std::string::npos);
 }

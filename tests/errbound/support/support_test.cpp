@@ -57,14 +57,12 @@ TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
         EXPECT_EQ(refusal(good), "no error") << good;
     EXPECT_NE(refusal(directory.path).find("found a directory"), std::string::npos);
     EXPECT_NE(refusal(directory.path / "no" / "out").find("No such file"), std::string::npos);
-#ifdef _WIN32  // which says something else
-    const std::string too_long;
-#else
+#ifndef _WIN32  // where that is known only when the file is made
     const std::string too_long = std::generic_category().message(ENAMETOOLONG);
-#endif
     EXPECT_NE(
         refusal(directory.path / std::string(300, 'n')).find("cannot be written (" + too_long),
         std::string::npos);
+#endif
     EXPECT_NE(refusal(directory.path / "file" / "out").find("cannot be written"),
               std::string::npos);
     EXPECT_EQ(read_whole(directory.path / "file"), "one");
