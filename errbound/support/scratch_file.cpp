@@ -16,15 +16,16 @@ scratch_file::scratch_file() {
     const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error)
         throw file_error("TMPDIR: found no folder for temporary files (" + error.message() + ")");
-    std::string name = (folder / "errbound-XXXXXX").string();
-    descriptor_ = system::create_named(name);
-    if (descriptor_ < 0) throw file_error(name + ": cannot be made (" + std::strerror(errno) + ")");
-    path_ = name;
+    name_ = (folder / "errbound-XXXXXX").string();
+    descriptor_ = system::create_named(name_);
+    if (descriptor_ < 0)
+        throw file_error(name_ + ": cannot be made (" + std::strerror(errno) + ")");
+    path_ = name_;
 }
 
 scratch_file::~scratch_file() {
     system::close(descriptor_);
-    system::remove(system::native_name(path_));
+    system::remove(name_);
 }
 
 void scratch_file::append(std::string_view bytes) {

@@ -27,6 +27,7 @@ class scratch_file {
 
   private:
     std::filesystem::path path_;
+    std::string name_;
     int descriptor_ = -1;
 };
 

@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -48,7 +47,6 @@ void grow_stack() {
 
 // Beyond a limit on a file's size writing fails instead.
 constexpr std::array<int, 6> signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ};
-std::array<struct sigaction, signals.size()> before;
 volatile std::sig_atomic_t arrived = 0;
 
 void take_down(int signal) {
@@ -168,8 +166,10 @@ int lock(const std::string& folder) {
 deferred_signals::deferred_signals() {
     arrived = 0;
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        sigaction(signals[i], nullptr, &before[i]);
-        if (!is_default(before[i])) continue;
+        struct sigaction before {};
+        sigaction(signals[i], nullptr, &before);
+        taken_[i] = is_default(before);
+        if (!taken_[i]) continue;
         struct sigaction action {};
         action.sa_handler = signals[i] == SIGXFSZ ? SIG_IGN : take_down;  // no SA_RESTART
         sigaction(signals[i], &action, nullptr);
@@ -177,7 +177,7 @@ deferred_signals::deferred_signals() {
 }
 deferred_signals::~deferred_signals() {
     for (std::size_t i = 0; i < signals.size(); ++i)
-        if (is_default(before[i])) sigaction(signals[i], &before[i], nullptr);
+        if (taken_[i]) std::signal(signals[i], SIG_DFL);
     if (arrived != 0) std::raise(arrived);
 }
 bool deferred_signals::any() {

@@ -2,6 +2,7 @@
 // windows.cpp. Functions that return what the system says leave its reason in errno.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -70,6 +71,9 @@ class deferred_signals {
     ~deferred_signals();
 
     static bool any();
+
+  private:
+    std::array<bool, 6> taken_{};  // of the system's list
 };
 
 /// While one of these lives, writing to a pipe that nobody reads fails, and ends no program.

@@ -22,7 +22,6 @@ namespace errbound::support::system {
 namespace {
 
 constexpr std::array<int, 2> signals{SIGINT, SIGTERM};
-std::array<void (*)(int), signals.size()> before;
 volatile std::sig_atomic_t arrived = 0;
 
 // The handler is gone once it was called.
@@ -164,13 +163,14 @@ int lock(const std::string& folder) {
 deferred_signals::deferred_signals() {
     arrived = 0;
     for (std::size_t i = 0; i < signals.size(); ++i) {
-        before[i] = std::signal(signals[i], take_down);
-        if (before[i] != SIG_DFL) std::signal(signals[i], before[i]);
+        const auto before = std::signal(signals[i], take_down);
+        taken_[i] = before == SIG_DFL;
+        if (!taken_[i]) std::signal(signals[i], before);
     }
 }
 deferred_signals::~deferred_signals() {
     for (std::size_t i = 0; i < signals.size(); ++i)
-        if (before[i] == SIG_DFL) std::signal(signals[i], SIG_DFL);
+        if (taken_[i]) std::signal(signals[i], SIG_DFL);
     if (arrived != 0) std::raise(arrived);
 }
 bool deferred_signals::any() {
