@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "errbound/support/descriptor.hpp"
+#include "errbound/support/signals.hpp"
 #include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
@@ -50,7 +51,7 @@ void for_each_block(const fs::path& path, const Take& take) {
 /// Writes all to an open descriptor.
 void write_to(int descriptor, const output& out) {
     const auto write = [&](std::string_view text) {
-        write_all(descriptor, text, out.path, system::deferred_signals::any);
+        write_all(descriptor, text, out.path, deferred_signals::any);
     };
     if (out.from.empty())
         write(out.text);
@@ -171,7 +172,7 @@ void require_writable(const fs::path& path) {
 }
 
 void write_whole(const std::vector<output>& outputs) {
-    const system::deferred_signals deferred;
+    const deferred_signals deferred;
     std::vector<temporary_file> files;
     std::vector<const output*> streams;
     files.reserve(outputs.size());

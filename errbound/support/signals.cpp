@@ -1,4 +1,4 @@
-// Handlers of the signals that end long work.
+// Handlers of signals. Some systems take a handler away when it is called.
 #include "errbound/support/signals.hpp"
 
 #include <algorithm>
@@ -26,6 +26,13 @@ void catch_signal(int signal) {
     if (!caught.exchange(true)) system::write(2, line_to_print.data(), line_length);
 }
 
+volatile std::sig_atomic_t arrived = 0;
+
+void take_down(int signal) {
+    arrived = signal;
+    std::signal(signal, take_down);
+}
+
 }  // namespace
 
 awaited_signals::awaited_signals(const std::string& line) {
@@ -48,6 +55,22 @@ const std::atomic<bool>& awaited_signals::arrived() const {
 
 int awaited_signals::signal() const {
     return which;
+}
+
+deferred_signals::deferred_signals() {
+    arrived = 0;
+    for (std::size_t i = 0; i < system::ending_signals.size(); ++i)
+        taken_[i] = system::take_default(system::ending_signals[i], take_down);
+}
+
+deferred_signals::~deferred_signals() {
+    for (std::size_t i = 0; i < system::ending_signals.size(); ++i)
+        if (taken_[i]) std::signal(system::ending_signals[i], SIG_DFL);
+    if (arrived != 0) std::raise(arrived);
+}
+
+bool deferred_signals::any() {
+    return arrived != 0;
 }
 
 }  // namespace errbound::support

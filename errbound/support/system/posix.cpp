@@ -45,17 +45,6 @@ void grow_stack() {
     touch_stack();
 }
 
-// Beyond a limit on a file's size writing fails instead.
-constexpr std::array<int, 6> signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ};
-volatile std::sig_atomic_t arrived = 0;
-
-void take_down(int signal) {
-    arrived = signal;
-}
-bool is_default(const struct sigaction& action) {
-    return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler == SIG_DFL;
-}
-
 }  // namespace
 
 void start_program() {
@@ -163,25 +152,18 @@ int lock(const std::string& folder) {
     return -1;
 }
 
-deferred_signals::deferred_signals() {
-    arrived = 0;
-    for (std::size_t i = 0; i < signals.size(); ++i) {
-        struct sigaction before {};
-        sigaction(signals[i], nullptr, &before);
-        taken_[i] = is_default(before);
-        if (!taken_[i]) continue;
-        struct sigaction action {};
-        action.sa_handler = signals[i] == SIGXFSZ ? SIG_IGN : take_down;  // no SA_RESTART
-        sigaction(signals[i], &action, nullptr);
-    }
+namespace {
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ};
 }
-deferred_signals::~deferred_signals() {
-    for (std::size_t i = 0; i < signals.size(); ++i)
-        if (taken_[i]) std::signal(signals[i], SIG_DFL);
-    if (arrived != 0) std::raise(arrived);
-}
-bool deferred_signals::any() {
-    return arrived != 0;
+const std::span<const int> ending_signals = signals;
+bool take_default(int signal, void (*handler)(int)) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if ((action.sa_flags & SA_SIGINFO) != 0 || action.sa_handler != SIG_DFL) return false;
+    action = {};
+    action.sa_handler = signal == SIGXFSZ ? SIG_IGN : handler;  // no SA_RESTART
+    sigaction(signal, &action, nullptr);
+    return true;
 }
 
 failing_pipes::failing_pipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}

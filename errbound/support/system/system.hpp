@@ -2,10 +2,10 @@
 // windows.cpp. Functions that return what the system says leave its reason in errno.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -61,20 +61,11 @@ void copy_rights(int descriptor, const std::string& other);
 /// EWOULDBLOCK in errno, if one has it; another errno where there are no locks.
 int lock(const std::string& folder);
 
-/// While one of these lives, signals that would end the program are only taken down; the destructor
-/// lets them.
-class deferred_signals {
-  public:
-    deferred_signals();
-    deferred_signals(const deferred_signals&) = delete;
-    deferred_signals& operator=(const deferred_signals&) = delete;
-    ~deferred_signals();
-
-    static bool any();
-
-  private:
-    std::array<bool, 6> taken_{};  // of the system's list
-};
+/// Which end a program that does not handle them, at most 32.
+extern const std::span<const int> ending_signals;
+/// Where a signal has its default action, `handler` takes its place and interrupts writing; whether
+/// it did. (A limit on a file's size is ignored instead: writing fails.)
+bool take_default(int signal, void (*handler)(int));
 
 /// While one of these lives, writing to a pipe that nobody reads fails, and ends no program.
 class failing_pipes {

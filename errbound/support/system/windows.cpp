@@ -21,15 +21,6 @@
 namespace errbound::support::system {
 namespace {
 
-constexpr std::array<int, 2> signals{SIGINT, SIGTERM};
-volatile std::sig_atomic_t arrived = 0;
-
-// The handler is gone once it was called.
-void take_down(int signal) {
-    arrived = signal;
-    std::signal(signal, take_down);
-}
-
 int rights_of(const std::string& name, int rights) {
     return _access(name.c_str(), rights);
 }
@@ -160,21 +151,14 @@ int lock(const std::string& folder) {
     return -1;
 }
 
-deferred_signals::deferred_signals() {
-    arrived = 0;
-    for (std::size_t i = 0; i < signals.size(); ++i) {
-        const auto before = std::signal(signals[i], take_down);
-        taken_[i] = before == SIG_DFL;
-        if (!taken_[i]) std::signal(signals[i], before);
-    }
+namespace {
+constexpr int signals[] = {SIGINT, SIGTERM};
 }
-deferred_signals::~deferred_signals() {
-    for (std::size_t i = 0; i < signals.size(); ++i)
-        if (taken_[i]) std::signal(signals[i], SIG_DFL);
-    if (arrived != 0) std::raise(arrived);
-}
-bool deferred_signals::any() {
-    return arrived != 0;
+const std::span<const int> ending_signals = signals;
+bool take_default(int signal, void (*handler)(int)) {
+    const auto before = std::signal(signal, handler);
+    if (before != SIG_DFL) std::signal(signal, before);
+    return before == SIG_DFL;
 }
 
 // There are no signals of pipes.
