@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -23,9 +24,20 @@ inline int threads_of(int threads) {
     return threads > 0 ? std::min(threads, cores) : cores;
 }
 
+/// On MinGW-w64, keeps oneTBB's threads until the program ends. By itself oneTBB ends them when the
+/// last thread ends that has used it, and that can wait for ever there: a std::thread holds a lock
+/// of MinGW's while destructors of its thread_local objects take the loader's, a native thread that
+/// ends holds the loader's and takes MinGW's.
+inline void keep_workers() {
+#ifdef __MINGW32__
+    static const tbb::task_scheduler_handle kept{tbb::attach{}};
+#endif
+}
+
 /// Runs `work` where parallel loops use at most threads_of(threads). Returns that number.
 template <class Work>
 int on_threads(int threads, const Work& work) {
+    keep_workers();
     tbb::task_arena arena(threads_of(threads));
     arena.execute(work);
     return arena.max_concurrency();

@@ -13,6 +13,7 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {
@@ -149,7 +150,7 @@ TEST(Stochastic, TakesOtherTypesOfNumbers) {
         EXPECT_EQ(sign_of(sum - sum), sign_type::zero);
     };
     check(0.0F);
-    check(0.0L);
+    check(support::long_double(0));
     check(errbound::float16(0.0F));
     check(errbound::float8_e4m3(0.0F));
 }

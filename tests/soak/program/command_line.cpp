@@ -121,7 +121,7 @@ void report(const soak::part& of, const soak::state& s, const fs::path& folder) 
         std::printf("only the first %s of them are kept\n",
                     grouped(s.found.differences.size()).c_str());
     }
-    std::printf("state, with all that differ: %s\n", soak::state_path(folder).c_str());
+    std::printf("state, with all that differ: %s\n", soak::state_path(folder).string().c_str());
 }
 
 /// The state to go on from.
