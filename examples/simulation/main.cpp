@@ -80,7 +80,7 @@ int simulate(const arguments& given) {
     progress.clear();
     if (given.vtp) write_series(folder.path(), run.of());
     std::fputs(summary_of(folder.path() / "frames.csv").c_str(), stdout);
-    std::printf("frames and table: %s\n", folder.path().c_str());
+    std::printf("frames and table: %s\n", folder.path().string().c_str());
     if (run.state().frame < run.of().frames)
         std::printf("stopped after frame %d of %d; the same command goes on\n", run.state().frame,
                     run.of().frames);

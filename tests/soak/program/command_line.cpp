@@ -114,7 +114,7 @@ void report(const soak::part& of, const soak::state& s, const fs::path& folder) 
         const fs::path path = folder / ("differences-" + std::string(short_name(which)) + ".csv");
         if (fs::exists(path)) {
             std::printf("differing queries, the reference's answer as truth: ccd query %s\n",
-                        path.c_str());
+                        path.string().c_str());
         }
     }
     if (s.found.different > s.found.differences.size()) {
