@@ -49,6 +49,10 @@ class Failed(Exception):
     """A row that cannot be filled, and why."""
 
 
+class Missing(Failed):
+    """One that cannot be filled on this machine."""
+
+
 def link_headers():
     """The host's own folder of headers cannot be searched: its C library's are there, too."""
     if HEADERS.exists():
@@ -238,7 +242,7 @@ def with_compiler(target):
     try:
         tools = zig.make_tools(OUT / "zig", target.zig)
     except subprocess.CalledProcessError as error:
-        raise Failed(f"cannot be run: zig cannot be installed ({error})") from error
+        raise Missing(f"cannot be run: zig cannot be installed ({error})") from error
     return dataclasses.replace(target, cc=str(tools / "zig-cc"), cxx=str(tools / "zig-c++"), ar=str(tools / "zig-ar"),
                                ranlib=str(tools / "zig-ranlib"), options=target.options + zig.options(target.zig))
 
@@ -246,15 +250,15 @@ def with_compiler(target):
 def compiler_of(target):
     for tool in (target.cxx, *target.emulator[:1]):
         if shutil.which(tool) is None:
-            raise Failed(f"cannot be run: no {tool} here (packages {', '.join(target.packages)})")
+            raise Missing(f"cannot be run: no {tool} here (packages {', '.join(target.packages)})")
     first = subprocess.run([target.cxx, "--version"], check=True, stdout=subprocess.PIPE, text=True).stdout
     version = re.search(r"\d+\.\d+\.\d+", first)
     kind = "clang" if "clang" in first else "g++"
     return " ".join(filter(None, [kind, version and version[0], target.flags or target.cxx_flags, target.level]))
 
 
-def print_row(target, label, jobs):
-    """True if all is as it should be."""
+def print_row(target, label, jobs, needed):
+    """True if all is as it should be; what this machine does not have may be missing unless it is needed."""
     start = time.monotonic()
     compiler, tests, packed = "", "-", "-"
     try:
@@ -275,6 +279,8 @@ def print_row(target, label, jobs):
             equal = equal and vectorised
         if label and not target.refused and not target.only_compiled:
             tests, passed = build.tests(label)
+    except Missing as why:
+        text, equal, passed = str(why), not needed, True
     except Failed as why:
         text, equal, passed = str(why), False, True
     print(ROW.format(target.name, compiler[:39], tests, packed, f"{time.monotonic() - start:.0f} s", text),
@@ -300,8 +306,8 @@ def print_instructions(jobs):
 
 def main():
     parser = argparse.ArgumentParser(prog="./run everywhere", description=__doc__.split("\n\n")[0])
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all: " +
-                        ", ".join(t.name for t in TARGETS))
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all, of which those whose compilers "
+                        "this machine cannot have are no failures: " + ", ".join(t.name for t in TARGETS))
     parser.add_argument("--tests", metavar="LABEL", default="^(unit|property)$",
                         help="of which label, a regular expression; '' for none (%(default)s); those of the "
                         "label `sources`, which are the same for all, are left out")
@@ -326,7 +332,7 @@ def main():
     if arguments.instructions:
         return 0 if print_instructions(arguments.jobs) else 1
     print(ROW.format("target", "compiler", "tests", "packed", "time", "hash"), flush=True)
-    rows = [print_row(t, arguments.tests, arguments.jobs) for t in chosen]
+    rows = [print_row(t, arguments.tests, arguments.jobs, bool(names)) for t in chosen]
     return 0 if all(rows) else 1
 
 

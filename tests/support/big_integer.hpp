@@ -13,7 +13,12 @@
 class big_integer {
   public:
     big_integer() : value_(taken()) { mpz_set_ui(value_, 0); }
-    big_integer(std::int64_t x) : value_(taken()) { mpz_set_si(value_, x); }
+    big_integer(std::int64_t x) : value_(taken()) {
+        const std::uint64_t magnitude =
+            x < 0 ? 0 - static_cast<std::uint64_t>(x) : static_cast<std::uint64_t>(x);
+        mpz_import(value_, 1, 1, sizeof magnitude, 0, 0, &magnitude);  // long may have 32 bits
+        if (x < 0) mpz_neg(value_, value_);
+    }
     /// x·2^−unit, a whole number.
     big_integer(double x, int unit) : value_(taken()) {
         int exponent;
