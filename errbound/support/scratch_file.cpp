@@ -16,11 +16,12 @@ scratch_file::scratch_file() {
     const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error)
         throw file_error("TMPDIR: found no folder for temporary files (" + error.message() + ")");
-    name_ = (folder / "errbound-XXXXXX").string();
+    const std::string pattern = "errbound-XXXXXX";
+    name_ = system::native_name(folder / pattern);
     descriptor_ = system::create_named(name_);
     if (descriptor_ < 0)
         throw file_error(name_ + ": cannot be made (" + std::strerror(errno) + ")");
-    path_ = name_;
+    path_ = folder / name_.substr(name_.size() - pattern.size());
 }
 
 scratch_file::~scratch_file() {

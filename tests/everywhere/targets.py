@@ -75,6 +75,8 @@ TARGETS = [
     gcc("x86-64-g++-13", "-13"),
     gcc("x86-64-g++-14", "-14"),
     clang("x86-64-clang"),
+    clang("x86-64-clang-15", "-15"),
+    clang("x86-64-clang-16", "-16"),
     clang("x86-64-clang-17", "-17"),
     clang("x86-64-clang-18", "-18"),
     clang("x86-64-clang-19", "-19"),

@@ -32,8 +32,8 @@ int run(const char* program, const std::string& argument);
 /// What may part folders in a path, and whether devices have names: /dev/stdin.
 extern const std::string_view separators;
 extern const bool has_device_files;
-/// As std::filesystem::path gives it: of the native encoding. (Strings, since a path of libstdc++
-/// 12 that finds no memory never returns.)
+/// The bytes that the system has, or, where it has none of bytes, UTF-8: so are the names of all
+/// that follow. (Strings, since a path of libstdc++ 12 that finds no memory never returns.)
 std::string native_name(const std::filesystem::path& path);
 /// Without links; empty if there is no such file.
 std::string real_name(const std::string& name);

@@ -21,13 +21,31 @@
 namespace errbound::support::system {
 namespace {
 
+/// A name as Windows itself has it; empty, which is no file's, if it is too long.
+class wide {
+  public:
+    explicit wide(const std::string& name) {
+        if (MultiByteToWideChar(CP_UTF8, 0, name.c_str(), -1, text_.data(), size) == 0)
+            text_[0] = L'\0';
+    }
+    const wchar_t* c_str() const { return text_.data(); }
+
+  private:
+    static constexpr int size = 4096;
+    std::array<wchar_t, size> text_{};
+};
+std::string utf8(const std::filesystem::path& path) {
+    const std::u8string name = path.u8string();
+    return {name.begin(), name.end()};
+}
+
 int rights_of(const std::string& name, int rights) {
-    return _access(name.c_str(), rights);
+    return _waccess(wide(name).c_str(), rights);
 }
 constexpr int to_exist = 0, to_write = 2;
 
 int open(const std::string& file, int flags) {
-    return _open(file.c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
+    return _wopen(wide(file).c_str(), flags | _O_BINARY | _O_NOINHERIT, _S_IREAD | _S_IWRITE);
 }
 /// What one call of the C runtime takes.
 unsigned at_once(std::size_t size) {
@@ -80,19 +98,19 @@ int run(const char* program, const std::string& argument) {
 const std::string_view separators = "/\\";
 const bool has_device_files = false;
 std::string native_name(const std::filesystem::path& path) {
-    return path.string();
+    return utf8(path);
 }
 std::string real_name(const std::string& name) {
     const HANDLE file =
-        CreateFileA(name.c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+        CreateFileW(wide(name).c_str(), 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
                     nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr);
-    std::array<char, 4096> real{};
+    std::array<wchar_t, 4096> real{};
     DWORD size = 0;
     if (file != INVALID_HANDLE_VALUE) {
-        size = GetFinalPathNameByHandleA(file, real.data(), real.size(), FILE_NAME_NORMALIZED);
+        size = GetFinalPathNameByHandleW(file, real.data(), real.size(), FILE_NAME_NORMALIZED);
         CloseHandle(file);
     }
-    if (size > 0 && size < real.size()) return {real.data(), size};
+    if (size > 0 && size < real.size()) return utf8(std::wstring(real.data(), size));
     errno = file == INVALID_HANDLE_VALUE ? ENOENT : EIO;
     return {};
 }
@@ -106,12 +124,13 @@ bool may_write_in(const std::string& folder) {
     return rights_of(folder, to_write) == 0;
 }
 bool replace(const std::string& from, const std::string& to) {
-    if (MoveFileExA(from.c_str(), to.c_str(), MOVEFILE_REPLACE_EXISTING) != 0) return true;
+    if (MoveFileExW(wide(from).c_str(), wide(to).c_str(), MOVEFILE_REPLACE_EXISTING) != 0)
+        return true;
     errno = EACCES;
     return false;
 }
 bool remove(const std::string& file) {
-    return _unlink(file.c_str()) == 0;
+    return _wunlink(wide(file).c_str()) == 0;
 }
 
 int create(const std::string& file) {
@@ -121,7 +140,9 @@ int open_to_write(const std::string& file) {
     return open(file, _O_WRONLY);
 }
 int create_named(std::string& pattern) {
-    if (_mktemp_s(pattern.data(), pattern.size() + 1) != 0) return -1;
+    std::wstring name = wide(pattern).c_str();
+    if (_wmktemp_s(name.data(), name.size() + 1) != 0) return -1;
+    pattern = utf8(name);
     return open(pattern, _O_RDWR | _O_CREAT | _O_EXCL | _O_APPEND);
 }
 int close(int descriptor) {
@@ -144,7 +165,7 @@ void copy_rights(int, const std::string&) {}
 
 // A file that nobody else may open, and that goes away with its descriptor.
 int lock(const std::string& folder) {
-    const HANDLE file = CreateFileA((folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
+    const HANDLE file = CreateFileW(wide(folder + "\\.lock").c_str(), GENERIC_WRITE, 0, nullptr,
                                     OPEN_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, nullptr);
     if (file != INVALID_HANDLE_VALUE) return _open_osfhandle(reinterpret_cast<intptr_t>(file), 0);
     errno = GetLastError() == ERROR_SHARING_VIOLATION ? EWOULDBLOCK : EIO;

@@ -46,6 +46,22 @@ TEST(Output, WholeOrNotAtAll) {
     EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
 }
 
+TEST(Output, NamesOfAnyAlphabet) {
+    const temporary_directory directory;
+    for (const char8_t* const name :
+         {u8"\u00e9t\u00e9", u8"\u03a9", u8"\u65e5\u672c", u8"\U0001d400"}) {
+        const fs::path file = directory.path / name;
+        require_writable(file);
+        write_whole(file, "one");
+        write_whole(file, "two");
+        EXPECT_EQ(read_whole(file), "two");
+        ASSERT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}),
+                  1);
+        EXPECT_EQ(fs::directory_iterator(directory.path)->path().filename(), fs::path(name));
+        fs::remove(file);
+    }
+}
+
 TEST(Output, IsRefusedBeforeThereIsAnythingToWrite) {
     const temporary_directory directory;
     const auto refusal = [](const fs::path& path) {
