@@ -162,8 +162,9 @@ void require_writable(const fs::path& path) {
         if (!allowed) throw file_error(path.string() + ": cannot be written" + reason());
     };
     const std::optional<std::string> file = file_behind(path);
-    const bool exists = !file || system::exists(*file);
-    require(exists || errno == ENOENT);
+    std::error_code error;
+    const bool exists = !file || fs::exists(path, error);
+    if (error) throw file_error(path.string() + ": cannot be written (" + error.message() + ")");
     if (exists) require(system::may_write(file.value_or(system::native_name(path))));
     if (!file) return;
     const std::string folder = folder_of(*file);
