@@ -26,16 +26,21 @@ if(ERRBOUND_SANITIZE)
   set(ERRBOUND_WITH_MPI OFF)   # whose own leaks they would report
 endif()
 
-# Warnings are for the project's own targets; users get none of them.
-add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wconversion>")
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12")
-  # False alarms for "text" + std::string: GCC bug 105651.
-  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>")
-endif()
-if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  # Masks of one lane are bool, and & of them evaluates both sides, as of those of many.
-  # GCC's -Wconversion means no changes of sign.
-  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical;-Wno-sign-conversion>")
+# Warnings are for the project's own targets; users get none of them, and theirs, which may be
+# errors, are not asked of its sources.
+if(PROJECT_IS_TOP_LEVEL)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wconversion>")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12")
+    # False alarms for "text" + std::string: GCC bug 105651.
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>")
+  endif()
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # Masks of one lane are bool, and & of them evaluates both sides, as of those of many.
+    # GCC's -Wconversion means no changes of sign.
+    add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Wno-bitwise-instead-of-logical;-Wno-sign-conversion>")
+  endif()
+else()
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-w>")
 endif()
 if(ERRBOUND_WERROR)
   add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-Werror>")

@@ -21,11 +21,11 @@ struct vertex_lists {
     std::span<const int> islands = {};       ///< of what moves by one fraction, in an advance
 
     vertex_lists(const pair_filter& filter, const pair_distances& distances,
-                 std::span<const int> islands = {})
+                 std::span<const int> moving_as_one = {})
         : groups(filter.groups),
           pinned(filter.pinned),
           thickness(distances.thickness),
-          islands(islands) {}
+          islands(moving_as_one) {}
 };
 
 /// That a rank's part of a mesh is one, with lists of as many entries as it has vertices or, on all

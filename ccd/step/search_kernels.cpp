@@ -51,15 +51,15 @@ struct corner_columns {
 
 /// Sets one axis' columns at one end of the step: values(v) of vertex v.
 template <std::size_t N, class Values>
-void set_extent(extents_pack& pack, std::size_t axis, std::size_t end, std::size_t lane,
+void set_extent(extents_pack& packed, std::size_t axis, std::size_t end, std::size_t lane,
                 float margin, const Values& values) {
     float_pack least = values(0), most = least;
     for (std::size_t v = 1; v < N; ++v) {
         least = min(least, values(v));
         most = max(most, values(v));
     }
-    (least - float_pack(margin)).store_aligned(&pack.at[4 * axis + end][lane]);
-    (most + float_pack(margin)).store_aligned(&pack.at[4 * axis + 2 + end][lane]);
+    (least - float_pack(margin)).store_aligned(&packed.at[4 * axis + end][lane]);
+    (most + float_pack(margin)).store_aligned(&packed.at[4 * axis + 2 + end][lane]);
 }
 
 inline float_quad extreme(const float_quad& x, const float_quad& y, bool most) {
@@ -79,15 +79,16 @@ inline float extreme(const float (&column)[size], bool most) {
     return x[0];
 }
 
-inline extents hull_of(const extents_pack& pack) {
+inline extents hull_of(const extents_pack& packed) {
     extents e;
-    for (std::size_t c = 0; c < columns; ++c) e.of[c] = extreme(pack.at[c], is_most(c));
+    for (std::size_t c = 0; c < columns; ++c) e.of[c] = extreme(packed.at[c], is_most(c));
     return e;
 }
 
-inline void set_nowhere(extents_pack& pack, std::size_t from) {
+inline void set_nowhere(extents_pack& packed, std::size_t from) {
     for (std::size_t c = 0; c < columns; ++c)
-        for (std::size_t i = from; i < size; ++i) pack.at[c][i] = is_most(c) ? -infinity : infinity;
+        for (std::size_t i = from; i < size; ++i)
+            packed.at[c][i] = is_most(c) ? -infinity : infinity;
 }
 
 template <std::size_t N>
@@ -144,7 +145,7 @@ struct member_reader {
 /// Those of a pack that no axis separates from other extents. Most that one does, a coordinate axis
 /// does: the others are asked only where those leave lanes.
 template <class Extents>
-lanes touching(const extents_pack& pack, const Extents& other) {
+lanes touching(const extents_pack& packed, const Extents& other) {
     constexpr std::size_t parts = size / float_width;
     mask_of<float> apart[parts] = {};
     const auto separate = [&](std::size_t a) {
@@ -152,7 +153,7 @@ lanes touching(const extents_pack& pack, const Extents& other) {
         for (std::size_t c = 0; c < 4; ++c) all[c] = float_pack(other(4 * a + c));
         for (std::size_t part = 0; part < parts; ++part) {
             const auto column = [&](std::size_t c) {
-                return float_pack::load_aligned(&pack.at[4 * a + c][float_width * part]);
+                return float_pack::load_aligned(&packed.at[4 * a + c][float_width * part]);
             };
             apart[part] = apart[part] | ((column(0) > all[2]) & (column(1) > all[3])) |
                           ((column(2) < all[0]) & (column(3) < all[1]));

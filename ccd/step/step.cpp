@@ -155,7 +155,7 @@ mesh_steps::mesh_steps(std::span<const face> faces, std::span<const edge> edges,
     detail::check_elements(faces, edges, vertices, "ccd::mesh_steps");
     state_ = std::make_unique<state>(state{{faces, edges, vertices}});
 }
-mesh_steps::mesh_steps(std::unique_ptr<state> state) : state_(std::move(state)) {}
+mesh_steps::mesh_steps(std::unique_ptr<state> whole) : state_(std::move(whole)) {}
 mesh_steps mesh_steps::in_plane(std::span<const edge> edges, std::size_t vertices) {
     detail::check_elements({}, edges, vertices, "ccd::mesh_steps");
     return mesh_steps(

@@ -93,7 +93,7 @@ std::string colour_of(const frame& f) {
 }
 
 std::string number(double x) {
-    return detail::formatted("%.1f", x);
+    return detail::tenths(x);
 }
 
 struct bar {
@@ -104,9 +104,8 @@ std::string drawn(const frame& f, const bar& b, double bottom) {
     const double wide = b.share * whole;
     if (!(wide >= thinnest)) return "";
     const std::string tip =
-        f.name + (f.where.empty() ? "" : " (" + f.where + ")") + ": " +
-        detail::formatted("%.1f %%", 100 * b.share) +
-        (std::isfinite(b.amount) ? ", " + detail::formatted("%.2e", b.amount) : ", unknown");
+        f.name + (f.where.empty() ? "" : " (" + f.where + ")") + ": " + detail::percent(b.share) +
+        (std::isfinite(b.amount) ? ", " + detail::scientific(b.amount) : ", unknown");
     std::string svg = "<g><title>" + escaped(tip) + "</title><rect x=\"" + number(b.left) +
                       "\" y=\"" + number(bottom - bar_height) + "\" width=\"" + number(wide) +
                       "\" height=\"" + number(bar_height - 1) + "\" fill=\"" + colour_of(f) +

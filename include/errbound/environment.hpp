@@ -28,6 +28,12 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<floa
 static_assert(sizeof(0.1) == sizeof(double) && 0.1 != static_cast<double>(0.1F),
               "errbound: constants must be doubles; compile without -fsingle-precision-constant");
 
+#if defined(__GLIBC__) && (defined(__x86_64__) || defined(__i386__))
+static_assert(std::numeric_limits<long double>::digits == 64,
+              "errbound: long doubles must be those of the C library; compile without "
+              "-mlong-double-64 and -mlong-double-128");
+#endif
+
 namespace errbound {
 namespace detail {
 
@@ -71,11 +77,14 @@ static T unknown(T x) {
     volatile T v = x;
     return v;
 }
+/// By the processor, and by the compiler, which may compute with constants as it is told to.
 template <class T>
 static bool has_gradual_underflow() {
     using limits = std::numeric_limits<T>;
     const T subnormal = unknown(unknown(limits::min()) * unknown(T(0.5)));
-    return unknown(subnormal + subnormal) == limits::min() && unknown(limits::denorm_min()) > 0;
+    const T factors[] = {limits::denorm_min(), T(4)};
+    return unknown(subnormal + subnormal) == limits::min() && unknown(limits::denorm_min()) > 0 &&
+           unknown(factors[0] * factors[1]) > 0;
 }
 /// Sums, against the same ones that are stored after each operation.
 template <class T>

@@ -54,20 +54,22 @@ namespace detail {
 template <class T>
 using printed_type = std::conditional_t<std::floating_point<T>, T, float>;
 
-#if defined(_LIBCPP_VERSION)
+/// Where std::to_chars makes doubles of wider numbers, or writes them in the way of a place.
+#if defined(_LIBCPP_VERSION) || defined(_WIN32)
 template <class T>
-inline constexpr bool to_chars_narrows =
+inline constexpr bool to_chars_is_wrong =
     std::numeric_limits<T>::digits > std::numeric_limits<double>::digits;
 #else
 template <class>
-inline constexpr bool to_chars_narrows = false;
+inline constexpr bool to_chars_is_wrong = false;
 #endif
 
 /// By std::to_chars, which rounds exactly; `how` is its format and precision, or nothing: the
 /// shortest that reads back.
 template <std::floating_point T, class... How>
 std::string decimal(T x, How... how) {
-    if constexpr (to_chars_narrows<T>) return printf_decimal(x, how...);
+    if (std::isnan(x)) return "nan";  // whose sign is the processor's
+    if constexpr (to_chars_is_wrong<T>) return printf_decimal(x, how...);
     std::string text(64, '\0');
     for (;;) {
         const auto [end, status] = std::to_chars(text.data(), text.data() + text.size(), x, how...);

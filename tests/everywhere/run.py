@@ -306,22 +306,43 @@ def print_instructions(jobs):
         return False
 
 
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a positive number")
+    return number
+
+
+def expression(text):
+    try:
+        re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a regular expression ({error})") from error
+    return text
+
+
 def main():
     parser = argparse.ArgumentParser(prog="./run everywhere", description=__doc__.split("\n\n")[0])
     parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all, of which those whose compilers "
                         "this machine cannot have are no failures: " + ", ".join(t.name for t in TARGETS))
-    parser.add_argument("--tests", metavar="LABEL", default="^(unit|property)$",
+    parser.add_argument("--tests", metavar="LABEL", type=expression, default="^(unit|property)$",
                         help="of which label, a regular expression; '' for none (%(default)s); those of the "
                         "label `sources`, which are the same for all, are left out")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--jobs", metavar="N", type=positive, default=os.cpu_count(),
+                        help="how many compilers or tests at a time (%(default)s)")
     parser.add_argument("--instructions", action="store_true",
                         help=f"instead of rows, instructions per query of the kernels of {' and '.join(COUNTED)}")
     parser.add_argument("--packages", action="store_true", help="prints what must be installed, no more")
     parser.add_argument("--sources", action="store_true", help="prints of which packages it takes the source, no more")
     arguments = parser.parse_args()
-    unknown = set(arguments.targets) - {t.name for t in TARGETS}
+    known = {t.name for t in TARGETS}
+    unknown = set(arguments.targets) - known
     if unknown:
         parser.error("no target " + ", ".join(sorted(unknown)))
+    if arguments.tests in known:
+        parser.error(f"--tests: found the target {arguments.tests}, expected a label of tests, or '' for none")
+    if arguments.instructions and arguments.targets:
+        parser.error(f"--instructions: found targets, expected none: they are {' and '.join(COUNTED)}")
     names = COUNTED if arguments.instructions else arguments.targets
     chosen = [t for t in TARGETS if t.name in names or not names]
     if arguments.packages:

@@ -9,7 +9,7 @@ trap 'rm -rf "$work"' EXIT
 logged() { "$@" &>"$work/log" || { cat "$work/log"; exit 1; }; }
 logged "$cmake" -G "$generator" -S "$source/tests/install/embedding" -B "$work/build" \
     -DERRBOUND_SOURCE="$source" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_CXX_FLAGS_RELEASE='-O0 -DNDEBUG' -DERRBOUND_WITH_CUDA=OFF -DERRBOUND_WITH_MPI=OFF
+    -DCMAKE_CXX_FLAGS_RELEASE='-O0 -DNDEBUG'
 logged "$cmake" --build "$work/build"
 if grep -q 'warning: ' "$work/log"; then cat "$work/log"; exit 1; fi
 "$work/build/embedding"

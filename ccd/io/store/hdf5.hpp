@@ -67,8 +67,8 @@ Status checked(Status status, const std::string& what) {
 class handle {
   public:
     handle() = default;
-    handle(hid_t id, herr_t (*close)(hid_t), const std::string& what)
-        : id_(checked(id, what)), close_(close) {}
+    handle(hid_t id, herr_t (*how)(hid_t), const std::string& what)
+        : id_(checked(id, what)), close_(how) {}
     handle(handle&& other) noexcept
         : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
     handle& operator=(handle&& other) noexcept {

@@ -1,5 +1,5 @@
 // Long doubles as std::to_chars writes them, by printf and strtold: libc++'s converts them to
-// doubles first, which are others.
+// doubles first, which are others, and libstdc++'s on Windows takes the locale's point.
 #pragma once
 
 #include <algorithm>

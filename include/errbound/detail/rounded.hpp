@@ -53,6 +53,14 @@ constexpr T rounded(const T& x) {
     return y;
 }
 #endif
+#ifdef __FLOAT128_HARDWARE__  // POWER9 fuses products of 113 bits, too
+constexpr __float128 rounded(const __float128& x) {
+    if (std::is_constant_evaluated()) return x;
+    __float128 y = x;
+    asm("" : "+m"(y));
+    return y;
+}
+#endif
 #endif
 
 /// a·b, rounded by itself.

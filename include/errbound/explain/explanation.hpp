@@ -149,11 +149,20 @@ inline std::string json_of(const explanation& e) {
            contributions + (contributions.empty() ? "]\n    }" : "\n      ]\n    }");
 }
 
-/// printf's, of one double.
-inline std::string formatted(const char* format, double x) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), format, x);
-    return text.data();
+/// 1.25e-16, and as it differs from others: +1.25e-16.
+inline std::string scientific(double x) {
+    return decimal(x, std::chars_format::scientific, 2);
+}
+inline std::string with_sign(double x) {
+    const std::string text = scientific(x);
+    return text[0] == '-' ? text : '+' + text;
+}
+/// 12.5
+inline std::string tenths(double x) {
+    return decimal(x, std::chars_format::fixed, 1);
+}
+inline std::string percent(double share) {
+    return tenths(100 * share) + " %";
 }
 /// naive > squares (variance.cpp:20)
 inline std::string text_of(const std::vector<place>& scopes) {
@@ -258,10 +267,9 @@ inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     for (std::size_t i = 0; i < shown; ++i) {
         const contribution& c = e.contributions[i];
         std::vector<std::string> row{
-            std::isfinite(c.amount) ? detail::formatted("%.2e", c.amount) : "unknown",
-            detail::formatted("%.1f %%", 100 * shares[i]), detail::printable(c.operation),
-            detail::text_of(c.scopes)};
-        if (known) row.insert(row.begin() + 1, detail::formatted("%+.2e", c.known));
+            std::isfinite(c.amount) ? detail::scientific(c.amount) : "unknown",
+            detail::percent(shares[i]), detail::printable(c.operation), detail::text_of(c.scopes)};
+        if (known) row.insert(row.begin() + 1, detail::with_sign(c.known));
         rows.push_back(row);
     }
     text += detail::aligned(rows);
@@ -269,8 +277,8 @@ inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     for (const contribution& c : e.contributions) sum += c.amount;
     if (shown < shares.size()) text += "  and " + std::to_string(shares.size() - shown) + " more\n";
     if (std::isfinite(sum) && sum > 1.01 * e.error)
-        text += "  together " + detail::formatted("%.2e", sum) + ", of which all but " +
-                detail::formatted("%.2e", e.error) + " cancels\n";
+        text += "  together " + detail::scientific(sum) + ", of which all but " +
+                detail::scientific(e.error) + " cancels\n";
     return text;
 }
 

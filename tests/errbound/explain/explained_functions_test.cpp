@@ -12,6 +12,7 @@
 #include <string>
 
 #include "tests/support/any_format.hpp"
+#include "tests/support/assumed_errors.hpp"
 #include "tests/support/scaled.hpp"
 
 namespace {

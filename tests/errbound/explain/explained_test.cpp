@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/support/any_format.hpp"
+#include "tests/support/assumed_errors.hpp"
 #include "tests/support/long_double.hpp"
 #include "tests/support/scaled.hpp"
 

@@ -60,6 +60,21 @@ def outcome(compiler, where, flags, folder):
     return "harmless" if wrong == "0" else f"not found: {ran.stdout.strip()}"
 
 
+def compilers_of(name):
+    """Those of a column of the table that are here."""
+    names = {"clang": ["clang++", "clang++-19"]}.get(name, [name])
+    return [found for found in names if shutil.which(found)]
+
+
+def said_of(compiler, cell):
+    """What a cell says of that version of its compiler."""
+    before, since, version = re.fullmatch(r"(\w+)(?:, (\w+) from (\d+) on)?", cell).groups()
+    if since is None:
+        return before
+    major = subprocess.run([compiler, "-dumpversion"], capture_output=True, check=True, text=True).stdout.split(".")[0]
+    return since if int(major) >= int(version) else before
+
+
 def row_outcome(case):
     where, flags, compiler, said = case
     with tempfile.TemporaryDirectory() as folder:
@@ -68,16 +83,15 @@ def row_outcome(case):
 
 def main():
     rows = list(table())
-    cases = [(where, flags, {"clang": "clang++"}.get(name, name), said[name])
-             for where, flags, said in rows for name in said]
-    cases = [case for case in cases if shutil.which(case[2])]
+    cases = [(where, flags, compiler, said_of(compiler, said[name]))
+             for where, flags, said in rows for name in said for compiler in compilers_of(name)]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         found = list(pool.map(row_outcome, cases))
     wrong = 0
     for (where, flags, compiler, said), seen in zip(cases, found):
         differs = seen not in (said, "not installed")
         wrong += differs
-        print(f"{'WRONG' if differs else 'ok':6}{compiler:8} {' '.join(flags)}{where}: {seen}"
+        print(f"{'WRONG' if differs else 'ok':6}{compiler:11} {' '.join(flags)}{where}: {seen}"
               + (f", not {said}" if differs else ""))
     print(f"{len(cases)} cases of {len(rows)} rows, {wrong} not as the page says")
     return wrong > 0 or len(rows) == 0
