@@ -122,12 +122,19 @@ constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
 // Operators are inlined whatever the compiler thinks of it: most are one instruction or a few, and
 // the others call what is longer themselves.
 
+/// Not inlined: what a product needs beside itself, as many words again, is then on the stack for as
+/// long as it is made, and not as often as formulas multiply.
+template <class Storage, class X, class Y>
+[[gnu::noinline]] constexpr Storage long_product(const X& x, const Y& y) {
+    return Storage::product(x, y);
+}
+
 template <sized_operand X, sized_operand Y>
 [[gnu::always_inline]] constexpr auto operator*(const X& x, const Y& y) {
     using result = sized_integer<typename X::level, X::bits + Y::bits, X::degree + Y::degree>;
     using storage = typename result::storage;
     if constexpr (X::level::kind == integer_kind::any_length) {
-        return result{storage::product(x.value, y.value), x.unit};
+        return result{long_product<storage>(x.value, y.value), x.unit};
     } else if constexpr (result::is_native) {
         return result{static_cast<storage>(x.value) * static_cast<storage>(y.value), x.unit};
     } else {
