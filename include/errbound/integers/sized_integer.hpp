@@ -122,8 +122,8 @@ constexpr sized_integer<Level, 32, 0> sized_constant(int c, int unit) {
 // Operators are inlined whatever the compiler thinks of it: most are one instruction or a few, and
 // the others call what is longer themselves.
 
-/// Not inlined: what a product needs beside itself, as many words again, is then on the stack for as
-/// long as it is made, and not as often as formulas multiply.
+/// Not inlined: what a product needs beside itself, as many words again, is then on the stack for
+/// as long as it is made, and not as often as formulas multiply.
 template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage long_product(const X& x, const Y& y) {
     return Storage::product(x, y);
