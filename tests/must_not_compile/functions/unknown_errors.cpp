@@ -1,6 +1,6 @@
+// A function of which it is not known how far it is off, as on Windows: the message must say so.
 #include <errbound/elementary.hpp>
 
-// As it is on Windows.
 template <>
 inline constexpr double errbound::function_error<errbound::elementary_function::sin, double> = 0;
 
