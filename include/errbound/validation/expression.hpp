@@ -195,6 +195,12 @@ constexpr decltype(auto) with_number_type(number_type type, const F& f) {
     }
 }
 
+/// Of types that have them, where it is known how far the C library's are off.
+template <class T>
+inline constexpr bool has_elementary_functions =
+    detail::has_system_functions<detail::function_type<T>>&&
+        function_error<elementary_function::exp, detail::function_type<T>> != 0;
+
 /// Whether tracked numbers of type T have the operation: without subnormal numbers there are no
 /// roots and fused products, nor what is made of these; not all types have elementary functions.
 template <class T>
@@ -204,7 +210,7 @@ constexpr bool has_operation(operation_kind kind) {
         return has_subnormals<T>;
     if (kind == operation_kind::hypotenuse)
         return has_subnormals<T> && number_traits<T>::digits >= 8;
-    if (is_function(kind)) return detail::has_system_functions<detail::function_type<T>>;
+    if (is_function(kind)) return has_elementary_functions<T>;
     return true;
 }
 
