@@ -82,7 +82,7 @@ class Build:
                   "AR": target.ar, "RANLIB": target.ranlib, "EMULATOR": ";".join(target.emulator),
                   "HEADERS": str(HEADERS), "LIBRARIES": str(libraries)}
         self.libraries = libraries
-        # Without UTF-8 Wine has no names beyond Latin-1.
+        # Without UTF-8 Wine has no names beyond Latin-1; others do not ask.
         self.environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(self.folder / "wine"),
                             "LC_ALL": "C.UTF-8",
                             **{"ERRBOUND_" + name: value for name, value in values.items()}}

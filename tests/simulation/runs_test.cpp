@@ -108,7 +108,7 @@ TEST(Runs, FrictionHoldsABodyOnASlopeBelowItsCoefficient) {
 }
 
 // A method of projections may raise elastic energy where contacts push, by how much depends on all
-// digits of the start; what it adds is little of what has been lost.
+// digits of the start: of six starts like these, up to 4.4 % of what has been lost.
 TEST(Runs, EnergyFallsAsASheetSettles) {
     std::mt19937_64 random(1);
     for (const double speed : {0.0, 1e-7}) {
@@ -125,10 +125,10 @@ TEST(Runs, EnergyFallsAsASheetSettles) {
         double least = start;
         for (int frame = 1; frame <= 300; ++frame) {
             const double now = total(run.next_frame());
-            EXPECT_LE(now, least + 0.1 * (start - least) + 1e-4) << "frame " << frame;
+            EXPECT_LE(now, least + 0.06 * (start - least) + 1e-4) << "frame " << frame;
             least = std::min(least, now);
         }
-        EXPECT_LT(least, start - 0.2);
+        EXPECT_LT(least, start - 0.25);
     }
 }
 
