@@ -160,7 +160,7 @@ class convert final : public command {
             const errbound::support::system::failing_pipes pipes;
             stop_ = &signals.arrived();
             if (make(out, to_store)) return done;
-            ended_by = signals.signal();
+            ended_by = signals.arrived();
         }
         std::raise(ended_by);
         return stopped;
@@ -208,7 +208,7 @@ class convert final : public command {
         io::range_reader reader(file, kind, round, index);
         errbound::support::progress_line progress;
         for (std::size_t i = 0; i < index.ranges.size(); ++i) {
-            if (*stop_) return std::nullopt;
+            if (*stop_ != 0) return std::nullopt;
             progress.show(i, index.ranges.size(), read.name);
             const auto start = std::chrono::steady_clock::now();
             const io::query_file queries = reader.read(i);
@@ -250,7 +250,7 @@ class convert final : public command {
     std::string kind_;
     bool round_ = false;
     std::optional<std::filesystem::path> json_;
-    const std::atomic<bool>* stop_ = nullptr;
+    const std::atomic<int>* stop_ = nullptr;
 };
 
 }  // namespace

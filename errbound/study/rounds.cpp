@@ -90,8 +90,7 @@ share unpacked(std::string_view bytes) {
 /// Computes chunks, on several threads, until the round is over.
 class sharer {
   public:
-    sharer(const std::vector<std::uint64_t>& chunks, const work& what,
-           const std::atomic<bool>& stop)
+    sharer(const std::vector<std::uint64_t>& chunks, const work& what, const std::atomic<int>& stop)
         : chunks_(chunks), what_(what), stop_(stop) {}
 
     share run(std::size_t threads) {
@@ -102,14 +101,14 @@ class sharer {
             for (std::size_t i = 0; i < std::min(threads, chunks_.size()); ++i)
                 running.start([this] { compute(); });
         }
-        done_.stopped = stop_;
+        done_.stopped = stop_ != 0;
         return std::move(done_);
     }
 
   private:
     /// The first chunk is begun whatever the time, so that every round gets on.
     bool is_over(std::size_t next) const {
-        return next >= chunks_.size() || stop_ || full_ ||
+        return next >= chunks_.size() || stop_ != 0 || full_ ||
                (next > 0 && clock::now() - start_ > round_time);
     }
     void compute() {
@@ -139,7 +138,7 @@ class sharer {
 
     const std::vector<std::uint64_t>& chunks_;
     const work& what_;
-    const std::atomic<bool>& stop_;
+    const std::atomic<int>& stop_;
     const clock::time_point start_ = clock::now();
     std::atomic<std::size_t> next_ = 0;
     std::atomic<bool> full_ = false;
@@ -248,7 +247,7 @@ class schedule {
 }  // namespace
 
 ending in_rounds(MPI_Comm comm, std::vector<std::uint64_t> chunks, const work& what,
-                 const keeper& keep, const std::atomic<bool>& stop) {
+                 const keeper& keep, const std::atomic<int>& stop) {
     int rank = 0, ranks = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &ranks);

@@ -27,12 +27,12 @@ enum class ending { done, stopped };
 using keeper = std::function<void(std::vector<chunk_result>)>;
 
 /// Computes the chunks that are named on rank 0, those listed first before others. A rank does no
-/// more chunks of a round once that has taken two seconds, or `stop` is set; stopped on one rank,
+/// more chunks of a round once that has taken two seconds, or `stop` is not 0; stopped on one rank,
 /// the work ends after the round on all. Collective; the ending is the same on all ranks. Throws
 /// std::runtime_error on all ranks, with the message of the least chunk of the round that failed,
 /// or of `keep`; the round's other results have then been kept.
 ending in_rounds(MPI_Comm comm, std::vector<std::uint64_t> chunks, const work& what,
-                 const keeper& keep, const std::atomic<bool>& stop);
+                 const keeper& keep, const std::atomic<int>& stop);
 
 /// Rank 0's text, on all.
 std::string broadcast(MPI_Comm comm, std::string text);

@@ -38,7 +38,7 @@ void study::take(chunk_result found) {
 
 bool study::complete(const progress& show) {
     std::optional<support::awaited_signals> signals;
-    static const std::atomic<bool> never = false;
+    static const std::atomic<int> never = 0;
     if (path_)
         signals.emplace(rank_ > 0
                             ? std::string()

@@ -11,10 +11,9 @@ namespace errbound::support {
 namespace {
 
 constexpr std::array signals{SIGINT, SIGTERM};
-std::atomic<bool> caught = false;
-std::atomic<int> which = 0;
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
-              "set by a signal handler");
+// Of an int: on RISC-V atomic bytes are not always lock-free before g++ 13.
+std::atomic<int> caught = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "set by a signal handler");
 
 // A handler may not allocate.
 std::array<char, 4096> line_to_print;
@@ -22,8 +21,7 @@ std::size_t line_length = 0;
 
 void catch_signal(int signal) {
     std::signal(signal, SIG_DFL);
-    which = signal;
-    if (!caught.exchange(true)) system::write(2, line_to_print.data(), line_length);
+    if (caught.exchange(signal) == 0) system::write(2, line_to_print.data(), line_length);
 }
 
 volatile std::sig_atomic_t arrived = 0;
@@ -36,7 +34,7 @@ void take_down(int signal) {
 }  // namespace
 
 awaited_signals::awaited_signals(const std::string& line) {
-    caught = false;
+    caught = 0;
     line_length = std::min(line.size(), line_to_print.size());
     std::copy_n(line.begin(), line_length, line_to_print.begin());
     for (std::size_t i = 0; i < signals.size(); ++i) {
@@ -49,12 +47,8 @@ awaited_signals::~awaited_signals() {
     for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
 }
 
-const std::atomic<bool>& awaited_signals::arrived() const {
+const std::atomic<int>& awaited_signals::arrived() const {
     return caught;
-}
-
-int awaited_signals::signal() const {
-    return which;
 }
 
 deferred_signals::deferred_signals() {

@@ -9,7 +9,7 @@
 
 namespace errbound::support {
 
-/// While one lives, the first SIGINT or SIGTERM sets a flag and prints a line to standard error;
+/// While one lives, the first SIGINT or SIGTERM sets a number and prints a line to standard error;
 /// another ends the program. Those that the process ignores stay ignored. At most one at a time.
 class awaited_signals {
   public:
@@ -19,9 +19,8 @@ class awaited_signals {
     awaited_signals(const awaited_signals&) = delete;
     awaited_signals& operator=(const awaited_signals&) = delete;
 
-    const std::atomic<bool>& arrived() const;
-    /// Which has, if one has.
-    int signal() const;
+    /// Which has, or 0.
+    const std::atomic<int>& arrived() const;
 
   private:
     std::array<void (*)(int), 2> before_;

@@ -214,7 +214,7 @@ class Build:
     def tests(self, label):
         """How many of the tests with that label passed, as text, and whether all did."""
         build, chosen = self.folder / "build", chosen_by(label)
-        self.make("build", *self.test_targets(chosen))
+        self.make_all(label)
         report = self.folder / "tests.xml"
         self.run("ctest", "--test-dir", build, "--output-on-failure", *chosen, "--output-junit", report,
                  f"-j{self.jobs}", why="", check=False)

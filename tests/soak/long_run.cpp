@@ -79,7 +79,7 @@ findings findings_of(const json& all) {
 class comparing_threads {
   public:
     comparing_threads(const state& from, const run_options& options, const part& what,
-                      const std::atomic<bool>& stop)
+                      const std::atomic<int>& stop)
         : seed_(from.seed),
           blocks_(options.blocks),
           what_(what),
@@ -116,7 +116,7 @@ class comparing_threads {
   private:
     // Stopping only between blocks, all that are begun are finished, so none is lost.
     void work() {
-        while (!stop_ && !ending_) {
+        while (stop_ == 0 && !ending_) {
             const std::uint64_t block = next_++;
             if (block >= blocks_) break;
             try {
@@ -136,7 +136,7 @@ class comparing_threads {
 
     std::uint64_t seed_, blocks_;
     const part& what_;
-    const std::atomic<bool>& stop_;
+    const std::atomic<int>& stop_;
     std::atomic<bool> ending_ = false;
     std::atomic<std::uint64_t> next_;
     std::mutex mutex_;  // of all that follows
@@ -207,7 +207,7 @@ void save(const state& s, const part& of, const fs::path& folder) {
     errbound::support::write_whole(state_path(folder), to_json(s, of));
 }
 
-state run(state from, const run_options& options, const part& what, const std::atomic<bool>& stop,
+state run(state from, const run_options& options, const part& what, const std::atomic<int>& stop,
           const progress& show) {
     // A folder that cannot be written to is refused now, not in an hour.
     save(from, what, options.folder);

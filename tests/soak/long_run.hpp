@@ -63,10 +63,10 @@ struct run_options {
 /// Called now and then, from the calling thread.
 using progress = std::function<void(const state&)>;
 
-/// Continues `from` until all blocks are done or `stop` is set, and saves now and then and at the
+/// Continues `from` until all blocks are done or `stop` is not 0, and saves now and then and at the
 /// end. Blocks count in their order alone, so the result depends on nothing but seed and number of
 /// blocks. `show` is called about ten times a second. Throws what the part or save throws.
-state run(state from, const run_options& options, const part& what, const std::atomic<bool>& stop,
+state run(state from, const run_options& options, const part& what, const std::atomic<int>& stop,
           const progress& show);
 
 }  // namespace soak

@@ -87,7 +87,7 @@ std::uint64_t count(const soak::findings& found, std::string_view table, std::st
 constexpr std::uint64_t few_blocks = 3;
 
 soak::state run(const soak::state& from, const fs::path& folder, const soak::part& what,
-                const std::atomic<bool>& stop = false) {
+                const std::atomic<int>& stop = 0) {
     return soak::run(from, {.blocks = few_blocks, .threads = 2, .folder = folder}, what, stop,
                      [](const soak::state&) {});
 }
@@ -156,10 +156,10 @@ TEST_F(soak_test, resumed_run_ends_like_an_uninterrupted_one) {
     soak::state s{.seed = 5};
     int sittings = 0;
     for (; s.found.blocks < few_blocks; ++sittings) {
-        std::atomic<bool> stop = false;
+        std::atomic<int> stop = 0;
         soak::part stopping = part;
         stopping.compare_block = [&](std::uint64_t seed, std::uint64_t block) {
-            stop = true;
+            stop = 1;
             return part.compare_block(seed, block);
         };
         run(s, folder / "parts", stopping, stop);

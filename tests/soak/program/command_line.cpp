@@ -239,7 +239,7 @@ int command_line::run(const runner& run_part) const {
     report(part_, last, options_.folder);
     if (last.found.different > 0) return 1;
     if (last.found.blocks < options_.blocks) {
-        std::printf("stopped by signal %d; --resume goes on\n", signals.signal());
+        std::printf("stopped by signal %d; --resume goes on\n", signals.arrived().load());
         return 3;
     }
     return 0;

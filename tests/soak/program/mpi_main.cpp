@@ -34,7 +34,7 @@ const std::string nothing_to_do;
 
 /// As soak::run, on rank 0; saves after every round, since a rank that dies takes the others along.
 soak::state run_part(soak::state from, const soak::run_options& options, const soak::part& part,
-                     const std::atomic<bool>& stop, const soak::progress& show, bool& has_begun) {
+                     const std::atomic<int>& stop, const soak::progress& show, bool& has_begun) {
     save(from, part, options.folder);
     has_begun = true;
     broadcast(MPI_COMM_WORLD, std::to_string(from.seed));
