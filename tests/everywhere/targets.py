@@ -31,10 +31,8 @@ def cross(name, processor, triple, qemu, emulator=None, **more):
                   emulator=emulator or (qemu, "-L", f"/usr/{triple}"), packages=(package, "qemu-user"), **more)
 
 
-def gcc(name, version="", **more):
-    # Libraries of a newer g++ may ask for more than an older one's libstdc++ has.
-    return Target(name, "g++" + version, "gcc" + version, packages=("g++" + version,),
-                  libraries="" if version else "x86-64", **more)
+def gcc(name, version="", libraries="x86-64", **more):
+    return Target(name, "g++" + version, "gcc" + version, packages=("g++" + version,), libraries=libraries, **more)
 
 
 def clang(name, version="", **more):
@@ -71,9 +69,11 @@ TARGETS = [
     gcc("x86-64-fast-math", flags="-ffast-math", refused=True),
     gcc("x86-64-contract", cxx_flags="-march=x86-64-v3 -ffp-contract=fast"),
     gcc("x86-64-c++23", options=("-DCMAKE_CXX_STANDARD=23",)),
+    # Debian 12's oneTBB gives g++ options that 11 does not know.
     gcc("x86-64-g++-11", "-11"),
-    gcc("x86-64-g++-13", "-13"),
-    gcc("x86-64-g++-14", "-14"),
+    # Libraries of a newer g++, Debian 13's, may ask for more than an older one's libstdc++ has.
+    gcc("x86-64-g++-13", "-13", libraries=""),
+    gcc("x86-64-g++-14", "-14", libraries=""),
     clang("x86-64-clang"),
     clang("x86-64-clang-15", "-15"),
     clang("x86-64-clang-16", "-16"),
