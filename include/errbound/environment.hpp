@@ -20,7 +20,7 @@
 
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
 #error \
-    "errbound: operations must round to their own type (FLT_EVAL_METHOD 0); use -msse2 -mfpmath=sse"
+    "errbound: operations must round to their own type (FLT_EVAL_METHOD 0); on x86 without -mfpmath=387 or -ffp-eval-method, on i386 with -msse2 -mfpmath=sse"
 #endif
 
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559,
@@ -28,7 +28,8 @@ static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<floa
 static_assert(sizeof(0.1) == sizeof(double) && 0.1 != static_cast<double>(0.1F),
               "errbound: constants must be doubles; compile without -fsingle-precision-constant");
 
-#if defined(__GLIBC__) && (defined(__x86_64__) || defined(__i386__))
+#if (defined(__linux__) || defined(__MINGW32__)) && !defined(__ANDROID__) && \
+    (defined(__x86_64__) || defined(__i386__))
 static_assert(std::numeric_limits<long double>::digits == 64,
               "errbound: long doubles must be those of the C library; compile without "
               "-mlong-double-64 and -mlong-double-128");

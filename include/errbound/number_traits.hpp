@@ -34,11 +34,13 @@ constexpr int exponent_by_steps(const T& x) {
     return e;
 }
 
-/// Whether a fused product is the C library's, for want of an instruction.
+/// Whether fused products of the type are an instruction, not the C library's.
+template <class T>
+inline constexpr bool fma_is_instruction =
 #if defined(__FP_FAST_FMA) || defined(__FMA__) || defined(__AVX512F__) || defined(__CUDA_ARCH__)
-inline constexpr bool fma_is_called = false;
+    sizeof(T) <= sizeof(double);
 #else
-inline constexpr bool fma_is_called = true;
+    false;
 #endif
 
 }  // namespace detail
@@ -106,13 +108,24 @@ struct number_traits {
     }
     /// ab + c, rounded once.
     static constexpr T fma(const T& a, const T& b, const T& c) {
-        // (Boost.Multiprecision's rounds twice.)
-        static_assert(std::is_floating_point_v<T>,
+        // (Boost.Multiprecision's rounds twice, and libstdc++'s of 16 bits.)
+        static_assert(std::is_floating_point_v<T> && sizeof(T) >= sizeof(float),
                       "errbound: specialise errbound::number_traits for an fma that rounds once");
+#ifdef __MINGW32__
+        // The C library's rounds twice, and without optimisation std::fma is a call of it.
+        static_assert(detail::fma_is_instruction<T>,
+                      "errbound: this C library's fma rounds twice; of float and double compile "
+                      "with -mfma");
+        if constexpr (sizeof(T) == sizeof(float))
+            return __builtin_fmaf(a, b, c);
+        else
+            return __builtin_fma(a, b, c);
+#else
         // Of a product that underflows musl's loses the sign when it adds zero.
-        if constexpr (detail::fma_is_called)
+        if constexpr (!detail::fma_is_instruction<T>)
             if (c == 0 && a != 0 && b != 0) return a * b;
         return std::fma(a, b, c);
+#endif
     }
     /// x·2^e, rounded once.
     static constexpr T scale(const T& x, int e) {

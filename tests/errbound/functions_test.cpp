@@ -8,6 +8,9 @@
 #include <errbound/rules/affine.hpp>
 #include <errbound/rules/relative.hpp>
 #include <limits>
+#include <random>
+
+#include "tests/support/long_double.hpp"
 
 namespace {
 
@@ -103,6 +106,28 @@ TYPED_TEST(Functions, FusedProductsAreRoundedOnce) {
             EXPECT_FALSE(certain(sign_of(underflows)));
         }
     EXPECT_EQ(sign_of(fma(number(a), number(b), number::within(-1, 1e-9))), sign_type::uncertain);
+}
+
+/// What is left of a product that nearly cancels shows a second rounding.
+template <class T>
+void expect_one_rounding_where_products_cancel() {
+    std::mt19937_64 random(1);
+    const auto any = [&] { return T(1) + static_cast<T>(random() >> 11) * T(0x1p-53); };
+    for (int i = 0; i < 1000; ++i) {
+        const T a = any(), b = any();
+        const auto [product, error] = errbound::two_product(a, b);
+        const T c = -product + T(random() % 200) * errbound::number_traits<T>::epsilon();
+        const tracked<T> fused = fma(tracked<T>(a), tracked<T>(b), tracked<T>(c));
+        ASSERT_EQ(fused.value(), (product + c) + error) << a << " " << b << " " << c;
+    }
+}
+
+TEST(FusedProducts, OfAllFormatsAreRoundedOnce) {
+    expect_one_rounding_where_products_cancel<float>();
+    expect_one_rounding_where_products_cancel<double>();
+#ifndef __MINGW32__  // where those of long doubles do not compile
+    expect_one_rounding_where_products_cancel<support::long_double>();
+#endif
 }
 
 TEST(FunctionsOfNone, AreThoseOfPlainArithmetic) {

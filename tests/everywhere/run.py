@@ -233,7 +233,7 @@ def source_of(package):
     """The distribution's, which ./run everywhere fetches."""
     source = next((OUT / package / "source").glob(f"{package}-*/"), None)
     if source is None:
-        raise Failed(f"no source of {package}")
+        raise Failed(f"no source of {package} here: ./run everywhere fetches it")
     return source
 
 
@@ -307,7 +307,7 @@ def print_instructions(jobs):
 
 
 def positive(text):
-    number = int(text)
+    number = int(text) if text.isascii() and text.isdigit() else 0
     if number < 1:
         raise argparse.ArgumentTypeError(f"found {text}, expected a positive number")
     return number

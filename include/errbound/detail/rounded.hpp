@@ -41,10 +41,11 @@ constexpr float rounded(const float& x) {
 #if !defined(__x86_64__) || defined(__FMA__) || defined(__FMA4__) || defined(__AVX512F__)
 template <std::floating_point T>
 constexpr T rounded(const T& x) {
-    if (std::is_constant_evaluated() || sizeof(T) > sizeof(double)) return x;
+    if (std::is_constant_evaluated()) return x;
     T y = x;
 #if defined(__x86_64__)
-    asm("" : "+x"(y));
+    // Long doubles are x87's or a library's, which do not fuse.
+    if constexpr (sizeof(T) <= sizeof(double)) asm("" : "+x"(y));
 #elif defined(__aarch64__)
     asm("" : "+w"(y));
 #else

@@ -50,6 +50,12 @@ class lockstep {
     using told = tracked<T, explained<Rule, Limit>>;
     using traits = errbound::number_traits<T>;
     using amount = errbound::detail::amount_of<T>;
+    /// On Windows fused products of long doubles do not compile.
+#ifdef __MINGW32__
+    static constexpr bool fuses = sizeof(T) <= sizeof(double);
+#else
+    static constexpr bool fuses = true;
+#endif
     struct sample {
         plain by_rule;
         told by_explained;
@@ -90,7 +96,9 @@ class lockstep {
         if (!traits::is_finite(v)) return std::nullopt;
         return exactly_of(v);
     }
-    const sample& any() { return pool_[random_() % pool_.size()]; }
+    const sample& any() {
+        return pool_[random_() % pool_.size()];
+    }
 
     sample operation() {
         const sample a = any(), b = any();
@@ -136,11 +144,15 @@ class lockstep {
             case 3:
                 return of_both([](auto x, auto y, auto) { return max(x, y); });
             case 4:
-                return of_both([](auto x, auto y, auto z) { return fma(x, y, z); });
+                if constexpr (fuses)
+                    return of_both([](auto x, auto y, auto z) { return fma(x, y, z); });
+                return a;
             case 5:
                 return of_both([](auto x, auto y, auto) { return midpoint(x, y); });
             case 6:
-                return of_both([](auto x, auto y, auto z) { return lerp(x, y, z); });
+                if constexpr (fuses)
+                    return of_both([](auto x, auto y, auto z) { return lerp(x, y, z); });
+                return a;
             case 7:
                 return of_both([](auto x, auto y, auto) { return copysign(x, y); });
             case 8:

@@ -64,6 +64,16 @@ void check_expression() {
     const wide bound = wide((small * tiny).error() / unit);
     expect(size((shown << 64) - wide(a) * b) <= (bound + 1) << 64, "a product that underflows");
 }
+void check_long_doubles() {
+    using number = errbound::tracked<long double>;
+    using wider = long double;
+    const std::int64_t a = whole(53), b = whole(53), c = whole(53), d = whole(53);
+    const auto product = errbound::two_product(wider(a), wider(b));
+    expect(wide(product.value) + wide(product.error) == wide(a) * b, "two_product of long doubles");
+    const number x = number(wider(a)) * wider(b) - number(wider(c)) * wider(d);
+    const wide exact = wide(a) * b - wide(c) * d;
+    expect(size(wide(x.value()) - exact) <= wide(x.error()), "long doubles");
+}
 /// Whole numbers, of which products and sums are rounded; the plain loops' products are written to
 /// memory, so that no compiler fuses them.
 template <class Rule>
@@ -129,6 +139,7 @@ int main() {
         check_sums<errbound::tight>();
         check_sums<errbound::interval>();
         check_sums<errbound::residual>();
+        check_long_doubles();
         check_signs();
     }
     std::printf("%s, other unit %s, %d wrong\n",
