@@ -29,7 +29,7 @@ static_assert(sizeof(0.1) == sizeof(double) && 0.1 != static_cast<double>(0.1F),
               "errbound: constants must be doubles; compile without -fsingle-precision-constant");
 
 #if (defined(__linux__) || defined(__MINGW32__)) && !defined(__ANDROID__) && \
-    (defined(__x86_64__) || defined(__i386__))
+    (defined(__x86_64__) || defined(__i386__))  // Android's have 64 or 128 bits.
 static_assert(std::numeric_limits<long double>::digits == 64,
               "errbound: long doubles must be those of the C library; compile without "
               "-mlong-double-64 and -mlong-double-128");

@@ -43,6 +43,15 @@ constexpr double rounded = 20 * std::numeric_limits<double>::epsilon();
 
 const char* const scope_names[] = {"first", "second", "third", "fourth"};
 
+/// On Windows fused products of long doubles do not compile.
+#ifdef __MINGW32__
+template <class T>
+constexpr bool fuses = sizeof(T) <= sizeof(double);
+#else
+template <class T>
+constexpr bool fuses = true;
+#endif
+
 /// Random programs by a rule and by `explained` of it, step by step.
 template <class T, class Rule, std::size_t Limit>
 class lockstep {
@@ -50,12 +59,6 @@ class lockstep {
     using told = tracked<T, explained<Rule, Limit>>;
     using traits = errbound::number_traits<T>;
     using amount = errbound::detail::amount_of<T>;
-    /// On Windows fused products of long doubles do not compile.
-#ifdef __MINGW32__
-    static constexpr bool fuses = sizeof(T) <= sizeof(double);
-#else
-    static constexpr bool fuses = true;
-#endif
     struct sample {
         plain by_rule;
         told by_explained;
@@ -96,9 +99,7 @@ class lockstep {
         if (!traits::is_finite(v)) return std::nullopt;
         return exactly_of(v);
     }
-    const sample& any() {
-        return pool_[random_() % pool_.size()];
-    }
+    const sample& any() { return pool_[random_() % pool_.size()]; }
 
     sample operation() {
         const sample a = any(), b = any();
@@ -144,13 +145,13 @@ class lockstep {
             case 3:
                 return of_both([](auto x, auto y, auto) { return max(x, y); });
             case 4:
-                if constexpr (fuses)
+                if constexpr (fuses<T>)
                     return of_both([](auto x, auto y, auto z) { return fma(x, y, z); });
                 return a;
             case 5:
                 return of_both([](auto x, auto y, auto) { return midpoint(x, y); });
             case 6:
-                if constexpr (fuses)
+                if constexpr (fuses<T>)
                     return of_both([](auto x, auto y, auto z) { return lerp(x, y, z); });
                 return a;
             case 7:
