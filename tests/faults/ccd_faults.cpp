@@ -54,7 +54,7 @@ TEST(CcdFaults, Meshes) {
 
 TEST(CcdFaults, Steps) {
     for (const int threads : {1, 2}) {
-        const auto& [before, after] = frames_for(threads);
+        const brute_force::two_frames& frames = frames_for(threads);
         const std::string of = ", threads: " + std::to_string(threads);
         const step_options options = options_of(threads);
         for (const method m : {method::exact, method::tight}) {
@@ -62,10 +62,11 @@ TEST(CcdFaults, Steps) {
             by.method = m;
             by.explain = m == method::exact;
             try_every_allocation("step by " + std::string(info(m).name) + of,
-                                 [&] { return content(step(before, after, by)); });
+                                 [&] { return content(step(frames.first, frames.second, by)); });
         }
-        try_every_allocation("candidates" + of,
-                             [&] { return sorted(candidates(before, after, options)); });
+        try_every_allocation("candidates" + of, [&] {
+            return sorted(candidates(frames.first, frames.second, options));
+        });
     }
 }
 

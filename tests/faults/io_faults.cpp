@@ -54,9 +54,10 @@ TEST(IoFaults, Meshes) {
     for (const auto& [name, text] :
          {std::pair("a-mesh.ply", ascii_ply), std::pair("a-mesh.obj", some_obj),
           std::pair("without-extension", some_obj)}) {
-        test_files::write(directory.path / name, text);
+        const auto path = directory.path / name;
+        test_files::write(path, text);
         try_every_allocation(std::string("read_mesh ") + name,
-                             [&] { return content(read_mesh(directory.path / name)); });
+                             [&] { return content(read_mesh(path)); });
     }
 }
 
