@@ -20,7 +20,7 @@
 
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
 #error \
-    "errbound: operations must round to their own type (FLT_EVAL_METHOD 0); on x86 without -mfpmath=387 or -ffp-eval-method, on i386 with -msse2 -mfpmath=sse"
+    "errbound: operations must round to their own type (FLT_EVAL_METHOD 0); on x86 without -mfpmath=387, -ffp-eval-method and parts of -ffast-math, on i386 with -msse2 -mfpmath=sse"
 #endif
 
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559,

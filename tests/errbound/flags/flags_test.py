@@ -62,17 +62,18 @@ def outcome(compiler, where, flags, folder):
 
 def compilers_of(name):
     """Those of a column of the table that are here."""
-    names = {"clang": ["clang++", "clang++-19"]}.get(name, [name])
+    names = {"clang": ["clang++", *(f"clang++-{version}" for version in range(15, 20))]}.get(name, [name])
     return [found for found in names if shutil.which(found)]
 
 
 def said_of(compiler, cell):
     """What a cell says of that version of its compiler."""
-    before, since, version = re.fullmatch(r"(\w+)(?:, (\w+) from (\d+) on)?", cell).groups()
-    if since is None:
+    before, other, how, version = re.fullmatch(r"(\w+)(?:, (\w+) (by|from) (\d+)(?: on)?)?", cell).groups()
+    if other is None:
         return before
-    major = subprocess.run([compiler, "-dumpversion"], capture_output=True, check=True, text=True).stdout.split(".")[0]
-    return since if int(major) >= int(version) else before
+    major = int(subprocess.run([compiler, "-dumpversion"], capture_output=True, check=True,
+                               text=True).stdout.split(".")[0])
+    return other if major == int(version) or (how == "from" and major > int(version)) else before
 
 
 def row_outcome(case):
