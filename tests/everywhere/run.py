@@ -221,7 +221,7 @@ class Build:
         counts = {name: int(number) for name, number in
                   re.findall(r'\b(tests|failures|skipped|disabled)="(\d+)"', report.read_text())}
         run = counts["tests"] - counts["skipped"] - counts["disabled"]
-        return f"{run - counts['failures']} of {run}", counts["failures"] == 0
+        return f"{run - counts['failures']} of {run}", counts["failures"] == 0 and run > 0
 
 
 def chosen_by(label):
@@ -322,9 +322,11 @@ def expression(text):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="./run everywhere", description=__doc__.split("\n\n")[0])
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all, of which those whose compilers "
-                        "this machine cannot have are no failures: " + ", ".join(t.name for t in TARGETS))
+    names = ", ".join(t.name for t in TARGETS)
+    parser = argparse.ArgumentParser(prog="./run everywhere", description=__doc__.split("\n\n")[0],
+                                     allow_abbrev=False)
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help="by default all; one whose compiler this machine "
+                        f"cannot have is a failure only if it is named: {names}")
     parser.add_argument("--tests", metavar="LABEL", type=expression, default="^(unit|property)$",
                         help="of which label, a regular expression; '' for none (%(default)s); those of the "
                         "label `sources`, which are the same for all, are left out")
@@ -332,19 +334,21 @@ def main():
                         help="how many compilers or tests at a time (%(default)s)")
     parser.add_argument("--instructions", action="store_true",
                         help=f"instead of rows, instructions per query of the kernels of {' and '.join(COUNTED)}")
-    parser.add_argument("--packages", action="store_true", help="prints what must be installed, no more")
-    parser.add_argument("--sources", action="store_true", help="prints of which packages it takes the source, no more")
+    needs = parser.add_mutually_exclusive_group()
+    needs.add_argument("--packages", action="store_true",
+                       help="only prints what it installs for these targets, beside the packages of a build")
+    needs.add_argument("--sources", action="store_true", help="only prints of which packages it takes the source")
     arguments = parser.parse_args()
     known = {t.name for t in TARGETS}
     unknown = set(arguments.targets) - known
     if unknown:
-        parser.error("no target " + ", ".join(sorted(unknown)))
+        parser.error(f"found {', '.join(map(repr, sorted(unknown)))}, expected targets: {names}")
     if arguments.tests in known:
         parser.error(f"--tests: found the target {arguments.tests}, expected a label of tests, or '' for none")
     if arguments.instructions and arguments.targets:
         parser.error(f"--instructions: found targets, expected none: they are {' and '.join(COUNTED)}")
-    names = COUNTED if arguments.instructions else arguments.targets
-    chosen = [t for t in TARGETS if t.name in names or not names]
+    named = COUNTED if arguments.instructions else arguments.targets
+    chosen = [t for t in TARGETS if t.name in named or not named]
     if arguments.packages:
         print(*sorted({p for t in chosen for p in t.packages}), sep="\n")
         return 0
@@ -355,7 +359,7 @@ def main():
     if arguments.instructions:
         return 0 if print_instructions(arguments.jobs) else 1
     print(ROW.format("target", "compiler", "tests", "packed", "time", "hash"), flush=True)
-    rows = [print_row(t, arguments.tests, arguments.jobs, bool(names)) for t in chosen]
+    rows = [print_row(t, arguments.tests, arguments.jobs, bool(named)) for t in chosen]
     return 0 if all(rows) else 1
 
 
