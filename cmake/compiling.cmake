@@ -12,6 +12,10 @@ if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
+if(UNIX AND CMAKE_SIZEOF_VOID_P EQUAL 4)
+  add_compile_definitions(_FILE_OFFSET_BITS=64)  # files of more than 2 GiB
+endif()
+
 if(ERRBOUND_SANITIZE)
   add_compile_options(-fsanitize=${ERRBOUND_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer -g1)

@@ -28,7 +28,8 @@ int run_command_line(int argc, char** argv) {
         "Exit status: 0 done, 1 bad input, 2 bad usage; of stress and report also 1: a promise was "
         "broken.",
         "ccd"};
-    app.require_subcommand(0, 1);  // none is told from an unknown one, which is named
+    app.require_subcommand(0, 1);            // none is told from an unknown one, which is named
+    app.allow_windows_style_options(false);  // a path may begin with a slash
     app.set_version_flag("--version", std::string("ccd ") + ERRBOUND_VERSION);
     try {
         return run(app, argc, argv);

@@ -18,7 +18,8 @@ int run_command_line(int argc, char** argv) {
         "Error bounds held against MPFR, and errors of programs explained.\n"
         "Exit status: 0 done, 1 bad input or violations found, 2 bad usage.",
         "errbound"};
-    app.require_subcommand(0, 1);  // none is told from an unknown one, which is named
+    app.require_subcommand(0, 1);            // none is told from an unknown one, which is named
+    app.allow_windows_style_options(false);  // a path may begin with a slash
     app.set_version_flag("--version", std::string("errbound ") + ERRBOUND_VERSION);
     constexpr int one_per_core = 0;
     validate_options validate(app, one_per_core);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "errbound/support/output_file.hpp"
+#include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
 
@@ -91,6 +92,19 @@ inline std::ostream& stream_for_people(
     return std::cout;
 }
 
+/// Whether two names are of one file, which need not be there yet.
+inline bool are_of_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(a, b, ignored)) return true;
+    const auto without_links = [](const std::filesystem::path& name) {
+        std::error_code error;
+        auto real = std::filesystem::absolute(name, error);
+        if (!error) real = std::filesystem::weakly_canonical(real, error);
+        return system::native_name(error ? name.lexically_normal() : real);
+    };
+    return system::are_one_name(without_links(a), without_links(b));
+}
+
 /// An output must be neither an input nor another output, so that nothing is lost, and writable,
 /// so that no work is.
 inline void require_good_outputs(const std::vector<std::optional<std::filesystem::path>>& outputs,
@@ -101,10 +115,9 @@ inline void require_good_outputs(const std::vector<std::optional<std::filesystem
             std::error_code ignored;
             const bool same_stream =
                 descriptor_of(*output) && descriptor_of(*output) == descriptor_of(other);
-            const bool same = std::filesystem::equivalent(*output, other, ignored) ||
-                              output->lexically_normal() == other.lexically_normal();
-            if (same_stream || (same && std::filesystem::status(*output, ignored).type() !=
-                                            std::filesystem::file_type::character))
+            if (same_stream || (are_of_one_file(*output, other) &&
+                                std::filesystem::status(*output, ignored).type() !=
+                                    std::filesystem::file_type::character))
                 throw usage_error("found the output '" + output->string() +
                                   "' among the inputs or twice, expected a file of its own");
         }

@@ -102,6 +102,9 @@ std::string real_name(const std::string& name) {
                                                            &std::free);
     return real ? real.get() : "";
 }
+bool are_one_name(const std::string& a, const std::string& b) {
+    return a == b;
+}
 bool exists(const std::string& name) {
     return access(name.c_str(), F_OK) == 0;
 }

@@ -37,6 +37,8 @@ extern const bool has_device_files;
 std::string native_name(const std::filesystem::path& path);
 /// Without links; empty if there is no such file.
 std::string real_name(const std::string& name);
+/// Whether two names, absolute and without links, are one to the system.
+bool are_one_name(const std::string& a, const std::string& b);
 bool exists(const std::string& name);
 bool may_write(const std::string& file);
 bool may_write_in(const std::string& folder);

@@ -114,6 +114,9 @@ std::string real_name(const std::string& name) {
     errno = file == INVALID_HANDLE_VALUE ? ENOENT : EIO;
     return {};
 }
+bool are_one_name(const std::string& a, const std::string& b) {
+    return CompareStringOrdinal(wide(a).c_str(), -1, wide(b).c_str(), -1, TRUE) == CSTR_EQUAL;
+}
 bool exists(const std::string& name) {
     return rights_of(name, to_exist) == 0;
 }

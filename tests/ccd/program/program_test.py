@@ -188,6 +188,16 @@ class Query(ProgramTest):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(pathlib.Path(out).read_text(), "old\n")
 
+    def test_one_output_by_two_names(self):
+        file = self.write("vf.csv", HIT)
+        out = self.directory / "folder" / "out"
+        out.parent.mkdir()
+        (self.directory / "link").symlink_to(out.parent)
+        for name in os.path.relpath(out), self.directory / "link" / "out", out.parent / ".." / "folder" / "out":
+            self.assertIn("twice", self.bad_usage("query", file, "--method", "exact", "--verdicts", out,
+                                                  "--json", name))
+            self.assertFalse(out.exists())
+
     def test_bad_usage(self):
         file = self.write("vf.csv", HIT)
         self.bad_usage()
