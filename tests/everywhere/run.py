@@ -208,8 +208,10 @@ class Build:
 
     def test_targets(self, chosen):
         helper = [sys.executable, ROOT / "cmake" / "test_targets.py", self.folder / "build", *chosen]
-        return subprocess.run(helper, env=self.environment, check=True, stdout=subprocess.PIPE,
-                              text=True).stdout.split()
+        done = subprocess.run(helper, env=self.environment, stdout=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            raise Failed("ctest takes no such label: " + chosen[1])
+        return done.stdout.split()
 
     def tests(self, label):
         """How many of the tests with that label passed, as text, and whether all did."""
@@ -306,10 +308,11 @@ def print_instructions(jobs):
         return False
 
 
-def positive(text):
+def jobs(text):
+    most = 1024
     number = int(text) if text.isascii() and text.isdigit() else 0
-    if number < 1:
-        raise argparse.ArgumentTypeError(f"found {text}, expected a positive number")
+    if not 1 <= number <= most:
+        raise argparse.ArgumentTypeError(f"found '{text}', expected a number from 1 to {most}")
     return number
 
 
@@ -330,7 +333,7 @@ def main():
     parser.add_argument("--tests", metavar="LABEL", type=expression, default="^(unit|property)$",
                         help="of which label, a regular expression; '' for none (%(default)s); those of the "
                         "label `sources`, which are the same for all, are left out")
-    parser.add_argument("--jobs", metavar="N", type=positive, default=os.cpu_count(),
+    parser.add_argument("--jobs", metavar="N", type=jobs, default=os.cpu_count(),
                         help="how many compilers or tests at a time (%(default)s)")
     parser.add_argument("--instructions", action="store_true",
                         help=f"instead of rows, instructions per query of the kernels of {' and '.join(COUNTED)}")
@@ -353,7 +356,8 @@ def main():
         print(*sorted({p for t in chosen for p in t.packages}), sep="\n")
         return 0
     if arguments.sources:
-        print("onetbb", *["gmp"] * bool(arguments.tests and not arguments.instructions))
+        if not all(t.refused for t in chosen):
+            print("onetbb", *["gmp"] * bool(arguments.tests and not arguments.instructions))
         return 0
     link_headers()
     if arguments.instructions:
