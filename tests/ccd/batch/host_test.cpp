@@ -70,6 +70,7 @@ constexpr auto of_degree_32 =
         return power(a[0] - b[0]) - power(a[0] - c[0]);
     });
 
+// As docs/guarantees.md promises: without optimisation each temporary has a place of its own.
 #ifdef __OPTIMIZE__
 constexpr std::size_t most_of_one_query = 64 << 10;
 #else
