@@ -9,12 +9,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
+#include <errbound/detail/bits.hpp>
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <errbound/roots/double_order.hpp>
@@ -83,7 +83,7 @@ class root_search {
                 continue;
             }
             x += earlier ? step : -step;
-            step = std::min(4 * step, farthest_step);
+            if (step < farthest_step) step *= 4;
         }
         return time_bracket{double_of_order(a), double_of_order(b)};
     }
@@ -97,7 +97,8 @@ class root_search {
 
   private:
     static constexpr int max_corrections = 3;
-    static constexpr std::int64_t farthest_step = std::int64_t{1} << 60;  ///< of 2^62 doubles
+    static constexpr std::int64_t farthest_step = std::int64_t{1}
+                                                  << 60;  ///< a power of 4, of 2^62 doubles
 
     struct value_type {
         errbound::sign_type sign;
@@ -113,7 +114,7 @@ class root_search {
     constexpr std::optional<value_type> value_at(double t) const {
         const errbound::integers::binary_double d(t);
         if (d.magnitude == 0) return of_exact(p_[0], 0);
-        const int zeros = std::countr_zero(d.magnitude), bits = -(d.exponent + zeros);
+        const int zeros = errbound::detail::countr_zero(d.magnitude), bits = -(d.exponent + zeros);
         if (bits <= 62) return value_in_words<1>(d.magnitude >> zeros, bits);
         if (bits <= 126) return value_in_words<2>(d.magnitude >> zeros, bits);
         return {};

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <errbound/bernstein.hpp>
+#include <errbound/detail/bits.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <optional>
 #include <type_traits>
@@ -134,7 +134,7 @@ struct root_bracket {
     constexpr std::int64_t width() const { return (high - low).low_word(); }
     /// high − low < 2^width_bits()
     constexpr int width_bits() const {
-        return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(width())));
+        return static_cast<int>(errbound::detail::bit_width(static_cast<std::uint64_t>(width())));
     }
 };
 

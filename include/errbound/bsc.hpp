@@ -263,8 +263,8 @@ constexpr existence at_end(sign_type y_end, const quartics<S, M>& g, int coeffic
 
 /// One inner root at which Y leaves the strict sign `before`.
 template <class S, std::size_t M>
-constexpr existence at_crossing(const cubic<S>& y, sign_type before, bool root_is_certain,
-                                const quartics<S, M>& g) {
+[[gnu::noinline]] constexpr existence at_crossing(const cubic<S>& y, sign_type before,
+                                                  bool root_is_certain, const quartics<S, M>& g) {
     conjunction all(root_is_certain);
     for (std::size_t i = 0; i < M && !all.excluded(); ++i)
         all.require_nonnegative(sign_at_crossing(y, before, g[i]));
@@ -273,8 +273,8 @@ constexpr existence at_crossing(const cubic<S>& y, sign_type before, bool root_i
 
 /// Two inner roots, or a double one, of a convex Y that is positive at both ends.
 template <class S, std::size_t M>
-constexpr existence at_pair(const cubic<S>& y, const bernstein<S, 2>& d, bool ends_are_certain,
-                            const quartics<S, M>& g) {
+[[gnu::noinline]] constexpr existence at_pair(const cubic<S>& y, const bernstein<S, 2>& d,
+                                              bool ends_are_certain, const quartics<S, M>& g) {
     const sign_type d0 = sign_of(d[0]), d2 = sign_of(d[2]);
     if (certainly_nonnegative(d0) || certainly_nonpositive(d2)) return existence::no;  // monotone
     // Uncertain d0 or d2: either Y is monotone and there is no root, or d0 < 0 < d2 holds, so
@@ -304,8 +304,8 @@ constexpr existence on_increasing(const cubic<S>& y, const quartics<S, M>& g) {
 
 /// Y convex and not constant on [0, 1]: every world of end signs.
 template <class S, std::size_t M>
-constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
-                              const quartics<S, M>& g) {
+[[gnu::noinline]] constexpr existence on_convex(const cubic<S>& y, const bernstein<S, 2>& d,
+                                                const quartics<S, M>& g) {
     const sign_type y0 = sign_of(y[0]), y3 = sign_of(y[3]);
     const bool ends_are_certain = certain(y0) && certain(y3);
     existence found = either(at_end(y0, g, 0), at_end(y3, g, 4));
@@ -394,7 +394,7 @@ constexpr std::pair<part<S, M>, part<S, M>> divided(const part<S, M>& p, const P
 /// The answer on a part as it is, or split at its inflection; nothing if the sign of Y'' is
 /// uncertain where it matters.
 template <class S, std::size_t M>
-constexpr std::optional<existence> without_halving(const part<S, M>& p) {
+[[gnu::noinline]] constexpr std::optional<existence> without_halving(const part<S, M>& p) {
     const bernstein<S, 2> d = derivative(p.y);
     if (const auto known = without_curvature(p, d)) return known;
     const bernstein<S, 1> second = derivative(d);
@@ -420,7 +420,7 @@ constexpr std::optional<existence> without_halving(const part<S, M>& p) {
 
 /// The answer on a part, by up to max_halvings of it.
 template <class S, std::size_t M>
-constexpr existence by_halving(const part<S, M>& whole) {
+[[gnu::noinline]] constexpr existence by_halving(const part<S, M>& whole) {
     std::array<part<S, M>, max_halvings + 1> waiting;  // the earliest last
     std::array<int, max_halvings + 1> halvings;        // that led to each
     std::size_t count = 1;
@@ -461,7 +461,10 @@ constexpr existence root_with_nonnegative(const bernstein<S, 3>& y, const MakeCo
     const bsc::cubic<S> cubic = normalized(y);
     if (certainly_rootless(cubic)) return existence::no;
     const auto g = make_g();
-    bsc::part<S, std::tuple_size_v<std::remove_cvref_t<decltype(g)>>> whole{cubic, {}};
+    // Assigned, not initialised as part{cubic, {}}: nvcc 13 has no device code for the construction
+    // of a nested array of a class, and calls address 0 instead.
+    bsc::part<S, std::tuple_size_v<std::remove_cvref_t<decltype(g)>>> whole;
+    whole.y = cubic;
     for (std::size_t i = 0; i < g.size(); ++i) whole.g[i] = normalized(g[i]);
     // Apart, since few queries need the memory of halving.
     const auto found = bsc::without_halving(whole);

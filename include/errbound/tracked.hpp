@@ -12,8 +12,8 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <concepts>
+#include <errbound/detail/bits.hpp>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/number_traits.hpp>
 #include <errbound/rules/interval.hpp>
@@ -53,7 +53,7 @@ constexpr bool is_exactly(const T& v, Number value) {
         if constexpr (std::numeric_limits<Number>::digits <= traits::digits) return true;
         using bits = std::make_unsigned_t<Number>;
         const bits size = value < 0 ? bits(bits(0) - bits(value)) : bits(value);
-        return static_cast<int>(std::bit_width(size)) - std::countr_zero(size) <= traits::digits;
+        return detail::bit_width(size) - detail::countr_zero(size) <= traits::digits;
     }
 }
 

@@ -133,7 +133,8 @@ class solver {
         const T direction = at_q.value() >= at_p.value() ? 1 : -1;
         const T slack = slack_of(slope, vertex, direction, p, q);
         const auto tolerance = [&](const scalar& x) {
-            return traits::max(limits_.root, x.error()) + slack;
+            // A copy: nvcc has no device code for a reference to a static constexpr member.
+            return traits::max(T(limits_.root), x.error()) + slack;
         };
         const T low = direction * at_p.value(), high = direction * at_q.value();
         if (low > tolerance(at_p) || high < -tolerance(at_q)) return none;

@@ -28,7 +28,7 @@ struct predicate_report {
     std::uint64_t operator[](predicate_stage s) const {
         return decided[static_cast<std::size_t>(s)];
     }
-    void count(predicate_stage s) { ++decided[static_cast<std::size_t>(s)]; }
+    constexpr void count(predicate_stage s) { ++decided[static_cast<std::size_t>(s)]; }
 };
 
 }  // namespace errbound

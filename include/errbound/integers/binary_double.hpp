@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <errbound/detail/bits.hpp>
 #include <limits>
 
 namespace errbound::integers {
@@ -25,16 +26,16 @@ struct binary_double {
     }
     /// For x not zero, the odd number that x is times 2^last_bit().
     constexpr std::int64_t odd_part() const {
-        const auto odd = static_cast<std::int64_t>(magnitude >> std::countr_zero(magnitude));
+        const auto odd = static_cast<std::int64_t>(magnitude >> detail::countr_zero(magnitude));
         return negative ? -odd : odd;
     }
     /// The place of the last bit that is set; of 0 above every other's.
     constexpr int last_bit() const {
         return magnitude == 0 ? std::numeric_limits<int>::max()
-                              : exponent + std::countr_zero(magnitude);
+                              : exponent + detail::countr_zero(magnitude);
     }
     /// One above the place of the first bit that is set; of 0 below every other's.
-    constexpr int end_bit() const { return exponent + static_cast<int>(std::bit_width(magnitude)); }
+    constexpr int end_bit() const { return exponent + detail::bit_width(magnitude); }
 };
 
 }  // namespace errbound::integers

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/detail/bits.hpp>
 #include <errbound/detail/power_of_two.hpp>
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/sized_integer.hpp>
@@ -84,7 +85,7 @@ struct word_coordinates {
             any |= static_cast<std::uint64_t>(value[i]);
         }
         fit = differing << 1 == 0;  // zeros may differ in sign
-        least_bits_ = any == 0 ? 0 : max_bits - std::countr_zero(any);
+        least_bits_ = any == 0 ? 0 : max_bits - detail::countr_zero(any);
     }
 
     /// Of values in the largest common unit.

@@ -13,10 +13,10 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/detail/bits.hpp>
 #include <errbound/integers/double_word.hpp>
 #include <errbound/sign.hpp>
 #include <type_traits>
@@ -211,7 +211,7 @@ class fixed_integer {
         const word invert = words::sign_word(words_[Words - 1]);
         for (int i = Words - 1; i >= 0; --i) {
             const word w = (*this)[i] ^ invert;
-            if (w != 0) return 64 * i + static_cast<int>(std::bit_width(w));
+            if (w != 0) return 64 * i + detail::bit_width(w);
         }
         return 0;
     }

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <compare>
@@ -25,6 +24,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <errbound/detail/bits.hpp>
 #include <errbound/integers/binary_double.hpp>
 #include <errbound/integers/magnitudes.hpp>
 #include <errbound/sign.hpp>
@@ -221,14 +221,14 @@ class integer {
     /// ⌊log2 |x|⌋, the place of |x|'s first bit, and that of its last, for x not zero.
     friend int msb(const integer& x) {
         assert(x.size_ != 0);
-        return 64 * x.size() - 1 - std::countl_zero(x.data()[x.size() - 1]);
+        return 64 * x.size() - 1 - detail::countl_zero(x.data()[x.size() - 1]);
     }
     friend int floor_log2(const integer& x) { return msb(x); }
     friend int lsb(const integer& x) {
         assert(x.size_ != 0);
         int i = 0;
         while (x.data()[i] == 0) ++i;
-        return 64 * i + std::countr_zero(x.data()[i]);
+        return 64 * i + detail::countr_zero(x.data()[i]);
     }
 
     // Order
@@ -403,7 +403,8 @@ class integer {
         const bool is_operand = this == &longer || this == &shorter;
         if (n <= 1) {
             const word factor = shorter.low_word();
-            const bool carries = std::bit_width(factor) + std::bit_width(longer.data()[m - 1]) > 64;
+            const bool carries =
+                detail::bit_width(factor) + detail::bit_width(longer.data()[m - 1]) > 64;
             const room to = room_for(m + carries);
             const word carry =
                 integers::words::multiply_by_word(to.words, longer.data(), m, factor);
@@ -476,7 +477,7 @@ class integer {
         long_division(const integer& a, const integer& b)
             : m_(a.size()),
               n_(b.size()),
-              shift_(std::countl_zero(b.data()[n_ - 1])),
+              shift_(detail::countl_zero(b.data()[n_ - 1])),
               copies_(m_ + 1 + n_),
               a_(copies_.data()),
               b_(a_ + m_ + 1) {
@@ -534,7 +535,7 @@ class integer {
     /// The steps that Lehmer's algorithm makes of a >= b > 0, b of three words at least, or one
     /// division.
     static void euclid_steps(integer& a, integer& b) {
-        const int n = a.size(), shift = std::countl_zero(a.data()[n - 1]);
+        const int n = a.size(), shift = detail::countl_zero(a.data()[n - 1]);
         const auto first_bits = [&](const integer& x) {
             const auto word_at = [&](int i) { return i < x.size() ? x.data()[i] : 0; };
             return word_at(n - 1) << shift | word_at(n - 2) >> 1 >> (63 - shift);

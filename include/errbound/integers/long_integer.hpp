@@ -5,8 +5,8 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
+#include <errbound/detail/bits.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <errbound/sign.hpp>
 #include <type_traits>
@@ -190,7 +190,7 @@ class long_integer {
         const word invert = words::sign_word((*this)[size_ - 1]);
         // Trimmed, so the last word says nothing at most if the one before it says all.
         const int last = size_ > 1 && (*this)[size_ - 1] == invert ? size_ - 2 : size_ - 1;
-        return 64 * last + static_cast<int>(std::bit_width((*this)[last] ^ invert));
+        return 64 * last + detail::bit_width((*this)[last] ^ invert);
     }
     /// ⌊x/2^shift⌋ modulo 2^64, for shift >= 0.
     /// Proof, of one word: proofs/WordBits.v, from_bit_exact.

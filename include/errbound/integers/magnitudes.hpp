@@ -7,8 +7,8 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <compare>
+#include <errbound/detail/bits.hpp>
 #include <errbound/integers/fixed_integer.hpp>
 #include <errbound/integers/long_integer.hpp>
 #include <numeric>
@@ -213,7 +213,7 @@ constexpr word divide_two_words(word& rest, word low, word d, word v) {
 /// remainder.
 template <class Store>
 constexpr word divide_by_word(const word* a, int n, word d, const Store& store) {
-    const int shift = std::countl_zero(d);
+    const int shift = detail::countl_zero(d);
     const word divisor = d << shift, v = reciprocal(divisor);
     word rest = a[n - 1] >> 1 >> (63 - shift);
     for (int i = n - 1; i >= 0; --i) {
@@ -349,7 +349,7 @@ struct word_pair {
 /// Of a number that is not zero.
 constexpr word_pair odd_part(word_pair x) {
     if (x.low == 0) x = {0, x.high};
-    const int zeros = std::countr_zero(x.low);
+    const int zeros = detail::countr_zero(x.low);
     return {x.high >> zeros, x.low >> zeros | x.high << 1 << (63 - zeros)};
 }
 

@@ -1,0 +1,49 @@
+// Bit counts that exist on the host and on CUDA devices.
+//
+// nvcc has no device code for the builtins behind <bit>'s counting functions. Inside constexpr
+// functions it replaces their calls by calls of address 0, without a warning, and removes the code
+// after them as unreachable. Code that a device can reach calls these functions instead;
+// tests/ccd/cuda/null_calls.py searches the device code for such calls.
+#pragma once
+
+#include <bit>
+#include <limits>
+#include <type_traits>
+
+namespace errbound::detail {
+
+/// Number of leading zero bits; all of T's bits for x == 0.
+template <class T>
+constexpr int countl_zero(T x) {
+#ifdef __CUDA_ARCH__
+    constexpr int digits = std::numeric_limits<T>::digits;
+    static_assert(std::is_unsigned_v<T> && digits <= 64);
+    if (!std::is_constant_evaluated()) return __clzll(static_cast<long long>(x)) - (64 - digits);
+    int zeros = digits;
+    for (; x != 0; x = static_cast<T>(x >> 1)) --zeros;
+    return zeros;
+#else
+    return std::countl_zero(x);
+#endif
+}
+
+/// Number of trailing zero bits; all of T's bits for x == 0.
+template <class T>
+constexpr int countr_zero(T x) {
+#ifdef __CUDA_ARCH__
+    // x & -x has only the lowest set bit of x.
+    if (x == 0) return std::numeric_limits<T>::digits;
+    return std::numeric_limits<T>::digits - 1 -
+           countl_zero(static_cast<T>(x & static_cast<T>(~x + 1)));
+#else
+    return std::countr_zero(x);
+#endif
+}
+
+/// Number of bits that x takes: 1 + floor(log2 x), and 0 for x == 0.
+template <class T>
+constexpr int bit_width(T x) {
+    return std::numeric_limits<T>::digits - countl_zero(x);
+}
+
+}  // namespace errbound::detail
