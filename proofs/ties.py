@@ -70,6 +70,7 @@ def functions(path):
     text = (root / path).read_text()
     for _, first, lines in cpp_functions(text):
         head = "\n".join(text.split("\n")[first - 1:first - 1 + lines]).split("{")[0]
+        head = re.sub(r"\((min|max)\)\(", r" \1(", head)  # in parentheses because of macros of these names
         names = [name for name in re.findall(r"(operator\s*\(\)|operator[^\s(]+|[~\w]+|\])\s*\(", head)
                  if name not in ("requires", "decltype", "noexcept", "explicit")]
         name = names[0] if names else head.split()[0]

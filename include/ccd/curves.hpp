@@ -90,9 +90,9 @@ inline std::pair<double, double> time_between(double from, double to, double t) 
     if (t == 1) return {to, to};
     const double x = (1 - t) * from + t * to;
     const double error =
-        4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to)) +
+        4 * std::numeric_limits<double>::epsilon() * (std::max)(std::abs(from), std::abs(to)) +
         4 * std::numeric_limits<double>::denorm_min();
-    return {std::max(from, x - error), std::min(to, x + error)};
+    return {(std::max)(from, x - error), (std::min)(to, x + error)};
 }
 
 }  // namespace detail

@@ -33,7 +33,7 @@ struct pair_distances {
     /// At least that of every pair.
     double most() const {
         double most = all;
-        for (const double t : thickness) most = std::max(most, 2 * t);
+        for (const double t : thickness) most = (std::max)(most, 2 * t);
         return most;
     }
 
@@ -50,7 +50,7 @@ struct pair_distances {
     /// Of an element, the thickness of the thickest vertex. There must be one of each.
     double thickest(std::span<const vertex_index> vertices) const {
         double most = 0;
-        for (const vertex_index v : vertices) most = std::max(most, thickness[v]);
+        for (const vertex_index v : vertices) most = (std::max)(most, thickness[v]);
         return most;
     }
 };

@@ -28,13 +28,13 @@ template <class S, int N>
 struct bernstein {
     static_assert(N >= 0);
     static constexpr int degree = N;
-    std::array<S, N + 1> h{};  ///< scaled coefficients C(N, i)·b_i
+    std::array<S, std::size_t{N + 1}> h{};  ///< scaled coefficients C(N, i)·b_i
 
     constexpr const S& operator[](int i) const { return h[static_cast<std::size_t>(i)]; }
     constexpr S& operator[](int i) { return h[static_cast<std::size_t>(i)]; }
 
     /// From control values b_i: h_i = C(N, i)·b_i.
-    static constexpr bernstein from_control_values(const std::array<S, N + 1>& b) {
+    static constexpr bernstein from_control_values(const std::array<S, std::size_t{N + 1}>& b) {
         bernstein p;
         for (int i = 0; i <= N; ++i) {
             const std::size_t k = static_cast<std::size_t>(i);
@@ -195,7 +195,7 @@ constexpr bernstein<S, N> normalized(const bernstein<S, N>& p) {
         using T = typename S::value_type;
         using traits = number_traits<T>;
         T largest = traits::abs(p[0].value());
-        for (int i = 1; i <= N; ++i) largest = traits::max(largest, traits::abs(p[i].value()));
+        for (int i = 1; i <= N; ++i) largest = (traits::max)(largest, traits::abs(p[i].value()));
         // Leave sizes that products of up to eight forms can carry.
         constexpr int room = traits::max_exponent / 16;
         if (!(largest > 0) || !traits::is_finite(largest)) return p;

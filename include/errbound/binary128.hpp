@@ -38,7 +38,7 @@ struct number_traits<float128> {
     static constexpr float128 infinity() { return of({0, infinite}); }
 
     static constexpr float128 abs(const float128& x) { return of(size_of(x)); }
-    static constexpr float128 max(const float128& x, const float128& y) { return x < y ? y : x; }
+    static constexpr float128(max)(const float128& x, const float128& y) { return x < y ? y : x; }
     static constexpr bool is_finite(const float128& x) { return size_of(x).high < infinite; }
     static float128 sqrt(const float128& x) { return __builtin_sqrtf128(x); }
     static float128 fma(const float128& a, const float128& b, const float128& c) {

@@ -96,7 +96,8 @@ enclosed_vector<N> solve_column(const checked_inverse<N>& inverse, const vector<
         r = residual<N>(inverse.matrix(), b, y);
         step.noalias() = inverse.approximation() * r.value;
         const double relative =
-            (step.array().abs() / y.array().abs().max(traits::smallest_normal())).maxCoeff();
+            (step.array().abs() / y.cwiseAbs().cwiseMax(traits::smallest_normal()).array())
+                .maxCoeff();
         if (relative <= traits::unit_roundoff() || !(relative < last / 2) || k == enough) break;
         y += step;
         last = relative;

@@ -82,9 +82,9 @@ static T unknown(T x) {
 template <class T>
 static bool has_gradual_underflow() {
     using limits = std::numeric_limits<T>;
-    const T subnormal = unknown(unknown(limits::min()) * unknown(T(0.5)));
+    const T subnormal = unknown(unknown((limits::min)()) * unknown(T(0.5)));
     const T factors[] = {limits::denorm_min(), T(4)};
-    return unknown(subnormal + subnormal) == limits::min() && unknown(limits::denorm_min()) > 0 &&
+    return unknown(subnormal + subnormal) == (limits::min)() && unknown(limits::denorm_min()) > 0 &&
            unknown(factors[0] * factors[1]) > 0;
 }
 /// Sums, against the same ones that are stored after each operation.
@@ -130,8 +130,8 @@ template <class T>
 static bool tells_special_values() {
     using limits = std::numeric_limits<T>;
     const T infinity = unknown(limits::infinity()), nothing = infinity - infinity;
-    return std::isinf(infinity) && std::isnan(nothing) && infinity > limits::max() &&
-           !(infinity <= limits::max()) && !(nothing == nothing) && !(nothing <= 0) &&
+    return std::isinf(infinity) && std::isnan(nothing) && infinity > (limits::max)() &&
+           !(infinity <= (limits::max)()) && !(nothing == nothing) && !(nothing <= 0) &&
            !(nothing >= 0) && nothing != 0;
 }
 template <class T>

@@ -114,12 +114,12 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
 /// this is the lesser one, off by no more than the larger of their errors, for |min(a, b) −
 /// min(c, d)| <= max(|a − c|, |b − d|). Proof: proofs/IeeeFunctions.v, min_known.
 template <class T, class Rule>
-constexpr tracked<T, Rule> min(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
+constexpr tracked<T, Rule>(min)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return b.value() < a.value() ? detail::lesser_or_either(b, a) : detail::lesser_or_either(a, b);
 }
 /// The greater of a and b, likewise. Proof: proofs/IeeeFunctions.v, max_known.
 template <class T, class Rule>
-constexpr tracked<T, Rule> max(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
+constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     return a.value() < b.value() ? -detail::lesser_or_either(-b, -a)
                                  : -detail::lesser_or_either(-a, -b);
 }
@@ -204,7 +204,7 @@ constexpr tracked<T, Rule> hypot(const tracked<T, Rule>& x, const tracked<T, Rul
     static_assert(has_subnormals<T> && traits::digits >= 8,
                   "errbound: hypot needs a number type of at least 8 bits of precision, with "
                   "subnormal numbers");
-    const T larger = traits::max(traits::abs(x.value()), traits::abs(y.value()));
+    const T larger = (traits::max)(traits::abs(x.value()), traits::abs(y.value()));
     const T inherited = x.error() + y.error();
     // A number that is not finite is among the errors, too.
     if (!traits::is_finite(inherited)) return number::within(larger, traits::infinity());

@@ -55,7 +55,7 @@ struct number_traits {
                   "errbound: not an IEEE 754 binary format, as long double on some PowerPC");
     static_assert(
         std::numeric_limits<T>::radix == 2 &&
-            std::numeric_limits<T>::digits < std::numeric_limits<int>::max() &&
+            std::numeric_limits<T>::digits < (std::numeric_limits<int>::max)() &&
             std::numeric_limits<T>::round_style == std::round_to_nearest,
         "errbound: numbers must be binary, of a precision that the type says, and rounded "
         "to nearest");
@@ -73,8 +73,8 @@ struct number_traits {
         else
             return smallest_normal();
     }
-    static constexpr T smallest_normal() { return std::numeric_limits<T>::min(); }
-    static constexpr T largest() { return std::numeric_limits<T>::max(); }
+    static constexpr T smallest_normal() { return (std::numeric_limits<T>::min)(); }
+    static constexpr T largest() { return (std::numeric_limits<T>::max)(); }
     /// What overflows; NaN for a format without infinities.
     static constexpr T infinity() { return std::numeric_limits<T>::infinity(); }
     static constexpr bool has_infinity = std::numeric_limits<T>::has_infinity;
@@ -99,7 +99,7 @@ struct number_traits {
             if (!std::is_constant_evaluated()) return std::fabs(x);
         return x < 0 ? -x : x;
     }
-    static constexpr T max(const T& x, const T& y) { return x < y ? y : x; }
+    static constexpr T(max)(const T& x, const T& y) { return x < y ? y : x; }
     static constexpr bool is_finite(const T& x) { return abs(x) <= largest(); }
     /// √x, rounded once; NaN below zero.
     static constexpr T sqrt(const T& x) {

@@ -268,7 +268,7 @@ bool root_where_nonnegative(const polynomial<C>& f, const std::vector<polynomial
     }
     // Where all g_i >= 0 is a closed set: if it is neither empty nor holds the point of [a, b] next
     // to 0, then its end towards that point is a root of some g_i.
-    const double next_to_zero = std::min(std::max(0.0, a), b);
+    const double next_to_zero = (std::min)((std::max)(0.0, a), b);
     const roots::staged_polynomial<exact> shifted(std::vector<double>{-next_to_zero, 1.0});
     if (holds_at_any(real_roots<exact>(shifted, next_to_zero, next_to_zero))) return true;
     for (const auto& p : constraints)

@@ -98,7 +98,7 @@ std::string certain_digits(T value, T error) {
     if (error == 0) return decimal(value == 0 ? T(0) : value);
     // 18 digits may round up to the next power of ten, never to one below.
     constexpr int digits = 17;
-    const bool doubles = error <= std::numeric_limits<T>::max() / 2;
+    const bool doubles = error <= (std::numeric_limits<T>::max)() / 2;
     const T scaled = doubles ? 2 * error : error;
     const int k = decimal_exponent(decimal(scaled, std::chars_format::scientific, digits)) +
                   (doubles ? 1 : 2);

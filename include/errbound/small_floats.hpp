@@ -208,7 +208,7 @@ struct number_traits<small_float<P, E, HasInfinity>> {
         return number::from_code(x.code() & (number::codes / 2 - 1));
     }
     /// Without infinities NaN stands for what is larger than all numbers, and is passed on.
-    static constexpr number max(const number& x, const number& y) {
+    static constexpr number(max)(const number& x, const number& y) {
         if constexpr (!HasInfinity)
             if (y != y) return y;
         return x < y ? y : x;
@@ -264,8 +264,8 @@ class std::numeric_limits<errbound::small_float<P, E, HasInfinity>> {
                          min_exponent10 = decimal(min_exponent - 1) + 1,
                          max_exponent10 = decimal(max_exponent);
 
-    static constexpr number min() noexcept { return traits::smallest_normal(); }
-    static constexpr number max() noexcept { return traits::largest(); }
+    static constexpr number(min)() noexcept { return traits::smallest_normal(); }
+    static constexpr number(max)() noexcept { return traits::largest(); }
     static constexpr number lowest() noexcept { return -traits::largest(); }
     static constexpr number epsilon() noexcept { return traits::epsilon(); }
     static constexpr number round_error() noexcept { return number(0.5); }

@@ -140,7 +140,7 @@ class tracked {
 
     /// x·2^e: exact unless it underflows, and then the bound says so.
     friend constexpr tracked scale(const tracked& x, int e) {
-        const int power = std::max(e, -std::numeric_limits<int>::max());  // rules negate it
+        const int power = (std::max)(e, -(std::numeric_limits<int>::max)());  // rules negate it
         const T v = number_traits<T>::scale(x.value_, power);
         return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
@@ -211,8 +211,8 @@ struct std::numeric_limits<errbound::tracked<T, Rule>> : std::numeric_limits<T> 
 
   public:
     static constexpr bool is_iec559 = false;
-    static constexpr number min() noexcept { return of_value::min(); }
-    static constexpr number max() noexcept { return of_value::max(); }
+    static constexpr number(min)() noexcept { return (of_value::min)(); }
+    static constexpr number(max)() noexcept { return (of_value::max)(); }
     static constexpr number lowest() noexcept { return of_value::lowest(); }
     static constexpr number epsilon() noexcept { return of_value::epsilon(); }
     static constexpr number round_error() noexcept { return of_value::round_error(); }

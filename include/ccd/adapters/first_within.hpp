@@ -25,7 +25,7 @@ template <class Query>
 bool stays_apart(const Query& query, separation d, double t_max) {
     double largest = 0;
     const auto then = [&](double t0, double t1) {
-        largest = std::max({largest, std::abs(t0), std::abs(t1)});
+        largest = (std::max)({largest, std::abs(t0), std::abs(t1)});
         return t0 + t_max * (t1 - t0);
     };
     const Query cut_short = transformed_motions(query, [&](const moving_point<double>& p) {

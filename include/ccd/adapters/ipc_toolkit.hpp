@@ -114,7 +114,7 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
     bool answer(const Query& query, double& toi, double min_distance, double tmax) const {
         assert(0 < conservative_rescaling && conservative_rescaling <= 1);
         if (conservative_rescaling < 1) return answer_with_gap(query, toi, min_distance, tmax);
-        const first_time found = detail::first_within(query, {min_distance}, std::min(tmax, 1.0));
+        const first_time found = detail::first_within(query, {min_distance}, (std::min)(tmax, 1.0));
         return reported(found.outcome, found.low, toi);
     }
 
@@ -124,7 +124,7 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
         const double gap = (1 - conservative_rescaling) * above;
         if (gap > 0 && std::isfinite(gap)) {
             const first_time found =
-                detail::first_within(query, {min_distance, gap}, std::min(tmax, 1.0));
+                detail::first_within(query, {min_distance, gap}, (std::min)(tmax, 1.0));
             if (!found.at_start()) return reported(found.outcome, found.low, toi);
         }
         // Asked until 1, for the rescaled time to be compared: the least of many answers must not
@@ -132,7 +132,7 @@ class exact_narrow_phase : public detail::rescaled<ipc::NarrowPhaseCCD> {
         const first_time found = time_within(query, {min_distance}, std::isnan(tmax) ? tmax : 1);
         const double least = std::numeric_limits<double>::denorm_min();
         const double time =
-            std::max(conservative_rescaling * found.low, std::min(found.low, least));
+            (std::max)(conservative_rescaling * found.low, (std::min)(found.low, least));
         const bool late = found.outcome == outcome::collides && time > tmax;
         return reported(late ? outcome::separate : found.outcome, time, toi);
     }

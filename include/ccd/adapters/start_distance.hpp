@@ -49,14 +49,14 @@ inline double start_distance(const vertex_face<double>& q) {
     double least = std::numeric_limits<double>::infinity(), weights[3];
     for (int i = 0; i < 3; ++i) {
         const point<double> a = f[i], b = f[(i + 1) % 3];
-        least = std::min(least, distance(v, a, b));
+        least = (std::min)(least, distance(v, a, b));
         weights[(i + 2) % 3] = dot(n, cross(difference(b, a), difference(v, a)));
     }
     if (!(weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0)) return least;
     const double sum = weights[0] + weights[1] + weights[2];
     const point<double> towards_f1 = along(f[0], difference(f[1], f[0]), weights[1] / sum);
     const point<double> foot = along(towards_f1, difference(f[2], f[0]), weights[2] / sum);
-    return std::min(least, distance(v, foot, foot));
+    return (std::min)(least, distance(v, foot, foot));
 }
 
 /// The least distance of an end to the other edge, or that of the lines' nearest points if these
@@ -64,13 +64,13 @@ inline double start_distance(const vertex_face<double>& q) {
 inline double start_distance(const edge_edge<double>& q) {
     const point<double> a0 = q.a0.t0, a1 = q.a1.t0, b0 = q.b0.t0, b1 = q.b1.t0;
     const point<double> a = difference(a1, a0), b = difference(b1, b0), w = difference(b0, a0);
-    const double ends = std::min(
+    const double ends = (std::min)(
         {distance(b1, a0, a1), distance(b0, a0, a1), distance(a1, b0, b1), distance(a0, b0, b1)});
     const point<double> n = cross(a, b);
     const double s = dot(cross(w, b), n) / dot(n, n), t = dot(cross(w, a), n) / dot(n, n);
     if (!(0 <= s && s <= 1 && 0 <= t && t <= 1)) return ends;
     const point<double> on_b = along(b0, b, t);
-    return std::min(ends, distance(along(a0, a, s), on_b, on_b));
+    return (std::min)(ends, distance(along(a0, a, s), on_b, on_b));
 }
 
 }  // namespace ccd::adapters::detail

@@ -96,11 +96,11 @@ class line_proximity {
             edge_error += edge_[i].error, edge_size += edge_[i].size;
             place_error += place_[i].error, place_size += place_[i].size;
         }
-        tau_ = traits::max(off_line, error + slope_ * edge_error +
-                                         512 * traits::epsilon() * (sizes + slope_ * edge_size));
+        tau_ = (traits::max)(off_line, error + slope_ * edge_error +
+                                           512 * traits::epsilon() * (sizes + slope_ * edge_size));
         doubt_ = 8 * (edge_error * (edge_size + place_size) + place_error * edge_size) +
                  16 * traits::epsilon() * edge_size * (edge_size + place_size);
-        lambda_squared_ = traits::max(3 * tau_, 4 * doubt_);
+        lambda_squared_ = (traits::max)(3 * tau_, 4 * doubt_);
     }
 
     constexpr bool touches_at(T t) const {
@@ -110,7 +110,7 @@ class line_proximity {
         for (std::size_t i = 0; i < 3; ++i) {
             off += traits::abs(q_[i].at(t));
             at_e[i] = edge_[i].at(t), at_w[i] = place_[i].at(t);
-            longest = traits::max(longest, traits::abs(at_e[i]));
+            longest = (traits::max)(longest, traits::abs(at_e[i]));
             length_squared += at_e[i] * at_e[i];
             foot += at_e[i] * at_w[i];
         }

@@ -112,15 +112,15 @@ class solver {
         const scalar at_p = at(slope, p), at_q = at(slope, q);
         const scalar half_length = (scalar(q) - scalar(p)) * scalar(T(0.5));
         const scalar middle = at_p + at(errbound::roots::power_derivative(slope), p) * half_length;
-        const T hull = std::min({low_end(at_p), low_end(middle), low_end(at_q)});
+        const T hull = (std::min)({low_end(at_p), low_end(middle), low_end(at_q)});
 
-        T least = std::min(direction * at_p.value(), direction * at_q.value());
+        T least = (std::min)(direction * at_p.value(), direction * at_q.value());
         if (vertex > p && vertex < q)
-            least = std::min(least, direction * at(slope, vertex).value());
+            least = (std::min)(least, direction * at(slope, vertex).value());
         for (int i = 0; i <= 2; ++i)
             least -= slope[i].error() + 16 * traits::epsilon() * traits::abs(slope[i].value());
 
-        const T low = traits::max(hull, least);
+        const T low = (traits::max)(hull, least);
         // NaN counts as unbounded.
         return low >= 0 ? T(0) : low < 0 ? -low * (q - p) * (1 + T(0x1p-10)) : traits::infinity();
     }
@@ -134,7 +134,7 @@ class solver {
         const T slack = slack_of(slope, vertex, direction, p, q);
         const auto tolerance = [&](const scalar& x) {
             // A copy: nvcc has no device code for a reference to a static constexpr member.
-            return traits::max(T(limits_.root), x.error()) + slack;
+            return (traits::max)(T(limits_.root), x.error()) + slack;
         };
         const T low = direction * at_p.value(), high = direction * at_q.value();
         if (low > tolerance(at_p) || high < -tolerance(at_q)) return none;
@@ -146,14 +146,14 @@ class solver {
         T left = p, right = q;
         for (T w = limits_.first_window; !within && w <= limits_.last_window;
              w *= limits_.window_growth) {
-            left = traits::max(p, root - w), right = std::min(q, root + w);
+            left = (traits::max)(p, root - w), right = (std::min)(q, root + w);
             const scalar f_left = at(f, left), f_right = at(f, right);
             before = direction * f_left.value() < -(f_left.error() + slack);
             after = direction * f_right.value() > f_right.error() + slack;
             within = (before || left == p) && (after || right == q);
         }
         if (within) {
-            const T w = traits::max(right - root, root - left) * (1 + traits::epsilon());
+            const T w = (traits::max)(right - root, root - left) * (1 + traits::epsilon());
             const auto g = forms_at(forms_, scalar(T(1)), limits_.time(root, w)).inside();
             bool positive = true;
             for (const auto& form : g) {
@@ -172,13 +172,13 @@ class solver {
         const std::array<scalar, 3> n{now.n.x[0], now.n.y[0], now.n.z[0]};
         T longest = 0, error = 0;
         for (const scalar& x : n) {
-            longest = traits::max(longest, traits::abs(x.value()));
-            error = traits::max(error, x.error());
+            longest = (traits::max)(longest, traits::abs(x.value()));
+            error = (traits::max)(error, x.error());
         }
         // A floor keeps the quotients finite; it is far below anything that the query holds.
         const T mu = upper_magnitude(f) + slack + traits::smallest_normal();
         const T length = limits_.known_length(
-            traits::max(least_distance(forms_.b).low, least_distance(forms_.c).low));
+            (traits::max)(least_distance(forms_.b).low, least_distance(forms_.c).low));
         const T nu = limits_.smallest_normal(mu, length);
         if (longest - error >= nu &&
             longest - error >= limits_.normal_per_length * longest_edge(now)) {
@@ -189,11 +189,11 @@ class solver {
         }
         const T wide = T(1.7320509) * (nu + 2 * error);  // |N|₂ where |N|∞ may be below ν
         T radius = std::sqrt(wide) / 2;
-        if (length > 0) radius = std::min(radius, wide / (2 * length));
-        radius = traits::max(radius, T(0.8660255) * limits_.normal_per_length);
+        if (length > 0) radius = (std::min)(radius, wide / (2 * length));
+        radius = (traits::max)(radius, T(0.8660255) * limits_.normal_per_length);
         doubt_ = true;
         const T reach = (mu / nu + radius) * (1 + T(0x1p-10));
-        reach_ = reach <= traits::largest() ? traits::max(reach_, reach) : traits::infinity();
+        reach_ = reach <= traits::largest() ? (traits::max)(reach_, reach) : traits::infinity();
         return {outcome::separate, cause::none};
     }
 
@@ -203,7 +203,7 @@ class solver {
         T longest = 0;
         for (const auto* e : {&now.b, &now.c})
             for (const auto* x : {&e->x, &e->y, &e->z})
-                longest = traits::max(longest, traits::abs((*x)[0].value()));
+                longest = (traits::max)(longest, traits::abs((*x)[0].value()));
         return longest;
     }
 

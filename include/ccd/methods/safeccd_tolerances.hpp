@@ -83,10 +83,10 @@ struct tolerances<T, errbound::safe> {
         bool first = true;
         T displacement = 0;
         const auto widen = [&](T& l, T& h, const scalar& x0, const scalar& x1) {
-            sigma_ = traits::max(sigma_, traits::max(x0.error(), x1.error()));
-            l = first ? x0.value() : std::min(l, x0.value());
-            h = first ? x0.value() : std::max(h, x0.value());
-            displacement = traits::max(displacement, traits::abs(x1.value() - x0.value()));
+            sigma_ = (traits::max)(sigma_, (traits::max)(x0.error(), x1.error()));
+            l = first ? x0.value() : (std::min)(l, x0.value());
+            h = first ? x0.value() : (std::max)(h, x0.value());
+            displacement = (traits::max)(displacement, traits::abs(x1.value() - x0.value()));
         };
         for (const auto& p : points_of(query)) {
             widen(low.x, high.x, p.t0.x, p.t1.x);
@@ -94,7 +94,7 @@ struct tolerances<T, errbound::safe> {
             widen(low.z, high.z, p.t0.z, p.t1.z);
             first = false;
         }
-        const T extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        const T extent = (std::max)({high.x - low.x, high.y - low.y, high.z - low.z});
         // One part in a million pays for the roundings here and for coordinates that underflowed
         // when the query was scaled, unless all differences are of their size.
         constexpr T enlarged = 1 + T(0x1p-20);

@@ -29,13 +29,13 @@ constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precisio
     using traits = errbound::number_traits<double>;
     using scalar = errbound::tracked<float, Rule>;
     const point<double> origin = points_of(query)[0].t0;
-    const Query<double> near = transformed_points(query, [&](const point<double>& p) {
+    const Query<double> moved = transformed_points(query, [&](const point<double>& p) {
         return point<double>{p.x - origin.x, p.y - origin.y, p.z - origin.z};
     });
     bool finite = true;
     double largest = 0;
     for_each_coordinate(query, [&](double x) { finite = finite && traits::is_finite(x); });
-    for_each_coordinate(near, [&](double d) { largest = traits::max(largest, traits::abs(d)); });
+    for_each_coordinate(moved, [&](double d) { largest = (traits::max)(largest, traits::abs(d)); });
 
     // The room is that of tracked_query for floats. Beyond 2^±1000 differences overflow or vanish.
     constexpr int room = errbound::number_traits<float>::max_exponent / 32, most = 1000;
@@ -50,7 +50,7 @@ constexpr std::pair<Query<errbound::tracked<float, Rule>>, bool> single_precisio
         constexpr float relative = 0x1p-24f + 0x1p-44f;
         return scalar::within(f, single::abs(f) * relative + 2 * single::underflow_unit());
     };
-    return {transformed(near, converted), finite};
+    return {transformed(moved, converted), finite};
 }
 
 /// BSC in floats for a query in doubles: as decide_bsc, `uncertain` where floats cannot tell.

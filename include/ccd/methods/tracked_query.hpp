@@ -20,7 +20,7 @@ constexpr std::pair<Query<Scalar>, bool> tracked_query(const Query<T>& query) {
     bool finite = true;
     for_each_coordinate(query, [&](const T& x) {
         finite = finite && traits::is_finite(x);
-        largest = traits::max(largest, traits::abs(x));
+        largest = (traits::max)(largest, traits::abs(x));
     });
     // Moderate sizes are left alone; the room is that of errbound::normalized.
     constexpr int room = traits::max_exponent / 32;

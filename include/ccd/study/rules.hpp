@@ -106,7 +106,7 @@ std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
             const clock::time_point start = clock::now();
             run.decide_all(queries, run.answers);
             const std::chrono::duration<double, std::nano> taken = clock::now() - start;
-            run.row.ns_per_query = std::min(
+            run.row.ns_per_query = (std::min)(
                 run.row.ns_per_query,
                 taken.count() / static_cast<double>(std::max<std::size_t>(1, queries.size())));
         }

@@ -74,7 +74,7 @@ inline std::string printf_decimal(long double x) {
     // Digits before the point and zeros after it are one each.
     if (std::abs(exponent) > static_cast<int>(scientific.size())) return scientific;
     std::string fixed =
-        printf_decimal(x, std::chars_format::fixed, std::max(0, precision - exponent));
+        printf_decimal(x, std::chars_format::fixed, (std::max)(0, precision - exponent));
     return fixed.size() <= scientific.size() ? fixed : scientific;
 }
 

@@ -189,7 +189,7 @@ struct explained {
             using traits = number_traits<amount<T>>;
             const amount<T> known = correction_of<T>(v, own);
             const amount<T> unknown = error_of<T>(v, own) - traits::abs(known);
-            contributions.book({from, known, traits::max(amount<T>(0), unknown)});
+            contributions.book({from, known, (traits::max)(amount<T>(0), unknown)});
             contributions.limit(Limit);
             contributions.settle(from, correction_of<T>(v, result), error_of<T>(v, result));
         } else if (contributions.entries().empty()) {

@@ -186,7 +186,7 @@ inline std::string aligned(const std::vector<std::vector<std::string>>& rows) {
     std::vector<std::size_t> widths(columns, 0);
     for (const auto& row : rows)
         for (std::size_t i = 0; i < columns; ++i)
-            widths[i] = std::max(widths[i], columns_of(row[i]));
+            widths[i] = (std::max)(widths[i], columns_of(row[i]));
     std::string text;
     for (const auto& row : rows) {
         std::string line;
@@ -237,7 +237,7 @@ inline void write_file(const std::filesystem::path& path, std::string_view text)
 inline std::vector<double> shares_of(const explanation& e) {
     double largest = 0, unknown = 0;
     for (const contribution& c : e.contributions) {
-        largest = std::max(largest, c.amount);
+        largest = (std::max)(largest, c.amount);
         unknown += std::isfinite(c.amount) ? 0 : 1;
     }
     std::vector<double> shares;
@@ -263,7 +263,7 @@ inline std::string text_of(const explanation& e, std::size_t lines = 20) {
     std::vector<std::vector<std::string>> rows{{"amount", "share", "operation", "scope"}};
     if (known) rows[0].insert(rows[0].begin() + 1, "signed");
     const std::vector<double> shares = shares_of(e);
-    const std::size_t shown = std::min(lines, shares.size());
+    const std::size_t shown = (std::min)(lines, shares.size());
     for (std::size_t i = 0; i < shown; ++i) {
         const contribution& c = e.contributions[i];
         std::vector<std::string> row{

@@ -119,16 +119,16 @@ tracked<T, explained<Rule, Limit>> abs(const tracked<T, explained<Rule, Limit>>&
         "abs", [](const auto& y) { return abs(y); }, x);
 }
 template <class T, class Rule, std::size_t Limit>
-tracked<T, explained<Rule, Limit>> min(const tracked<T, explained<Rule, Limit>>& a,
-                                       const tracked<T, explained<Rule, Limit>>& b) {
+tracked<T, explained<Rule, Limit>>(min)(const tracked<T, explained<Rule, Limit>>& a,
+                                        const tracked<T, explained<Rule, Limit>>& b) {
     return as_one_operation(
-        "min", [](const auto& x, const auto& y) { return min(x, y); }, a, b);
+        "min", [](const auto& x, const auto& y) { return min<>(x, y); }, a, b);
 }
 template <class T, class Rule, std::size_t Limit>
-tracked<T, explained<Rule, Limit>> max(const tracked<T, explained<Rule, Limit>>& a,
-                                       const tracked<T, explained<Rule, Limit>>& b) {
+tracked<T, explained<Rule, Limit>>(max)(const tracked<T, explained<Rule, Limit>>& a,
+                                        const tracked<T, explained<Rule, Limit>>& b) {
     return as_one_operation(
-        "max", [](const auto& x, const auto& y) { return max(x, y); }, a, b);
+        "max", [](const auto& x, const auto& y) { return max<>(x, y); }, a, b);
 }
 template <class T, class Rule, std::size_t Limit>
 tracked<T, explained<Rule, Limit>> fma(const tracked<T, explained<Rule, Limit>>& a,

@@ -102,7 +102,7 @@ class ledger {
             known = unknown = sizes = A(0);
         }
         const A off = traits::abs(c - known);
-        const A wanted = traits::max(A(0), e - traits::abs(c)) + off;
+        const A wanted = (traits::max)(A(0), e - traits::abs(c)) + off;
         // (Quotients first: the sums may be larger than what is wanted by more than a number's
         // range.)
         if (wanted > unknown && sizes > 0) {

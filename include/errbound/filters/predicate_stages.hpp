@@ -74,7 +74,7 @@ class predicate_stages {
         for (int degree = 0; degree <= expression_counts::max_degree; ++degree) {
             const int excess = counts.bits[static_cast<std::size_t>(degree)] - bits;
             if (excess <= 0) continue;
-            least = std::min(least, degree == 0 ? 0 : word_bits - (excess + degree - 1) / degree);
+            least = (std::min)(least, degree == 0 ? 0 : word_bits - (excess + degree - 1) / degree);
         }
         return least;
     }
@@ -107,10 +107,10 @@ class predicate_stages {
         // A copy: device code does not see static members.
         constexpr auto dimensions = Shape::dimensions;
         std::size_t i = 0, argument = 0;
-        const auto add = [&](const auto& point) {
+        const auto add = [&](const auto& given) {
             const int dimension = dimensions[argument++];
             for (int k = 0; k < (dimension == 0 ? 1 : dimension); ++k)
-                list[i++] = coordinate_of(point, k);
+                list[i++] = coordinate_of(given, k);
         };
         (add(p), ...);
         if (mixed) list[i] = 1;
@@ -147,11 +147,11 @@ class predicate_stages {
             }
         }
         if constexpr (has_degrees && mixed) {
-            const coordinate_list near = near_one(list);
-            if (near != list) {
-                const sign_type s = by_filter<double>(near);
+            const coordinate_list scaled = near_one(list);
+            if (scaled != list) {
+                const sign_type s = by_filter<double>(scaled);
                 if (certain(s)) return counted(s, static_filter);
-                return decide_exactly(near, integers::largest_size(near), counted);
+                return decide_exactly(scaled, integers::largest_size(scaled), counted);
             }
         }
         return decide_exactly(list, largest, counted);
@@ -202,14 +202,14 @@ class predicate_stages {
     /// the same. Where they are near 1, or a coordinate would lose something, as they are.
     static constexpr coordinate_list near_one(const coordinate_list& list) {
         using traits = number_traits<double>;
-        constexpr int near = 16;
+        constexpr int moderate = 16;
         if (std::is_constant_evaluated()) return list;
         constexpr auto degrees = Options::degrees;
-        int s = std::numeric_limits<int>::min();
+        int s = (std::numeric_limits<int>::min)();
         for (std::size_t i = 0; i < Shape::size; ++i)
-            if (list[i] != 0) s = std::max(s, traits::exponent(list[i]) / degrees[i]);
-        if (s > -near && s < near) return list;
-        if (s == std::numeric_limits<int>::min()) return list;  // all are 0
+            if (list[i] != 0) s = (std::max)(s, traits::exponent(list[i]) / degrees[i]);
+        if (s > -moderate && s < moderate) return list;
+        if (s == (std::numeric_limits<int>::min)()) return list;  // all are 0
         coordinate_list scaled = list;
         for (std::size_t i = 0; i < Shape::size; ++i) {
             scaled[i] = traits::scale(list[i], -s * degrees[i]);

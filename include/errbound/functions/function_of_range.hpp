@@ -221,7 +221,7 @@ T error_by_slope(const T& x, const T& e, const T& v) {
     const bool up =
         side == steeper_side::above ||
         (side == steeper_side::outward ? x >= 0 : side == steeper_side::inward && x < 0);
-    T distance = traits::max(
+    T distance = (traits::max)(
         e, rounded_product(natural_distance<F>(x), traits::scale(T(1), -(traits::digits / 2))));
     bool to_the_end = false;
     if constexpr (side == steeper_side::inward) {
@@ -333,7 +333,7 @@ T error_of_power_at_zero(const T& size, const T& e, const T& n, const T& v) {
 template <class T>
 T change_of_angle(const T& y, const T& of_y, const T& x, const T& of_x) {
     using traits = number_traits<T>;
-    const T larger = traits::max(traits::abs(x), traits::abs(y));
+    const T larger = (traits::max)(traits::abs(x), traits::abs(y));
     const int unit = traits::exponent(larger);
     const auto scaled = [&](const T& z) { return traits::scale(traits::abs(z), -unit); };
     const T a = scaled(x), b = scaled(y), da = scaled(of_x), db = scaled(of_y);

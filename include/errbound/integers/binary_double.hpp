@@ -31,7 +31,7 @@ struct binary_double {
     }
     /// The place of the last bit that is set; of 0 above every other's.
     constexpr int last_bit() const {
-        return magnitude == 0 ? std::numeric_limits<int>::max()
+        return magnitude == 0 ? (std::numeric_limits<int>::max)()
                               : exponent + detail::countr_zero(magnitude);
     }
     /// One above the place of the first bit that is set; of 0 below every other's.

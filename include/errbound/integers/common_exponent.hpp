@@ -19,7 +19,7 @@ template <std::size_t N>
 constexpr std::uint64_t largest_size(const std::array<double, N>& coordinates) {
     std::uint64_t largest = 0;
     for (const double x : coordinates)
-        largest = std::max(largest, std::bit_cast<std::uint64_t>(x) << 1 >> 1);
+        largest = (std::max)(largest, std::bit_cast<std::uint64_t>(x) << 1 >> 1);
     return largest;
 }
 constexpr bool is_finite_size(std::uint64_t size) {
@@ -102,12 +102,12 @@ struct common_unit {
 
     template <std::size_t N>
     constexpr explicit common_unit(const std::array<double, N>& coordinates) {
-        int last = std::numeric_limits<int>::max(), end = std::numeric_limits<int>::min();
+        int last = (std::numeric_limits<int>::max)(), end = (std::numeric_limits<int>::min)();
         for (const double x : coordinates) {
             const binary_double d(x);
             if (d.magnitude == 0) continue;
-            last = std::min(last, d.last_bit());
-            end = std::max(end, d.end_bit());
+            last = (std::min)(last, d.last_bit());
+            end = (std::max)(end, d.end_bit());
         }
         if (last > end) return;  // all are zero
         unit = last;
@@ -124,9 +124,9 @@ struct common_unit {
         const int shift = d.exponent - unit;  // negative: the bits shifted out are zeros
         const auto magnitude = d.magnitude >> std::clamp(-shift, 0, 63);
         if constexpr (Level::kind == integer_kind::any_length) {
-            return {storage(magnitude, std::max(shift, 0), d.negative), unit};
+            return {storage(magnitude, (std::max)(shift, 0), d.negative), unit};
         } else {
-            const auto size = shifted_word<storage>(magnitude, std::max(shift, 0));
+            const auto size = shifted_word<storage>(magnitude, (std::max)(shift, 0));
             return {d.negative ? -size : size, unit};
         }
     }

@@ -138,7 +138,7 @@ class fixed_integer {
             at(i) = i < Narrower ? x[i] : words::sign_word(x[Narrower - 1]);
     }
     /// From words, the least significant first.
-    static constexpr fixed_integer from_words(const std::array<word, Words>& w) {
+    static constexpr fixed_integer from_words(const std::array<word, std::size_t{Words}>& w) {
         fixed_integer x;
         x.words_ = w;
         return x;
@@ -271,7 +271,7 @@ class fixed_integer {
         words::multiply(r.data(), a.data(), A, b.data(), B);
     }
 
-    std::array<word, Words> words_{};
+    std::array<word, std::size_t{Words}> words_{};
 };
 
 /// The exact product.

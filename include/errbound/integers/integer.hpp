@@ -87,8 +87,8 @@ class integer {
     explicit integer(double value) {
         assert(std::isfinite(value));
         const integers::binary_double d(value);
-        *this = integer(d.exponent < 0 ? d.magnitude >> std::min(-d.exponent, 63) : d.magnitude)
-                << std::max(d.exponent, 0);
+        *this = integer(d.exponent < 0 ? d.magnitude >> (std::min)(-d.exponent, 63) : d.magnitude)
+                << (std::max)(d.exponent, 0);
         if (d.negative) size_ = -size_;
     }
     integer(const integer& x) : size_(x.size_) {
@@ -272,7 +272,7 @@ class integer {
 
   private:
     static constexpr int inline_words = 4;
-    static constexpr int max_words = std::numeric_limits<int>::max() / 64;
+    static constexpr int max_words = (std::numeric_limits<int>::max)() / 64;
 
     /// Where words are written that become a number's: its own ones if there are enough, or new
     /// ones, so that operands may be the number itself and nothing has changed if memory runs out.
@@ -294,7 +294,7 @@ class integer {
     }
     room room_for(int n) {
         if (n <= capacity_) return {data(), capacity_};
-        const int capacity = std::max(n, capacity_ + capacity_ / 2);
+        const int capacity = (std::max)(n, capacity_ + capacity_ / 2);
         return {new_words(capacity), capacity};
     }
     /// The number becomes what was written there, without zeros at the end.
@@ -563,7 +563,7 @@ class integer {
             std::swap(a, b);
         }
         if (b.size_ == 0) return std::move(a);
-        const int twos = std::min(lsb(a), lsb(b));
+        const int twos = (std::min)(lsb(a), lsb(b));
         const auto odd = [](const integer& x) {
             return integers::words::odd_part({x.size() > 1 ? x.data()[1] : 0, x.data()[0]});
         };
@@ -660,7 +660,7 @@ inline integer integer::from_string(std::string_view digits, int base) {
         }
         x *= integer(power);
         x += integer(piece);
-        digits.remove_prefix(std::min(at_once, digits.size()));
+        digits.remove_prefix((std::min)(at_once, digits.size()));
     }
     return negative ? -std::move(x) : x;
 }
@@ -683,8 +683,8 @@ class std::numeric_limits<errbound::integer> {
     /// There is no largest number: what is not bounded has no digits to count.
     static constexpr int radix = 2, digits = 0, digits10 = 0, max_digits10 = 0, min_exponent = 0,
                          min_exponent10 = 0, max_exponent = 0, max_exponent10 = 0;
-    static integer min() { return 0; }
-    static integer max() { return 0; }
+    static integer(min)() { return 0; }
+    static integer(max)() { return 0; }
     static integer lowest() { return 0; }
     static integer epsilon() { return 0; }
     static integer round_error() { return 0; }

@@ -224,7 +224,7 @@ class long_integer {
                                 b.size());
             size_ = whole;
         } else {  // before it is trimmed
-            std::array<word, A + B> r;
+            std::array<word, std::size_t{A + B}> r;
             words::multiply_any(r.data(), a.words_.data(), a.size(), b.words_.data(), b.size());
             size_ = Words;
             for (int i = 0; i < size_; ++i) at(i) = r[static_cast<std::size_t>(i)];
@@ -247,7 +247,7 @@ class long_integer {
     }
 
     int size_;
-    std::array<word, Words> words_;  ///< beyond the size never read
+    std::array<word, std::size_t{Words}> words_;  ///< beyond the size never read
 };
 
 /// The exact product.

@@ -125,7 +125,7 @@ constexpr void multiply_by_halves(word* r, const word* a, const word* b, int n, 
     else
         add(sum, sum, 2 * low + 1, cross, 2 * low);
     // It may have a word more than there is place for, a zero.
-    add(r + low, r + low, 2 * n - low, sum, std::min(2 * low + 1, 2 * n - low));
+    add(r + low, r + low, 2 * n - low, sum, (std::min)(2 * low + 1, 2 * n - low));
 }
 
 /// r = a·b of m + n words, by pieces of a as long as b: n <= m.
@@ -134,7 +134,7 @@ constexpr void multiply_by_pieces(word* r, const word* a, int m, const word* b, 
     multiply_natural(r, a, n, b, n, scratch);
     word *const product = scratch, *const rest = scratch + 2 * n;
     for (int i = n; i < m; i += n) {
-        const int size = std::min(n, m - i);
+        const int size = (std::min)(n, m - i);
         multiply_natural(product, b, n, a + i, size, rest);
         add(r + i, product, n + size, r + i, n);
     }

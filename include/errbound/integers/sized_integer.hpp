@@ -69,7 +69,7 @@ constexpr const fixed_integer<Words>& as_fixed(const fixed_integer<Words>& x) {
 /// x, which fits, in no more words than it has.
 template <int Words, int Wider>
 constexpr fixed_integer<Words> narrowed(const fixed_integer<Wider>& x) {
-    std::array<words::word, Words> low;
+    std::array<words::word, std::size_t{Words}> low;
     for (int i = 0; i < Words; ++i) low[static_cast<std::size_t>(i)] = x[i];
     return fixed_integer<Words>::from_words(low);
 }

@@ -45,7 +45,7 @@ class checked_inverse {
     /// I.
     vector<N> defect_times(const vector<N>& v) const {
         const Index n = a_.rows();
-        const double lost = relative_loss(std::min(n, block) + n / block + 3);
+        const double lost = relative_loss((std::min)(n, block) + n / block + 3);
         const double margin = underflow_margin() * (1 + enlarged(v.sum(), n));
         const vector<N> of_a = absolute_product(a_, v);
         vector<N> t(n);
@@ -74,7 +74,7 @@ class checked_inverse {
             bound(i) = enlarged(z(i) + weighted_(i) * factor, 3) + underflow_margin();
         const vector<N> again = defect_times(bound);
         for (Index i = 0; i < n; ++i)
-            bound(i) = std::min(bound(i), enlarged(z(i) + again(i), 1) + underflow_margin());
+            bound(i) = (std::min)(bound(i), enlarged(z(i) + again(i), 1) + underflow_margin());
         return bound;
     }
 
@@ -84,13 +84,13 @@ class checked_inverse {
 
     /// RA; each block's product is finished before it is added.
     square<N> product_in_blocks() const {
-        const Index n = a_.rows(), first = std::min(block, n);
+        const Index n = a_.rows(), first = (std::min)(block, n);
         square<N> sum(n, n);
         sum.noalias() = inverse_.leftCols(first) * a_.topRows(first);
         if (n <= block) return sum;
         square<N> next(n, n);
         for (Index k = block; k < n; k += block) {
-            const Index width = std::min(block, n - k);
+            const Index width = (std::min)(block, n - k);
             next.noalias() = inverse_.middleCols(k, width) * a_.middleRows(k, width);
             sum += next;
         }
@@ -108,14 +108,14 @@ class checked_inverse {
             const vector<N> w = defect_times(v);
             if (!w.allFinite()) return;
             double beta = 0;
-            for (Index i = 0; i < n; ++i) beta = std::max(beta, enlarged(w(i) / v(i), 1));
+            for (Index i = 0; i < n; ++i) beta = (std::max)(beta, enlarged(w(i) / v(i), 1));
             if (beta < contraction_) {
                 contraction_ = beta;
                 weights_ = v;
                 weighted_ = w;
             }
             v = w / w.maxCoeff();
-            for (Index i = 0; i < n; ++i) v(i) = std::max(v(i), 0x1p-500);
+            for (Index i = 0; i < n; ++i) v(i) = (std::max)(v(i), 0x1p-500);
         }
     }
 

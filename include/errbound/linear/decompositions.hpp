@@ -20,10 +20,10 @@ namespace errbound::linear {
 /// passes over a column whose best pivot has no score.
 template <class T, class Rule>
 T pivot_score(const tracked<T, Rule>& x) {
-    using traits = number_traits<T>;
-    const T size = traits::abs(x.value());
+    using scalar_traits = number_traits<T>;
+    const T size = scalar_traits::abs(x.value());
     if (size > 0 || sign_of(x) == sign_type::zero) return size;
-    return traits::underflow_unit();
+    return scalar_traits::underflow_unit();
 }
 
 /// The reflection H = I − τww', w = (1, essential), with Hx = (β, 0, ..., 0).
@@ -38,15 +38,16 @@ struct reflection {
 template <class Vector>
 reflection<typename Vector::Scalar> reflect_in_place(Vector x) {
     using number = typename Vector::Scalar;
-    using traits = number_traits<typename number::value_type>;
+    using scalar_traits = number_traits<typename number::value_type>;
     typename number::value_type greatest(0);
     bool moves = false;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-        greatest = traits::max(greatest, traits::abs(x(i).value()));
+        greatest = (scalar_traits::max)(greatest, scalar_traits::abs(x(i).value()));
         moves = moves || (i > 0 && sign_of(x(i)) != sign_type::zero);
     }
     if (!moves) return {number(0), x(0)};
-    const int e = greatest > 0 && traits::is_finite(greatest) ? traits::exponent(greatest) : 0;
+    const int e =
+        greatest > 0 && scalar_traits::is_finite(greatest) ? scalar_traits::exponent(greatest) : 0;
     for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = scale(x(i), -e);
     const number norm = sqrt(number(x.squaredNorm()));
     const number beta = x(0).value() >= 0 ? -norm : norm, distance = x(0) - beta;

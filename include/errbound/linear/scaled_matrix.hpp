@@ -16,7 +16,7 @@ template <int N>
 using exponents = Eigen::Matrix<int, N, 1>;
 
 /// The exponent of zero: less than that of any number, and sums of a few still fit an int.
-inline constexpr int exponent_of_zero = std::numeric_limits<int>::min() / 8;
+inline constexpr int exponent_of_zero = (std::numeric_limits<int>::min)() / 8;
 
 /// e with |x| in [2^(e−1), 2^e), for x finite.
 inline int exponent_of(double x) {
@@ -38,11 +38,11 @@ struct scaled_matrix {
         : entries(a), row(exponents<N>::Constant(a.rows(), exponent_of_zero)), column(row) {
         const Index n = a.rows();
         for (Index j = 0; j < n; ++j)
-            for (Index i = 0; i < n; ++i) row(i) = std::max(row(i), exponent_of(entries(i, j)));
+            for (Index i = 0; i < n; ++i) row(i) = (std::max)(row(i), exponent_of(entries(i, j)));
         for (Index j = 0; j < n; ++j)
             for (Index i = 0; i < n; ++i)
                 if (entries(i, j) != 0)
-                    column(j) = std::max(column(j), exponent_of(entries(i, j)) - row(i));
+                    column(j) = (std::max)(column(j), exponent_of(entries(i, j)) - row(i));
         for (Index i = 0; i < n; ++i)
             if (row(i) == exponent_of_zero || column(i) == exponent_of_zero)
                 has_zero_row_or_column = true;
@@ -62,7 +62,7 @@ struct scaled_vector {
     template <class Vector>
     scaled_vector(const Vector& b, const exponents<N>& row) : entries(b) {
         for (Index i = 0; i < entries.size(); ++i)
-            if (entries(i) != 0) whole = std::max(whole, exponent_of(entries(i)) - row(i));
+            if (entries(i) != 0) whole = (std::max)(whole, exponent_of(entries(i)) - row(i));
         for (Index i = 0; i < entries.size(); ++i)
             if (entries(i) != 0) entries(i) = times_power_of_two(entries(i), -(row(i) + whole));
     }

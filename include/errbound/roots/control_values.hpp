@@ -12,7 +12,7 @@ namespace errbound::roots {
 /// The control values b_0..b_N of a polynomial of degree N, times multiple(N).
 template <class S, int N>
 struct control_values {
-    std::array<S, N + 1> b;
+    std::array<S, std::size_t{N + 1}> b;
 
     constexpr const S& operator[](int i) const { return b[static_cast<std::size_t>(i)]; }
     constexpr S& operator[](int i) { return b[static_cast<std::size_t>(i)]; }

@@ -169,14 +169,14 @@ class descartes_search {
             }
             if (found) break;
             p.row = {};
-            found = variations_of_local(p, std::numeric_limits<int>::max());
+            found = variations_of_local(p, (std::numeric_limits<int>::max)());
             if (found) break;
         }
         p.variations = *found;
         if (p.row) p.local = {};
     }
     static int bits_of_ends(const part& p) {
-        return std::max(floor_log2(p.low.numerator()), floor_log2(p.high.numerator())) + 1;
+        return (std::max)(floor_log2(p.low.numerator()), floor_log2(p.high.numerator())) + 1;
     }
     /// Whether all bits of the Bernstein coefficients are hardly more than a row keeps.
     bool exact_row_is_cheap(const part& p) const {
@@ -273,7 +273,7 @@ class descartes_search {
     /// By f/f' at both ends, which is about (x − place)/roots there.
     static std::optional<place> place_of_roots(const local_form<Integer>& local, int depth) {
         const auto cut = [&](Integer& a, Integer& b) {
-            const Integer size = std::max(Integer(abs(a)), Integer(abs(b)));
+            const Integer size = (std::max)(Integer(abs(a)), Integer(abs(b)));
             const int excess = size == 0 ? 0 : floor_log2(size) - (depth + 64);
             if (excess <= 0) return;
             a = shifted(a, -excess);
@@ -306,12 +306,12 @@ class descartes_search {
             found = place_of_roots(*whole.local, depth);
         }
         if (inside() && narrowed(whole, *found, depth, pieces)) return true;
-        whole.speed = std::max(slowest, whole.speed / 2);
+        whole.speed = (std::max)(slowest, whole.speed / 2);
         return false;
     }
     bool narrowed(const part& whole, const place& found, int depth, const Integer& pieces) {
-        const Integer from = std::max(Integer(0), Integer(found.from - 1)),
-                      to = std::min(pieces, Integer(found.from + 2));
+        const Integer from = (std::max)(Integer(0), Integer(found.from - 1)),
+                      to = (std::min)(pieces, Integer(found.from + 2));
         charge(whole.local->bits());
         const point width = whole.high - whole.low;
         const auto piece = [&](const Integer& a, const Integer& b) {
@@ -326,7 +326,7 @@ class descartes_search {
         part narrow = piece(from, to);
         narrow.halvings = whole.halvings + depth;
         narrow.lone_halvings = whole.lone_halvings;
-        narrow.speed = std::min(2 * whole.speed, most_bits);
+        narrow.speed = (std::min)(2 * whole.speed, most_bits);
         narrow.bits = whole.bits;
         add(std::move(narrow));
         return true;

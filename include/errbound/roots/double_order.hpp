@@ -25,7 +25,7 @@ constexpr double double_of_order(std::int64_t number) {
 /// The number of the greatest double at or below x, which may be infinite.
 template <exact_number Integer>
 std::int64_t order_at_or_below(const dyadic<Integer>& x) {
-    constexpr double most = std::numeric_limits<double>::max();
+    constexpr double most = (std::numeric_limits<double>::max)();
     std::int64_t number = order_of(std::clamp(x.to_double(), -most, most));
     const auto is_above = [&](std::int64_t n) {
         return n > order_of(most) ||

@@ -24,14 +24,14 @@ class fixed_row {
     fixed_row(const integer_form<Integer>& b, const Integer& error) {
         int bits = 0;
         for (const Integer& c : b)
-            if (c != 0) bits = std::max(bits, floor_log2(c) + 1);
+            if (c != 0) bits = (std::max)(bits, floor_log2(c) + 1);
         // Room for the sign and for a sum of two.
         const int excess = bits - (integers::fixed_integer<Words>::width - 3);
         const Integer word = Integer(1) << 64U;
         b_.reserve(b.size());
         for (const Integer& c : b) {
             Integer rest = shifted(Integer(abs(c)), -excess);
-            std::array<integers::words::word, Words> all{};
+            std::array<integers::words::word, std::size_t{Words}> all{};
             for (auto& w : all) {
                 w = static_cast<integers::words::word>(Integer(rest % word));
                 rest >>= 64U;

@@ -35,7 +35,7 @@ requires(N >= 1) constexpr bernstein<S, N - 1> power_derivative(const bernstein<
 template <class T>
 constexpr std::array<T, 3> quadratic_roots(T c0, T c1, T c2) {
     using traits = number_traits<T>;
-    const T m = traits::max(traits::abs(c0), traits::max(traits::abs(c1), traits::abs(c2)));
+    const T m = (traits::max)(traits::abs(c0), (traits::max)(traits::abs(c1), traits::abs(c2)));
     c0 /= m, c1 /= m, c2 /= m;  // 0/0 = NaN if all are zero
     const T discriminant = c1 * c1 - 4 * c0 * c2;
     const T root = discriminant > 0 ? std::sqrt(discriminant) : T(0);

@@ -101,7 +101,7 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     if (p.empty()) return {};
     // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p itself where e >= 0; over
     // coefficients that are zero at once.
-    const int e = std::min(x.exponent(), 0);
+    const int e = (std::min)(x.exponent(), 0);
     const Integer m = x.in_units(e);
     Integer sum = p.back();
     Integer term;  // kept, so that it allocates once
@@ -151,7 +151,7 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
                                         const dyadic<Integer>& high) {
     const std::size_t n = p.size() - 1;
     const dyadic<Integer> width = high - low;
-    const int e = std::min(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
+    const int e = (std::min)(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
     // x = 2^e·(start + length·u) with u in [0, 1]: first a multiple of p(2^e·y).
     const Integer start = low.in_units(e), length = width.in_units(e);
     for (std::size_t i = 0; i <= n; ++i) {

@@ -97,7 +97,7 @@ class local_form {
     /// the errors of a_j there are C(n − j, i − j) in it. Proof: proofs/LocalForm.v, cut_right.
     approximate_row<Integer> scaled_coefficients(int bits) const {
         int excess = 0;
-        for (const Integer& a : a_) excess = std::max(excess, bits_of(a) - bits);
+        for (const Integer& a : a_) excess = (std::max)(excess, bits_of(a) - bits);
         return {scaled_coefficients(static_cast<std::size_t>(degree_), excess),
                 excess > 0 ? Integer(shifted(error_, -excess) + 2) : error_};
     }
@@ -147,8 +147,8 @@ class local_form {
 
     /// Bits by which the values at both ends exceed the error; at least 0.
     int certain_bits() const {
-        const int least = std::min(bits_of(a_[0]), bits_of(value_at_end()));
-        return std::max(0, least - bits_of(error_));
+        const int least = (std::min)(bits_of(a_[0]), bits_of(value_at_end()));
+        return (std::max)(0, least - bits_of(error_));
     }
 
     int degree() const { return degree_; }
@@ -204,7 +204,7 @@ class local_form {
                 {Integer(p[i] == 0 ? p[i] : Integer(p[i] * power.mantissa)), power.exponent});
             if (p[i] == 0) continue;
             const int high = floor_log2(all[i].mantissa) + 1 + all[i].exponent;
-            top = i == 0 ? high : std::max(top, high);
+            top = i == 0 ? high : (std::max)(top, high);
         }
         form result;
         result.reserve(p.size());
@@ -221,8 +221,8 @@ class local_form {
     static std::size_t kept_terms(std::size_t size, int precision, int ratio) {
         const int falling = -(ratio + bits_of_count(size));
         if (falling <= 0) return size;
-        return std::min(size,
-                        static_cast<std::size_t>((precision + bits_of_count(size)) / falling + 2));
+        return (std::min)(
+            size, static_cast<std::size_t>((precision + bits_of_count(size)) / falling + 2));
     }
 
     /// a_j becomes a_j·(width/low)^j.

@@ -67,7 +67,7 @@ std::vector<floating_coefficient> floating_coefficients(const integer_form<Integ
     // Asked first: types may throw where a conversion overflows, as Boost 1.83 does.
     int unit = 0;
     for (std::size_t i = 0; i < size; ++i)
-        if (p[i] != 0) unit = std::max(unit, floor_log2(p[i]));
+        if (p[i] != 0) unit = (std::max)(unit, floor_log2(p[i]));
     const bool in_range = unit < 500;
     std::vector<floating_coefficient> c;
     c.reserve(size);
@@ -119,9 +119,9 @@ class staged_polynomial {
     /// A positive multiple.
     const integer_form<Integer>& exact() {
         if (exact_.empty() && !floating_.empty()) {
-            int unit = std::numeric_limits<int>::max();
+            int unit = (std::numeric_limits<int>::max)();
             for (const number& c : floating_)
-                unit = std::min(unit, integers::binary_double(c.value()).last_bit());
+                unit = (std::min)(unit, integers::binary_double(c.value()).last_bit());
             integer_form<Integer> all;  // put in its place whole: memory may run out before
             for (const number& c : floating_)
                 all.push_back(dyadic<Integer>::from(c.value()).in_units(unit));

@@ -50,7 +50,7 @@ inline bool is_interval(double a, double b) {
 namespace errbound {
 
 /// The number of roots of the polynomial that is identically zero.
-inline constexpr std::size_t infinitely_many = std::numeric_limits<std::size_t>::max();
+inline constexpr std::size_t infinitely_many = (std::numeric_limits<std::size_t>::max)();
 
 /// Which signs a polynomial takes.
 struct occurring_signs {
@@ -221,7 +221,7 @@ class real_roots {
     real_roots() = default;
 
     const roots::root_isolation<Integer>& exact() {
-        if (!exact_) exact_.emplace(p_.exact(), std::numeric_limits<std::size_t>::max(), meter_);
+        if (!exact_) exact_.emplace(p_.exact(), (std::numeric_limits<std::size_t>::max)(), meter_);
         return *exact_;
     }
     void isolate(const point& low, const point& high) {
@@ -299,7 +299,7 @@ class real_roots {
             const int degree = static_cast<int>(i);
             const int root =
                 quotient >= 0 ? quotient / degree : -((degree - 1 - quotient) / degree);
-            exponent = std::min(exponent, root - 1);
+            exponent = (std::min)(exponent, root - 1);
         }
         return std::ldexp(1.0, exponent);
     }
@@ -307,7 +307,7 @@ class real_roots {
     static number enclosure(const interval& root) {
         using traits = number_traits<double>;
         const double low = root.low.to_double(), high = root.high.to_double();
-        const double size = std::max(std::abs(low), std::abs(high));
+        const double size = (std::max)(std::abs(low), std::abs(high));
         return number::within(
             low + (high - low) / 2,
             (high - low) / 2 + 4 * traits::epsilon() * size + 4 * traits::underflow_unit());
@@ -319,8 +319,8 @@ class real_roots {
     /// A quarter of the distance of doubles near the interval's larger end, or less.
     static point quarter_ulp(const interval& root) {
         using limits = std::numeric_limits<double>;
-        const int exponent = floor_log2(std::max(magnitude(root.low), magnitude(root.high)));
-        return point::power_of_two(std::max(exponent, limits::min_exponent - 1) - limits::digits -
+        const int exponent = floor_log2((std::max)(magnitude(root.low), magnitude(root.high)));
+        return point::power_of_two((std::max)(exponent, limits::min_exponent - 1) - limits::digits -
                                    1);
     }
 
@@ -333,8 +333,8 @@ class real_roots {
         const double x = approximate_root(low, high, before == sign_type::negative);
         bool narrowed = false;
         for (const bool left : {true, false}) {
-            double distance = std::max(number_traits<double>::epsilon() * std::abs(x),
-                                       number_traits<double>::underflow_unit());
+            double distance = (std::max)(number_traits<double>::epsilon() * std::abs(x),
+                                         number_traits<double>::underflow_unit());
             for (;; distance *= 16) {
                 const double t = left ? x - distance : x + distance;
                 if (!(low < t && t < high)) break;

@@ -130,7 +130,7 @@ class root_filter {
         }
         if (size == 1) return;
         double largest = 0;
-        for (const number& c : coefficients) largest = std::max(largest, std::abs(c.value()));
+        for (const number& c : coefficients) largest = (std::max)(largest, std::abs(c.value()));
         // Leave room for powers, binomials and sums, and above the smallest numbers.
         int e = number_traits<double>::exponent(largest);
         if (std::abs(e) < number_traits<double>::max_exponent / 2) e = 0;
@@ -178,7 +178,7 @@ class root_filter {
             parts_.push_back({0, bound, 0, 1, true});
             return;
         }
-        at0_ = low, at1_ = std::min(high, bound);
+        at0_ = low, at1_ = (std::min)(high, bound);
         if (!std::isfinite(at1_)) {
             parts_.push_back({low, high, 0, 1, false});
             return;
@@ -200,18 +200,19 @@ class root_filter {
         if (!(least >= number_traits<double>::smallest_normal()))
             return number_traits<double>::infinity();
         const int last = std::ilogb(least);
-        int exponent = std::numeric_limits<int>::min();
+        int exponent = (std::numeric_limits<int>::min)();
         for (std::size_t i = 0; i < n; ++i) {
             const sign_type s = sign_of(c_[i]);
             if (s == sign_type::zero || s == sign_of(top)) continue;
             if (!std::isfinite(largest(c_[i]))) return number_traits<double>::infinity();
             const int quotient = std::ilogb(largest(c_[i])) + 1 - last;
             const int degree = static_cast<int>(n - i);
-            exponent = std::max(exponent, 1 + (quotient > 0 ? (quotient + degree - 1) / degree
-                                                            : quotient / degree));
+            exponent = (std::max)(exponent, 1 + (quotient > 0 ? (quotient + degree - 1) / degree
+                                                              : quotient / degree));
         }
-        if (exponent == std::numeric_limits<int>::min()) return 0;
-        return std::max(std::ldexp(45.0 / 32, exponent), number_traits<double>::smallest_normal());
+        if (exponent == (std::numeric_limits<int>::min)()) return 0;
+        return (std::max)(std::ldexp(45.0 / 32, exponent),
+                          number_traits<double>::smallest_normal());
     }
 
     /// The control values on [at0, at1] as a new row.

@@ -26,13 +26,13 @@ int positive_root_exponent(const integer_form<Integer>& p) {
     const int n = static_cast<int>(p.size()) - 1;
     const bool negative = p.back() < 0;
     const int last = floor_log2(p.back());
-    int exponent = std::numeric_limits<int>::min();
+    int exponent = (std::numeric_limits<int>::min)();
     for (int i = 0; i < n; ++i) {
         const Integer& c = p[static_cast<std::size_t>(i)];
         if (c == 0 || (c < 0) == negative) continue;
         const int quotient = floor_log2(c) + 1 - last;  // log2 |c_i/c_n| is less
         const int root = quotient > 0 ? (quotient + n - i - 1) / (n - i) : quotient / (n - i);
-        exponent = std::max(exponent, root + 1);
+        exponent = (std::max)(exponent, root + 1);
     }
     return exponent;
 }
@@ -93,7 +93,7 @@ class root_isolation {
     /// bits doubles if that is right.
     void refine(interval& root, const point& width) const {
         for (int bits = 1; width < root.high - root.low;)
-            bits = keep_part(root, bits) ? 2 * bits : std::max(1, bits / 2);
+            bits = keep_part(root, bits) ? 2 * bits : (std::max)(1, bits / 2);
     }
 
     /// Keeps the side of x, strictly inside the interval, on which the root is, or x if it is that.
@@ -136,7 +136,7 @@ class root_isolation {
         half_line() = default;
         explicit half_line(const form& f) : p(f) {
             const int above = positive_root_exponent(f);
-            if (above == std::numeric_limits<int>::min()) return;
+            if (above == (std::numeric_limits<int>::min)()) return;
             upper = above;
             lower = -positive_root_exponent(form(f.rbegin(), f.rend()));
             variations = sign_variations(f.size(), [&](std::size_t i) { return sign(f[i]); });
@@ -166,7 +166,7 @@ class root_isolation {
     bool keep_part(interval& root, int bits) const {
         const form& f = squarefree();
         const point at_low = value_at(f, root.low), at_high = value_at(f, root.high);
-        const int unit = std::min(at_low.exponent(), at_high.exponent());
+        const int unit = (std::min)(at_low.exponent(), at_high.exponent());
         const Integer above_low = abs(at_low.in_units(unit));
         const Integer whole = above_low + abs(at_high.in_units(unit));
         const Integer part = (above_low << static_cast<unsigned>(bits)) / whole;

@@ -8,7 +8,7 @@ namespace errbound {
 
 /// What a call may spend before it gives up.
 struct root_limits {
-    static constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+    static constexpr std::uint64_t none = (std::numeric_limits<std::uint64_t>::max)();
 
     /// On words of 64 bits, about a nanosecond each, counted before they are made as if no
     /// coefficient were zero.

@@ -48,7 +48,7 @@ struct interval {
     template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         using traits = number_traits<T>;
-        const T off = traits::max(b.upper - value, value - b.lower);
+        const T off = (traits::max)(b.upper - value, value - b.lower);
         if (off == 0) return off;
         const T enough = above<T>(off);
         // Ends of one sign are no further from each other than the largest number.

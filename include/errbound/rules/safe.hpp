@@ -44,7 +44,7 @@ struct safe {
         // error/ε overflows beyond that: in some directions to the largest number, which is less.
         const bool overflows = error > traits::largest() * traits::epsilon();
         const T least = overflows ? traits::infinity() : error / traits::epsilon();
-        return {enlarged<T>(traits::max(traits::abs(value) + error, least)), 1};
+        return {enlarged<T>((traits::max)(traits::abs(value) + error, least)), 1};
     }
     /// B[(1 + ε)^k − 1] <= B·kε(1 + kε), since e^x − 1 <= x + x² for x <= 1; unknown beyond.
     /// Proof: proofs/IeeeSafe.v, safe_error_known; in any direction, proofs/Safe.v,
@@ -81,8 +81,8 @@ struct safe {
     static constexpr bound<T> multiply(const T&, rule_operand<T, safe> a, rule_operand<T, safe> b) {
         using traits = number_traits<T>;
         if (is_zero(a) || is_zero(b)) return {T(0), 0};
-        return {traits::max(enlarged<T>(a.bound.magnitude * b.bound.magnitude),
-                            traits::smallest_normal()),
+        return {(traits::max)(enlarged<T>(a.bound.magnitude * b.bound.magnitude),
+                              traits::smallest_normal()),
                 counted(a.bound.operations + b.bound.operations)};
     }
     template <class T>
@@ -102,7 +102,7 @@ struct safe {
         if (e >= 0 ||
             (traits::scale(v, -e) == a.value && traits::scale(scaled, -e) == a.bound.magnitude))
             return {scaled, a.bound.operations};
-        return {traits::max(enlarged<T>(scaled), traits::smallest_normal()),
+        return {(traits::max)(enlarged<T>(scaled), traits::smallest_normal()),
                 counted(a.bound.operations)};
     }
 

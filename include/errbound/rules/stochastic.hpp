@@ -72,7 +72,7 @@ struct stochastic_of {
         for (const T& sample : b.samples) {
             const T off = traits::abs(sample - value);
             if (!traits::is_finite(off)) return traits::infinity();
-            largest = traits::max(largest, off);
+            largest = (traits::max)(largest, off);
         }
         if (largest == 0) return T(0);
         double sum = 0, squares = 0;

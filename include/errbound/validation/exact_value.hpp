@@ -46,13 +46,13 @@ inline constexpr bool fits_double = [] {
 template <class T>
 exact_value exactly(const T& x) {
     using traits = number_traits<T>;
-    const auto near = static_cast<double>(x);
+    const auto nearest = static_cast<double>(x);
     if constexpr (fits_double<T>) {
-        return near;
+        return nearest;
     } else {
         static_assert(traits::digits <= exact_bits);
         // (numeric_limits of MPFR's numbers has not the largest one: is_finite is too strict.)
-        if (!(T(x - x) == 0) || T(near) == x) return near;
+        if (!(T(x - x) == 0) || T(nearest) == x) return nearest;
         exact_value r;
         r.exponent = traits::exponent(x);
         T left = traits::scale(x, -r.exponent);

@@ -297,9 +297,9 @@ tracked<T, Rule> applied(const expression_operation& o, const tracked<T, Rule>* 
         case operation_kind::absolute:
             return abs(left);
         case operation_kind::lesser:
-            return min(left, right);
+            return min<>(left, right);
         case operation_kind::greater:
-            return max(left, right);
+            return max<>(left, right);
         default:
             return is_function(o.kind) ? applied_elementary(function_of(o.kind), left, right)
                                        : applied_compound(o, x);

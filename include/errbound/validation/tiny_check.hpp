@@ -244,11 +244,13 @@ class tiny_checker {
         if constexpr (has_division<Rule>)
             check_quotient(a.x / b.x, {a.low, a.high}, {b.low, b.high}, how, "a / b");
         const bool both = std::isfinite(a.low) && std::isfinite(b.low);
-        check(min(a.x, b.x),
-              both ? exact_range{std::min(a.low, b.low), std::min(a.high, b.high)} : exact_range{},
+        check(min<>(a.x, b.x),
+              both ? exact_range{(std::min)(a.low, b.low), (std::min)(a.high, b.high)}
+                   : exact_range{},
               how, "min(a, b)");
-        check(max(a.x, b.x),
-              both ? exact_range{std::max(a.low, b.low), std::max(a.high, b.high)} : exact_range{},
+        check(max<>(a.x, b.x),
+              both ? exact_range{(std::max)(a.low, b.low), (std::max)(a.high, b.high)}
+                   : exact_range{},
               how, "max(a, b)");
         check_product(dot(std::array{a.x, b.x}, std::array{b.x, a.x}), {2 * a.low, 2 * a.high},
                       {b.low, b.high}, how, "dot(std::array{a, b}, std::array{b, a})");
@@ -269,8 +271,8 @@ class tiny_checker {
     }
     static exact_range sizes_of(const operand_range& x) {
         const double sizes[] = {std::abs(x.low), std::abs(x.high)};
-        return {x.low <= 0 && x.high >= 0 ? 0 : std::min(sizes[0], sizes[1]),
-                std::max(sizes[0], sizes[1])};
+        return {x.low <= 0 && x.high >= 0 ? 0 : (std::min)(sizes[0], sizes[1]),
+                (std::max)(sizes[0], sizes[1])};
     }
     void check_fused(const number& r, std::span<const fused_value> ends, tiny_account& how,
                      const char* operation) {
@@ -299,7 +301,7 @@ class tiny_checker {
                   -std::numeric_limits<double>::infinity()};
         for (const double x : {t.low, (t.low + t.high) / 2, t.high}) {
             const double value = c + x + c * x * x;
-            values = {std::min(values.low, value), std::max(values.high, value)};
+            values = {(std::min)(values.low, value), (std::max)(values.high, value)};
         }
         return values;
     }

@@ -157,7 +157,7 @@ struct number_traits<validation::tiny_float<P, E>> {
     static number largest() { return number::from_code(number::codes / 2 - (1 << (P - 1)) - 1); }
     static number infinity() { return number::from_code(number::codes / 2 - (1 << (P - 1))); }
     static number abs(const number& x) { return x < 0 ? -x : x; }
-    static number max(const number& x, const number& y) { return x < y ? y : x; }
+    static number(max)(const number& x, const number& y) { return x < y ? y : x; }
     static number sqrt(const number& x) { return x.root(); }
     static number fma(const number& a, const number& b, const number& c) { return fused(a, b, c); }
     static bool is_finite(const number& x) { return std::isfinite(double(x)); }
