@@ -17,16 +17,22 @@ endif()
 mark_as_advanced(ERRBOUND_GMP_INCLUDE ERRBOUND_GMP_LIBRARY ERRBOUND_MPFR_INCLUDE
                  ERRBOUND_MPFR_LIBRARY)
 
+# errbound_require(TARGET PACKAGE [VERSION]): a target that the surrounding project has is used as it is.
+macro(errbound_require target)
+  if(NOT TARGET ${target})
+    find_package(${ARGN} REQUIRED)
+  endif()
+endmacro()
 if(ERRBOUND_BUILD_CCD)
-  find_package(Boost 1.74 REQUIRED)
+  errbound_require(Boost::headers Boost 1.74)
   find_package(Threads REQUIRED)  # which the target of a static oneTBB names
-  find_package(TBB REQUIRED)
-  find_package(xsimd REQUIRED)
+  errbound_require(TBB::tbb TBB)
+  errbound_require(xsimd xsimd)
   if(ERRBOUND_BUILD_PROGRAM)
-    find_package(CLI11 REQUIRED)
+    errbound_require(CLI11::CLI11 CLI11)
   endif()
   if(ERRBOUND_BUILD_PROGRAM OR ERRBOUND_BUILD_PYTHON)
-    find_package(nlohmann_json REQUIRED)
+    errbound_require(nlohmann_json::nlohmann_json nlohmann_json)
   endif()
   if(ERRBOUND_WITH_MPI)
     set(MPI_CXX_SKIP_MPICXX ON)  # the C interface alone
