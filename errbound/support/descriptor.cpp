@@ -11,18 +11,14 @@
 
 namespace errbound::support {
 
-void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown,
-               bool (*interrupted)()) {
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown) {
     constexpr std::size_t block = 1 << 20;
     while (!bytes.empty()) {
         const std::ptrdiff_t written =
             system::write(descriptor, bytes.data(), std::min(bytes.size(), block));
-        const int error = errno;
-        if (interrupted && interrupted())
-            throw file_error(shown.string() + ": writing was interrupted");
-        if (written < 0 && error == EINTR) continue;
+        if (written < 0 && errno == EINTR) continue;
         if (written < 0)
-            throw file_error(shown.string() + ": writing failed (" + std::strerror(error) + ")");
+            throw file_error(shown.string() + ": writing failed (" + std::strerror(errno) + ")");
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }

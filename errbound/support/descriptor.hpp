@@ -6,9 +6,8 @@
 
 namespace errbound::support {
 
-/// Writes all bytes to an open descriptor, block by block; asks after each whether to go on.
-/// `shown` is the file's name for messages. Throws file_error.
-void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown,
-               bool (*interrupted)() = nullptr);
+/// Writes all bytes to an open descriptor. `shown` is the file's name for messages. Throws
+/// file_error.
+void write_all(int descriptor, std::string_view bytes, const std::filesystem::path& shown);
 
 }  // namespace errbound::support

@@ -2,6 +2,7 @@
 #include "errbound/support/output_file.hpp"
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -9,10 +10,8 @@
 #include <fstream>
 #include <iostream>
 #include <system_error>
-#include <utility>
 
 #include "errbound/support/descriptor.hpp"
-#include "errbound/support/signals.hpp"
 #include "errbound/support/system/system.hpp"
 
 namespace errbound::support {
@@ -50,9 +49,7 @@ void for_each_block(const fs::path& path, const Take& take) {
 
 /// Writes all to an open descriptor.
 void write_to(int descriptor, const output& out) {
-    const auto write = [&](std::string_view text) {
-        write_all(descriptor, text, out.path, deferred_signals::any);
-    };
+    const auto write = [&](std::string_view text) { write_all(descriptor, text, out.path); };
     if (out.from.empty())
         write(out.text);
     else
@@ -74,51 +71,36 @@ void write_and_close(int descriptor, const output& out) {
         throw file_error(shown.string() + ": writing failed" + reason());
 }
 
-/// An output file that is written but not yet in its place.
-class temporary_file {
-  public:
-    temporary_file(std::string target, const output& out) : target_(std::move(target)) {
-        const bool replaces = system::exists(target_);
-        if (replaces && !system::may_write(target_))
-            throw file_error(out.path.string() + ": cannot be written" + reason());
-        const int descriptor = create();
-        try {
-            if (replaces) system::copy_rights(descriptor, target_);
-            write_and_close(descriptor, out);
-        } catch (...) {
-            if (descriptor >= 0) system::remove(path_);
-            throw;
-        }
-    }
-    temporary_file(temporary_file&& other) noexcept
-        : target_(std::move(other.target_)), path_(std::exchange(other.path_, std::string())) {}
-    temporary_file& operator=(temporary_file&&) = delete;
-    ~temporary_file() {
-        if (!path_.empty()) system::remove(path_);
-    }
+/// Opens a file with a new name beside the target; `name` becomes that name.
+int create_beside(const std::string& target, std::string& name) {
+    static std::atomic<unsigned> count = 0;
+    const std::string beside =
+        folder_of(target) + ".errbound-" + std::to_string(system::process_number()) + "-";
+    int descriptor = -1;
+    do {
+        name = beside + std::to_string(++count) + ".tmp";
+        descriptor = system::create(name);
+    } while (descriptor < 0 && errno == EEXIST);
+    return descriptor;
+}
 
-    void put_in_place() {
-        if (!system::replace(path_, target_))
-            throw file_error(target_ + ": cannot be replaced" + reason());
-        path_.clear();
+/// Writes a temporary file beside the target, and renames it. The target is whole or untouched.
+void replace_file(const std::string& target, const output& out) {
+    const bool replaces = system::exists(target);
+    if (replaces && !system::may_write(target))
+        throw file_error(out.path.string() + ": cannot be written" + reason());
+    std::string name;
+    const int descriptor = create_beside(target, name);
+    try {
+        if (replaces) system::copy_rights(descriptor, target);
+        write_and_close(descriptor, out);
+        if (!system::replace(name, target))
+            throw file_error(out.path.string() + ": cannot be replaced" + reason());
+    } catch (...) {
+        if (descriptor >= 0) system::remove(name);
+        throw;
     }
-
-  private:
-    /// Opens a file of a new name beside the target. What a killed process left stays as it is.
-    int create() {
-        static unsigned count = 0;
-        const std::string beside =
-            folder_of(target_) + ".errbound-" + std::to_string(system::process_number()) + "-";
-        int descriptor = -1;
-        do {
-            path_ = beside + std::to_string(++count) + ".tmp";
-            descriptor = system::create(path_);
-        } while (descriptor < 0 && errno == EEXIST);
-        return descriptor;
-    }
-
-    std::string target_, path_;
-};
+}
 
 /// Where the file itself is, or is to be; nothing for a pipe or a device. Throws file_error.
 std::optional<std::string> file_behind(const fs::path& path) {
@@ -138,6 +120,17 @@ std::optional<std::string> file_behind(const fs::path& path) {
     std::string name = system::native_name(path);
     if (name.empty() || folder_of(name) == name) refuse("no file name");
     return name;
+}
+
+void write_one(const output& out) {
+    if (const auto descriptor = descriptor_of(out.path)) {
+        std::cout.flush();
+        write_to(*descriptor, out);
+    } else if (const auto file = file_behind(out.path)) {
+        replace_file(*file, out);
+    } else {
+        write_and_close(system::open_to_write(system::native_name(out.path)), out);
+    }
 }
 
 }  // namespace
@@ -172,30 +165,11 @@ void require_writable(const fs::path& path) {
 }
 
 void write_whole(const std::vector<output>& outputs) {
-    const deferred_signals deferred;
-    std::vector<temporary_file> files;
-    std::vector<const output*> streams;
-    files.reserve(outputs.size());
-    for (const output& out : outputs) {
-        const auto file = descriptor_of(out.path) ? std::nullopt : file_behind(out.path);
-        if (file)
-            files.emplace_back(*file, out);
-        else
-            streams.push_back(&out);
-    }
-    for (const output* out : streams) {
-        if (const auto descriptor = descriptor_of(out->path)) {
-            std::cout.flush();
-            write_to(*descriptor, *out);
-        } else {
-            write_and_close(system::open_to_write(system::native_name(out->path)), *out);
-        }
-    }
-    for (temporary_file& file : files) file.put_in_place();
+    for (const output& out : outputs) write_one(out);
 }
 
 void write_whole(const fs::path& path, std::string_view text) {
-    write_whole({{path, std::string(text)}});
+    write_one({path, std::string(text)});
 }
 
 std::string read_whole(const fs::path& path) {

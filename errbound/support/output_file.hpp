@@ -1,4 +1,4 @@
-// Output files are written whole or not at all.
+// Each output file is whole or untouched.
 #pragma once
 
 #include <filesystem>
@@ -24,12 +24,11 @@ std::optional<int> descriptor_of(const std::filesystem::path& path);
 /// anything to write: missing folders and rights, names that are no file's.
 void require_writable(const std::filesystem::path& path);
 
-/// Writes all outputs, or none where one cannot be written (full disk, limit on a file's size,
-/// missing rights): each goes to a temporary file beside its path, and once all are there they are
-/// renamed. Pipes, devices and open descriptors, which can be neither replaced nor taken back, are
-/// written between the two. SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGPIPE, where the program does
-/// not handle them, wait until no temporary file is left. A file that is replaced keeps its
-/// permissions; a symbolic link stays one. Throws file_error.
+/// Writes the outputs in order, and stops at the first that fails. Each file is whole or untouched:
+/// its bytes go to a temporary file beside it, which is then renamed. A killed process can leave
+/// `.errbound-PID-N.tmp`. A file that is replaced keeps its permissions; a symbolic link stays one.
+/// Pipes, devices and open descriptors are written directly. Throws file_error (full disk, limit on
+/// a file's size, missing rights).
 void write_whole(const std::vector<output>& outputs);
 void write_whole(const std::filesystem::path& path, std::string_view text);
 

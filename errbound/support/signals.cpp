@@ -24,13 +24,6 @@ void catch_signal(int signal) {
     if (caught.exchange(signal) == 0) system::write(2, line_to_print.data(), line_length);
 }
 
-volatile std::sig_atomic_t arrived = 0;
-
-void take_down(int signal) {
-    arrived = signal;
-    std::signal(signal, take_down);
-}
-
 }  // namespace
 
 awaited_signals::awaited_signals(const std::string& line) {
@@ -49,22 +42,6 @@ awaited_signals::~awaited_signals() {
 
 const std::atomic<int>& awaited_signals::arrived() const {
     return caught;
-}
-
-deferred_signals::deferred_signals() {
-    arrived = 0;
-    for (std::size_t i = 0; i < system::ending_signals.size(); ++i)
-        taken_[i] = system::take_default(system::ending_signals[i], take_down);
-}
-
-deferred_signals::~deferred_signals() {
-    for (std::size_t i = 0; i < system::ending_signals.size(); ++i)
-        if (taken_[i]) std::signal(system::ending_signals[i], SIG_DFL);
-    if (arrived != 0) std::raise(arrived);
-}
-
-bool deferred_signals::any() {
-    return arrived != 0;
 }
 
 }  // namespace errbound::support

@@ -1,10 +1,8 @@
-// Signals that end a program: for long work that can go on later, and for files that are half
-// written.
+// Signals that end a program, for long work that can go on later.
 #pragma once
 
 #include <array>
 #include <atomic>
-#include <bitset>
 #include <string>
 
 namespace errbound::support {
@@ -24,21 +22,6 @@ class awaited_signals {
 
   private:
     std::array<void (*)(int), 2> before_;
-};
-
-/// While one of these lives, signals that would end the program are only taken down; the destructor
-/// lets them. Beyond a limit on a file's size writing fails.
-class deferred_signals {
-  public:
-    deferred_signals();
-    ~deferred_signals();
-    deferred_signals(const deferred_signals&) = delete;
-    deferred_signals& operator=(const deferred_signals&) = delete;
-
-    static bool any();
-
-  private:
-    std::bitset<32> taken_;  // of system::ending_signals
 };
 
 }  // namespace errbound::support

@@ -155,20 +155,6 @@ int lock(const std::string& folder) {
     return -1;
 }
 
-namespace {
-constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXFSZ};
-}
-const std::span<const int> ending_signals = signals;
-bool take_default(int signal, void (*handler)(int)) {
-    struct sigaction action {};
-    sigaction(signal, nullptr, &action);
-    if ((action.sa_flags & SA_SIGINFO) != 0 || action.sa_handler != SIG_DFL) return false;
-    action = {};
-    action.sa_handler = signal == SIGXFSZ ? SIG_IGN : handler;  // no SA_RESTART
-    sigaction(signal, &action, nullptr);
-    return true;
-}
-
 failing_pipes::failing_pipes() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
 failing_pipes::~failing_pipes() {
     std::signal(SIGPIPE, before_);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -62,12 +61,6 @@ void copy_rights(int descriptor, const std::string& other);
 /// A descriptor: until it is closed, no other process gets one of the same folder. -1, and
 /// EWOULDBLOCK in errno, if one has it; another errno where there are no locks.
 int lock(const std::string& folder);
-
-/// Which end a program that does not handle them, at most 32.
-extern const std::span<const int> ending_signals;
-/// Where a signal has its default action, `handler` takes its place and interrupts writing; whether
-/// it did. (A limit on a file's size is ignored instead: writing fails.)
-bool take_default(int signal, void (*handler)(int));
 
 /// While one of these lives, writing to a pipe that nobody reads fails, and ends no program.
 class failing_pipes {

@@ -175,16 +175,6 @@ int lock(const std::string& folder) {
     return -1;
 }
 
-namespace {
-constexpr int signals[] = {SIGINT, SIGTERM};
-}
-const std::span<const int> ending_signals = signals;
-bool take_default(int signal, void (*handler)(int)) {
-    const auto before = std::signal(signal, handler);
-    if (before != SIG_DFL) std::signal(signal, before);
-    return before == SIG_DFL;
-}
-
 // There are no signals of pipes.
 failing_pipes::failing_pipes() : before_(SIG_DFL) {}
 failing_pipes::~failing_pipes() = default;

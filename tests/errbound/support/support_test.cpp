@@ -1,4 +1,4 @@
-// Output files are written whole or not at all; scratch files go away; decimals are read;
+// Each output file is whole or untouched; scratch files go away; decimals are read;
 // doubles are written as exact text.
 #include <gtest/gtest.h>
 
