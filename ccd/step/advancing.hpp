@@ -23,11 +23,14 @@ inline double last_before(const first_time& time) {
     return time.low < time.high ? time.low : std::nextafter(time.low, 0.0);
 }
 
-/// Where a fraction of the way leads, taken back by so many last places, or to `before`.
+/// The position at a fraction of the way, moved back by a number of last places, at most to
+/// `before`. Fractions 0 and 1 give the ends bit for bit: std::lerp can turn -0.0 into +0.0.
 inline point<double> between(const moving_point<double>& way, double fraction,
                              int last_places_back) {
     const auto on_axis = [=](double before, double after) {
-        double x = std::lerp(before, after, fraction);
+        double x = fraction == 1   ? after
+                   : fraction == 0 ? before
+                                   : std::lerp(before, after, fraction);
         for (int i = 0; i < last_places_back; ++i) x = std::nextafter(x, before);
         return x;
     };

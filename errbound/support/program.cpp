@@ -6,12 +6,13 @@
 
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/system/system.hpp"
+#include "errbound/support/table.hpp"
 
 namespace errbound::support {
 
 int run_program(const std::string& name, const std::function<int()>& body) {
     const auto failed = [&name](int status, const char* what) {
-        std::cerr << name << ": " << what << '\n';
+        std::cerr << name << ": " << printable(what, "\n") << '\n';
         return status;
     };
     int status = 0;

@@ -29,8 +29,9 @@ struct advance_options {
 
 struct advance_result {
     /// Of vertex v std::lerp(before, after, fractions[v]), coordinate by coordinate (that is
-    /// x0 + α (x1 − x0) in doubles, (1 − α) x0 + α x1 where x0 and x1 differ in sign); where that
-    /// brought it into contact by rounding, taken back towards `before` by up to 1024 last places.
+    /// x0 + α (x1 − x0) in doubles, (1 − α) x0 + α x1 where x0 and x1 differ in sign). For α = 0
+    /// and 1 it is `before` and `after`, bit for bit. If rounding brings the vertex into contact,
+    /// it is moved back towards `before` by up to 1024 last places.
     std::vector<point<double>> positions;
     double fraction = 1;            ///< the least of all
     std::vector<double> fractions;  ///< of each vertex

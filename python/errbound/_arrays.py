@@ -31,7 +31,7 @@ def doubles(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Doub
     array = as_array(name, values)
     if array.dtype.kind not in "fiu" or array.dtype.itemsize > 8:
         raise TypeError(f"{name}: found {array.dtype}, expected float64, float32 or whole numbers")
-    if array.size == 0 and array.ndim == 1 and len(shape) > 1:
+    if array.shape == (0,) and len(shape) > 1 and shape[0] is None:
         array = array.reshape([length or 0 for length in shape])
     check_shape(name, array, shape)
     converted = np.require(array, np.float64, ["C", "A"])
@@ -98,7 +98,7 @@ def restated(error: ValueError) -> ValueError:
 
 
 def check_finite(name: str, array: Doubles) -> None:
-    wrong = ~np.isfinite(array.reshape(len(array), -1)).all(axis=1)
+    wrong = ~np.isfinite(array).all(axis=tuple(range(1, array.ndim)))
     if wrong.any():
         row = int(np.argmax(wrong))
         raise ValueError(f"{name}: row {row}: found {array[row].tolist()}, expected finite numbers")

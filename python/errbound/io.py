@@ -138,8 +138,10 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
                   truth: ArrayLike | None = None) -> None:
     """Queries (n, 8, 3) as rows of hexadecimal floats, exactly; truth (n,) as a fourth column.
 
-    In CSV: `ccd convert` makes a store of it.
+    In CSV: `ccd convert` makes a store (.h5, .hdf5) of it; such a path is refused.
     """
+    if _name(path).lower().endswith((".h5", ".hdf5")):
+        raise ValueError(f"path is {_name(path)!r}; expected the name of a CSV file (`ccd convert` writes HDF5)")
     array = doubles("queries", queries, (None, 8, 3))
     check_finite("queries", array)
     known = None if truth is None else np.asarray(truth, np.bool_)

@@ -137,6 +137,22 @@ def test_masks_are_not_dropped(call):
         call(np.ma.masked_greater(QUERY, 2))
 
 
+def test_arrays_of_zero_rows(tmp_path):
+    """NumPy cannot reshape an array of size 0 to a shape with an unknown or another size."""
+    io.write_queries(tmp_path / "none.csv", np.empty((0, 8, 3)))
+    assert (tmp_path / "none.csv").read_text() == ""
+    assert roots.count(np.empty((0, 3))).shape == (0,)
+    with pytest.raises(ValueError, match=r"a: found shape \(0,\), expected \(2,\)"):
+        predicates.orient2d([], [0, 0], [1, 1])
+
+
+@pytest.mark.parametrize("name", ["queries.h5", "QUERIES.HDF5"])
+def test_queries_are_not_written_as_csv_to_a_file_of_a_store(name, tmp_path):
+    with pytest.raises(ValueError, match=f"path is '.*{name}'; expected the name of a CSV file"):
+        io.write_queries(tmp_path / name, QUERY)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_rows_of_different_lengths_name_the_argument():
     with pytest.raises(ValueError, match="queries: "):
         ccd.decide([[1, 2], [3]], "vertex_face")

@@ -16,6 +16,15 @@ inline void require_in_range(std::string_view what, std::size_t row, vertex_inde
                                 ", expected less than " + std::to_string(vertices));
 }
 
+/// Throws std::invalid_argument for a name with control characters: XML has no place for them, and
+/// readers replace line ends by blanks.
+inline void require_xml_name(std::string_view name) {
+    for (const char c : name)
+        if (static_cast<unsigned char>(c) < 0x20)
+            throw std::invalid_argument("found '" + std::string(name) +
+                                        "', expected a name without control characters");
+}
+
 /// Throws std::invalid_argument that names list, row, found and expected.
 inline void require_view(const step_view& step) {
     const std::size_t vertices = step.positions.vertices;

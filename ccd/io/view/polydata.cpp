@@ -235,6 +235,7 @@ std::string pvd_of(std::span<const series_entry> series) {
         if (!std::isfinite(entry.time))
             throw std::invalid_argument("times: found one of '" + entry.file +
                                         "' that is not finite");
+        detail::require_xml_name(entry.file);
         char time[32];
         const auto end = std::to_chars(std::begin(time), std::end(time), entry.time).ptr;
         text.append("<DataSet timestep=\"").append(time, end).append("\" file=\"");

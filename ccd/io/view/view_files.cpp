@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "ccd/io/view/checks.hpp"
+
 namespace ccd::io {
 
 using errbound::support::output;
@@ -13,6 +15,7 @@ std::vector<fs::path> view_paths(const fs::path& path) {
     const std::string name = path.string(), extension = path.extension().string();
     if (name == "-" || extension == ".html" || extension == ".vtp") return {path};
     if (extension == ".pvd") {
+        detail::require_xml_name(name);
         const std::string stem = name.substr(0, name.size() - extension.size());
         return {stem + "-0.vtp", stem + "-1.vtp", path};
     }

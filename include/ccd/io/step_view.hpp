@@ -54,7 +54,8 @@ struct series_entry {
     std::string file;
 };
 
-/// A series of files as ParaView's PVD. Throws std::invalid_argument if a time is not finite.
+/// A series of files as ParaView's PVD. Throws std::invalid_argument if a time is not finite or a
+/// name has a control character, which XML cannot hold.
 std::string pvd_of(std::span<const series_entry> series);
 
 }  // namespace ccd::io

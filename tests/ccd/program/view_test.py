@@ -234,10 +234,14 @@ class Refusals(Views):
         for name in "step.obj", "step", ".html":
             said = self.bad_usage("step", *frames, "--view", self.directory / name)
             self.assertIn("expected a name that ends in .html, .vtp or .pvd", said)
+        for name in "a\nb.pvd", "a\x1b[31m.pvd":
+            said = self.bad_usage("step", *frames, "--view", self.directory / name)
+            self.assertIn("expected a name without control characters", said)
+            self.assertNotIn("\x1b", said)
         said = self.bad_usage("step", *frames, "--view", self.directory / "s.pvd", "--pairs", self.directory / "s-1.vtp")
         self.assertIn("s-1.vtp", said)
 
-    def test_all_files_or_none(self):
+    def test_a_file_of_a_series_is_a_folder(self):
         frames = self.triangles()
         (self.directory / "step-1.vtp").mkdir()
         self.bad_input("step-1.vtp", "step", *frames, "--view", self.directory / "step.pvd")

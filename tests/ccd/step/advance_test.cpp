@@ -2,10 +2,12 @@
 // that touched at the start.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <ccd/advance.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "ccd/step/advancing.hpp"
 #include "tests/ccd/step/expect_advances.hpp"
 #include "tests/ccd/step/nasty_shapes.hpp"
 
@@ -26,6 +28,23 @@ TEST(Advance, GoesAllTheWayWhereThatIsFree) {
     EXPECT_EQ(result.fraction, 1);
     EXPECT_EQ(result.positions, after.vertices);
     EXPECT_EQ(result.first_contact.outcome, outcome::separate);
+}
+
+/// std::lerp(-1, -0.0, 1) and std::lerp(-0.0, 1, 0) are +0.0.
+TEST(Advance, KeepsNegativeZerosAtBothEnds) {
+    const auto signs_of = [](const ccd::point<double>& p) {
+        return std::array{std::signbit(p.x), std::signbit(p.y), std::signbit(p.z)};
+    };
+    const std::vector<ccd::point<double>> ends{{-0.0, 0.0, -0.0}, {1, -1, -0.0}};
+    for (const bool reversed : {false, true}) {
+        const ccd::mesh before{{ends[reversed]}, {}}, after{{ends[!reversed]}, {}};
+        const auto all = ccd::advance(before, after);
+        ASSERT_EQ(all.fraction, 1);
+        EXPECT_EQ(signs_of(all.positions[0]), signs_of(after.vertices[0]));
+    }
+    const ccd::moving_point<double> way{{-0.0, -0.0, -0.0}, {1, -1, 0.0}};
+    EXPECT_EQ(signs_of(ccd::detail::between(way, 0, 0)), signs_of(way.t0));
+    EXPECT_EQ(signs_of(ccd::detail::between(way, 1, 0)), signs_of(way.t1));
 }
 
 TEST(Advance, StopsBeforeTheFirstContact) {

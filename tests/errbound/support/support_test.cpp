@@ -18,6 +18,7 @@
 #include "errbound/support/hexadecimal.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/scratch_file.hpp"
+#include "errbound/support/table.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/scaled.hpp"
 
@@ -94,6 +95,18 @@ TEST(Output, LinksAndDevicesStayWhatTheyAre) {
     EXPECT_EQ(read_whole(file), "two");
     write_whole("/dev/null", "x");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+/// A file named "\x1b[2J.csv" cleared the screen.
+TEST(Table, PrintsControlCharactersAsNumbers) {
+    using errbound::support::printable;
+    EXPECT_EQ(printable("\x1b[2J.csv\n\x7f"), "\\x1b[2J.csv\\x0a\\x7f");
+    EXPECT_EQ(printable("a\nb\tc", "\n"), "a\nb\\x09c");
+    EXPECT_EQ(printable("\xc2\x9b"
+                        "31m \xc3\x9b \xc2\xa0"),
+              "\\xc2\\x9b31m \xc3\x9b \xc2\xa0");
+    EXPECT_EQ(errbound::support::text_of({{"file", "n"}, {"a\rb", "1"}}, 1),
+              "file     n\na\\x0db  1\n");
 }
 
 TEST(Scratch, GivesBackWhatWasAppendedAndGoesAway) {
