@@ -26,13 +26,14 @@ import numpy
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 FOLDER = pathlib.Path(__file__).resolve().parent
+PIXELS = 2000
 INK, PALE, BAND = "#333333", "#d9d9d9", "#f2f2f2"
 # Told apart by people who see few colours, too (Paul Tol's palettes).
 COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb",
            "#000000", "#ee7733", "#009988", "#882255", "#999933", "#332288", "#ddcc77"]
 
 plt.rcParams.update({
-    "font.size": 9, "font.family": "DejaVu Sans", "figure.dpi": 100, "savefig.dpi": 200,
+    "font.size": 9, "font.family": "DejaVu Sans", "figure.dpi": 100,
     "axes.edgecolor": INK, "axes.labelcolor": INK, "axes.linewidth": 0.7,
     "axes.spines.top": False, "axes.spines.right": False,
     "axes.titlesize": 10, "axes.titlelocation": "left", "axes.titlepad": 8,
@@ -59,7 +60,11 @@ def table(name):
 
 
 def save(figure, name):
-    figure.savefig(FOLDER / f"{name}.png", bbox_inches="tight", pad_inches=0.15)
+    """As PNG of at most PIXELS a side, which fits a screen, and as SVG."""
+    figure.canvas.draw()
+    box, pad = figure.get_tightbbox(figure.canvas.get_renderer()), 0.15
+    dpi = min(200, PIXELS / (max(box.width, box.height) + 2 * pad + 0.05))
+    figure.savefig(FOLDER / f"{name}.png", bbox_inches="tight", pad_inches=pad, dpi=dpi)
     figure.savefig(FOLDER / f"{name}.svg", bbox_inches="tight", pad_inches=0.15,
                    metadata={"Date": None})
     plt.close(figure)
@@ -84,6 +89,13 @@ def short(number):
         if abs(number) >= size:
             return f"{number / size:.3g}{letter}"
     return f"{number:.3g}" if abs(number) >= 1e-3 else f"1e{math.log10(abs(number)):.0f}"
+
+
+def power(exponent):
+    """Ten to this power: 1.4, 230, 1e12."""
+    if math.isnan(exponent):
+        return "-"
+    return f"{10 ** exponent:.2g}" if -3 < exponent < 2 else f"1e{exponent:.0f}"
 
 
 def nanoseconds(ns):
@@ -259,20 +271,26 @@ SPREAD_NOTE = "Dot: median; thick: middle half; thin: 1 % to 99 %"
 
 
 def grid(rows, height):
-    """A panel for each data set (down) and kind (across): yields (axes, rows of the panel)."""
+    """A panel for each data set (down) and kind (across): yields (axes, rows of the panel).
+
+    Many data sets stand in several columns, so that the figure is not taller than wide.
+    """
     sets, kinds = in_order(r["data_set"] for r in rows), in_order(r["kind"] for r in rows)
-    figure, panels = plt.subplots(len(sets), len(kinds), figsize=(9, height * len(sets)),
-                                  squeeze=False)
+    across = next(n for n in range(1, len(sets) + 1) if height * -(-len(sets) // n) <= max(9 * n, height))
+    lines = -(-len(sets) // across)
+    figure, panels = plt.subplots(lines, across * len(kinds), squeeze=False,
+                                  figsize=(9 * across, height * lines))
     cells = []
+    for axes in panels.flat:
+        axes.set_axis_off()
     for i, name in enumerate(sets):
         for j, kind in enumerate(kinds):
             here = [r for r in rows if (r["data_set"], r["kind"]) == (name, kind)]
-            panels[i][j].set_title(f"{name}, {kind}")
             if here:
-                cells.append((panels[i][j], here))
-            else:
-                panels[i][j].set_axis_off()
-                panels[i][j].set_title("")
+                axes = panels[i % lines][i // lines * len(kinds) + j]
+                axes.set_axis_on()
+                axes.set_title(f"{name}, {kind}")
+                cells.append((axes, here))
     return figure, cells
 
 
@@ -313,30 +331,31 @@ def tightness():
     for r in rows:
         r["quantity"] = f"{r['part']}: {r['quantity']}"
     rules, quantities = in_order(r["rule"] for r in rows), in_order(r["quantity"] for r in rows)
-    colour = colours(rules)
-    figure, axes = plt.subplots(figsize=(9, 0.9 + len(quantities) * (0.2 + 0.12 * len(rules))))
+    image = numpy.full((len(quantities), len(rules)), math.nan)
+    figure, axes = plt.subplots(figsize=(2.6 + 0.72 * len(rules), 1.4 + 0.24 * len(quantities)))
     for r in rows:
-        at = quantities.index(r["quantity"]) + \
-            (rules.index(r["rule"]) - (len(rules) - 1) / 2) * 0.75 / len(rules)
-        spread(axes, at, r, "", colour[r["rule"]], False)
+        at = quantities.index(r["quantity"]), rules.index(r["rule"])
+        image[at] = r["q50"]
+        if not math.isnan(r["q50"]):
+            axes.text(at[1], at[0], f"{power(r['q50'])} / {power(r['q99'])}", ha="center",
+                      va="center", fontsize=6.5, color="white" if r["q50"] > 8 else INK)
+    # Most medians lie below 10^2, some far beyond.
+    palette = matplotlib.colormaps["YlOrRd"].copy()
+    palette.set_bad(BAND)
+    palette.set_under(COLOURS[4])
+    drawn = axes.imshow(image, cmap=palette, aspect="auto", interpolation="nearest",
+                        norm=matplotlib.colors.PowerNorm(0.5, 0, 16))
+    axes.set_xticks(range(len(rules)))
+    axes.set_xticklabels(rules, rotation=45, ha="left", rotation_mode="anchor")
+    axes.xaxis.tick_top()
     axes.set_yticks(range(len(quantities)))
     axes.set_yticklabels(quantities)
-    axes.set_ylim(len(quantities) - 0.4, -0.6)
-    axes.grid(axis="y", visible=False)
-    # Most lies below 10^4, some far beyond: the exponent by its square root. Ends at 10^60.
-    high = axes.get_xlim()[1]
-    axes.set_xscale("function", functions=(lambda x: numpy.sign(x) * numpy.sqrt(numpy.abs(x)),
-                                           lambda x: numpy.sign(x) * x * x))
-    least = min(r["q1"] for r in rows if not math.isnan(r["q1"]))
-    axes.set_xlim(min(0, least) - 0.02, min(high, 60))
-    axes.set_xticks([e for e in (-4, -2, -1, 0, 1, 2, 4, 8, 16, 32, 60)
-                     if axes.get_xlim()[0] <= e <= axes.get_xlim()[1]])
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
-    axes.axvline(0, color=INK, lw=0.7)
-    axes.set_xlabel("bound / true error (1: as tight as can be; left of it the bound fails, "
-                    "or an estimate is too small)")
-    figure.tight_layout()
-    rule_legend(figure, colour, SPREAD_NOTE)
+    axes.grid(False)
+    bar = figure.colorbar(drawn, ax=axes, shrink=0.4, aspect=30, pad=0.02, extend="both",
+                          ticks=[0, 1, 2, 4, 8, 16],
+                          format=FuncFormatter(lambda x, _: f"$10^{{{x:.0f}}}$"))
+    bar.set_label("median of bound / true error (blue: the bound fails, or an estimate is too small)")
+    axes.set_xlabel("in each field: median / 99 % of bound / true error; grey: no errors, or all bounds infinite")
     save(figure, "tightness")
 
 

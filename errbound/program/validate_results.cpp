@@ -1,6 +1,7 @@
 // What `errbound validate` found, as tables, JSON and CSV.
 #include "errbound/program/validate_results.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -71,6 +72,38 @@ std::string text_of_tightness(const std::vector<found_part>& parts) {
                 rows.back().push_back(text_of_quantile(t.log10, q.share));
         }
     return rows.size() > 1 ? text_of(rows, 5) : std::string();
+}
+
+/// A line per rule over all parts and number types: counts, and quantiles of log10 of the measure
+/// (bound/error, estimate/error of an estimate) over all quantities.
+std::string text_of_rules(const std::vector<found_part>& parts) {
+    struct summary {
+        rule_counts counts;
+        distribution log10;
+    };
+    std::vector<summary> rules;
+    const auto of_rule = [&rules](const std::string& rule) -> summary& {
+        const auto same = [&rule](const summary& s) { return s.counts.rule == rule; };
+        const auto found = std::ranges::find_if(rules, same);
+        if (found != rules.end()) return *found;
+        rules.emplace_back().counts.rule = rule;
+        return rules.back();
+    };
+    for (const found_part& p : parts) {
+        for (const rule_counts& c : p.found.counts) {
+            rule_counts& sum = of_rule(c.rule).counts;
+            sum.cases += c.cases, sum.values += c.values;
+            sum.violations += c.violations, sum.undetermined += c.undetermined;
+        }
+        for (const tightness& t : p.found.distributions)
+            if (t.measure != "error/value") of_rule(t.rule).log10.merge(t.log10);
+    }
+    table rows{{"rule", "cases", "values", "violations", "undetermined", "median", "99 %"}};
+    for (const auto& [c, log10] : rules)
+        rows.push_back({c.rule, std::to_string(c.cases), std::to_string(c.values),
+                        std::to_string(c.violations), std::to_string(c.undetermined),
+                        text_of_quantile(log10, 0.5), text_of_quantile(log10, 0.99)});
+    return rules.empty() ? std::string() : text_of(rows, 1);
 }
 
 /// Three digits after the point, rounded up: a bound that may be relied on.
@@ -220,6 +253,8 @@ exit_status write_results(const std::vector<found_part>& parts, const validate_a
     if (const std::string text = text_of_tightness(parts); !text.empty())
         people << "\nlog10 of the measure:\n" << text;
     people << text_of_violations(parts);
+    if (const std::string text = text_of_rules(parts); !text.empty())
+        people << "\nrules, with log10 of bound/error over all quantities:\n" << text;
     std::uint64_t violations = 0;
     for (const found_part& p : parts) violations += p.found.violation_count();
     people << '\n' << (violations == 0 ? "no" : std::to_string(violations)) << " violations\n";

@@ -3,6 +3,7 @@
 import csv
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -160,10 +161,40 @@ class Report(unittest.TestCase):
             self.assertTrue((self.out / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
             self.assertIn("<svg", (self.out / f"{name}.svg").read_text())
             self.assertIn(f"]({name}.png)", markdown)
+        self.check_sizes()
         # A later report that cannot draw does not show these.
         self.report(self.data, "--method", "exact")
         self.assertFalse((self.out / "pareto.png").exists())
         self.assertNotIn("pareto.png", (self.out / "report.md").read_text())
+
+    def check_sizes(self):
+        for picture in self.out.glob("*.png"):
+            sides = struct.unpack(">II", picture.read_bytes()[16:24])
+            self.assertLessEqual(max(sides), 2000, picture)
+            self.assertGreaterEqual(min(sides), 300, picture)
+
+    @unittest.skipUnless(HAVE_MATPLOTLIB, "no matplotlib")
+    def test_pictures_of_many_rows_fit_a_screen(self):
+        """The picture of 14 rules and 33 quantities was 12,816 pixels tall."""
+        self.report(self.data, "--method", "exact", sections="methods")
+        quantiles = [f"q{p}" for p in (1, 25, 50, 75, 99)]
+        values = range(5)
+        with open(self.out / "tightness.csv", "w") as file:
+            print("part,rule,number,quantity,measure", *quantiles, sep=",", file=file)
+            for rule in range(14):
+                for quantity in range(33):
+                    print("expressions", f"rule{rule}", "double", f"quantity {quantity}", "bound/error",
+                          *(v * rule / 4 - (quantity == 3) for v in values), sep=",", file=file)
+        with open(self.out / "bounds.csv", "w") as file:
+            print("data_set,kind,rule,variable", *(f"relative_{q}" for q in quantiles), sep=",", file=file)
+            for data_set in range(6):
+                for kind in "vf", "ee":
+                    for variable in "abcdef":
+                        print(f"set {data_set}", kind, "tight", variable, *(10.0**(v - 16) for v in values),
+                              sep=",", file=file)
+        subprocess.run(["/usr/bin/python3", self.out / "plot.py"], check=True)
+        self.check_sizes()
+        self.assertTrue((self.out / "tightness.png").exists())
 
 
 unittest.main()

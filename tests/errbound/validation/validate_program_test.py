@@ -43,6 +43,13 @@ class Validate(unittest.TestCase):
             self.assertEqual(entry["violations"], 0)
             self.assertIn(str(entry["values"]), text)
         rules = {entry["rule"] for entry in found["counts"]}
+        last = text.rstrip().splitlines()[-2 - len(rules):-2]  # a line per rule, "", the verdict
+        self.assertEqual({line.split()[0] for line in last}, rules)
+        for line in last:
+            rule, cases, values = line.split()[:3]
+            entries = [entry for entry in found["counts"] if entry["rule"] == rule]
+            self.assertEqual(int(cases), sum(entry["cases"] for entry in entries))
+            self.assertEqual(int(values), sum(entry["values"] for entry in entries))
         self.assertLessEqual({"none", "safe", "tight"}, rules)
         with open(table, newline="") as file:
             rows = list(csv.DictReader(file))
