@@ -23,6 +23,7 @@ def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
     for block in blocks:
         exec(compile(block, page, "exec"), names)
     assert printed in capsys.readouterr().out
+    assert {path.name for path in tmp_path.iterdir()} <= {"examples", "out"}, "git does not ignore other files"
 
 
 def test_pages_that_docstrings_name_are_in_the_package():
