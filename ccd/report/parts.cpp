@@ -25,15 +25,6 @@ std::string dumped(const ordered_json& value) {
     return value.dump(-1, ' ', false, replace);
 }
 
-std::string csv_of(const ordered_json& value) {
-    if (!value.is_string()) return value.is_null() ? "" : dumped(value);
-    const std::string text = value.get<std::string>();
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
-}
-
 }  // namespace
 
 part_store::part_store(fs::path folder) : folder_(std::move(folder)) {
@@ -73,20 +64,6 @@ void part_store::keep(const part_key& key, const rows& of_part) const {
                                    {"check", fingerprint_of(dumped(values))},
                                    {"rows", values}};
     write_whole(path_of(key), document.dump(1, ' ', false, replace) + '\n');
-}
-
-std::string csv_of(const std::vector<std::string>& columns, const rows& of_table) {
-    std::string text;
-    for (const std::string& column : columns) text += (text.empty() ? "" : ",") + column;
-    text += '\n';
-    for (const row& r : of_table) {
-        for (std::size_t i = 0; i < columns.size(); ++i) {
-            if (i > 0) text += ',';
-            if (r.contains(columns[i])) text += csv_of(r[columns[i]]);
-        }
-        text += '\n';
-    }
-    return text;
 }
 
 }  // namespace ccd::report

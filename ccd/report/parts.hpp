@@ -34,8 +34,4 @@ class part_store {
     std::filesystem::path folder_;
 };
 
-/// The rows as CSV with these columns; a column that a row lacks stays empty. Texts with a comma or
-/// a quotation mark are quoted.
-std::string csv_of(const std::vector<std::string>& columns, const rows& of_table);
-
 }  // namespace ccd::report

@@ -4,13 +4,11 @@
 #include <errbound/support/error.hpp>
 #include <system_error>
 
+#include "ccd/io/plots/plots.hpp"
 #include "ccd/report/tasks.hpp"
 #include "errbound/support/output_file.hpp"
-#include "errbound/support/system/system.hpp"
 
 namespace ccd::report {
-
-extern const std::string_view plot_script;  // ccd/report/plot.py, by the build
 
 namespace {
 
@@ -95,17 +93,6 @@ std::vector<std::string> failures_of(const summary& report) {
     return failures;
 }
 
-/// Runs plot.py in the folder. Its exit status; 127 if there is no Python, or it did not end well.
-int draw(const fs::path& folder) {
-    const std::string script = (folder / "plot.py").string();
-    // Distribution packages belong to the distribution's Python, which need not be the first on
-    // PATH.
-    int status = 127;
-    for (const char* python : {"/usr/bin/python3", "python3", "python"})
-        if (status == 127) status = errbound::support::system::run(python, script);
-    return status;
-}
-
 const std::vector<picture>& possible_pictures() {
     static const std::vector<picture> all{
         {"pareto.png",
@@ -132,11 +119,6 @@ const std::vector<picture>& possible_pictures() {
     return all;
 }
 
-const std::vector<std::string> method_columns{"data_set",   "origin",          "kind",
-                                              "method",     "queries",         "colliding",
-                                              "collisions", "false_positives", "false_negatives",
-                                              "uncertain",  "timed",           "ns_min",
-                                              "ns_median"};
 const std::vector<std::string> time_columns{"data_set", "kind",  "method",  "timed",    "ns_median",
                                             "ns_90",    "ns_99", "ns_99_9", "ns_worst", "clock_ns"};
 const std::vector<std::string> contact_columns{"data_set",
@@ -249,7 +231,7 @@ void write_tables(const summary& report) {
         std::string_view section;
         const std::vector<std::string>& columns;
         const rows& table;
-    } tables[] = {{"methods", method_columns, report.methods},
+    } tables[] = {{"methods", io::method_columns, report.methods},
                   {"times", time_columns, report.times},
                   {"contacts", contact_columns, report.contacts},
                   {"bounds", bound_columns, report.bounds},
@@ -259,23 +241,21 @@ void write_tables(const summary& report) {
         const fs::path path = report.settings.out / (std::string(t.section) + ".csv");
         std::error_code ignored;
         fs::remove(path, ignored);
-        if (!t.table.empty()) write_whole(path, csv_of(t.columns, t.table));
+        if (!t.table.empty()) write_whole(path, io::csv_of(t.columns, t.table));
     }
 }
 
 /// Writes plot.py and runs it. Pictures that it could not make are left out, which is reported.
 void draw_pictures(summary& report, const say_line& say) {
     const fs::path& folder = report.settings.out;
-    write_whole(folder / "plot.py", plot_script);
     for (const picture& p : possible_pictures()) {  // of earlier data
         std::error_code ignored;
         fs::remove(folder / p.file, ignored);
         fs::remove((folder / p.file).replace_extension(".svg"), ignored);
     }
-    constexpr int no_matplotlib = 3, no_python = 127;
-    const int status = draw(folder);
-    if (status == no_python) say("no pictures: Python (python3) cannot be run");
-    if (status == no_matplotlib || status == no_python) {
+    const int status = io::draw_pictures(folder);
+    if (status == io::no_python) say("no pictures: Python (python3) cannot be run");
+    if (status == io::no_matplotlib || status == io::no_python) {
         report.left_out.push_back({"pictures", "no Python with matplotlib"});
     } else if (status != 0) {
         report.failures.push_back("plot.py ended with status " + std::to_string(status));

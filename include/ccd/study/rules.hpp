@@ -5,7 +5,7 @@
 //   int main(int argc, char** argv) {
 //       return ccd::study::rules_main<mine, errbound::tight>(argc, argv);
 //   }
-//   ./mine vertex-face/*.csv
+//   ./mine --out out/mine vertex-face/*.csv     # --out: also as CSV, JSON and a picture
 //
 // The method is BSC (ccd/methods/bsc.hpp), whose scalar is a tracked number under the rule: only
 // the rules differ. Needs the targets errbound::ccd and, for rules_main, errbound::ccd_io.
@@ -22,10 +22,12 @@
 #include <cstddef>
 #include <cstdio>
 #include <errbound/support/error.hpp>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -119,43 +121,82 @@ std::vector<rule_row> compare_rules(const std::vector<Query>& queries,
     return rows;
 }
 
+/// The rows of a file of queries.
+struct compared_file {
+    std::string name;
+    ccd::kind kind{};
+    std::size_t colliding = 0;  ///< of the file's queries, those that collide
+    std::vector<rule_row> rows;
+};
+
+/// Writes methods.csv, with the columns of `ccd report`, methods.json and plot.py into the folder,
+/// which is made, and runs plot.py: it draws pareto-queries.png and .svg, errors against run time.
+/// Returns false if there are no pictures: no Python, or one without matplotlib. Throws
+/// errbound::support::file_error. Needs the target errbound::ccd_io.
+bool write_comparison(const std::filesystem::path& folder, const std::vector<compared_file>& files);
+
+namespace detail {
+
+/// Reads a file of queries, whose truth is that of `exact` where it has none, and compares the
+/// rules. Throws errbound::support::file_error.
+template <class... Rules>
+compared_file compare_on_file(const std::string& path) {
+    const io::query_file file = io::read_queries(path, std::nullopt, false);
+    return std::visit(
+        [&](const auto& queries) {
+            std::vector<bool> truth = file.truth.value_or(std::vector<bool>());
+            if (!file.truth)
+                for (const auto& query : queries)
+                    truth.push_back(decide_exact(query).outcome == outcome::collides);
+            const auto colliding = std::count(truth.begin(), truth.end(), true);
+            return compared_file{path, file.kind(), static_cast<std::size_t>(colliding),
+                                 compare_rules<Rules...>(queries, truth)};
+        },
+        file.queries);
+}
+
+inline void print(const compared_file& file) {
+    for (const rule_row& r : file.rows)
+        std::printf("%-12s %-7s %9zu %10zu %9zu %9zu %9zu %9zu %9.1f  %s\n", r.rule.c_str(),
+                    r.number.c_str(), r.queries, r.collisions, r.false_positives, r.false_negatives,
+                    r.uncertain, r.wrong, r.ns_per_query, file.name.c_str());
+}
+
+}  // namespace detail
+
 /// A main program: compares the rules on stored queries, files as `ccd query` takes them, whose
 /// kind the path says and whose truth, where they have none, is that of `exact`. Prints a row for
-/// each file, rule and number type. Returns 0; 1 after bad input, or where certain answers under a
-/// rule that promises a bound were wrong; 2 without files.
+/// each file, rule and number type; with `--out FOLDER` before the files it also calls
+/// write_comparison. Returns 0; 1 after bad input, or where certain answers under a rule that
+/// promises a bound were wrong; 2 without files.
 template <class... Rules>
 int rules_main(int argc, const char* const* argv) {
-    if (argc < 2) {
-        std::fprintf(stderr,
-                     "usage: %s FILE...   stored queries, as ccd query takes them, in folders\n"
-                     "called vertex-face and edge-edge, or with names that end in vf or ee\n",
-                     argc > 0 ? argv[0] : "rules");
+    const bool writes = argc > 2 && std::string_view(argv[1]) == "--out";
+    const int first = writes ? 3 : 1;
+    if (argc <= first) {
+        std::fprintf(
+            stderr,
+            "usage: %s [--out FOLDER] FILE...   stored queries, as ccd query takes them, in\n"
+            "folders called vertex-face and edge-edge, or with names that end in vf or ee\n",
+            argc > 0 ? argv[0] : "rules");
         return 2;
     }
-    bool broken = false;
     std::printf("%-12s %-7s %9s %10s %9s %9s %9s %9s %9s  %s\n", "rule", "number", "queries",
                 "collisions", "FP", "FN", "uncertain", "wrong", "ns/query", "file");
-    for (int i = 1; i < argc; ++i) try {
-            const io::query_file file = io::read_queries(argv[i], std::nullopt, false);
-            std::visit(
-                [&](const auto& queries) {
-                    std::vector<bool> truth = file.truth.value_or(std::vector<bool>());
-                    if (!file.truth)
-                        for (const auto& query : queries)
-                            truth.push_back(decide_exact(query).outcome == outcome::collides);
-                    for (const rule_row& r : compare_rules<Rules...>(queries, truth)) {
-                        std::printf("%-12s %-7s %9zu %10zu %9zu %9zu %9zu %9zu %9.1f  %s\n",
-                                    r.rule.c_str(), r.number.c_str(), r.queries, r.collisions,
-                                    r.false_positives, r.false_negatives, r.uncertain, r.wrong,
-                                    r.ns_per_query, argv[i]);
-                        broken = broken || r.is_broken();
-                    }
-                },
-                file.queries);
-        } catch (const errbound::support::file_error& error) {
-            std::fprintf(stderr, "%s\n", error.what());
-            return 1;
+    bool broken = false;
+    try {
+        std::vector<compared_file> files;
+        for (int i = first; i < argc; ++i) {
+            files.push_back(detail::compare_on_file<Rules...>(argv[i]));
+            detail::print(files.back());
+            for (const rule_row& r : files.back().rows) broken = broken || r.is_broken();
         }
+        if (writes && !write_comparison(argv[2], files))
+            std::fprintf(stderr, "%s: no pictures: found no Python with matplotlib\n", argv[2]);
+    } catch (const errbound::support::file_error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
     return broken ? 1 : 0;
 }
 

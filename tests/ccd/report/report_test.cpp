@@ -1,5 +1,6 @@
 // What `ccd report` is made of: statistics, kept parts, data sets and their truth, counts of
 // errors.
+#include "ccd/io/plots/plots.hpp"
 #include "ccd/report/report.hpp"
 
 #include <gtest/gtest.h>
@@ -52,8 +53,8 @@ TEST_F(Report, QuantilesAreOfTheNumbers) {
 }
 
 TEST_F(Report, CsvQuotesWhatNeedsIt) {
-    EXPECT_EQ(report::csv_of({"a", "b", "c"},
-                             {{{"c", 0.1}, {"a", "x, \"y\""}}, {{"a", 3}, {"b", nullptr}}}),
+    EXPECT_EQ(ccd::io::csv_of({"a", "b", "c"},
+                              {{{"c", 0.1}, {"a", "x, \"y\""}}, {{"a", 3}, {"b", nullptr}}}),
               "a,b,c\n\"x, \"\"y\"\"\",,0.1\n3,,\n");
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "errbound/support/output_file.hpp"
 #include "tests/support/files.hpp"
 
 namespace {
@@ -91,6 +92,33 @@ int run(const std::vector<std::string>& arguments) {
     std::vector<const char*> all{"program"};
     for (const std::string& a : arguments) all.push_back(a.c_str());
     return ccd::study::rules_main<Rules...>(static_cast<int>(all.size()), all.data());
+}
+
+/// The files of `ccd report`, a rule and number type a method.
+TEST(RulesMain, WritesCsvJsonAndPictures) {
+    const test_files::temporary_directory folder;
+    const std::string file = (folder.path / "vf.csv").string();
+    test_files::write(file,
+                      "0x1.3p-2,0.1,0.7\n0.1,-0.3,0\n1.3,0,0.1\n0.1,1.7,0\n"
+                      "0.23,0.1,-0.7\n0,-0.3,0\n1.3,0.1,0\n0,1.7,0.1\n");
+    const auto out = folder.path / "made" / "out";
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ((run<renamed, errbound::none>({"--out", out.string(), file})), 0);
+    testing::internal::GetCapturedStdout();
+    const bool drawn = testing::internal::GetCapturedStderr().empty();
+    const std::string csv = errbound::support::read_whole(out / "methods.csv");
+    EXPECT_TRUE(csv.starts_with("data_set,origin,kind,method,queries,colliding,")) << csv;
+    EXPECT_NE(csv.find(",stored,vertex-face,\"renamed, float\",1,1,1,0,0,0,1,"), std::string::npos)
+        << csv;
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
+    const std::string json = errbound::support::read_whole(out / "methods.json");
+    EXPECT_NE(json.find("\"method\": \"none, double\""), std::string::npos) << json;
+    EXPECT_EQ(std::filesystem::exists(out / "pareto-queries.png"), drawn);
+    EXPECT_EQ(run<renamed>({"--out", out.string()}), 2);
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run<renamed>({"--out", file, file}), 1);  // a file is no folder
+    testing::internal::GetCapturedStdout();
 }
 
 TEST(RulesMain, ReadsFilesAndSaysWhatItMust) {

@@ -1,0 +1,26 @@
+// Tables in a folder, and the pictures that plot.py draws from them.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace ccd::io {
+
+/// The rows as CSV with these columns; a column that a row lacks stays empty. Texts with a comma or
+/// a quotation mark are quoted.
+std::string csv_of(const std::vector<std::string>& columns,
+                   const std::vector<nlohmann::ordered_json>& rows);
+
+/// The columns of methods.csv.
+extern const std::vector<std::string> method_columns;
+
+/// Exit statuses of draw_pictures beside 0.
+inline constexpr int no_matplotlib = 3, no_python = 127;
+
+/// Writes plot.py into the folder and runs it there. Returns its exit status. Throws
+/// errbound::support::file_error.
+int draw_pictures(const std::filesystem::path& folder);
+
+}  // namespace ccd::io
