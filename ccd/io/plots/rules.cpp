@@ -23,7 +23,7 @@ bool write_comparison(const std::filesystem::path& folder,
         for (const rule_row& r : file.rows)
             rows.push_back({{"data_set", file.name},
                             {"origin", "stored"},
-                            {"kind", name(file.kind)},
+                            {"kind", short_name(file.kind)},
                             {"method", r.rule + ", " + r.number},
                             {"queries", r.queries},
                             {"colliding", file.colliding},
