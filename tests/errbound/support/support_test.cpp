@@ -106,7 +106,7 @@ TEST(Table, PrintsControlCharactersAsNumbers) {
                         "31m \xc3\x9b \xc2\xa0"),
               "\\xc2\\x9b31m \xc3\x9b \xc2\xa0");
     EXPECT_EQ(errbound::support::text_of({{"file", "n"}, {"a\rb", "1"}}, 1),
-              "file     n\na\\x0db  1\n");
+              "file    n\na\\x0db  1\n");
 }
 
 TEST(Scratch, GivesBackWhatWasAppendedAndGoesAway) {
