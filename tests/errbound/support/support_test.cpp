@@ -47,6 +47,19 @@ TEST(Output, WholeOrNotAtAll) {
     EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 1);
 }
 
+TEST(Output, StopsAtTheFirstThatFails) {
+    const temporary_directory directory;
+    const fs::path first = directory.path / "first", last = directory.path / "last";
+    write_whole(last, "as it was");
+    EXPECT_NE(message_of([&] {
+                  write_whole({{first, "new"}, {directory.path, "new"}, {last, "new"}});
+              }).find("found a directory"),
+              std::string::npos);
+    EXPECT_EQ(read_whole(first), "new");
+    EXPECT_EQ(read_whole(last), "as it was");
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory.path), fs::directory_iterator{}), 2);
+}
+
 TEST(Output, NamesOfAnyAlphabet) {
     const temporary_directory directory;
     for (const char8_t* const name :
