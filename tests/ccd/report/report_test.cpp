@@ -1,6 +1,5 @@
 // What `ccd report` is made of: statistics, kept parts, data sets and their truth, counts of
 // errors.
-#include "ccd/io/plots/plots.hpp"
 #include "ccd/report/report.hpp"
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "ccd/io/plots/plots.hpp"
 #include "ccd/report/measuring/statistics.hpp"
 #include "ccd/report/sections.hpp"
 #include "errbound/support/output_file.hpp"

@@ -109,8 +109,7 @@ TEST(RulesMain, WritesCsvJsonAndPictures) {
     const bool drawn = testing::internal::GetCapturedStderr().empty();
     const std::string csv = errbound::support::read_whole(out / "methods.csv");
     EXPECT_TRUE(csv.starts_with("data_set,origin,kind,method,queries,colliding,")) << csv;
-    EXPECT_NE(csv.find(",stored,vf,\"renamed, float\",1,1,1,0,0,0,1,"), std::string::npos)
-        << csv;
+    EXPECT_NE(csv.find(",stored,vf,\"renamed, float\",1,1,1,0,0,0,1,"), std::string::npos) << csv;
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
     const std::string json = errbound::support::read_whole(out / "methods.json");
     EXPECT_NE(json.find("\"method\": \"none, double\""), std::string::npos) << json;
