@@ -283,7 +283,8 @@ step_result step(const mesh& before, const mesh& after, const step_options& opti
     if (!options.distances.ask_for_contact())
         return failed({"ccd::cuda: found distances asked for, expected contact alone"});
     const pair_filter& filter = options.filter;
-    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.part)
+    if (filter.can_collide || !filter.groups.empty() || !filter.pinned.empty() || filter.part ||
+        filter.skip_unused)
         return failed({"ccd::cuda: found a filter of pairs, expected none"});
     ccd::detail::stopwatch total, watch;
     detail::device_launcher launcher(nullptr);

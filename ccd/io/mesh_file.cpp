@@ -30,13 +30,14 @@ std::optional<std::string> fault_of(std::span<const vertex_index> element, std::
                    std::to_string(vertices);
         }
     }
-    for (std::size_t i = 0; i < element.size(); ++i) {
-        if (std::ranges::count(element, element[i]) > 1) {
-            return "found a repeated vertex (" + text_of(element) + "), expected " +
-                   (element.size() == 2 ? "two" : "three") + " different ones";
-        }
-    }
     return std::nullopt;
+}
+
+void check_corners(std::uint64_t corners, const mesh_options& options, const std::string& where) {
+    if (corners == 3 || (corners > 3 && options.triangulate)) return;
+    throw file_error(where + ": found a face with " + std::to_string(corners) +
+                     " vertices, expected a triangle" +
+                     (corners > 3 ? " (polygons are split by triangulate)" : ""));
 }
 
 namespace {
@@ -78,10 +79,10 @@ mesh_share share_of(const mesh& frame, share_of_file share) {
 
 }  // namespace
 
-mesh read_mesh(const std::filesystem::path& path) {
+mesh read_mesh(const std::filesystem::path& path, const mesh_options& options) {
     const std::string text = read_whole(path);
-    return format_of(path, text) == format::ply ? parse_mesh_ply(text, path.string())
-                                                : parse_mesh_obj(text, path.string());
+    return format_of(path, text) == format::ply ? parse_mesh_ply(text, path.string(), options)
+                                                : parse_mesh_obj(text, path.string(), options);
 }
 
 mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
@@ -105,7 +106,7 @@ mesh_share read_mesh_share(const std::filesystem::path& path, std::size_t share,
         const std::string_view text(static_cast<const char*>(region.get_address()),
                                     region.get_size());
         if (format_of(path, text) == format::ply)
-            return parse_mesh_ply(text, name, {share, shares});
+            return parse_share_ply(text, name, {share, shares});
         return share_of(parse_mesh_obj(text, name), {share, shares});
     } catch (const shm::interprocess_exception& error) {
         throw file_error(name + ": cannot be read: " + error.what());

@@ -19,13 +19,12 @@ namespace {
 using errbound::support::file_error;
 
 /// Keywords that say nothing of vertices, faces or edges: names, materials, rendering, what belongs
-/// to vertices or to free-form geometry. A point element (p) adds nothing, since every vertex is
-/// one.
-constexpr std::array<std::string_view, 33> skipped_keywords{
-    "vt",         "vn",        "vp",     "p",      "g",      "s",      "mg",     "o",     "bevel",
-    "c_interp",   "d_interp",  "lod",    "usemtl", "mtllib", "usemap", "maplib", "ctech", "stech",
-    "shadow_obj", "trace_obj", "cstype", "deg",    "bmat",   "step",   "curv2",  "parm",  "trim",
-    "hole",       "scrv",      "sp",     "end",    "con",    "res"};
+/// to vertices or to free-form geometry.
+constexpr std::array<std::string_view, 32> skipped_keywords{
+    "vt",        "vn",     "vp",     "g",      "s",      "mg",     "o",     "bevel",
+    "c_interp",  "lod",    "usemtl", "mtllib", "usemap", "maplib", "ctech", "d_interp",
+    "trace_obj", "cstype", "deg",    "bmat",   "step",   "curv2",  "parm",  "shadow_obj",
+    "hole",      "scrv",   "sp",     "end",    "con",    "res",    "trim",  "stech"};
 
 /// Free-form curves and surfaces, and what takes lines from elsewhere: a mesh would lack what they
 /// stand for.
@@ -38,7 +37,8 @@ bool is_blank(char c) {
 
 class obj_parser {
   public:
-    obj_parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+    obj_parser(std::string_view text, const std::string& name, const mesh_options& options)
+        : text_(text), name_(name), options_(options) {}
 
     mesh parse() {
         while (std::optional<std::string_view> line = next_line()) {
@@ -49,23 +49,25 @@ class obj_parser {
                 read_face(*line);
             else if (keyword == "l")
                 read_polyline(*line);
+            else if (keyword == "p")
+                read_points(*line);
             else if (!keyword.empty())
                 require_skipped(keyword);
         }
-        if (result_.vertices.empty() || (result_.faces.empty() && result_.edges.empty())) {
-            throw file_error(name_ + ": found no " +
-                             (result_.vertices.empty() ? "vertices" : "faces or edges") +
-                             ", expected lines 'v x y z' and 'f i j k' or 'l i j'");
-        }
+        if (result_.vertices.empty())
+            throw file_error(name_ + ": found no vertices, expected lines 'v x y z'");
         // A face may come before its vertices, so this must wait until all are read.
-        require_good("face", result_.faces, face_lines_);
+        require_good(options_.triangulate ? "triangle" : "face", result_.faces, face_lines_);
         require_good("edge", result_.edges, edge_lines_);
+        require_good("point", points_, point_lines_);
+        add_points();
         return std::move(result_);
     }
 
   private:
+    std::string where() const { return name_ + ":" + std::to_string(line_); }
     [[noreturn]] void fail(const std::string& what) const {
-        throw file_error(name_ + ":" + std::to_string(line_) + ": " + what);
+        throw file_error(where() + ": " + what);
     }
 
     /// The next line without its comment, and with the lines that a backslash at its end adds.
@@ -90,14 +92,15 @@ class obj_parser {
         return joined_;
     }
 
-    /// A line of the file without its comment.
+    /// A line of the file without its comment, which starts at a '#' that begins a word. (Another
+    /// one is a part of its word: 1.#INF, usemtl a#b.)
     std::optional<std::string_view> next_piece() {
         const std::optional<std::string_view> whole = take_line(text_);
         if (!whole) return whole;
-        const std::string_view piece = whole->substr(0, whole->find('#'));
-        // Some readers take the next line for a part of the comment.
-        if (piece.size() < whole->size() && whole->ends_with('\\'))
-            fail("found a backslash at the end of a comment, expected none");
+        std::size_t end = whole->find('#');
+        while (end != std::string_view::npos && end > 0 && !is_blank((*whole)[end - 1]))
+            end = whole->find('#', end + 1);
+        const std::string_view piece = whole->substr(0, end);
         if (std::ranges::any_of(piece, is_control))
             fail("found a control character in " + excerpt(piece) + ", expected text");
         return piece;
@@ -122,16 +125,16 @@ class obj_parser {
     }
 
     void read_vertex(std::string_view line) {
-        // x y z, then optionally w, or r g b.
-        std::array<double, 6> values{};
+        // x y z, then optionally w, or r g b, or r g b a.
+        std::array<double, 7> values{};
         std::size_t count = 0;
         for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-            if (count == values.size()) fail("found more than 6 values of a vertex");
+            if (count == values.size()) fail("found more than 7 values of a vertex");
             const number value = parse_double(word, false);
             if (value.status != number_status::ok) fail(describe(value.status, word));
             values[count++] = value.value;
         }
-        if (count != 3 && count != 4 && count != 6) {
+        if (count < 3 || count == 5) {
             fail("found " + std::to_string(count) + " values of a vertex, expected 3 (x y z)");
         }
         if (count == 4 && values[3] != 1) fail("found a vertex with weight, expected none or 1");
@@ -142,35 +145,52 @@ class obj_parser {
     }
 
     void read_face(std::string_view line) {
-        face corners{};
-        std::size_t count = 0;
-        for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-            if (count < corners.size()) corners[count] = corner(word);
-            ++count;
+        read_corners(line);
+        if (corners_.size() != 3) check_corners(corners_.size(), options_, where());
+        for (std::size_t i = 2; i < corners_.size(); ++i) {
+            result_.faces.push_back({corners_[0], corners_[i - 1], corners_[i]});
+            face_lines_.push_back(line_);
         }
-        if (count != 3) {
-            fail("found a face with " + std::to_string(count) + " vertices, expected a triangle");
-        }
-        result_.faces.push_back(corners);
-        face_lines_.push_back(line_);
     }
 
     /// An edge between every two neighbours.
     void read_polyline(std::string_view line) {
-        std::optional<vertex_index> last;
-        std::size_t count = 0;
-        for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-            const vertex_index next = corner(word);
-            if (last) {
-                result_.edges.push_back({*last, next});
-                edge_lines_.push_back(line_);
-            }
-            last = next;
-            ++count;
+        read_corners(line);
+        if (corners_.size() < 2)
+            fail("found a line with " + std::to_string(corners_.size()) +
+                 " vertices, expected 2 or more");
+        for (std::size_t i = 1; i < corners_.size(); ++i) {
+            result_.edges.push_back({corners_[i - 1], corners_[i]});
+            edge_lines_.push_back(line_);
         }
-        if (count < 2) {
-            fail("found a line with " + std::to_string(count) + " vertices, expected 2 or more");
+    }
+
+    void read_points(std::string_view line) {
+        read_corners(line);
+        if (corners_.empty()) fail("found a point element without vertices, expected 1 or more");
+        for (const vertex_index v : corners_) {
+            points_.push_back({v});
+            point_lines_.push_back(line_);
         }
+    }
+
+    /// Adds an edge for each point that no element has yet.
+    void add_points() {
+        if (points_.empty()) return;
+        std::vector<bool> is_alone(result_.vertices.size());
+        for (const vertex_index v :
+             unused_vertices(result_.faces, result_.edges, result_.vertices.size()))
+            is_alone[v] = true;
+        for (const auto& [v] : points_) {
+            if (is_alone[v]) result_.edges.push_back({v, v});
+            is_alone[v] = false;
+        }
+    }
+
+    void read_corners(std::string_view line) {
+        corners_.clear();
+        for (std::string_view word = take_word(line); !word.empty(); word = take_word(line))
+            corners_.push_back(corner(word));
     }
 
     /// With a sign or without, as numbers of vertices.
@@ -182,7 +202,8 @@ class obj_parser {
         return error == std::errc{} && stop == end;
     }
 
-    /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0.
+    /// The vertex index of v, v/vt, v//vn or v/vt/vn, from 0. Without vt and vn slashes may stay:
+    /// v/, v//, v/vt/.
     vertex_index corner(std::string_view word) const {
         std::array<std::int64_t, 3> indices{};
         std::string_view rest = word;
@@ -190,7 +211,7 @@ class obj_parser {
             const std::size_t slash = rest.find('/');
             const std::string_view token = rest.substr(0, slash);
             const bool last = slash == std::string_view::npos;
-            const bool is_left_out = token.empty() && part == 1 && !last;  // v//vn
+            const bool is_left_out = token.empty() && part > 0;
             const bool is_index = read_index(token, indices[part]) &&
                                   (part == 0 || indices[part] != 0);  // v is judged below
             if (!is_index && !is_left_out)
@@ -214,18 +235,22 @@ class obj_parser {
 
     std::string_view text_;
     const std::string& name_;
+    const mesh_options& options_;
     std::string joined_;  ///< lines that backslashes join
     mesh result_;
-    std::vector<std::size_t> face_lines_, edge_lines_;
+    std::vector<vertex_index> corners_;  ///< of the last element
+    std::vector<std::array<vertex_index, 1>> points_;
+    std::vector<std::size_t> face_lines_, edge_lines_, point_lines_;
     std::size_t line_ = 0;           ///< the first of those joined
     std::size_t continuations_ = 0;  ///< lines joined to it
 };
 
 }  // namespace
 
-mesh parse_mesh_obj(std::string_view text, const std::string& name) {
+mesh parse_mesh_obj(std::string_view text, const std::string& name, const mesh_options& options) {
     if (text.empty()) throw file_error(name + ": found an empty file, expected an OBJ mesh");
-    return obj_parser(without_byte_order_mark(text, name), name).parse();
+    text = without_end_mark(without_byte_order_mark(text, name));
+    return obj_parser(text, name, options).parse();
 }
 
 }  // namespace ccd::io

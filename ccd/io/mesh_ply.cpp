@@ -23,8 +23,9 @@ namespace {
 template <class Values>
 class body_reader {
   public:
-    body_reader(const header& header, Values values, const std::string& name)
-        : header_(header), values_(std::move(values)), name_(name) {}
+    body_reader(const header& header, Values values, const std::string& name,
+                const mesh_options& options)
+        : header_(header), values_(std::move(values)), name_(name), options_(options) {}
 
     mesh_share read(share_of_file share) {
         require_elements();
@@ -41,7 +42,8 @@ class body_reader {
             if (e.name == "edge") result_.edges = place;
         }
         values_.finish();
-        require_good("face", result_.elements.faces, result_.faces.first);
+        require_good(options_.triangulate ? "triangle" : "face", result_.elements.faces,
+                     result_.faces.first);
         require_good("edge", result_.elements.edges, result_.edges.first);
         return std::move(result_);
     }
@@ -118,19 +120,14 @@ class body_reader {
         const element* const vertices = find("vertex");
         const element* const faces = find("face");
         const element* const edges = find("edge");
-        if (vertices == nullptr || (faces == nullptr && edges == nullptr)) {
-            throw file_error(name_ + ": found no element '" +
-                             (vertices == nullptr ? "vertex" : "face") +
-                             "', expected the elements vertex and face or edge");
-        }
+        if (vertices == nullptr)
+            throw file_error(name_ + ": found no element 'vertex', expected one");
         if (vertices->count > std::numeric_limits<vertex_index>::max()) {
             throw file_error(name_ + ": found " + std::to_string(vertices->count) +
                              " vertices, expected fewer than 2^32");
         }
         const bool has_faces = faces != nullptr && faces->count > 0;
         const bool has_edges = edges != nullptr && edges->count > 0;
-        if (!has_faces && !has_edges)
-            throw file_error(name_ + ": found no faces, expected at least one, or an edge");
         for (const char* axis : {"x", "y", "z"}) require_property(*vertices, axis, is_coordinate);
         if (has_faces) require_face_list(*faces);
         if (has_edges)
@@ -174,7 +171,7 @@ class body_reader {
         if (e.name == "vertex") {
             result_.elements.vertices.push_back(read_vertex(e));
         } else if (e.name == "face") {
-            result_.elements.faces.push_back(read_face(e));
+            read_face(e);
         } else if (e.name == "edge") {
             result_.elements.edges.push_back(read_edge(e));
         } else {
@@ -196,15 +193,13 @@ class body_reader {
         return position;
     }
 
-    face read_face(const element& e) {
-        face corners{};
+    void read_face(const element& e) {
         for (const property& p : e.properties) {
             if (is_face_list(p))
-                corners = read_corners(p);
+                read_corners(p);
             else
                 skip(p);
         }
-        return corners;
     }
 
     edge read_edge(const element& e) {
@@ -235,15 +230,16 @@ class body_reader {
         return value;
     }
 
-    face read_corners(const property& p) {
+    void read_corners(const property& p) {
         const std::uint64_t count = list_size(p);
-        if (count != 3) {
-            values_.fail("found a face with " + std::to_string(count) +
-                         " vertices, expected a triangle");
+        if (count != 3) check_corners(count, options_, values_.where());
+        face triangle;
+        for (vertex_index& i : triangle) i = read_index(p);
+        result_.elements.faces.push_back(triangle);
+        for (std::uint64_t corner = 3; corner < count; ++corner) {
+            triangle = {triangle[0], triangle[2], read_index(p)};
+            result_.elements.faces.push_back(triangle);
         }
-        face result;
-        for (vertex_index& i : result) i = read_index(p);
-        return result;
     }
 
     vertex_index read_index(const property& p) {
@@ -258,26 +254,30 @@ class body_reader {
     const header& header_;
     Values values_;
     const std::string& name_;
+    const mesh_options& options_;
     mesh_share result_;
 };
 
 }  // namespace
 }  // namespace ply
 
-mesh_share parse_mesh_ply(std::string_view text, const std::string& name, share_of_file share) {
+mesh_share parse_share_ply(std::string_view text, const std::string& name, share_of_file share,
+                           const mesh_options& options) {
     if (text.empty()) throw file_error(name + ": found an empty file, expected a PLY mesh");
     using namespace ply;
     text = without_byte_order_mark(text, name);
     const header head = parse_header(text, name);
     if (head.format == encoding::ascii)
-        return body_reader(head, ascii_values(text, name, head.lines), name).read(share);
+        return body_reader(head, ascii_values(without_end_mark(text), name, head.lines), name,
+                           options)
+            .read(share);
     const std::endian order =
         head.format == encoding::little ? std::endian::little : std::endian::big;
-    return body_reader(head, binary_values(text, name, order), name).read(share);
+    return body_reader(head, binary_values(text, name, order), name, options).read(share);
 }
 
-mesh parse_mesh_ply(std::string_view text, const std::string& name) {
-    return parse_mesh_ply(text, name, share_of_file()).elements;
+mesh parse_mesh_ply(std::string_view text, const std::string& name, const mesh_options& options) {
+    return parse_share_ply(text, name, share_of_file(), options).elements;
 }
 
 }  // namespace ccd::io

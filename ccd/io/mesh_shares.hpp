@@ -22,7 +22,9 @@ struct share_of_file {
     }
 };
 
-/// Elements that are not of the share are passed over, in ascii line by line, else at once.
-mesh_share parse_mesh_ply(std::string_view text, const std::string& name, share_of_file share);
+/// Reads a share of a PLY file. Elements of other shares are skipped, in ascii line by line, else
+/// at once. Only a whole file can be triangulated.
+mesh_share parse_share_ply(std::string_view text, const std::string& name, share_of_file share,
+                           const mesh_options& options = {});
 
 }  // namespace ccd::io

@@ -81,9 +81,10 @@ class binary_values {
 
     std::size_t remaining() const { return text_.size(); }
 
+    /// The beginning of a message: the file and the element.
+    std::string where() const { return name_ + ": " + *element_ + " " + std::to_string(number_); }
     [[noreturn]] void fail(const std::string& what) const {
-        throw errbound::support::file_error(name_ + ": " + *element_ + " " +
-                                            std::to_string(number_) + ": " + what);
+        throw errbound::support::file_error(where() + ": " + what);
     }
 
   private:
@@ -175,9 +176,10 @@ class ascii_values {
 
     std::size_t remaining() const { return text_.size(); }
 
+    /// The beginning of a message: the file and the line.
+    std::string where() const { return name_ + ":" + std::to_string(line_number_); }
     [[noreturn]] void fail(const std::string& what) const {
-        throw errbound::support::file_error(name_ + ":" + std::to_string(line_number_) + ": " +
-                                            what);
+        throw errbound::support::file_error(where() + ": " + what);
     }
 
   private:

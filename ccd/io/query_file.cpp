@@ -58,6 +58,7 @@ class query_parser {
 
     query_file parse(std::string_view text) {
         if (line_ == 0) text = without_byte_order_mark(text, name_);
+        text = without_end_mark(text);
         text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
         if (text.empty()) {
             throw file_error(name_ + ": found an empty file, expected rows of " + row_forms);

@@ -37,7 +37,7 @@ class row_scanner {
             if (c == '\n' || c == '\r') {
                 ++rows_;
                 line_begin_ = offset_;
-            } else if (c != ' ' && c != '\t') {
+            } else if (c != ' ' && c != '\t' && c != '\x1a') {
                 content_end_ = offset_;
             }
             if (rows_ == 0 && c == ',') ++index_.columns;

@@ -163,6 +163,8 @@ number parse_real(std::string_view token, bool round) {
                 return fail(number_status::inexact);
             }
         }
+    } else if (token.starts_with("1.#") || (token.starts_with("nan(") && token.ends_with(')'))) {
+        return fail(number_status::not_finite);  // as Microsoft's C libraries print it
     } else {
         result = parse_decimal<T>(token);
     }
@@ -197,6 +199,12 @@ std::string_view without_byte_order_mark(std::string_view text, const std::strin
                                             ": found UTF-16 or UTF-32, expected ASCII or UTF-8");
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     return text;
+}
+
+std::string_view without_end_mark(std::string_view text) {
+    const std::size_t last = text.find_last_not_of(" \t\r\n");
+    if (last == std::string_view::npos || text[last] != '\x1a') return text;
+    return text.substr(0, text.find_last_not_of(" \t\r\n\x1a") + 1);
 }
 
 std::string_view trimmed(std::string_view text) {

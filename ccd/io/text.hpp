@@ -15,6 +15,9 @@ std::string excerpt(std::string_view found);
 /// with `name` in its message, where the mark is that of UTF-16 or UTF-32.
 std::string_view without_byte_order_mark(std::string_view text, const std::string& name);
 
+/// `text` without the end mark of DOS, Ctrl-Z, and the blanks around it.
+std::string_view without_end_mark(std::string_view text);
+
 /// Whether it is a control character, and no tab.
 constexpr bool is_control(char c) {
     return (static_cast<unsigned char>(c) < ' ' && c != '\t') || c == 0x7f;
@@ -33,7 +36,7 @@ std::string_view take_word(std::string_view& line);
 enum class number_status {
     ok,
     malformed,         ///< not a number of this form
-    not_finite,        ///< an infinity or NaN, spelled out
+    not_finite,        ///< an infinity or NaN, spelled out, also as 1.#INF or -nan(ind)
     overflow,          ///< beyond the largest value of the type
     inexact,           ///< no value of the type equals it
     zero_denominator,  ///< of a quotient

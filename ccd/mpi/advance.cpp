@@ -127,7 +127,7 @@ advance_result advance(MPI_Comm comm, const mesh_part& mesh, const advance_optio
     const detail::vertex_lists lists(options.filter, options.distances, options.groups);
     detail::check_mesh(ranks, mesh, options.filter, lists, "ccd::mpi::advance");
     detail::check_options(ranks, options, mesh.numbers.size(), "ccd::mpi::advance");
-    const detail::given_elements given(mesh, options.distances);
+    const detail::given_elements given(mesh, options.distances, options.filter.skip_unused);
     const detail::decomposition parts(ranks, given.boxes());
     const detail::held_mesh held(ranks, mesh, given, parts, lists);
 

@@ -83,7 +83,7 @@ void check_options(exchanger& ranks, const step_options& options, placement pair
                           double(options.explain), double(options.initial_contact),
                           double(options.first_contact), double(options.times), options.t_max,
                           options.distances.all, static_cast<double>(options.filter.rule),
-                          static_cast<double>(pairs)},
+                          double(options.filter.skip_unused), static_cast<double>(pairs)},
                caller);
 }
 
@@ -94,7 +94,9 @@ void check_options(exchanger& ranks, const advance_options& options, std::size_t
             {.set = options.set, .distances = options.distances, .filter = options.filter},
             vertices);
     });
-    check_same(ranks, std::array{options.distances.all, static_cast<double>(options.filter.rule)},
+    check_same(ranks,
+               std::array{options.distances.all, static_cast<double>(options.filter.rule),
+                          double(options.filter.skip_unused)},
                caller);
 }
 

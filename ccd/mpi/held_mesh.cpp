@@ -34,21 +34,6 @@ std::vector<std::size_t> sources(const received<Item>& sent) {
     return ranks;
 }
 
-/// Those of no face and no edge.
-std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
-                                          std::size_t vertices) {
-    std::vector<bool> used(vertices);
-    const auto use = [&](const auto& element) {
-        for (const vertex_index v : element) used[v] = true;
-    };
-    std::ranges::for_each(faces, use);
-    std::ranges::for_each(edges, use);
-    std::vector<vertex_index> unused;
-    for (vertex_index v = 0; v < vertices; ++v)
-        if (!used[v]) unused.push_back(v);
-    return unused;
-}
-
 std::array<double, 3> array_of(const point<double>& p) {
     return {p.x, p.y, p.z};
 }
@@ -58,8 +43,10 @@ point<double> point_of(const std::array<double, 3>& x) {
 
 }  // namespace
 
-given_elements::given_elements(const mesh_part& mesh, const pair_distances& distances)
-    : single_vertices_(unused_vertices(mesh.faces, mesh.edges, mesh.numbers.size())) {
+given_elements::given_elements(const mesh_part& mesh, const pair_distances& distances,
+                               bool skip_unused) {
+    if (!skip_unused)
+        single_vertices_ = unused_vertices(mesh.faces, mesh.edges, mesh.numbers.size());
     const ccd::detail::swept_boxes boxes(ccd::detail::batch_positions(mesh.positions), distances);
     boxes_.reserve(mesh.faces.size() + mesh.edges.size() + single_vertices_.size());
     for (const face& f : mesh.faces) boxes_.push_back(boxes.swept_box<double>(f));

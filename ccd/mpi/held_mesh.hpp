@@ -20,7 +20,7 @@ namespace ccd::mpi::detail {
 /// sweep.
 class given_elements {
   public:
-    given_elements(const mesh_part& mesh, const pair_distances& distances);
+    given_elements(const mesh_part& mesh, const pair_distances& distances, bool skip_unused);
 
     /// Of faces, then edges, then single vertices.
     std::span<const swept_box> boxes() const { return boxes_; }

@@ -67,7 +67,7 @@ step_result step(MPI_Comm comm, const mesh_part& mesh, const step_options& optio
     const detail::vertex_lists lists(options.filter, options.distances);
     detail::check_mesh(ranks, mesh, options.filter, lists, "ccd::mpi::step");
     detail::check_options(ranks, options, where, mesh.numbers.size(), "ccd::mpi::step");
-    const detail::given_elements given(mesh, options.distances);
+    const detail::given_elements given(mesh, options.distances, options.filter.skip_unused);
     const detail::decomposition parts(ranks, given.boxes());
     const detail::held_mesh held(ranks, mesh, given, parts, lists);
 

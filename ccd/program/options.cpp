@@ -69,6 +69,26 @@ double number_option::value(double otherwise, double most) const {
                       (most == 1 ? " to 1" : ""));
 }
 
+unused_vertices_option::unused_vertices_option(CLI::App& line) {
+    line.add_option(
+            "--unused-vertices", choice_,
+            "Vertices on no face and no edge: skip them (the default if the file has faces\n"
+            "or edges), or take them as points (the default if it has none)")
+        ->check(CLI::IsMember({"skip", "points"}));
+}
+
+bool unused_vertices_option::skips(std::size_t unused, std::size_t vertices) const {
+    return unused > 0 && (choice_.empty() ? unused < vertices : choice_ == "skip");
+}
+
+std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skipped) {
+    if (unused == 0) return "";
+    return "vertices on no face and no edge: " + std::to_string(unused) + " of " +
+           std::to_string(vertices) +
+           (skipped ? ", skipped (--unused-vertices points takes them as points)\n"
+                    : ", taken as points (--unused-vertices skip skips them)\n");
+}
+
 std::string text_of_time(const first_time& time) {
     if (time.outcome != outcome::collides) return "-";
     return errbound::support::hexadecimal(time.low) + "," +

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <ccd/contact.hpp>
 #include <ccd/method.hpp>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,20 @@ class number_option {
     std::string name_, text_;
     CLI::Option* option_;
 };
+
+/// --unused-vertices: how the vertices of a file that no face and no edge has are taken.
+class unused_vertices_option {
+  public:
+    explicit unused_vertices_option(CLI::App& line);
+    /// True if they are skipped. By default they are points if the file has no other element.
+    bool skips(std::size_t unused, std::size_t vertices) const;
+
+  private:
+    std::string choice_;
+};
+
+/// One line on them; none if there are none.
+std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skipped);
 
 /// A first time as two fields of a line, `low,high`, hexadecimal floats; `-` where there is none.
 std::string text_of_time(const first_time& time);

@@ -38,6 +38,9 @@ struct step_question {
     bool explain = false;
     bool times = false, advance = false;
     double distance = 0, t_max = 1;
+    io::mesh_options reading;
+    std::size_t unused = 0;  ///< vertices on no face and no edge
+    bool skip_unused = false;
 
     step_options options() const {
         return {.method = method,
@@ -48,7 +51,8 @@ struct step_question {
                 .first_contact = times || advance,
                 .times = times,
                 .t_max = t_max,
-                .distances = {distance}};
+                .distances = {distance},
+                .filter = {.skip_unused = skip_unused}};
     }
 };
 
@@ -93,8 +97,9 @@ struct possible_pairs {
 };
 
 /// How many pairs a mesh has of elements, unique ones; doubles, which hold any number of them.
-possible_pairs pairs_of_mesh(const mesh& mesh) {
-    const auto vertices = static_cast<double>(mesh.vertices.size()),
+possible_pairs pairs_of_mesh(const step_question& asked, const mesh& mesh) {
+    const std::size_t skipped = asked.skip_unused ? asked.unused : 0;
+    const auto vertices = static_cast<double>(mesh.vertices.size() - skipped),
                faces = static_cast<double>(unique_faces(mesh.faces).size()),
                edges = static_cast<double>(unique_edges(mesh.faces, mesh.edges).size());
     return {vertices * faces, edges * (edges - 1) / 2};
@@ -120,9 +125,11 @@ std::string json_of(const step_question& asked, const mesh& before, const step_o
             document["candidates"][std::string(name(K))] = result.candidates->of<K>();
         document["collisions"][std::string(name(K))] = result.pairs.of<K>().size();
     });
+    if (asked.unused > 0)
+        document["unused_vertices"] = {{"count", asked.unused}, {"skipped", asked.skip_unused}};
     add_contacts(asked, found, document);
     if (asked.explain) {
-        const auto [vertex_face, edge_edge] = pairs_of_mesh(before);
+        const auto [vertex_face, edge_edge] = pairs_of_mesh(asked, before);
         document["pairs_of_mesh"] = {{name(kind::vertex_face), vertex_face},
                                      {name(kind::edge_edge), edge_edge}};
         document["stages"] = nlohmann::ordered_json::array();
@@ -147,13 +154,14 @@ std::string fixed(double value, const char* format) {
 }
 
 /// What the boxes left out, and what it cost to see it.
-std::string text_of_boxes(const mesh& before, const step_result& result) {
+std::string text_of_boxes(const step_question& asked, const mesh& before,
+                          const step_result& result) {
     const auto row = [](const char* kind, double possible, std::size_t candidates) {
         return std::vector<std::string>{kind, fixed(possible, "%.0f"),
                                         fixed(possible - static_cast<double>(candidates), "%.0f"),
                                         std::to_string(candidates)};
     };
-    const auto [vertex_face, edge_edge] = pairs_of_mesh(before);
+    const auto [vertex_face, edge_edge] = pairs_of_mesh(asked, before);
     const table rows = {{"pairs", "of the mesh", "apart", "candidates"},
                         row("vertex-face", vertex_face, result.candidates->vertex_face),
                         row("edge-edge", edge_edge, result.candidates->edge_edge)};
@@ -226,8 +234,9 @@ std::string text_of_step(const step_question& asked, const mesh& before,
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
     return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(asked, found) +
-           (asked.explain ? '\n' + text_of_boxes(before, result) + '\n' + text_of_stages(result)
-                          : "");
+           (asked.explain
+                ? '\n' + text_of_boxes(asked, before, result) + '\n' + text_of_stages(result)
+                : "");
 }
 
 class step final : public command {
@@ -252,33 +261,51 @@ class step final : public command {
                        "counts candidates");
         line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
             ->type_name("OUT");
+        line_.add_flag("--triangulate", asked_.reading.triangulate,
+                       "Split faces of more than three vertices into triangles (fans, in the order "
+                       "of their vertices)");
     }
 
     exit_status run() override {
         check_options();
         const auto start = std::chrono::steady_clock::now();
-        const mesh before = io::read_mesh(asked_.before);
-        const mesh after = io::read_mesh(asked_.after);
+        const mesh before = io::read_mesh(asked_.before, asked_.reading);
+        const mesh after = io::read_mesh(asked_.after, asked_.reading);
         io::require_same_topology(before, asked_.before.string(), after, asked_.after.string());
         step_outcome found;
         found.read_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        report_unused(before);
 
         found.result = asked_.device.cuda ? step_on_device(before, after, asked_.options(),
                                                            asked_.device.precision)
                                           : ccd::step(before, after, asked_.options());
         if (advance_)
-            found.advance = ccd::advance(
-                before, after,
-                {.distances = {asked_.distance}, .threads = asked_.threads, .set = asked_.set});
+            found.advance = ccd::advance(before, after,
+                                         {.distances = {asked_.distance},
+                                          .threads = asked_.threads,
+                                          .set = asked_.set,
+                                          .filter = {.skip_unused = asked_.skip_unused}});
         found.memory = errbound::support::system::peak_memory_bytes();
         write(before, after, found);
-        errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_})
-            << text_of_step(asked_, before, found);
+        stream_for_people() << text_of_step(asked_, before, found);
         return done;
     }
 
   private:
+    std::ostream& stream_for_people() const {
+        return errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_});
+    }
+
+    /// Before the step: points at one place may need much time and memory.
+    void report_unused(const mesh& before) {
+        const std::size_t vertices = before.vertices.size();
+        asked_.unused = unused_vertices(before.faces, before.edges, vertices).size();
+        asked_.skip_unused = unused_.skips(asked_.unused, vertices);
+        stream_for_people() << text_of_unused(asked_.unused, vertices, asked_.skip_unused)
+                            << std::flush;
+    }
+
     void add_outputs() {
         line_
             .add_option(
@@ -391,6 +418,7 @@ class step final : public command {
                               "Report pairs that come within that distance, in place of contacts"};
     number_option t_max_{line_, "--t-max", "Report pairs up to that part of the step, from 0 to 1"};
     device_options device_{line_};
+    unused_vertices_option unused_{line_};
 };
 
 }  // namespace

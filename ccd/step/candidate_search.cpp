@@ -77,7 +77,10 @@ const search_kernels& search_kernels_for(std::optional<instruction_set> set) {
 
 candidate_search::candidate_search(std::span<const face> faces, std::span<const edge> edges,
                                    std::size_t vertices)
-    : vertices_(all_vertices(vertices)), faces_(unique_faces(faces)) {
+    : vertex_count_(vertices),
+      unused_(unused_vertices(faces, edges, vertices)),
+      vertices_(all_vertices(vertices)),
+      faces_(unique_faces(faces)) {
     std::vector<edge> all = unique_edges(faces, edges);
     points_ = ordered_elements(vertices_on_no_edge(all, vertices));
     if (!edges.empty()) rods_ = ordered_elements(edges_of_no_face(edges, unique_edges(faces)));
@@ -88,6 +91,21 @@ candidate_search candidate_search::in_plane(std::span<const edge> edges, std::si
     candidate_search search({}, edges, vertices);
     search.in_plane_ = true;
     return search;
+}
+
+void candidate_search::skip_unused(bool skip) {
+    if (skip == skips_unused_ || unused_.empty()) return;
+    skips_unused_ = skip;
+    for (ordered_elements<1>* set : {&vertices_, &points_}) {
+        const std::span<const std::array<vertex_index, 1>> old = *set;
+        std::vector<std::array<vertex_index, 1>> all(old.begin(), old.end());
+        if (skip)
+            std::erase_if(all,
+                          [&](const auto& v) { return std::ranges::binary_search(unused_, v[0]); });
+        else
+            for (const vertex_index v : unused_) all.push_back({v});
+        *set = ordered_elements(std::move(all));
+    }
 }
 
 template <class Real, std::size_t N>
@@ -179,6 +197,7 @@ pair_counts candidate_search::find(const batch_positions& positions, const step_
                          options.stop,
                          positions.rounded,
                          pairs == wanted::close_pairs ? &search_kernels_for(options.set) : nullptr};
+    skip_unused(options.filter.skip_unused);
     order_.forget();
     pair_counts counts;
     if (in_plane_) {

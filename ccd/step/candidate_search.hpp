@@ -58,7 +58,7 @@ class candidate_search {
     /// In the plane: every vertex with every edge, and every two points.
     static candidate_search in_plane(std::span<const edge> edges, std::size_t vertices);
 
-    std::size_t vertices() const { return vertices_.size(); }
+    std::size_t vertices() const { return vertex_count_; }
     bool is_in_plane() const { return in_plane_; }
 
     /// What is handed out: all candidates, or of vertex/face and edge/edge pairs only those that no
@@ -99,6 +99,12 @@ class candidate_search {
     template <kind K, class First, class Second>
     std::size_t find_close(const question& asked, First& first, Second& second);
 
+    /// Removes the unused vertices from the search, or adds them again.
+    void skip_unused(bool skip);
+
+    std::size_t vertex_count_;
+    std::vector<vertex_index> unused_;
+    bool skips_unused_ = false;
     vertex_order order_;
     ordered_elements<1> vertices_, points_;
     ordered_elements<2> edges_, rods_;

@@ -106,6 +106,20 @@ std::vector<face> unique_faces(std::span<const face> faces) {
     return unique;
 }
 
+std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
+                                          std::size_t vertices) {
+    std::vector<bool> used(vertices);
+    const auto use = [&](const auto& element) {
+        for (const vertex_index v : element) used[v] = true;
+    };
+    std::ranges::for_each(faces, use);
+    std::ranges::for_each(edges, use);
+    std::vector<vertex_index> unused;
+    for (vertex_index v = 0; v < vertices; ++v)
+        if (!used[v]) unused.push_back(v);
+    return unused;
+}
+
 std::vector<int> connected_parts(std::span<const face> faces, std::span<const edge> edges,
                                  std::size_t vertices) {
     detail::vertex_groups groups(vertices);

@@ -17,7 +17,7 @@ using edge = std::array<vertex_index, 2>;  ///< vertex indices; ascending where 
 ///
 /// `edges` are those beside the faces' own, in any order; an edge that a face has, that is given
 /// twice or that repeats a vertex adds nothing. Every vertex that is on no edge, its own or a
-/// face's, is a point (a particle), so drop vertices that nothing uses.
+/// face's, is a point (a particle), also one that no element has: see pair_filter::skip_unused.
 struct mesh {
     std::vector<point<double>> vertices;
     std::vector<face> faces;
@@ -32,6 +32,10 @@ std::vector<edge> unique_edges(std::span<const face> faces, std::span<const edge
 /// The faces, in their order, without those that have the same three vertices, in any order, as one
 /// before. Cost and memory: as unique_edges.
 std::vector<face> unique_faces(std::span<const face> faces);
+
+/// The vertices that no face and no edge has, ascending. Indices must be in range.
+std::vector<vertex_index> unused_vertices(std::span<const face> faces, std::span<const edge> edges,
+                                          std::size_t vertices);
 
 /// Of each vertex, the number of the connected part of the mesh that it belongs to: bodies, if they
 /// share no vertex. Numbered in the order of their first vertices. Indices must be in range.

@@ -74,6 +74,9 @@ struct pair_filter {
     /// that tile space share all pairs of a step, each of one part; a part needs the elements alone
     /// whose boxes meet it.
     std::optional<space_part> part = {};
+    /// Skips the vertices that no face and no edge has (unused_vertices); by default they are
+    /// points. A face or an edge that repeats its vertex keeps it a point.
+    bool skip_unused = false;
 };
 
 struct step_options {
@@ -158,8 +161,8 @@ struct step_result {
 /// face. Faces with the same three vertices count once, as do edges: a pair is reported once.
 ///
 /// Vertex/edge and vertex/vertex pairs are always decided by `exact`: no other method has them.
-/// Every two points at one place are a pair: n vertices that nothing uses make n²/2 pairs if they
-/// are all at the origin. Leave such vertices out.
+/// Every two points at one place are a pair: n unused vertices make n²/2 pairs if they are all at
+/// the origin, unless pair_filter::skip_unused skips them.
 ///
 /// Time: that of the search, and of decide_exact at worst for each candidate; of which there are
 /// n²/2 where all elements are at one place.

@@ -1,10 +1,14 @@
-// HDF5's handles, and its errors as exceptions.
+// HDF5's handles, its errors as exceptions, and the checksum of a chunk of queries.
 #pragma once
 
 #include <hdf5.h>
+#include <zlib.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <errbound/support/error.hpp>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,3 +95,19 @@ class handle {
 };
 
 }  // namespace ccd::io::hdf5
+
+namespace ccd::io {
+
+/// CRC-32, as zlib's and PNG's, of the bytes of points, queries and truth one after the other, as
+/// they are stored. (Stores are built where numbers have their least significant byte first.)
+/// HDF5's own, Fletcher32, adds words of 16 bits modulo 65535, so 0x0000 equals 0xffff in it.
+inline std::uint32_t checksum(std::span<const std::byte> points, std::span<const std::byte> queries,
+                              std::span<const std::byte> truth) {
+    uLong sum = crc32_z(0, nullptr, 0);
+    for (const std::span<const std::byte> part : {points, queries, truth})
+        if (!part.empty())  // of a null pointer crc32_z makes the sum of nothing at all
+            sum = crc32_z(sum, reinterpret_cast<const Bytef*>(part.data()), part.size());
+    return static_cast<std::uint32_t>(sum);
+}
+
+}  // namespace ccd::io

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "ccd/io/store/chunk_checksum.hpp"
 #include "ccd/io/store/hdf5.hpp"
 
 namespace ccd::io {
@@ -31,33 +30,14 @@ struct stored_type {
     const char* name;
 };
 
-/// What a dataset has to be before its numbers are looked at: in this file, in chunks that fit in
-/// memory, by filters that every HDF5 has. (Others would be looked for among plug-ins.)
-void require_plain(hid_t file, hid_t set, const char* of, const std::string& what) {
+/// Opens a dataset of the file itself. A link to elsewhere is refused before it is followed: it may
+/// lead to any file, or to a pipe that blocks.
+handle opened_set(hid_t file, const char* of, const std::string& what) {
     H5L_info_t link;
     checked(H5Lget_info(file, of, &link, H5P_DEFAULT), what);
     if (link.type != H5L_TYPE_HARD)
         throw file_error(what + ": found a link to another place, expected it in this file");
-    const handle how(H5Dget_create_plist(set), H5Pclose, what);
-    if (H5Pget_layout(how) != H5D_CHUNKED)
-        throw file_error(what + ": found no chunks, expected rows that are stored in chunks");
-    hsize_t chunk[2] = {0, 1};
-    checked(H5Pget_chunk(how, 2, chunk), what);
-    constexpr hsize_t most = 1 << 20;
-    if (chunk[0] > most)
-        throw file_error(what + ": found chunks of " + std::to_string(chunk[0]) +
-                         " rows, expected at most " + std::to_string(most));
-    const int filters = checked(H5Pget_nfilters(how), what);
-    for (int i = 0; i < filters; ++i) {
-        unsigned flags = 0;
-        std::size_t values = 0;
-        const H5Z_filter_t filter = H5Pget_filter2(how, static_cast<unsigned>(i), &flags, &values,
-                                                   nullptr, 0, nullptr, nullptr);
-        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
-            filter != H5Z_FILTER_FLETCHER32)
-            throw file_error(what + ": found filter " + std::to_string(filter) +
-                             ", expected deflate, shuffle and fletcher32 alone");
-    }
+    return {H5Dopen2(file, of, H5P_DEFAULT), H5Dclose, what};
 }
 
 /// A dataset of rows of numbers.
@@ -65,29 +45,14 @@ class rows_on_disk {
   public:
     rows_on_disk(hid_t file, const std::string& name, const char* of,
                  std::initializer_list<stored_type> types, hsize_t columns)
-        : what_(name + ": dataset " + of),
-          set_(H5Dopen2(file, of, H5P_DEFAULT), H5Dclose, what_),
-          columns_(columns) {
-        require_plain(file, set_, of, what_);
-        const handle stored(H5Dget_type(set_), H5Tclose, what_);
-        bytes_ = H5Tget_size(stored);
-        std::string expected;
-        bool is_one = false;
-        for (const stored_type& t : types) {
-            expected += (expected.empty() ? "" : " or ") + std::string(t.name);
-            is_one = is_one || checked(H5Tequal(stored, t.type), what_) > 0;
-        }
-        if (!is_one)
-            throw file_error(what_ + ": found numbers of another type, expected " + expected +
-                             ", least significant byte first");
-        const handle space(H5Dget_space(set_), H5Sclose, what_);
-        const int rank = columns == 1 ? 1 : 2;
-        hsize_t size[2] = {0, 1};
-        if (H5Sget_simple_extent_ndims(space) != rank ||
-            H5Sget_simple_extent_dims(space, size, nullptr) != rank || size[1] != columns)
-            throw file_error(what_ + ": found another shape, expected rows of " +
-                             std::to_string(columns));
-        rows_ = size[0];
+        : what_(name + ": dataset " + of), set_(opened_set(file, of, what_)), columns_(columns) {
+        // First of all: virtual datasets and external storage lead to other files.
+        const handle how(H5Dget_create_plist(set_), H5Pclose, what_);
+        if (H5Pget_layout(how) != H5D_CHUNKED)
+            throw file_error(what_ + ": found no chunks, expected rows that are stored in chunks");
+        require_type(types);
+        require_shape();
+        require_chunks(how);
         // Deflate makes at most 1032 bytes of one, so that more than this is not there to be read.
         const hsize_t most = 1100 * H5Dget_storage_size(set_) / bytes_ / columns;
         if (rows_ > most)
@@ -104,11 +69,10 @@ class rows_on_disk {
     std::vector<Row> read(hid_t number, std::uint64_t begin, std::uint64_t end) const {
         std::vector<Row> all(end - begin);
         if (all.empty()) return all;
-        const int rank = columns_ == 1 ? 1 : 2;
         const hsize_t start[] = {begin, 0}, count[] = {end - begin, columns_};
         const handle from(H5Dget_space(set_), H5Sclose, what_);
         checked(H5Sselect_hyperslab(from, H5S_SELECT_SET, start, nullptr, count, nullptr), what_);
-        const handle to(H5Screate_simple(rank, count, nullptr), H5Sclose, what_);
+        const handle to(H5Screate_simple(rank(), count, nullptr), H5Sclose, what_);
         if (H5Dread(set_, number, to, from, H5P_DEFAULT, all.data()) < 0)
             throw file_error(what_ + ": rows " + std::to_string(begin) + " to " +
                              std::to_string(end - 1) + " cannot be read (HDF5: " + hdf5::reason() +
@@ -123,6 +87,43 @@ class rows_on_disk {
     }
 
   private:
+    int rank() const { return columns_ == 1 ? 1 : 2; }
+
+    void require_type(std::initializer_list<stored_type> types) {
+        const handle stored(H5Dget_type(set_), H5Tclose, what_);
+        bytes_ = H5Tget_size(stored);
+        std::string expected;
+        bool is_one = false;
+        for (const stored_type& t : types) {
+            expected += (expected.empty() ? "" : " or ") + std::string(t.name);
+            is_one = is_one || checked(H5Tequal(stored, t.type), what_) > 0;
+        }
+        if (!is_one)
+            throw file_error(what_ + ": found numbers of another type, expected " + expected +
+                             ", least significant byte first");
+    }
+
+    void require_shape() {
+        const handle space(H5Dget_space(set_), H5Sclose, what_);
+        hsize_t size[2] = {0, 1};
+        if (H5Sget_simple_extent_ndims(space) != rank() ||
+            H5Sget_simple_extent_dims(space, size, nullptr) != rank() || size[1] != columns_)
+            throw file_error(what_ + ": found another shape, expected rows of " +
+                             std::to_string(columns_));
+        rows_ = size[0];
+    }
+
+    /// HDF5 reads whole chunks, whose columns may be more than the dataset's.
+    void require_chunks(hid_t how) const {
+        hsize_t chunk[2] = {0, 1};
+        checked(H5Pget_chunk(how, 2, chunk), what_);
+        constexpr double most = 1 << 26;
+        const double bytes = double(bytes_) * double(chunk[0]) * double(chunk[1]);
+        if (bytes > most)
+            throw file_error(what_ + ": found chunks of " + std::to_string(chunk[0]) + " x " +
+                             std::to_string(chunk[1]) + " numbers, expected at most 64 MiB each");
+    }
+
     std::string what_;
     handle set_;
     hsize_t columns_;

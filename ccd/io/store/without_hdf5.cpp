@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "ccd/io/store/store_reader.hpp"
-#include "ccd/io/store/store_writer.hpp"
 
 namespace ccd::io {
 namespace {
@@ -43,16 +42,19 @@ bool has_query_stores() {
     return false;
 }
 
-class store_writer::unfinished {};
+class query_packer::chunks {};
 
-store_writer::store_writer(std::string_view, bool) {
+query_packer::query_packer(ccd::kind, bool) {
     throw std::runtime_error("stores of queries are not made: this was built without HDF5");
 }
-store_writer::~store_writer() = default;
-store_writer::store_writer(store_writer&&) noexcept = default;
-store_writer& store_writer::operator=(store_writer&&) noexcept = default;
-void store_writer::add(const store_chunk&, bool) {}
-const std::filesystem::path& store_writer::path() const {
+query_packer::~query_packer() = default;
+query_packer::query_packer(query_packer&&) noexcept = default;
+query_packer& query_packer::operator=(query_packer&&) noexcept = default;
+void query_packer::add(const query_file&) {}
+std::uint64_t query_packer::size() const {
+    return 0;
+}
+const std::filesystem::path& query_packer::finish() {
     static const std::filesystem::path none;
     return none;
 }

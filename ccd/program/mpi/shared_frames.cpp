@@ -124,11 +124,16 @@ shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::files
     for_each_corner(own.before.elements, [&](vertex_index v) {
         if (own.has(v)) is_used_here[v - own.first()] = true;
     });
-    // A vertex that nobody's elements have is a point, which its reader gives.
-    for (std::size_t v = 0; v < has_element.size(); ++v)
+    // A vertex on no rank's elements is given by its reader.
+    std::size_t unused = 0;
+    for (std::size_t v = 0; v < has_element.size(); ++v) {
+        unused += !is_used_here[v] && !has_element[v];
         if (is_used_here[v] || !has_element[v])
             add(static_cast<vertex_index>(own.first() + v),
                 {own.before.elements.vertices[v], own.after.elements.vertices[v]});
+    }
+    result.vertices = own.before.vertices.all;
+    for (const std::size_t count : ranks.gather(std::vector{unused}).items) result.unused += count;
     const auto placed = [&](auto element) {
         for (vertex_index& v : element) v = places.at(v);
         return element;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ccd/mpi.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct shared_frames {
     std::vector<point<double>> before, after;
     std::vector<face> faces;
     std::vector<edge> edges;
+    std::size_t vertices = 0, unused = 0;  ///< of the whole mesh; those on no face and no edge
 
     mpi::mesh_part part() const { return {numbers, {before, after}, faces, edges}; }
 };

@@ -58,7 +58,7 @@ class distributed_step final : public command {
 
     exit_status run() override {
         mpi::detail::exchanger ranks(MPI_COMM_WORLD);
-        const step_options options = checked_options();
+        step_options options = checked_options();
         const bool is_root = ranks.rank() == 0;
         ranks.agree([&] {
             if (is_root)
@@ -66,6 +66,7 @@ class distributed_step final : public command {
         });
         const auto start = std::chrono::steady_clock::now();
         const shared_frames frames = read_shared_frames(ranks, before_, after_);
+        options.filter.skip_unused = unused_.skips(frames.unused, frames.vertices);
         rank_report own;
         own.vertices = frames.numbers.size();
         own.read_seconds =
@@ -77,7 +78,7 @@ class distributed_step final : public command {
         own.memory = errbound::support::system::peak_memory_bytes();
         const auto all = ranks.gather(std::vector{own}).items;
         ranks.agree([&] {
-            if (is_root) write(found, all);
+            if (is_root) write(frames, options, found, all);
         });
         return done;
     }
@@ -93,17 +94,24 @@ class distributed_step final : public command {
                 .times = toi_.has_value()};
     }
 
-    void write(const mpi::step_result& found, const std::vector<rank_report>& ranks) const {
+    void write(const shared_frames& frames, const step_options& options,
+               const mpi::step_result& found, const std::vector<rank_report>& ranks) const {
+        const bool skipped = options.filter.skip_unused;
         std::vector<errbound::support::output> outputs;
         if (pairs_) outputs.push_back({*pairs_, lines_of_pairs(found.pairs)});
         if (toi_) outputs.push_back({*toi_, lines_of_pairs(found.pairs, &found.times)});
-        if (json_) outputs.push_back({*json_, json_of(found, ranks)});
+        nlohmann::ordered_json document = json_of(found, ranks);
+        if (frames.unused > 0)
+            document["unused_vertices"] = {{"count", frames.unused}, {"skipped", skipped}};
+        if (json_) outputs.push_back({*json_, document.dump(2) + '\n'});
         errbound::support::write_whole(outputs);
-        errbound::support::stream_for_people({pairs_, toi_, json_}) << text_of_step(found, ranks);
+        errbound::support::stream_for_people({pairs_, toi_, json_})
+            << text_of_unused(frames.unused, frames.vertices, skipped)
+            << text_of_step(found, ranks);
     }
 
-    std::string json_of(const mpi::step_result& found,
-                        const std::vector<rank_report>& ranks) const {
+    nlohmann::ordered_json json_of(const mpi::step_result& found,
+                                   const std::vector<rank_report>& ranks) const {
         nlohmann::ordered_json document = {{"method", method_},
                                            {"candidates", nullptr},
                                            {"collisions", nlohmann::ordered_json::object()}};
@@ -131,7 +139,7 @@ class distributed_step final : public command {
         if (found.candidates)
             for (std::size_t i = 0; i < ranks.size(); ++i)
                 document["ranks"][i]["candidates"] = ranks[i].decided;
-        return document.dump(2) + '\n';
+        return document;
     }
 
     /// Vertex/edge and vertex/vertex pairs are told of where there are any.
@@ -183,6 +191,7 @@ class distributed_step final : public command {
     std::optional<std::filesystem::path> pairs_, toi_, json_;
     int threads_ = 0;
     bool candidates_ = false;
+    unused_vertices_option unused_{line_};
 };
 
 }  // namespace

@@ -11,25 +11,37 @@
 
 namespace ccd::io {
 
-/// Reads a frame; the format is that of the extension (.ply or .obj), or told from the content
-/// where there is none and for pipes. Faces with more than three vertices are an error. Throws
-/// errbound::support::file_error: counts that do not match, indices out of range, faces with fewer
-/// than three or repeated vertices, neither faces nor edges, coordinates that are not finite,
-/// truncated or unreadable files.
-mesh read_mesh(const std::filesystem::path& path);
+/// How a file is read.
+struct mesh_options {
+    /// Splits a face with more than three corners, in its order, into the triangles (c0, c1, c2),
+    /// (c0, c2, c3), ... The split ignores positions, so two frames of one mesh get the same
+    /// triangles. Otherwise such a face is an error.
+    bool triangulate = false;
+};
+
+/// Reads a frame. The extension is the format (.ply or .obj); pipes and files without an extension
+/// are recognised by their content. Everything that ccd::step takes is read: faces and edges that
+/// repeat a vertex, points only, no elements. Throws errbound::support::file_error if counts do not
+/// match, an index is out of range, a face has fewer than three vertices, a coordinate is not
+/// finite, or the file is truncated or unreadable.
+mesh read_mesh(const std::filesystem::path& path, const mesh_options& options = {});
 
 /// Reads a frame from the text of a PLY file: all scalar types, elements in any order, elements and
 /// properties other than the vertices' x, y, z, the faces' vertex_indices (or vertex_index) and the
 /// edges' vertex1, vertex2 skipped; other elements with vertex indices (tristrips) are refused. A
 /// coordinate is the value of its declared type: `property float x` with the text "0.1" is the
 /// float nearest to 0.1. `name` is used in messages. Throws as read_mesh does.
-mesh parse_mesh_ply(std::string_view text, const std::string& name);
+mesh parse_mesh_ply(std::string_view text, const std::string& name,
+                    const mesh_options& options = {});
 
-/// Reads a frame from the text of an OBJ file: `v`, `f` and `l`, a polyline whose parts are
-/// edges (v, v/vt, v//vn, v/vt/vn, negative indices count back). The format's other keywords are
-/// skipped; curves, surfaces and `call`, which stand for what a mesh would lack, and words that are
-/// no keyword are refused. `name` is used in messages. Throws as read_mesh does.
-mesh parse_mesh_obj(std::string_view text, const std::string& name);
+/// Reads a frame from the text of an OBJ file: `v`, `f`, `l` (a polyline, whose parts are edges)
+/// and `p`, with v, v/vt, v//vn or v/vt/vn for a vertex; negative indices count back. A point `p`
+/// on no face and no edge is returned as an edge that repeats its vertex. The format's other
+/// keywords are skipped. Curves, surfaces and `call`, which a mesh cannot hold, and unknown words
+/// are refused. A comment starts at a `#` that begins a word. `name` is used in messages. Throws as
+/// read_mesh does, and if there is no vertex.
+mesh parse_mesh_obj(std::string_view text, const std::string& name,
+                    const mesh_options& options = {});
 
 /// Some of a frame's vertices, faces and edges, one after the other; faces and edges name vertices
 /// by their indices in the whole frame.

@@ -94,7 +94,8 @@ TEST(Numbers, Floats) {
     EXPECT_EQ(parse_double("1e-999", false).value, 0);
     EXPECT_EQ(parse_double("-1e999", false).status, number_status::overflow);
     EXPECT_EQ(parse_double("inf", false).status, number_status::not_finite);
-    EXPECT_EQ(parse_double("-nan", false).status, number_status::not_finite);
+    for (const char* text : {"-nan", "nan(ind)", "-nan(snan)", "1.#INF", "-1.#IND", "+1.#QNAN0"})
+        EXPECT_EQ(parse_double(text, false).status, number_status::not_finite) << text;
     EXPECT_EQ(parse_double("+0.1", false).value, 0.1);
     EXPECT_TRUE(std::signbit(parse_double("-0", false).value));
     for (const char* bad :

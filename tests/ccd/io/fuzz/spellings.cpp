@@ -41,19 +41,14 @@ class choices {
 
 mesh some_mesh(choices& choose, bool narrow) {
     mesh m;
-    const unsigned vertices = 3 + choose.below(5);
+    const unsigned vertices = 1 + choose.below(7);
     for (unsigned i = 0; i < vertices; ++i)
         m.vertices.push_back(
             {choose.coordinate(narrow), choose.coordinate(narrow), choose.coordinate(narrow)});
-    const auto other = [&](vertex_index v, unsigned by) { return (v + by) % vertices; };
-    for (unsigned faces = choose.below(5); faces > 0; --faces) {
-        const vertex_index v = choose.below(vertices), step = 1 + choose.below(vertices - 2);
-        m.faces.push_back({v, other(v, step), other(v, step + 1)});
-    }
-    for (unsigned edges = (m.faces.empty() ? 1 : 0) + choose.below(3); edges > 0; --edges) {
-        const vertex_index v = choose.below(vertices);
-        m.edges.push_back({v, other(v, 1 + choose.below(vertices - 1))});
-    }
+    const auto any = [&]() -> vertex_index { return choose.below(vertices); };
+    for (unsigned faces = choose.below(5); faces > 0; --faces)
+        m.faces.push_back({any(), any(), any()});
+    for (unsigned edges = choose.below(3); edges > 0; --edges) m.edges.push_back({any(), any()});
     return m;
 }
 
@@ -98,7 +93,7 @@ class obj_writer {
         for (const auto& p : mesh_.vertices) {
             add("v");
             for (const double x : {p.x, p.y, p.z}) add(spelled(choose_, x, false));
-            end_line(choose_.one_of({"", "1", "1.0", "0.5 0 1"}));
+            end_line(choose_.one_of({"", "1", "1.0", "0.5 0 1", "1 1 0 .5"}));
         }
         if (!faces_first) add_elements(true);
         return text_;
@@ -121,7 +116,7 @@ class obj_writer {
         const auto vertices = static_cast<std::int64_t>(mesh_.vertices.size());
         const bool back = may_count_back && choose_.below(2) == 1;
         return std::to_string(back ? i - vertices : std::int64_t{i} + 1) +
-               choose_.one_of({"", "/7", "//-1", "/1/1"});
+               choose_.one_of({"", "/7", "//-1", "/1/1", "/", "/1/"});
     }
 
     void add(const std::string& word) {
@@ -131,8 +126,8 @@ class obj_writer {
     }
     void end_line(const char* more) {
         text_ += more;
-        text_ += choose_.one_of({"", " ", " # v 1 2 3", "#\xff"}) + end_;
-        text_ += choose_.one_of({"", "", "", "# v 9 9 9", "\t", "o f 1 2 3", "vn 0 0 1", "p 1"});
+        text_ += choose_.one_of({"", " ", " # v 1 2 3", " #\xff\\"}) + end_;
+        text_ += choose_.one_of({"", "", "", "# v 9 9 9", "\t", "o f 1 2 3", "vn 0 0 1", "g a#"});
         if (text_.back() != end_.back()) text_ += end_;
     }
 

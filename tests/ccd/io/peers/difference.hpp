@@ -41,9 +41,7 @@ inline bool is_sound(const mesh& m) {
         return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     };
     const auto sound = [&m](const auto& element) {
-        for (auto i = element.begin(); i != element.end(); ++i)
-            if (*i >= m.vertices.size() || std::find(element.begin(), i, *i) != i) return false;
-        return true;
+        return std::ranges::all_of(element, [&m](vertex_index i) { return i < m.vertices.size(); });
     };
     return std::ranges::all_of(m.vertices, finite) && std::ranges::all_of(m.faces, sound) &&
            std::ranges::all_of(m.edges, sound);
@@ -53,7 +51,7 @@ inline bool is_sound(const mesh& m) {
 template <class Parse>
 std::optional<mesh> read_by(const Parse& parse, std::string_view text) {
     try {
-        return parse(text, "peers");
+        return parse(text, "peers", io::mesh_options());
     } catch (const errbound::support::file_error&) {
         return std::nullopt;
     }

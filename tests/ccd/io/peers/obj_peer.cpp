@@ -21,11 +21,19 @@ namespace {
 
 using words = std::vector<std::string>;
 
+/// Where the comment of a line begins: at a '#' that begins a word.
+std::size_t comment_start(std::string_view line) {
+    std::size_t at = line.find('#');
+    while (at != line.npos && at > 0 && line[at - 1] != ' ' && line[at - 1] != '\t')
+        at = line.find('#', at + 1);
+    return at;
+}
+
 /// The words of each line, without its comment.
 template <class Predicate>
 bool any_line(std::string_view text, const Predicate& predicate) {
     while (std::optional<std::string_view> line = io::take_line(text)) {
-        std::string_view rest = line->substr(0, line->find('#'));
+        std::string_view rest = line->substr(0, comment_start(*line));
         words of_line;
         for (std::string_view word = io::take_word(rest); !word.empty(); word = io::take_word(rest))
             of_line.emplace_back(word);
@@ -77,14 +85,15 @@ bool is_extreme(const std::string& word) {
                                 std::abs(std::strtod(word.c_str(), nullptr)) > 1.79e308);
 }
 
-/// The numbers of v, v/vt, v//vn or v/vt/vn: 1 to 3, absent ones as 1. None where one is no
-/// integer.
+/// The numbers of v, v/vt, v//vn or v/vt/vn: absent ones as 1, or 0 after a slash. None where one
+/// is no integer.
 std::optional<std::array<std::int64_t, 3>> corner(std::string_view word) {
     std::array<std::int64_t, 3> parts{1, 1, 1};
     for (std::size_t part = 0; part < parts.size(); ++part) {
         const std::string_view token = word.substr(0, word.find('/'));
         const char* const end = token.data() + token.size();
-        const bool absent = part == 1 && token.empty() && word.size() > 1;
+        const bool absent = part > 0 && token.empty();
+        if (absent) parts[part] = part == 1 && word.size() > 0 ? 1 : 0;
         const bool plus = token.starts_with('+') && !token.starts_with("+-");
         const auto [stop, error] = std::from_chars(token.data() + plus, end, parts[part]);
         if (!absent && (error != std::errc{} || stop != end)) return std::nullopt;
@@ -137,11 +146,11 @@ bool loses_edges(std::string_view text) {
 constexpr outcome refused = outcome::we_refuse, read = outcome::peer_differs;
 
 constexpr std::array differences{
-    difference{refused, "absent coordinates are 0, those after the sixth number are skipped",
+    difference{refused, "absent coordinates are 0, numbers after the colour are skipped",
                [](std::string_view text) {
                    return any_line(text, [](const words& line) {
                        const std::size_t count = line.size() - 1;
-                       return line[0] == "v" && count != 3 && count != 4 && count != 6;
+                       return line[0] == "v" && (count < 3 || count == 5 || count > 7);
                    });
                },
                "v 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
@@ -163,12 +172,13 @@ constexpr std::array differences{
                },
                "v 0 0 0 2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
     difference{refused, "an index is the integer that a word begins with",
-               [](std::string_view text) { return any_word(text, "fl", is_no_corner); },
+               [](std::string_view text) { return any_word(text, "flp", is_no_corner); },
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3.5\n"},
-    difference{refused, "f and l without indices are skipped",
+    difference{refused, "f, l and p without indices are skipped",
                [](std::string_view text) {
                    return any_line(text, [](const words& line) {
-                       return line.size() == 1 && (line[0] == "f" || line[0] == "l");
+                       return line.size() == 1 &&
+                              (line[0] == "f" || line[0] == "l" || line[0] == "p");
                    });
                },
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf\n"},
@@ -177,30 +187,20 @@ constexpr std::array differences{
     difference{refused, "control characters are as others, and NUL ends a line", has_control,
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no \x01\n"},
     difference{refused, "a backslash at the end of a line does not join it to the next",
-               ends_in_backslash, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n# \\\n"},
+               ends_in_backslash, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no a\\\n"},
     difference{refused, "edges of a group without faces are lost where the next group begins",
-               loses_edges, "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 1\ng next\nf 1 2 3\n"},
-    difference{read, "the lowest bits of indices of textures and normals may not be 0",
-               [](std::string_view text) {
-                   return any_word(text, "fl", [](const std::string& word) {
-                       const auto parts = corner(word);
-                       return parts && (is_zero((*parts)[1]) || is_zero((*parts)[2]));
-                   });
-               },
-               "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/4294967296 2 3\n"},
-    difference{read, "point elements, which we skip, must have indices",
-               [](std::string_view text) {
-                   return any_line(text, [](const words& line) {
-                       return line[0] == "p" &&
-                              (line.size() == 1 ||
-                               std::any_of(
-                                   line.begin() + 1, line.end(), [](const std::string& word) {
-                                       const auto parts = corner(word);
-                                       return !parts || std::ranges::any_of(*parts, is_zero);
-                                   }));
-                   });
-               },
-               "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\np none\n"},
+               loses_edges, "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 9\ng next\nf 1 2 3\n"},
+    difference{
+        read,
+        "the lowest bits of indices of textures and normals may not be 0, nor these be left out "
+        "after a slash",
+        [](std::string_view text) {
+            return any_word(text, "flp", [](const std::string& word) {
+                const auto parts = corner(word);
+                return parts && (is_zero((*parts)[1]) || is_zero((*parts)[2]));
+            });
+        },
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/4294967296 2 3\n"},
     difference{read, "edges of a group without faces are lost where the next group begins",
                loses_edges, "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\ng next\nf 1 2 3\n"},
     difference{read, "sums of digits and powers of 5 overflow for numbers that do not",
@@ -210,10 +210,12 @@ constexpr std::array differences{
 
 std::string without_comments(std::string_view text) {
     std::string result;
-    bool in_comment = false;
-    for (const char c : text) {
-        in_comment = (in_comment || c == '#') && c != '\n' && c != '\r';
-        if (!in_comment) result += c;
+    while (!text.empty()) {
+        const std::size_t size = std::min(text.find_first_of("\r\n"), text.size());
+        const std::string_view line = text.substr(0, size);
+        result += line.substr(0, comment_start(line));
+        result += text.substr(size, 1);
+        text.remove_prefix(std::min(size + 1, text.size()));
     }
     return result;
 }
@@ -289,6 +291,7 @@ std::optional<mesh> read_by_tinyobjloader(std::string_view text) {
     const auto index = [](const tinyobj::index_t& i) {
         return static_cast<vertex_index>(i.vertex_index);  // negative ones are out of range
     };
+    std::vector<vertex_index> points;
     for (const tinyobj::shape_t& shape : shapes) {
         if (std::ranges::any_of(shape.mesh.num_face_vertices, [](int n) { return n != 3; }))
             return std::nullopt;
@@ -296,6 +299,7 @@ std::optional<mesh> read_by_tinyobjloader(std::string_view text) {
         for (std::size_t i = 0; i < corners.size(); i += 3)
             m.faces.push_back({index(corners[i]), index(corners[i + 1]), index(corners[i + 2])});
         auto next = shape.lines.indices.begin();
+        for (const tinyobj::index_t& i : shape.points.indices) points.push_back(index(i));
         for (const int count : shape.lines.num_line_vertices) {
             if (count < 2) return std::nullopt;
             for (const auto last = next + (count - 1); next != last; ++next)
@@ -303,7 +307,12 @@ std::optional<mesh> read_by_tinyobjloader(std::string_view text) {
             ++next;
         }
     }
-    if (!is_sound(m) || (m.faces.empty() && m.edges.empty())) return std::nullopt;
+    for (const vertex_index v : points) {  // after all elements, which may have it
+        const auto has_it = [v](const auto& e) { return std::ranges::find(e, v) != e.end(); };
+        if (std::ranges::none_of(m.faces, has_it) && std::ranges::none_of(m.edges, has_it))
+            m.edges.push_back({v, v});
+    }
+    if (!is_sound(m) || m.vertices.empty()) return std::nullopt;
     return m;
 }
 
