@@ -185,6 +185,7 @@ class SearchOptions(TypedDict, total=False):
     groups: whole numbers (n,): only pairs between different groups are looked at.
     between_groups: False: only those within groups.
     pinned: flags (n,), one a vertex: pairs of which all vertices are pinned are left out.
+    skip_unused: True: vertices on no face and no edge are in no pair; by default they are points.
     can_collide: asked of two vertices, one of each element; a pair is left out if it is False for all. Slow;
     called from several threads in turn.
     """
@@ -194,6 +195,7 @@ class SearchOptions(TypedDict, total=False):
     groups: ArrayLike | None
     between_groups: bool
     pinned: ArrayLike | None
+    skip_unused: bool
     can_collide: Callable[[int, int], bool] | None
 
 
@@ -226,7 +228,7 @@ class AdvanceOptions(SearchOptions, total=False):
 
 
 _OF_SEARCH = {"threads": int, "distance": float, "thickness": np.float64, "groups": np.int32,
-              "between_groups": bool, "pinned": np.uint8, "can_collide": Callable}
+              "between_groups": bool, "pinned": np.uint8, "skip_unused": bool, "can_collide": Callable}
 _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
            "t_max": float, "stages": bool, "count_candidates": bool}
 _OF_ADVANCE = {**_OF_SEARCH, "islands": np.int32}

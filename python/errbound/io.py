@@ -6,6 +6,7 @@ not at all.
 """
 from __future__ import annotations
 
+import math
 import os
 import zlib
 from collections.abc import Sequence
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, Indices, check_finite, checked_indices, doubles, frames
+from ._arrays import Doubles, Indices, check_finite, checked_indices, doubles, frames, option
 from ._results import StepResult
 from .ccd import POINTS
 
@@ -38,8 +39,18 @@ class Mesh:
     faces: Indices
     edges: Indices = field(default_factory=lambda: np.empty((0, 2), np.uint32))
 
+    @property
+    def unused_vertices(self) -> NDArray[np.intp]:
+        """The vertices that no face and no edge has, ascending. A step takes them as points, or skips them
+        with skip_unused."""
+        used = np.zeros(len(self.vertices), np.bool_)
+        used[self.faces], used[self.edges] = True, True
+        return np.flatnonzero(~used)
+
     def __repr__(self) -> str:
-        return f"<io.Mesh of {len(self.vertices)} vertices, {len(self.faces)} faces, {len(self.edges)} edges>"
+        unused = len(self.unused_vertices)
+        return (f"<io.Mesh of {len(self.vertices)} vertices{f' ({unused} unused)' if unused else ''}, "
+                f"{len(self.faces)} faces, {len(self.edges)} edges>")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -54,9 +65,13 @@ class Queries:
         return f"<io.Queries: {len(self.queries)} {self.kind}, {known}>"
 
 
-def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """A PLY (ascii or binary) or OBJ file of triangles, edges and points."""
-    return Mesh(*_native.read_mesh(_name(path)))
+def read_mesh(path: str | os.PathLike[str], *, triangulate: bool = False) -> Mesh:
+    """A PLY (ascii or binary) or OBJ file of triangles, edges and points.
+
+    With triangulate, a face with more than three corners is split into the triangles (c0, c1, c2),
+    (c0, c2, c3), ...; otherwise it is a FileError.
+    """
+    return Mesh(*_native.read_mesh(_name(path), option("triangulate", triangulate, bool)))
 
 
 def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
@@ -107,12 +122,21 @@ def _read_store(name: str, kind: str | None) -> Queries:
         h5py: Any = import_module("h5py")
     except ImportError:
         raise FileError(f"{name}: found an HDF5 file, expected CSV, or h5py installed (pip install h5py)") from None
+    def dataset(of: str) -> Any:
+        """One of the file itself, in chunks that fit in memory. A link is not followed."""
+        if file.id.links.get_info(of.encode()).type != h5py.h5l.TYPE_HARD:
+            raise ValueError(f"dataset {of}: found a link to another place, expected it in this file")
+        if file[of].chunks is None or math.prod(file[of].chunks) * file[of].dtype.itemsize > 2**26:
+            raise ValueError(f"dataset {of}: found no chunks or larger ones, expected chunks of at most 64 MiB")
+        return file[of]
+
     try:
         with h5py.File(name) as file:
             stored = bytes(file.attrs["kind"]).decode()
-            truth = file["truth"][:] if "truth" in file else None
-            chunks = [_chunk(file, c, truth) for c in range(len(file["checksums"]))]
-    except (OSError, KeyError, IndexError, TypeError, ValueError) as error:
+            truth = dataset("truth")[:] if file.id.links.exists(b"truth") else None
+            rows = {of: dataset(of) for of in ("points", "queries", "first_point", "checksums")}
+            chunks = [_chunk(rows, c, truth) for c in range(len(rows["checksums"]))]
+    except (OSError, KeyError, IndexError, RuntimeError, TypeError, ValueError) as error:
         raise FileError(f"{name}: found no whole store of queries ({error})") from None
     if stored not in ("vertex_face", "edge_edge"):
         raise FileError(f"{name}: attribute kind: found {stored!r}, expected 'vertex_face' or 'edge_edge'")
@@ -123,7 +147,7 @@ def _read_store(name: str, kind: str | None) -> Queries:
     return Queries(queries, stored, None if truth is None else truth.astype(bool))
 
 
-def _chunk(file: Any, c: int, truth: NDArray[Any] | None) -> NDArray[Any]:
+def _chunk(file: dict[str, Any], c: int, truth: NDArray[Any] | None) -> NDArray[Any]:
     """A chunk's points by query. HDF5's own checksums do not see all damage (docs/program.md)."""
     begin, end = map(int, file["first_point"][c:c + 2])
     points, of_chunk = file["points"][begin:end], slice(65536 * c, 65536 * (c + 1))

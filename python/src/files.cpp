@@ -19,8 +19,8 @@
 namespace errbound::python {
 namespace {
 
-nb::tuple read_mesh(const std::string& path) {
-    ccd::mesh mesh = ccd::io::read_mesh(path);
+nb::tuple read_mesh(const std::string& path, bool triangulate) {
+    ccd::mesh mesh = ccd::io::read_mesh(path, {.triangulate = triangulate});
     return nb::make_tuple(rows_of<double>(std::move(mesh.vertices)),
                           rows_of<std::uint32_t>(std::move(mesh.faces)),
                           rows_of<std::uint32_t>(std::move(mesh.edges)));
@@ -60,7 +60,7 @@ nb::tuple read_queries(const std::string& path, const std::optional<std::string>
 }  // namespace
 
 void bind_files(nb::module_& m) {
-    m.def("read_mesh", read_mesh, nb::arg("path"));
+    m.def("read_mesh", read_mesh, nb::arg("path"), nb::arg("triangulate"));
     m.def("write_mesh", write_mesh, nb::arg("path"), nb::arg("vertices"), nb::arg("faces"),
           nb::arg("edges"));
     m.def("write_text", write_text, nb::arg("path"), nb::arg("text"));

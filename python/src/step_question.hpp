@@ -37,7 +37,7 @@ struct step_question {
     std::string method = "exact";
     int threads = 0;
     bool count_candidates = false, stages = false, initial_contact = false, first_contact = false,
-         times = false, between_groups = true;
+         times = false, between_groups = true, skip_unused = false;
     double t_max = 1, distance = 0;
     std::optional<numbers> thickness;
     std::optional<group_numbers> groups, islands;
@@ -52,6 +52,7 @@ struct step_question {
     ccd::pair_filter filter() const {
         using rule = ccd::pair_filter::group_rule;
         ccd::pair_filter of_pairs;
+        of_pairs.skip_unused = skip_unused;
         of_pairs.rule = between_groups ? rule::between_groups : rule::within_groups;
         if (groups) of_pairs.groups = items_of<int>(*groups);
         if (pinned) of_pairs.pinned = items_of<std::uint8_t>(*pinned);

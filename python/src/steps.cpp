@@ -105,6 +105,7 @@ void bind_steps(nb::module_& m) {
         .def_rw("first_contact", &step_question::first_contact)
         .def_rw("times", &step_question::times)
         .def_rw("between_groups", &step_question::between_groups)
+        .def_rw("skip_unused", &step_question::skip_unused)
         .def_rw("t_max", &step_question::t_max)
         .def_rw("distance", &step_question::distance)
         .def_rw("thickness", &step_question::thickness, nb::arg("value").none())

@@ -149,9 +149,31 @@ def test_files(scene, shared_data, program, tmp_path):
     again = io.read_mesh(tmp_path / "mesh.ply")
     np.testing.assert_array_equal(again.vertices, before.vertices)
     np.testing.assert_array_equal(again.faces, before.faces)
+    assert len(again.unused_vertices) == 0
     stored = sorted((shared_data / "queries").rglob("*.csv"))
     read = next(q for q in map(io.read_queries, stored) if q.truth is not None)
     np.testing.assert_array_equal(ccd.decide(read.queries, read.kind).collides, read.truth)
+
+
+def test_unused_vertices_and_polygons(tmp_path):
+    """A quad, a vertex that falls through it, and that vertex skipped or on an element."""
+    square = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]]
+    path = tmp_path / "quad.obj"
+    path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in [*square, [.5, 1.5, 1]]) + "f 1 2 3 4\n")
+    with pytest.raises(io.FileError, match="found a face with 4 vertices"):
+        io.read_mesh(path)
+    mesh = io.read_mesh(path, triangulate=True)
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]] and mesh.unused_vertices.tolist() == [4]
+    assert "5 vertices (1 unused), 2 faces" in repr(mesh)
+    after = np.array([*square, [.5, 1.5, -1]], float)
+    for edges, skip_unused, hits in ([], False, 1), ([], True, 0), ([[4, 4]], True, 1):
+        found = ccd.step(mesh.vertices, after, mesh.faces, edges, skip_unused=skip_unused)
+        assert len(found.pairs) == hits
+        free = ccd.advance(mesh.vertices, after, mesh.faces, edges, skip_unused=skip_unused)
+        assert (free.fraction == 1) == (hits == 0)
+    io.write_mesh(tmp_path / "again.ply", mesh.vertices, [], [[4, 4]])
+    again = io.read_mesh(tmp_path / "again.ply")
+    assert again.edges.tolist() == [[4, 4]] and again.unused_vertices.tolist() == [0, 1, 2, 3]
 
 
 def test_queries_are_written_exactly(tmp_path):

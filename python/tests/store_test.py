@@ -1,4 +1,5 @@
 """Stores of queries, as `ccd convert` makes them, by h5py: alone, and by io.read_queries."""
+import os
 import subprocess
 
 import numpy as np
@@ -72,3 +73,26 @@ def test_what_hdf5_does_not_see_is_told(files, tmp_path):
         assert file["queries"][0:1].shape == (1, 4)  # without a word
     with pytest.raises(FileError, match="seen.h5: found no whole store of queries .*another checksum"):
         io.read_queries(tmp_path / "seen.h5")
+
+
+def test_a_link_is_not_followed_and_chunks_are_bounded(files, tmp_path):
+    """A link to a pipe that nobody writes to would block; a chunk is read whole, whatever the rows' width."""
+    def forged(change):
+        path = tmp_path / "forged.h5"
+        path.write_bytes(files[1].read_bytes())
+        with h5py.File(path, "r+") as file:
+            change(file)
+        return path
+
+    def link(file):
+        del file["truth"]
+        file["truth"] = h5py.ExternalLink(tmp_path / "pipe", "truth")
+
+    def wide(file):
+        del file["points"]
+        file.create_dataset("points", (40, 6), "f8", chunks=(2**20, 100), maxshape=(None, None))
+
+    os.mkfifo(tmp_path / "pipe")
+    for change, message in (link, "dataset truth: found a link"), (wide, "dataset points: .* at most 64 MiB"):
+        with pytest.raises(FileError, match=message):
+            io.read_queries(forged(change))

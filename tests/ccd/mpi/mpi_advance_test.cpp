@@ -54,20 +54,22 @@ void compare(const scene& s, const question& asked) {
         if (asked.thickness) thickness.push_back(0.001 * double(v % 5));
         if (asked.filtered) pinned.push_back(v % 3 == 0);
     }
-    const auto expected = ccd::advance(s.before, s.after,
-                                       {.groups = asked.groups,
-                                        .distances = {asked.distance, thickness},
-                                        .filter = {.pinned = pinned}});
+    const auto expected =
+        ccd::advance(s.before, s.after,
+                     {.groups = asked.groups,
+                      .distances = {asked.distance, thickness},
+                      .filter = {.pinned = pinned, .skip_unused = asked.filtered}});
     for (const auto& [placed, place] : placings(s)) {
         const std::string name = s.name + ", " + asked.name + ", " + placed + ": ";
         const share own = share_of(s, place, placed == "doubled");
         const auto groups = of(asked.groups, own.of_whole);
         const auto own_thickness = of(thickness, own.of_whole);
         const auto own_pinned = of(pinned, own.of_whole);
-        const auto found = ccd::mpi::advance(MPI_COMM_WORLD, own.part(),
-                                             {.groups = groups,
-                                              .distances = {asked.distance, own_thickness},
-                                              .filter = {.pinned = own_pinned}});
+        const auto found =
+            ccd::mpi::advance(MPI_COMM_WORLD, own.part(),
+                              {.groups = groups,
+                               .distances = {asked.distance, own_thickness},
+                               .filter = {.pinned = own_pinned, .skip_unused = asked.filtered}});
         expect(found.fraction == expected.fraction, name + "fractions differ");
         expect(same(found.first_contact, expected.first_contact), name + "first contacts differ");
         expect(found.positions == of(expected.positions, own.of_whole), name + "positions differ");

@@ -80,6 +80,8 @@ std::vector<question> questions() {
     std::vector<question> all;
     all.push_back({"contacts", {}});
     all.push_back({"candidates", {.count_candidates = true}});
+    all.push_back(
+        {"no unused", {.count_candidates = true, .times = true, .filter = {.skip_unused = true}}});
     all.push_back({"tight", {.method = ccd::method::tight, .initial_contact = true}});
     all.push_back({"times", {.times = true}});
     all.push_back({"the first", {.first_contact = true, .t_max = 0.5}});

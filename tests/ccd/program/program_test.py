@@ -266,7 +266,7 @@ class Step(ProgramTest):
         """A rod falls through a face and across another rod, a point falls onto that rod's middle."""
         def frame(z):
             vertices = BASE + [(0.25, 0.25, z), (2, 0, z), (1, -1, 0), (1, 1, 0), (1, -0.5, z)]
-            return "".join("v %r %r %r\n" % v for v in vertices) + "f 1 2 3\nl 4 5\nl 6 7\n"
+            return "".join("v %r %r %r\n" % v for v in vertices) + "f 1 2 3\nl 4 5\nl 6 7\np 8\n"
         frames = [self.write("0.obj", frame(1)), self.write("1.obj", frame(-1))]
         pairs, out = self.directory / "pairs", self.directory / "json"
         for method in ("exact", "tight"):
@@ -279,6 +279,55 @@ class Step(ProgramTest):
             self.assertEqual(result, {"vertex_face": 1, "edge_edge": len(lines) - 2, "vertex_edge": 1})
             table = {row.split()[0]: row.split()[1:] for row in text.splitlines() if row}
             self.assertEqual(table["vertex-edge"][-1], "1")
+
+    def test_unused_vertices_stopped_steps(self):
+        """Leftovers of an editor, which fell through a triangle, and of which two were at one place."""
+        def frame(z, elements):
+            return "".join("v %r %r %r\n" % v for v in BASE + [(0.25, 0.25, z)] * 2) + elements
+        def step(elements, *options):
+            frames = [self.write("0.obj", frame(1, elements)), self.write("1.obj", frame(-1, elements))]
+            pairs, out, free = (self.directory / name for name in ("pairs", "json", "free.ply"))
+            text = self.good("step", *frames, "--pairs", pairs, "--json", out, "--advance", free, *options)
+            result = json.loads(out.read_text())
+            self.good("step", frames[0], free)
+            return pairs.read_text().split(), result.get("unused_vertices"), result["advance"], text
+        hits = ["vf,3,0,1,2", "vf,4,0,1,2", "vv,3,4"]
+        for options in ([], ["--unused-vertices", "skip"]):
+            pairs, unused, fraction, text = step("f 1 2 3\n", *options)
+            self.assertEqual((pairs, unused, fraction), ([], {"count": 2, "skipped": True}, 1))
+            self.assertIn("vertices on no face and no edge: 2 of 5, skipped", text)
+        pairs, unused, fraction, text = step("f 1 2 3\n", "--unused-vertices", "points")
+        self.assertEqual((pairs, unused), (hits, {"count": 2, "skipped": False}))
+        self.assertLess(fraction, 0.5)
+        self.assertIn("vertices on no face and no edge: 2 of 5, taken as points", text)
+        pairs, unused, _, text = step("f 1 2 3\np 4 5\n")
+        self.assertEqual((pairs, unused), (hits, None))
+        self.assertNotIn("no face", text)
+        pairs, unused, _, _ = step("f 1 2 3\nf 4 4 4\n")
+        self.assertEqual((pairs, unused), (hits[:1], {"count": 1, "skipped": True}))
+        for options, found, skipped in ([], "vv,3,4", False), (["--unused-vertices", "skip"], None, True):
+            pairs, unused, _, _ = step("", *options)
+            self.assertEqual((pairs, unused), ([found] if found else [], {"count": 5, "skipped": skipped}))
+
+    def test_many_unused_vertices_at_one_place_filled_the_memory(self):
+        frame = "".join("v %r %r %r\n" % v for v in BASE + [(9, 9, 9)] * 20000) + "f 1 2 3\n"
+        out = self.directory / "json"
+        self.good("step", self.write("0.obj", frame), self.write("1.obj", frame), "--json", out)
+        result = json.loads(out.read_text())
+        self.assertEqual(result["unused_vertices"], {"count": 20000, "skipped": True})
+        self.assertEqual(result["collisions"], {"vertex_face": 0, "edge_edge": 0})
+
+    def test_polygons_are_split_alike_in_both_frames(self):
+        def frame(z, faces):
+            return ply([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0.5, 1.5, z)] , faces)
+        quad, fan = [(0, 1, 2, 3), (4, 4, 4)], [(0, 1, 2), (0, 2, 3), (4, 4, 4)]
+        files = [[self.write(f"{i}{name}.ply", frame(z, faces)) for i, z in enumerate((1, -1))]
+                 for name, faces in (("quad", quad), ("fan", fan))]
+        self.bad_input("face with 4 vertices, expected a triangle (polygons are split by triangulate)", "step", *files[0])
+        pairs = self.directory / "pairs"
+        for frames in files:
+            self.good("step", *frames, "--triangulate", "--pairs", pairs)
+            self.assertEqual(pairs.read_text(), "vf,4,0,2,3\n")
 
     def test_faces_and_edges_given_twice_gave_pairs_twice(self):
         def lines(faces, edges):

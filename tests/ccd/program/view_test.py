@@ -120,7 +120,7 @@ class Pages(Views):
 
     def test_lines_are_those_of_toi(self):
         for frames in self.rods(), SCENE:
-            out, lines = self.view("step.html", frames)
+            out, lines = self.view("step.html", frames, "--unused-vertices", "points")
             self.compare(Page(out.read_text()), lines)
             self.assertGreater(len(lines), 1)
 
@@ -194,7 +194,7 @@ class ForParaView(Views):
 
     def test_rods_and_points(self):
         frames = self.rods()
-        out, lines = self.view("step.vtp", frames)
+        out, lines = self.view("step.vtp", frames, "--unused-vertices", "points")
         data = PolyData(out)
         before = data.points[:7]
         after = [(x, y, {5: -1.0, 6: -4.0}.get(i, 0.0)) for i, (x, y, _) in enumerate(before)]

@@ -37,6 +37,40 @@ TEST(MeshSteps, FindWhatFreshOnesFindWhateverWentBefore) {
     }
 }
 
+// A filter of pairs skips unused vertices: points of faces and edges that repeat a vertex stay.
+TEST(MeshSteps, SkipUnusedVertices) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        auto [mesh, second] = random_mixture(seed);
+        const auto first_new = static_cast<vertex_index>(mesh.vertices.size());
+        for (auto* frame : {&mesh.vertices, &second.vertices})
+            for (std::size_t i = 0; i < 6; ++i) frame->push_back((*frame)[i]);
+        mesh.faces.push_back({first_new, first_new, first_new});
+        mesh.edges.push_back({first_new + 1, first_new + 1});
+        const auto unused = ccd::unused_vertices(mesh.faces, mesh.edges, mesh.vertices.size());
+        ASSERT_GE(unused.size(), 4U);
+        ASSERT_EQ(std::ranges::count(unused, first_new), 0);
+        const ccd::vertex_rows rows(mesh.vertices, second.vertices);
+        ccd::mesh_steps steps(mesh);
+        ccd::pair_lists expected = steps.run(rows).pairs;
+        ccd::for_each_kind([&]<ccd::kind K>() {
+            std::erase_if(expected.of<K>(), [&](const auto& pair) {
+                return std::ranges::any_of(vertices_of(pair), [&](vertex_index v) {
+                    return std::ranges::binary_search(unused, v);
+                });
+            });
+        });
+        for (const bool count : {false, true}) {  // close pairs, and all candidates
+            ccd::step_options options{.count_candidates = count, .filter = {.skip_unused = true}};
+            const ccd::pair_lists skipped = steps.run(rows, options).pairs;
+            options.filter.skip_unused = false;
+            const ccd::pair_lists all = steps.run(rows, options).pairs;
+            EXPECT_GE(number_of(all), number_of(skipped));
+            ccd::for_each_kind(
+                [&]<ccd::kind K>() { EXPECT_EQ(skipped.of<K>(), expected.of<K>()) << seed; });
+        }
+    }
+}
+
 TEST(MeshSteps, MayBeMoved) {
     const auto at = random_mixture(2);
     ccd::mesh_steps steps(at.first);
