@@ -539,7 +539,8 @@ TEST(Shares, BadFilesAreToldOfBySomeShare) {
               "found 1 bytes after the last element, expected the end of the file");
     std::string quad = good;
     quad[quad.size() - 5 * 8 - 13 * 10] = 4;  // the eleventh face's count
-    EXPECT_EQ(first_error(quad), "face 11: found a face with 4 vertices, expected a triangle (polygons are split by "
+    EXPECT_EQ(first_error(quad),
+              "face 11: found a face with 4 vertices, expected a triangle (polygons are split by "
               "triangulate)");
     mesh beyond = larger_mesh();
     beyond.faces[20][1] = 23;
