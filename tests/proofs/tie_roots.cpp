@@ -270,11 +270,12 @@ void put_refined(hash& h, drawn_numbers& s, const polynomial& p, const point& a,
         put(h, interval.high);
     };
     isolation::interval once = i;
-    roots.refine(once);
+    errbound::roots::work_meter unlimited;
+    roots.refine(once, unlimited);
     put_interval(once);
-    roots.refine(once);
+    roots.refine(once, unlimited);
     put_interval(once);
-    roots.refine(i, scale(i.high - i.low, -s.draw(200)));
+    roots.refine(i, scale(i.high - i.low, -s.draw(200)), unlimited);
     put_interval(i);
 }
 void put_refined(hash& h, drawn_numbers& s) {

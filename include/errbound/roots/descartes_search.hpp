@@ -147,7 +147,7 @@ class descartes_search {
         } else if (!p.local && exact_row_is_cheap(p)) {
             const int range = floor_log2(p.high) - floor_log2(p.low) + bits_of_ends(p);
             charge(static_cast<std::int64_t>(p_.size()) * range);
-            const form b = control_values_on(p_, p.low, p.high);
+            const form b = control_values_on(p_, p.low, p.high, meter_);
             found = sign_variations(b.size(), [&](std::size_t i) { return sign(b[i]); });
             if (*found > 1) {
                 p.row.emplace(b, Integer(0));
@@ -352,7 +352,7 @@ class descartes_search {
             whole.row->sign(0) < 0 ? sign_type::negative : sign_type::positive;
         point x = whole.low + (whole.high - whole.low) * point::from(t);
         for (int bits = 64;; bits *= 2) {
-            const point value = value_at(p_, x);
+            const point value = value_at(p_, x, meter_);
             if (value.is_zero()) return false;
             if (sign_of(value) == -at_ends) {
                 part right{x, whole.high}, left{whole.low, x};
@@ -361,7 +361,7 @@ class descartes_search {
                 parts_.push_back(std::move(left));
                 return true;
             }
-            const point rise = value_at(slope_, x), bend = value_at(curvature_, x);
+            const point rise = value_at(slope_, x, meter_), bend = value_at(curvature_, x, meter_);
             // By its parabola, the extremum is on the same side as p(x) if p·p'' > p'²/2.
             if (bits > 256 || rise.is_zero() || bend.is_zero() ||
                 rise * rise < magnitude(value * bend))
@@ -376,7 +376,7 @@ class descartes_search {
     /// Modulo a prime first, which most values are not multiples of.
     bool is_root(const point& x) {
         if (residues_.empty()) residues_ = residues(p_, field_);
-        return value_at(residues_, field_, x) == 0 && sign_at(p_, x) == sign_type::zero;
+        return value_at(residues_, field_, x) == 0 && sign_at(p_, x, meter_) == sign_type::zero;
     }
 
     const form& p_;

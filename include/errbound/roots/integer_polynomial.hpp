@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <errbound/integers/dyadic.hpp>
+#include <errbound/roots/nearby_value.hpp>
 #include <errbound/roots/prime_field.hpp>
 #include <errbound/roots/work_meter.hpp>
 #include <errbound/sign.hpp>
@@ -85,10 +86,11 @@ integer_form<Integer> divided(integer_form<Integer> a, const integer_form<Intege
 
 /// x^n
 template <class Integer>
-Integer power(Integer x, std::size_t n) {
+Integer power(Integer x, std::size_t n, work_meter& meter) {
     if (n == 1) return x;
     Integer result = 1;
     for (;; x *= x) {
+        meter.poll();
         if (n % 2 == 1) result *= x;
         n /= 2;
         if (n == 0) return result;
@@ -97,7 +99,8 @@ Integer power(Integer x, std::size_t n) {
 
 /// The value at a point.
 template <class Integer>
-dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
+dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x,
+                         work_meter& meter) {
     if (p.empty()) return {};
     // Horner's rule for the integer p(m·2^e)·2^(−e·n), or for p itself where e >= 0; over
     // coefficients that are zero at once.
@@ -109,10 +112,11 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
     std::size_t done = p.size() - 1;
     for (std::size_t i = done; i-- > 0;) {
         if (p[i] == 0 && i > 0) continue;
+        meter.poll();
         if (done - i == 1)
             sum *= m;
         else
-            sum *= power(m, done - i);
+            sum *= power(m, done - i, meter);
         shift += static_cast<unsigned>(done - i) * static_cast<unsigned>(-e);
         done = i;
         term = p[i];
@@ -123,9 +127,33 @@ dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& 
 }
 
 template <class Integer>
-sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
+dyadic<Integer> value_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
+    work_meter unlimited;
+    return value_at(p, x, unlimited);
+}
+
+/// The value at a point to within 2^-bits of it, or exactly. Values of more and more bits come
+/// first where the exact one is long.
+template <class Integer>
+nearby_value<Integer> value_within(const integer_form<Integer>& p, const dyadic<Integer>& x,
+                                   int bits, work_meter& meter) {
+    const std::int64_t exact_bits = p.empty() ? 0 : bits_of_value(p, x);
+    for (std::int64_t b = std::int64_t(bits) + 128; 16 * b < exact_bits; b *= 4)
+        if (auto found = value_near(p, x, static_cast<int>(b), meter); found.is_within(bits))
+            return found;
+    const dyadic<Integer> exact = value_at(p, x, meter);
+    return {exact.numerator(), 0, exact.exponent()};
+}
+
+template <class Integer>
+sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x, work_meter& meter) {
     if (x.is_zero()) return p.empty() ? sign_type::zero : sign_of(p[0]);
-    return sign_of(value_at(p, x));
+    return value_within(p, x, 0, meter).sign();
+}
+template <class Integer>
+sign_type sign_at(const integer_form<Integer>& p, const dyadic<Integer>& x) {
+    work_meter unlimited;
+    return sign_at(p, x, unlimited);
 }
 
 /// The numbers 1/C(n, i), times the least common multiple of the C(n, i). For n <= 40, 64 bits hold
@@ -148,7 +176,7 @@ std::vector<Number> inverse_binomials(std::size_t n) {
 /// Proof: proofs/ControlValues.v, control_values_on_right.
 template <class Integer>
 integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
-                                        const dyadic<Integer>& high) {
+                                        const dyadic<Integer>& high, work_meter& meter) {
     const std::size_t n = p.size() - 1;
     const dyadic<Integer> width = high - low;
     const int e = (std::min)(low.is_zero() ? width.exponent() : low.exponent(), width.exponent());
@@ -160,12 +188,14 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
     }
     Integer term;  // kept, so that it allocates once
     if (start != 0)
-        for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t i = 0; i < n; ++i) {
+            meter.poll();
             for (std::size_t j = n; j-- > i;) {
                 term = p[j + 1];
                 term *= start;
                 p[j] += term;
             }
+        }
     // Control values are Σ_j C(i, j)/C(n, j)·a_j for power-basis coefficients a_j in u.
     const auto weigh = [&](const auto& weights) {
         Integer power = 1;
@@ -180,9 +210,17 @@ integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<In
         weigh(inverse_binomials<std::uint64_t>(n));
     else
         weigh(inverse_binomials<Integer>(n));
-    for (std::size_t i = 1; i <= n; ++i)
+    for (std::size_t i = 1; i <= n; ++i) {
+        meter.poll();
         for (std::size_t j = n; j >= i; --j) p[j] += p[j - 1];
+    }
     return p;
+}
+template <class Integer>
+integer_form<Integer> control_values_on(integer_form<Integer> p, const dyadic<Integer>& low,
+                                        const dyadic<Integer>& high) {
+    work_meter unlimited;
+    return control_values_on(std::move(p), low, high, unlimited);
 }
 
 /// x modulo the field's prime.

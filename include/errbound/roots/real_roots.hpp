@@ -81,7 +81,8 @@ class real_roots {
     }
 
     /// The roots in [a, b], a <= b, which may be infinite. Throws roots::gave_up beyond the limits,
-    /// which hold for this constructor alone.
+    /// which hold for this constructor. Only `stop` is kept: later calls that it ends throw
+    /// roots::gave_up, too, and the object stays valid.
     real_roots(roots::staged_polynomial<Integer> p, double a, double b,
                const root_limits& limits = {})
         : p_(std::move(p)), meter_(limits) {
@@ -98,7 +99,7 @@ class real_roots {
             add(roots::root_filter<tight>(p_.floating(), a, b).parts());
         }
         if (a <= 0 && 0 <= b) add_zero();
-        meter_ = {};
+        meter_.lift();
     }
     /// How many there are, for a < b and p not zero, where root_filter was asked for the roots
     /// roots other than 0 and left some of these parts open. Throws roots::gave_up.
@@ -132,7 +133,8 @@ class real_roots {
             throw std::invalid_argument(
                 "errbound::real_roots::refine: the width is not positive and finite");
         if (width < intervals_[k].high - intervals_[k].low) narrow(intervals_[k]);
-        if (width < intervals_[k].high - intervals_[k].low) exact().refine(intervals_[k], width);
+        if (width < intervals_[k].high - intervals_[k].low)
+            exact().refine(intervals_[k], width, meter_);
     }
     void refine(std::size_t k, double width) {
         refine(k, point::from(std::isfinite(width) ? width : 0));
@@ -151,9 +153,10 @@ class real_roots {
             // Low = high only for a point: else the root is strictly between root.low and high.
             if (high - low <= 1) return {roots::double_of_order(low), roots::double_of_order(high)};
             if (high - low <= few || high - low > of_one_exponent)
-                exact().cut(root, point::from(roots::double_of_order(low + (high - low) / 2)));
+                exact().cut(root, point::from(roots::double_of_order(low + (high - low) / 2)),
+                            meter_);
             else
-                exact().refine(root, quarter_ulp(root));
+                exact().refine(root, quarter_ulp(root), meter_);
         }
     }
 
@@ -168,7 +171,7 @@ class real_roots {
         };
         interval& root = intervals_[k];
         const point half = middle(place(low), place(high));
-        if (root.low < half && half < root.high) exact().cut(root, half);
+        if (root.low < half && half < root.high) exact().cut(root, half, meter_);
         if (root.is_point() && root.low == half) return roots::order_of(low) % 2 == 0 ? low : high;
         const bool is_below = root.is_point() ? root.low < half : !(half < root.high);
         return is_below ? low : high;
@@ -190,7 +193,7 @@ class real_roots {
         };
         sign_type s = by_values();
         if (!certain(s) && narrow(root)) s = by_values();
-        return certain(s) ? s : exact().sign_at_root(g.exact(), root);
+        return certain(s) ? s : exact().sign_at_root(g.exact(), root, meter_);
     }
     template <class C>
     sign_type sign_at(const polynomial<C>& g, std::size_t k) {
@@ -200,7 +203,7 @@ class real_roots {
 
     /// The same by integers alone.
     sign_type sign_at_root(const roots::integer_form<Integer>& g, std::size_t k) {
-        return exact().sign_at_root(g, intervals_[k]);
+        return exact().sign_at_root(g, intervals_[k], meter_);
     }
 
     /// The signs of the polynomial on [a, b], for which these roots were asked.
@@ -378,7 +381,7 @@ class real_roots {
         const number place = enclosure({x, x});
         const sign_type power = zeros_ % 2 == 1 ? sign_of(x) : sign_type::positive;
         const sign_type s = floating_sign_at(place);
-        return power * (certain(s) ? s : roots::sign_at(p_.exact(), x));
+        return power * (certain(s) ? s : roots::sign_at(p_.exact(), x, meter_));
     }
     /// A point of [a, b] that is not a root.
     point beside_roots(double a, double b) const {

@@ -84,43 +84,45 @@ class root_isolation {
             if (to.is_root) roots.push_back({high, high});
         }
         for (std::size_t k = first; k < roots.size(); ++k)
-            roots[k].multiplicity = multiplicity(roots[k]);
+            roots[k].multiplicity = multiplicity(roots[k], meter);
     }
 
     /// Narrows the root's interval to at most half of it, or to this width.
-    void refine(interval& root) const { refine(root, scale(root.high - root.low, -1)); }
+    void refine(interval& root, work_meter& meter) const {
+        refine(root, scale(root.high - root.low, -1), meter);
+    }
     /// Quadratic interval refinement (J. Abbott 2006): the secant picks one of 2^bits parts, and
     /// bits doubles if that is right.
-    void refine(interval& root, const point& width) const {
+    void refine(interval& root, const point& width, work_meter& meter) const {
         for (int bits = 1; width < root.high - root.low;)
-            bits = keep_part(root, bits) ? 2 * bits : (std::max)(1, bits / 2);
+            bits = keep_part(root, bits, meter) ? 2 * bits : (std::max)(1, bits / 2);
     }
 
     /// Keeps the side of x, strictly inside the interval, on which the root is, or x if it is that.
-    void cut(interval& root, const point& x) const {
-        const sign_type s = sign_at(squarefree(), x);
+    void cut(interval& root, const point& x, work_meter& meter) const {
+        const sign_type s = sign_at(squarefree(), x, meter);
         if (s == sign_type::zero)
             root.low = root.high = x;
         else
-            (s == sign_at(squarefree(), root.low) ? root.low : root.high) = x;
+            (s == sign_at(squarefree(), root.low, meter) ? root.low : root.high) = x;
     }
 
     /// The sign of g at the root; refines it. Zero is decided by a common factor, any other sign
     /// when all of g's control values on the interval have it.
     /// Proof: proofs/RootIsolation.v, sign_at_root_right.
-    sign_type sign_at_root(const form& g, interval& root) const {
+    sign_type sign_at_root(const form& g, interval& root, work_meter& meter) const {
         if (g.empty()) return sign_type::zero;
         form common;
         for (int bits = 1;; bits *= 2) {
-            if (root.is_point()) return sign_at(g, root.low);
-            const form b = control_values_on(g, root.low, root.high);
+            if (root.is_point()) return sign_at(g, root.low, meter);
+            const form b = control_values_on(g, root.low, root.high, meter);
             const auto differs = [&](const Integer& c) { return sign_of(c) != sign_of(b[0]); };
             if (b[0] != 0 && std::none_of(b.begin(), b.end(), differs)) return sign_of(b[0]);
             if (common.empty()) {
-                common = common_factor(squarefree(), g);
-                if (vanishes(common, root)) return sign_type::zero;
+                common = common_factor(squarefree(), g, meter);
+                if (vanishes(common, root, meter)) return sign_type::zero;
             }
-            refine(root, scale(root.high - root.low, -bits));
+            refine(root, scale(root.high - root.low, -bits), meter);
         }
     }
 
@@ -144,45 +146,58 @@ class root_isolation {
     };
 
     /// For square-free f without root at the ends of the interval.
-    static bool changes_sign(const form& f, const interval& root) {
-        return sign_at(f, root.low) != sign_at(f, root.high);
+    static bool changes_sign(const form& f, const interval& root, work_meter& meter) {
+        return sign_at(f, root.low, meter) != sign_at(f, root.high, meter);
     }
     /// Whether f, a divisor of p's, vanishes at the root. Proof: proofs/CommonFactor.v,
     /// vanishes_right.
-    static bool vanishes(const form& f, const interval& root) {
+    static bool vanishes(const form& f, const interval& root, work_meter& meter) {
         if (f.size() < 2) return false;
-        if (root.is_point()) return sign_at(f, root.low) == sign_type::zero;
-        return changes_sign(f, root);
+        if (root.is_point()) return sign_at(f, root.low, meter) == sign_type::zero;
+        return changes_sign(f, root, meter);
     }
-    int multiplicity(const interval& root) const {
-        const auto is_root_of = [&](const form& f) { return vanishes(f, root); };
+    int multiplicity(const interval& root, work_meter& meter) const {
+        const auto is_root_of = [&](const form& f) { return vanishes(f, root, meter); };
         return 1 + static_cast<int>(std::find_if_not(chain_.begin() + 1, chain_.end(), is_root_of) -
                                     (chain_.begin() + 1));
     }
 
+    /// ⌊2^bits·a/(a + b)⌋ for the magnitudes a and b of the values at the ends. Errors of these
+    /// only make it a worse choice. Precondition: b is not 0. Proof: proofs/RootIsolation.v,
+    /// secant_part_right.
+    static Integer secant_part(const nearby_value<Integer>& at_low,
+                               const nearby_value<Integer>& at_high, int bits) {
+        const Integer parts = Integer(1) << static_cast<unsigned>(bits);
+        if (at_low.value == 0) return 0;
+        if (at_low.log2() > at_high.log2() + bits + 1) return parts - 1;
+        if (at_high.log2() > at_low.log2() + bits + 1) return 0;
+        const std::int64_t unit = (std::min)(at_low.exponent, at_high.exponent);
+        const auto size = [&](const nearby_value<Integer>& x) {
+            return Integer(Integer(abs(x.value)) << static_cast<unsigned>(x.exponent - unit));
+        };
+        const Integer a = size(at_low), b = size(at_high);
+        return Integer(a << static_cast<unsigned>(bits)) / Integer(a + b);
+    }
     /// Keeps one of 2^bits parts of the interval if the root is in the one where the secant has it,
     /// and otherwise what lies on the root's side of that; one half if bits is 1.
-    /// Proof: proofs/RootIsolation.v, keep_part_right, secant_part_right.
-    bool keep_part(interval& root, int bits) const {
+    /// Proof: proofs/RootIsolation.v, keep_part_right.
+    bool keep_part(interval& root, int bits, work_meter& meter) const {
         const form& f = squarefree();
-        const point at_low = value_at(f, root.low), at_high = value_at(f, root.high);
-        const int unit = (std::min)(at_low.exponent(), at_high.exponent());
-        const Integer above_low = abs(at_low.in_units(unit));
-        const Integer whole = above_low + abs(at_high.in_units(unit));
-        const Integer part = (above_low << static_cast<unsigned>(bits)) / whole;
+        const auto at_low = value_within(f, root.low, bits + 4, meter);
+        const Integer part = secant_part(at_low, value_within(f, root.high, bits + 4, meter), bits);
         const point width = root.high - root.low, start = root.low;
         const auto place = [&](const Integer& k) { return start + width * point(k, -bits); };
-        const sign_type before = sign_of(at_low);
+        const sign_type before = at_low.sign();
         // The part's ends: the sign there tells on which side of it the root is.
         const point left = place(part), right = place(Integer(part + 1));
         if (root.low < left) {
-            const sign_type s = sign_at(f, left);
+            const sign_type s = sign_at(f, left, meter);
             if (s == sign_type::zero) return root.low = root.high = left, true;
             if (s != before) return root.high = left, false;
             root.low = left;
         }
         if (right < root.high) {
-            const sign_type s = sign_at(f, right);
+            const sign_type s = sign_at(f, right, meter);
             if (s == sign_type::zero) return root.low = root.high = right, true;
             if (s == before) return root.low = right, false;
             root.high = right;
@@ -200,7 +215,7 @@ class root_isolation {
     end end_at(const point& x, work_meter& meter) const {
         if (x <= lower_bound() || upper_bound() <= x) return {x, false};
         meter.spend(work_of_value(x));
-        return {x, sign_at(squarefree(), x) == sign_type::zero};
+        return {x, sign_at(squarefree(), x, meter) == sign_type::zero};
     }
 
     /// The roots strictly between low and high, 0 <= low < high.
@@ -218,7 +233,7 @@ class root_isolation {
         } else if (line.variations == 1 && !low.is_root && !high.is_root) {
             // The only positive root is between if the signs say so.
             // Proof: proofs/RootIsolation.v, isolate_right.
-            if (all || sign_at(line.p, low.at) != sign_at(line.p, high.at))
+            if (all || sign_at(line.p, low.at, meter) != sign_at(line.p, high.at, meter))
                 roots.push_back({low.at, high.at});
         }
     }

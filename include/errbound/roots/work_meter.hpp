@@ -1,8 +1,10 @@
-// What finding roots may cost, for callers who must not wait, and its count.
+// Limits of what finding roots may cost, for callers that must not wait, and the meter that counts.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace errbound {
 
@@ -15,6 +17,8 @@ struct root_limits {
     std::uint64_t operations = none;
     /// Of rows of numbers held at a time, estimated; p and its copies beside.
     std::uint64_t bytes = none;
+    /// Polled periodically; true gives up. Real roots poll it in later calls, too. Empty: never.
+    std::function<bool()> stop = {};
 };
 
 }  // namespace errbound
@@ -23,19 +27,25 @@ namespace errbound::roots {
 
 struct gave_up {};
 
-/// Throws gave_up where something would go beyond the limits, before it is done.
+/// Throws gave_up where something would go beyond the limits, before it is done, or if stopped.
 class work_meter {
   public:
     work_meter() = default;
-    explicit work_meter(const root_limits& limits) : left_(limits) {}
+    explicit work_meter(root_limits limits) : left_(std::move(limits)) {}
 
+    void poll() {
+        if (left_.stop && left_.stop()) throw gave_up();
+    }
     void spend(std::uint64_t operations) {
+        poll();
         if (operations > left_.operations) throw gave_up();
         if (left_.operations != root_limits::none) left_.operations -= operations;
     }
     void hold(std::uint64_t bytes) const {
         if (bytes > left_.bytes) throw gave_up();
     }
+    /// Removes the limits of operations and bytes.
+    void lift() { left_.operations = left_.bytes = root_limits::none; }
 
   private:
     root_limits left_;

@@ -104,6 +104,106 @@ TEST(neighbouring_doubles, of_two_roots_between_the_same_doubles) {
               std::vector<bracket>({around, around}));
 }
 
+/// x^degree + x^(degree/2)/2 − 2
+errbound::polynomial<double> three_terms(std::size_t degree) {
+    std::vector<double> c(degree + 1);
+    c[0] = -2;
+    c[degree / 2] = 0.5;
+    c[degree] = 1;
+    return errbound::polynomial<double>(c);
+}
+// Exact values at doubles have five million bits there: evaluating them took 8.8 s.
+TEST(neighbouring_doubles, of_degree_100000) {
+    auto roots = errbound::isolate_roots(three_terms(100000), -infinity, infinity);
+    ASSERT_EQ(roots.size(), 2U);
+    // y² + y/2 − 2 = 0 for y = x^50000: the logarithm of x is log(y)/50000.
+    const double root = std::exp(std::log((std::sqrt(33.0) - 1) / 4) / 50000);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto [low, high] = roots.neighbouring_doubles(k);
+        EXPECT_EQ(high, std::nextafter(low, infinity));
+        EXPECT_NEAR(k == 0 ? -high : low, root, 0x1p-51);
+    }
+    roots.refine(0, 1e-100);
+    EXPECT_LE((roots[0].high - roots[0].low).to_double(), 1e-100);
+    EXPECT_EQ(roots.sign_at(errbound::polynomial{0.0, 1.0}, 0), errbound::sign_type::negative);
+}
+TEST(real_roots, are_stopped_and_used_again) {
+    int polls = 0, limit = 0;
+    const errbound::root_limits limits{.stop = [&] { return ++polls > limit; }};
+    const auto p = three_terms(2000);
+    EXPECT_FALSE(errbound::isolate_roots(p, -infinity, infinity, limits).has_value());
+    limit = std::numeric_limits<int>::max();
+    auto roots = errbound::isolate_roots(p, -infinity, infinity, limits);
+    ASSERT_TRUE(roots.has_value());
+    limit = polls;
+    EXPECT_THROW(roots->refine(0, 1e-300), errbound::roots::gave_up);
+    limit = std::numeric_limits<int>::max();
+    roots->refine(0, 1e-300);
+    EXPECT_LT((roots->operator[](0).high - roots->operator[](0).low).to_double(), 1e-299);
+    EXPECT_LT(roots->operator[](0).low, roots->operator[](0).high);
+}
+
+/// Whether x lies within the error, by exact arithmetic.
+bool holds(const errbound::roots::nearby_value<integer>& v, const errbound::dyadic<integer>& x) {
+    const int exponent = static_cast<int>(v.exponent);
+    const errbound::dyadic<integer> value(v.value, exponent), error(v.error, exponent);
+    return !(error < magnitude(x - value));
+}
+TEST(nearby_value, holds_the_exact_value) {
+    std::mt19937_64 random(48);
+    errbound::roots::work_meter unlimited;
+    const auto draw = [&](int most) {
+        return static_cast<int>(random() % static_cast<unsigned>(most));
+    };
+    const auto whole = [&] {
+        integer n = random() >> (random() % 64);
+        for (int i = draw(3); i > 0; --i) n = n * power_of_two(64) + random();
+        return integer(draw(2) == 0 ? n : -n);
+    };
+    int certain = 0, uncertain = 0;
+    for (int i = 0; i < support::scaled(3000); ++i) {
+        std::vector<integer> p(static_cast<std::size_t>(1 + draw(40)));
+        for (integer& c : p)
+            c = draw(2) == 0
+                    ? integer(0)
+                    : integer(whole() << static_cast<unsigned>(draw(4) == 0 ? draw(3000) : 0));
+        p.back() = whole() * 2 + 1;
+        const errbound::dyadic<integer> x(whole() >> static_cast<unsigned>(draw(60)),
+                                          draw(200) - 150);
+        // Near a root, too: less the value there, cut to a whole number.
+        const auto exact_at = [&] { return errbound::roots::value_at(p, x); };
+        if (draw(2) == 0) p[0] -= errbound::shifted(exact_at().numerator(), exact_at().exponent());
+        if (p.back() == 0) continue;
+        const auto exact = exact_at();
+        for (const int bits : {1, 5, 64, 128, 300}) {
+            const auto near = errbound::roots::value_near(p, x, bits, unlimited);
+            ASSERT_TRUE(holds(near, exact)) << i << ' ' << bits;
+            const auto sign = near.sign();
+            (errbound::certain(sign) ? certain : uncertain) += 1;
+            if (errbound::certain(sign)) {
+                ASSERT_EQ(sign, sign_of(exact)) << i << ' ' << bits;
+            }
+        }
+        ASSERT_EQ(errbound::roots::sign_at(p, x), sign_of(exact));
+    }
+    EXPECT_GT(certain, 1000);
+    EXPECT_GT(uncertain, 100);
+}
+// Terms of 2^(±10^8): an exact value would take 25 MB.
+TEST(nearby_value, of_terms_far_apart) {
+    errbound::roots::work_meter unlimited;
+    std::vector<integer> p(100001);
+    p[0] = -1;
+    p[100000] = 3;
+    const auto at = [&](int exponent) {
+        return errbound::roots::sign_at(p, errbound::dyadic<integer>::power_of_two(exponent),
+                                        unlimited);
+    };
+    EXPECT_EQ(at(1000), errbound::sign_type::positive);
+    EXPECT_EQ(at(-1000), errbound::sign_type::negative);
+    EXPECT_EQ(at(0), errbound::sign_type::positive);
+}
+
 TEST(neighbouring_doubles, of_rational_roots_hold_them) {
     std::mt19937_64 random(27);
     for (int i = 0; i < support::scaled(2000); ++i) {
