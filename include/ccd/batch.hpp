@@ -19,14 +19,15 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace ccd {
 
-/// A matrix as Eigen's are, of doubles.
+/// A matrix with the members of Eigen's dense matrices.
 template <class M>
-concept double_matrix = requires(const M& m) {
-    { m.data() } -> std::same_as<const double*>;
+concept dense_matrix = requires(const M& m) {
+    *m.data();
     { m.rows() } -> std::convertible_to<std::size_t>;
     { m.cols() } -> std::convertible_to<std::size_t>;
     { m.outerStride() } -> std::convertible_to<std::size_t>;
@@ -54,14 +55,14 @@ struct vertex_rows {
     vertex_rows(const mesh& at_start, const mesh& at_end)
         : vertex_rows(std::span<const point<double>>(at_start.vertices),
                       std::span<const point<double>>(at_end.vertices)) {}
-    /// Of Eigen matrices, n by 3 and row-major, which is not Eigen's default: declare them
-    /// Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>, or copy column-major ones into
-    /// such. Throws std::invalid_argument if they have not three columns, gaps between rows, or
-    /// different numbers of rows.
-    template <double_matrix M>
+    /// Of Eigen matrices of doubles, n by 3 and row-major, which is not Eigen's default: declare
+    /// them Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>, or copy others into such.
+    /// Throws std::invalid_argument if they have not three columns, gaps between rows, or different
+    /// numbers of rows.
+    template <dense_matrix M>
     vertex_rows(const M& at_start, const M& at_end)
-        : before(at_start.data()),
-          after(at_end.data()),
+        : before(data_of(at_start)),
+          after(data_of(at_end)),
           vertices(of_both(rows_of(at_start), rows_of(at_end))) {}
 
     moving_point<double> operator[](vertex_index vertex) const {
@@ -80,7 +81,19 @@ struct vertex_rows {
                                         " at t = 1");
         return at_start;
     }
-    template <double_matrix M>
+    template <dense_matrix M>
+    static const double* data_of(const M& m) {
+        constexpr bool holds_doubles = std::is_convertible_v<decltype(m.data()), const double*>;
+        static_assert(
+            holds_doubles,
+            "ccd::vertex_rows takes matrices of double: copy others, by m.cast<double>(), "
+            "into Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>");
+        if constexpr (holds_doubles)
+            return m.data();
+        else
+            return nullptr;
+    }
+    template <dense_matrix M>
     static std::size_t rows_of(const M& m) {
         static_assert(M::IsRowMajor,
                       "ccd::vertex_rows takes row-major matrices: the coordinates of a vertex must "

@@ -57,8 +57,9 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
-/// There is none: the type of an order that tracked numbers do not have.
+// Types of comparisons that do not exist. Their names are in the compiler's message.
 struct take_compare_or_by_value;
+struct take_sign_of_or_compare {};
 
 }  // namespace detail
 
@@ -182,6 +183,12 @@ class tracked {
     T value_;
     [[no_unique_address]] bound_type bound_;
 };
+
+/// There is no ==: it would have to guess. sign_of(x) == sign_type::zero is true if x is certainly
+/// zero; x.value() == 0 compares the value alone. (errbound/eigen.hpp has one of two tracked
+/// numbers.)
+template <class T, class Rule, class Number>
+detail::take_sign_of_or_compare operator==(const tracked<T, Rule>&, const Number&) = delete;
 
 /// Orders tracked numbers by their values alone, NaN last: for choices that may be wrong without
 /// harm, as of pivots, or for sorting. std::sort(begin, end, errbound::by_value{}).
