@@ -45,7 +45,8 @@ TIES = {
 # Whose functions decide, too.
 OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/function_error.hpp",
           "include/errbound/functions/function_of_range.hpp", "include/errbound/roots/double_order.hpp",
-          "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/polynomial_stages.hpp",
+          "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/nearby_value.hpp",
+          "include/errbound/roots/polynomial_stages.hpp",
           "include/errbound/roots/real_roots.hpp", "include/errbound/roots/root_filter.hpp",
           "include/errbound/filters/expression_count.hpp", "include/errbound/filters/predicate_stages.hpp",
           "include/errbound/integers/binary_double.hpp", "include/errbound/integers/common_exponent.hpp",

@@ -191,7 +191,7 @@ class descartes_search {
     void expand(part& p) {
         const point width = p.high - p.low;
         charge(local_form<Integer>::precision(p_.size(), p.low, width, p.bits));
-        p.local.emplace(p_, p.low, width, p.bits);
+        p.local.emplace(p_, p.low, width, p.bits, &meter_);
     }
     /// For a row of numbers of so many bits: products of their size, and sums.
     void charge(std::int64_t bits) {

@@ -47,15 +47,19 @@ class local_form {
     /// 0 < low, 0 < width. The error is about 2^(−bits) of p's largest term at `low`.
     ///
     /// Cost: degree multiplications of numbers of so many bits, and degree additions for each
-    /// coefficient kept. Proof: proofs/TaylorCoefficients.v, taylor_right.
-    local_form(const form& p, const point& low, const point& width, int bits)
-        : degree_(static_cast<int>(p.size()) - 1), bits_(bits) {
+    /// coefficient kept. `meter`, which outlives this, is polled for each row of these, in later
+    /// calls, too. Proof: proofs/TaylorCoefficients.v, taylor_right.
+    local_form(const form& p, const point& low, const point& width, int bits,
+               work_meter* meter = nullptr)
+        : degree_(static_cast<int>(p.size()) - 1), bits_(bits), meter_(meter) {
         const int count_bits = bits_of_count(p.size()), ratio = ratio_exponent(low, width);
         const int lost = static_cast<int>(error_bits(p.size(), ratio)), precision = bits + lost;
         a_ = terms(p, low, precision, count_bits);
         const std::size_t kept = kept_terms(p.size(), precision, ratio);
-        for (std::size_t i = 0; i < kept; ++i)
+        for (std::size_t i = 0; i < kept; ++i) {
+            poll();
             for (std::size_t k = p.size() - 1; k-- > i;) a_[k] += a_[k + 1];
+        }
         a_.resize(kept);
         scale(low, width, precision + count_bits + 3);
         error_ = Integer(4) << static_cast<unsigned>(lost);
@@ -74,12 +78,14 @@ class local_form {
         form& a = result.a_;
         Integer term;  // kept, so that it allocates once
         if (from != 0)
-            for (std::size_t i = 0; i + 1 < a.size(); ++i)
+            for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+                poll();
                 for (std::size_t j = a.size() - 1; j-- > i;) {
                     term = a[j + 1];
                     term *= from;
                     a[j] += shifted(term, -depth);
                 }
+            }
         Integer power = 1;
         for (std::size_t j = 1; j < a.size(); ++j) {
             power *= length;
@@ -172,11 +178,15 @@ class local_form {
     }
 
   private:
+    void poll() const {
+        if (meter_ != nullptr) meter_->poll();
+    }
     /// Σ a_j t^j (s + t)^(n − j) for a_j cut by some bits: the coefficients of s^(n − i) t^i.
     form scaled_coefficients(std::size_t n, int cut) const {
         form h{shifted(a_[0], -cut)};
         h.reserve(n + 1);
         for (std::size_t m = 1; m <= n; ++m) {
+            poll();
             h.push_back(h.back());
             for (std::size_t i = m - 1; i > 0; --i) h[i] += h[i - 1];
             if (m < a_.size()) h[m] += shifted(a_[m], -cut);
@@ -258,6 +268,7 @@ class local_form {
     }
 
     int degree_, bits_;
+    work_meter* meter_;
     form a_;
     Integer error_;
 };

@@ -17,7 +17,8 @@
 namespace errbound::roots {
 
 /// A number x with |x − value·2^exponent| <= error·2^exponent.
-/// Proof: proofs/NearbyValue.v, near_product, near_sum, near_cut, near_sign.
+/// Proof: proofs/NearbyValue.v, near_exact, near_product, near_sum, near_shifted, near_cut,
+/// near_widened, near_sign.
 template <exact_number Integer>
 struct nearby_value {
     Integer value = 0, error = 0;
