@@ -14,35 +14,72 @@ Doubles = NDArray[np.float64]
 Indices = NDArray[np.uint32]
 
 
-def as_array(name: str, values: ArrayLike) -> NDArray[Any]:
-    """As NumPy takes it, unless that would drop a mask or wrap up a mesh."""
+def as_array(name: str, values: Any) -> NDArray[Any]:
+    """The array that NumPy makes of values, also of objects that only have __dlpack__.
+
+    TypeError for a masked array, a mesh, and a memory that is not the host's.
+    """
     if isinstance(values, np.ma.MaskedArray):
         raise TypeError(f"{name}: found a masked array, expected one without a mask")
     if hasattr(values, "vertices") and hasattr(values, "faces"):
         raise TypeError(f"{name}: found {type(values).__name__}, expected an array, say its vertices or its faces")
+    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
+        try:
+            return np.asarray(np.from_dlpack(values))
+        except (AttributeError, BufferError, RuntimeError, TypeError, ValueError) as error:
+            raise TypeError(f"{name} is {type(values).__name__}, which NumPy cannot read ({error}); "
+                            "expected an array in the host's memory") from None
     try:
         return np.asarray(values)
     except ValueError as error:  # of rows of different lengths
         raise ValueError(f"{name}: {error}") from None
 
 
+def exact_doubles(name: str, values: ArrayLike) -> NDArray[Any]:
+    """An array of numbers that float64 holds exactly, of any shape: of float64, float32, float16 or integers.
+
+    Fractions, longdoubles and integers beyond int64 are accepted if a double equals each of them. TypeError for
+    all that is no real number, also booleans; ValueError that names the row of a number that no double equals.
+    """
+    array = as_array(name, values)
+    given = array
+    if array.dtype == np.float64 and isinstance(values, Sequence):
+        given = np.asarray(values, object)  # NumPy rounds integers and takes booleans among floats for numbers
+    large = array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size > 0 and (
+        array.max() > 2**53 or array.min() < -2**53)
+    if array.dtype.kind in "fiu" and array.dtype.itemsize <= 8 and not large and given.dtype.kind != "O":
+        return array
+    items = given.reshape(-1).tolist() if given.dtype != np.longdouble else list(given.flat)
+    wrong = [x for x in items if not _is_real(x)]
+    if array.dtype.kind not in "fiuO" or wrong:
+        found = type(wrong[0]).__name__ if given.dtype.kind == "O" else array.dtype
+        raise TypeError(f"{name} has items of type {found}; expected real numbers")
+    converted = np.array([_nearest_double(x) for x in items], np.float64)
+    for i, (x, y) in enumerate(zip(items, converted.tolist())):
+        if x != y and x == x:
+            row = f"row {np.unravel_index(i, given.shape)[0]} of {name}" if given.shape else name
+            raise ValueError(f"{row} is {x}; expected a number that a double equals")
+    return converted.reshape(given.shape)
+
+
+def _is_real(value: Any) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.bool_))
+
+
+def _nearest_double(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:  # of an integer or a fraction
+        return math.inf
+
+
 def doubles(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Doubles:
     """A C-contiguous float64 array of that shape (None: any length); the argument itself if it is one."""
-    array = as_array(name, values)
-    if array.dtype.kind not in "fiu" or array.dtype.itemsize > 8:
-        raise TypeError(f"{name}: found {array.dtype}, expected float64, float32 or whole numbers")
+    array = exact_doubles(name, values)
     if array.shape == (0,) and len(shape) > 1 and shape[0] is None:
         array = array.reshape([length or 0 for length in shape])
     check_shape(name, array, shape)
-    converted = np.require(array, np.float64, ["C", "A"])
-    if array.dtype.kind in "iu" and array.dtype.itemsize == 8:
-        limit = 2**53
-        wrong = (array > limit) | (array < -limit) if array.dtype.kind == "i" else array > limit
-        if wrong.any():
-            row = int(np.argwhere(wrong)[0][0])
-            raise ValueError(f"{name}: row {row}: found a whole number beyond 2^53, "
-                             "expected one that a double equals")
-    return converted
+    return np.require(array, np.float64, ["C", "A"])
 
 
 def check_shape(name: str, array: NDArray[Any], shape: tuple[int | None, ...]) -> None:
@@ -133,10 +170,7 @@ def option(name: str, value: Any, kind: type, end: int = 2**31) -> Any:
         raise TypeError(f"{name}: found {value!r}, expected {expected}")
     if kind is int and not 0 <= value < end:
         raise ValueError(f"{name}: found {value}, expected 0 to {end - 1}")
-    try:
-        converted = kind(value)
-    except OverflowError:  # of a whole number or fraction
-        converted = math.inf
+    converted = _nearest_double(value) if kind is float else kind(value)
     if converted != value and value == value:
         raise ValueError(f"{name}: found {value!r}, expected a number that a double equals")
     return converted
@@ -159,8 +193,15 @@ def distance_option(value: Any) -> float:
 
 def thickness_option(values: ArrayLike | None, vertices: int) -> Any:
     """One thickness a vertex, or None."""
-    thickness = of_vertices("thickness", values, np.float64, vertices)
-    if thickness is not None:
+    if values is None:
+        return None
+    array = exact_doubles("thickness", values)
+    if array.shape == ():
+        raise ValueError(f"thickness is {values!r}; expected a number for each of {vertices} vertices, "
+                         "or distance= for one number of all")
+    check_shape("thickness", array, (vertices,))
+    thickness = np.require(array, np.float64, ["C", "A"])
+    if thickness.size:
         wrong = ~((thickness >= 0) & (thickness < math.inf))
         if wrong.any():
             row = int(np.argmax(wrong))
@@ -182,14 +223,14 @@ def pinned_option(values: ArrayLike | None, vertices: int) -> Any:
     return np.require(flags, np.uint8, ["C", "A"])
 
 
-def of_vertices(name: str, values: ArrayLike | None, dtype: Any, vertices: int) -> Any:
-    """One number a vertex, or None."""
+def group_option(name: str, values: ArrayLike | None, vertices: int) -> Any:
+    """One integer a vertex, or None."""
     if values is None:
         return None
     array = as_array(name, values)
     check_shape(name, array, (vertices,))
-    if dtype is np.int32 and array.dtype.kind not in "iu":
-        raise TypeError(f"{name}: found {array.dtype}, expected whole numbers")
-    if dtype is np.int32 and array.size and not (-2**31 <= array.min() and array.max() < 2**31):
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError(f"{name} is an array of {array.dtype}; expected integers")
+    if array.size and not (-2**31 <= array.min() and array.max() < 2**31):
         raise ValueError(f"{name}: found numbers of {array.min()} to {array.max()}, expected int32")
-    return np.require(array, dtype, ["C", "A"])
+    return np.require(array, np.int32, ["C", "A"])

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,10 @@ Doubles = NDArray[np.float64]
 Indices = NDArray[np.uint32]
 Codes = NDArray[np.uint8]
 Flags = NDArray[np.bool_]
+Kind = Literal["vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"]
+MethodName = Literal["float", "safe", "tight", "sharp", "interval", "residual",
+                     "bsc-exact", "safeccd", "safeccd-tight", "provot", "root-parity", "exact"]
+Times = dict[str, dict[str, Doubles]]
 
 
 class Outcome(IntEnum):
@@ -112,9 +116,9 @@ class FirstTimes:
 class FirstContacts(FirstTimes):
     """The same, and how they meet (docs/time-of-impact.md), k rows each:
 
-    features: uint8, as Features numbers them; points: uint8 (k, 4), of the query's points those that
-    meet, as many as features says, else 0. weights: (k, 4), one a point of the query, each off by at most
-    weight_error. normal: (k, 3), of unit length from the second feature to the first, off by at most
+    features: uint8, as Features numbers them. points: uint8 (k, p), p the number of points of the query: the indices
+    of those that meet, as many as features says, then 0. weights: (k, p), one for each point of the query, each off
+    by at most weight_error. normal: (k, 3), of unit length from the second feature to the first, off by at most
     normal_error; normal_from, uint8, as NormalSource numbers it; sided, bool: whether it points to where
     the first feature was. normal_velocity: lengths a step, negative if they approach.
     """
@@ -165,7 +169,7 @@ class StepResult:
     """
     pairs: Pairs
     touching_at_start: Pairs
-    times: dict[str, dict[str, Doubles]] | None
+    times: Times | None
     first_contact: tuple[float, float] | None
     candidates: dict[str, int] | None
     seconds: dict[str, float]
@@ -178,8 +182,14 @@ class StepResult:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class TimedStepResult(StepResult):
+    """The result of a step with times=True: a StepResult whose times is not None."""
+    times: Times
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class AdvanceResult:
-    """Positions (n, 3) float64 to which the step is certainly free, but for the pairs listed.
+    """Positions, float64 and of the shape of before, to which the step is certainly free, except for the pairs listed.
 
     fraction: the least of fractions, (n,), those of the way that each vertex goes. first_contact: (low,
     high) of the earliest contact on the whole way, or None.

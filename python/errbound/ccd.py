@@ -12,17 +12,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._arrays import (Doubles, Indices, check_finite, check_range, check_shape, checked_indices, distance_option,
-                      doubles, end_time, frames, frames_of, indices, of_vertices, option, pinned_option, restated,
+from ._arrays import (Doubles, Indices, as_array, check_finite, check_range, check_shape, checked_indices, distance_option,
+                      doubles, end_time, frames, frames_of, group_option, indices, option, pinned_option, restated,
                       thickness_option)
-from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Method,
-                       NormalSource, Outcome, Pairs, Stage, StepResult, stages)
+from ._results import (AdvanceResult, Decisions, Features, FirstContacts, FirstTimes, Kind, Method, MethodName,
+                       NormalSource, Outcome, Pairs, Stage, StepResult, TimedStepResult, stages)
 
 if TYPE_CHECKING:
     if sys.version_info >= (3, 11):
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
     else:
         from typing_extensions import Unpack
 
-__all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FirstContacts", "FirstTimes", "Method",
-           "NormalSource", "Outcome", "Pairs", "RunOptions", "SearchOptions", "Stage", "StepResult", "Steps", "advance",
-           "candidates", "decide", "first_contact", "first_time", "instruction_sets", "methods",
-           "step", "touches_at_start"]
+__all__ = ["AdvanceOptions", "AdvanceResult", "Decisions", "Features", "FirstContacts", "FirstTimes", "Kind", "Method",
+           "MethodName", "NormalSource", "Outcome", "Pairs", "RunOptions", "SearchOptions", "Stage", "StepResult", "Steps",
+           "TimedStepResult", "UntimedOptions", "advance", "candidates", "decide", "first_contact", "first_time",
+           "instruction_sets", "methods", "step", "touches_at_start"]
 
-POINTS = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
+POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "vertex_vertex": 2}
 
 Positions = tuple[ArrayLike, ArrayLike]
 
@@ -43,13 +43,18 @@ Positions = tuple[ArrayLike, ArrayLike]
 class _Questions:
     """Checked queries, and who is to blame if the library refuses them."""
 
-    def __init__(self, queries: ArrayLike, kind: str, positions: Positions | None) -> None:
+    def __init__(self, queries: ArrayLike, kind: Kind, positions: Positions | None) -> None:
         if kind not in POINTS:
-            raise ValueError(f"kind: found {kind!r}, expected one of {', '.join(POINTS)}")
+            raise ValueError(f"kind is {kind!r}; expected one of {', '.join(POINTS)}")
         points = POINTS[kind]
         self.pairs: Indices | None = None
         self.frames: tuple[Doubles, Doubles] | None = None
         if positions is None:
+            given = as_array("queries", queries)
+            if given.ndim == 2 and given.shape[1] == points:
+                raise ValueError(f"queries is an array of shape {given.shape} without positions=; expected "
+                                 f"coordinates of shape (n, {2 * points}, 3), or vertex indices with positions="
+                                 "(before, after)")
             self.stored = doubles("queries", queries, (None, 2 * points, 3))
             rows = self.stored.reshape(-1, 2, points, 3).swapaxes(1, 2).reshape(-1, 6 * points)
             self.native = _native.Questions(kind, np.require(rows, requirements="C"), None, None, None)
@@ -87,7 +92,8 @@ class _Questions:
 
     def thickness(self, values: ArrayLike | None) -> Any:
         if values is not None and self.frames is None:
-            raise ValueError("thickness: found one, expected none without positions")
+            raise ValueError("thickness is given without positions=; expected both for queries by vertex index, or "
+                             "distance= for one number of all queries")
         return thickness_option(values, self.vertices)
 
 
@@ -101,8 +107,8 @@ def instruction_sets() -> list[str]:
     return list(_native.instruction_sets())
 
 
-def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
-           method: str = "exact", distance: float = 0, thickness: ArrayLike | None = None,
+def decide(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
+           method: MethodName = "exact", distance: float = 0, thickness: ArrayLike | None = None,
            threads: int = 0, stages: bool = False) -> Decisions:
     """Which queries collide, or come within a distance, at some t in [0, 1].
 
@@ -113,14 +119,14 @@ def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
     Raises IndexError for indices out of range, ValueError for coordinates that are not finite.
     """
     threads, distance = option("threads", threads, int), distance_option(distance)
-    method, stages = option("method", method, str), option("stages", stages, bool)
+    name, stages = option("method", method, str), option("stages", stages, bool)
     asked = _Questions(queries, kind, positions)
     near = asked.thickness(thickness)
-    if method != "exact":
+    if name != "exact":
         if distance or near is not None:
-            raise ValueError(f"method: found {method!r}, expected 'exact' where a distance is asked for")
+            raise ValueError(f"method is {name!r}; expected 'exact' with distance= or thickness=")
         asked.check_indices()
-        return Decisions(asked.call(lambda q: q.decide_by(method)))
+        return Decisions(asked.call(lambda q: q.decide_by(name)))
     if distance or near is not None:
         if stages:
             raise ValueError("stages: found True, expected False where a distance is asked for")
@@ -131,7 +137,7 @@ def decide(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
     return Decisions(outcome, _stages(report))
 
 
-def touches_at_start(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
+def touches_at_start(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
                      threads: int = 0) -> Decisions:
     """Which queries touch already at t = 0. Raises as decide."""
     threads = option("threads", threads, int)
@@ -141,7 +147,7 @@ def touches_at_start(queries: ArrayLike, kind: str, *, positions: Positions | No
     return Decisions(outcome)
 
 
-def first_time(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
+def first_time(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
                t_max: float = 1, distance: float = 0, thickness: ArrayLike | None = None,
                threads: int = 0) -> FirstTimes:
     """Of the queries that touch, or come within a distance, in [0, t_max]: when first. Raises as decide."""
@@ -154,7 +160,7 @@ def first_time(queries: ArrayLike, kind: str, *, positions: Positions | None = N
     return FirstTimes(**found)
 
 
-def first_contact(queries: ArrayLike, kind: str, *, positions: Positions | None = None,
+def first_contact(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
                   t_max: float = 1, threads: int = 0) -> FirstContacts:
     """Of the queries that touch in [0, t_max]: when first, which features, where, along which normal.
 
@@ -164,6 +170,8 @@ def first_contact(queries: ArrayLike, kind: str, *, positions: Positions | None 
     asked = _Questions(queries, kind, positions)
     found = asked.call(lambda q: q.first_contacts(t_max, threads))
     _require_certain_times(asked, found)
+    for name in "points", "weights":
+        found[name] = found[name][:, :POINTS[kind]]
     return FirstContacts(**found)
 
 
@@ -199,23 +207,29 @@ class SearchOptions(TypedDict, total=False):
     can_collide: Callable[[int, int], bool] | None
 
 
-class RunOptions(SearchOptions, total=False):
-    """Which pairs (SearchOptions), by which method, and what else is told.
+class UntimedOptions(SearchOptions, total=False):
+    """The options of a step except times.
 
     method: by name, one of methods(); "exact" by default, which alone has times, distances and t_max.
-    times: fills times and first_contact of the result, and touching_at_start.
     first_contact: fills first_contact, and touching_at_start.
     initial_contact: fills touching_at_start: pairs that touch at t = 0 already.
     t_max: the end of the times that are asked about, 1 by default.
     stages, count_candidates: fill stages, candidates.
     """
-    method: str
-    times: bool
+    method: MethodName
     first_contact: bool
     initial_contact: bool
     t_max: float
     stages: bool
     count_candidates: bool
+
+
+class RunOptions(UntimedOptions, total=False):
+    """All options of a step: SearchOptions, UntimedOptions and
+
+    times: fills times and first_contact of the result, and touching_at_start.
+    """
+    times: bool
 
 
 class AdvanceOptions(SearchOptions, total=False):
@@ -227,15 +241,15 @@ class AdvanceOptions(SearchOptions, total=False):
     islands: ArrayLike | None
 
 
-_OF_SEARCH = {"threads": int, "distance": float, "thickness": np.float64, "groups": np.int32,
-              "between_groups": bool, "pinned": np.uint8, "skip_unused": bool, "can_collide": Callable}
+_OF_SEARCH = {"threads": int, "distance": float, "thickness": np.ndarray, "groups": np.ndarray,
+              "between_groups": bool, "pinned": np.ndarray, "skip_unused": bool, "can_collide": Callable}
 _OF_RUN = {**_OF_SEARCH, "method": str, "times": bool, "first_contact": bool, "initial_contact": bool,
            "t_max": float, "stages": bool, "count_candidates": bool}
-_OF_ADVANCE = {**_OF_SEARCH, "islands": np.int32}
+_OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray}
 
 
 def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
-    """An option of the type that is known of it; NumPy's types are of one number a vertex."""
+    """An option's value as the extension takes it. Of type ndarray are options with one number for each vertex."""
     if name == "t_max":
         return end_time(value)
     if name == "distance":
@@ -248,7 +262,7 @@ def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
         if value is not None and not callable(value):
             raise TypeError(f"{name}: found {value!r}, expected a function of two vertices")
         return value
-    return of_vertices(name, value, kind, vertices) if issubclass(kind, np.generic) else option(name, value, kind)
+    return group_option(name, value, vertices) if kind is np.ndarray else option(name, value, kind)
 
 
 def _question(vertices: int, known: dict[str, Any], options: Mapping[str, Any]) -> Any:
@@ -306,17 +320,24 @@ class Steps:
                 check_finite(name, frame[:, :self._columns])
             raise restated(error) from None
 
+    @overload
+    def run(self, before: ArrayLike, after: ArrayLike, *, times: Literal[True],
+            **options: Unpack[UntimedOptions]) -> TimedStepResult: ...
+
+    @overload
+    def run(self, before: ArrayLike, after: ArrayLike, **options: Unpack[RunOptions]) -> StepResult: ...
+
     def run(self, before: ArrayLike, after: ArrayLike, **options: Unpack[RunOptions]) -> StepResult:
         """The pairs of the step from before to after, (n, 3) each, that are not certainly separate.
 
-        Options, by name: RunOptions, SearchOptions. Raises ValueError that names frame and row of a
-        coordinate that is not finite.
+        Options, by name: RunOptions. A TimedStepResult with times=True. Raises ValueError that names frame and row of
+        a coordinate that is not finite.
         """
         found = self._call(self._steps.run, before, after, _OF_RUN, options)
         for name in "pairs", "touching_at_start":
             found[name] = Pairs(**found[name])
         found["stages"] = _stages(found["stages"])
-        return StepResult(**found)
+        return StepResult(**found) if found["times"] is None else TimedStepResult(**found)
 
     def candidates(self, before: ArrayLike, after: ArrayLike, **options: Unpack[SearchOptions]) -> Pairs:
         """All pairs whose swept boxes touch, for a narrow phase of one's own. Options: SearchOptions."""
@@ -332,11 +353,23 @@ class Steps:
         found = self._call(self._steps.advance, before, after, _OF_ADVANCE, options)
         for name in "touching_at_start", "near_at_start":
             found[name] = Pairs(**found[name])
+        if self._columns == 2:
+            found["positions"] = np.ascontiguousarray(found["positions"][:, :2])
         return AdvanceResult(**found)
 
 
 def _steps_of(before: ArrayLike, faces: ArrayLike, edges: ArrayLike) -> Steps:
     return Steps(faces, edges, vertices=len(doubles("before", before, (None, 3))))
+
+
+@overload
+def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (), *, times: Literal[True],
+         **options: Unpack[UntimedOptions]) -> TimedStepResult: ...
+
+
+@overload
+def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
+         **options: Unpack[RunOptions]) -> StepResult: ...
 
 
 def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),

@@ -12,17 +12,18 @@ import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import Any
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, Indices, check_finite, checked_indices, doubles, frames, option
+from ._arrays import Doubles, Indices, as_array, check_finite, checked_indices, doubles, frames, option
 from ._results import StepResult
-from .ccd import POINTS
+from .ccd import POINTS, Kind
 
 FileError = _native.FileError
+StoredKind = Literal["vertex_face", "edge_edge"]
 
 
 def _name(path: str | os.PathLike[str]) -> str:
@@ -57,7 +58,7 @@ class Mesh:
 class Queries:
     """Stored queries (n, 8, 3) float64, as ccd.decide takes them; truth (n,) bool, or None."""
     queries: Doubles
-    kind: str
+    kind: StoredKind
     truth: NDArray[np.bool_] | None
 
     def __repr__(self) -> str:
@@ -87,7 +88,7 @@ def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLi
     _native.write_mesh(name, points, of_faces, of_edges)
 
 
-def read_queries(path: str | os.PathLike[str], kind: str | None = None, *,
+def read_queries(path: str | os.PathLike[str], kind: StoredKind | None = None, *,
                  round: bool = False) -> Queries:
     """Vertex/face or edge/edge queries, eight rows each: four points at t = 0, then at t = 1.
 
@@ -116,7 +117,7 @@ def _is_store(name: str) -> bool:
         return False  # told by who reads it
 
 
-def _read_store(name: str, kind: str | None) -> Queries:
+def _read_store(name: str, kind: StoredKind | None) -> Queries:
     """A store of queries, whose layout docs/program.md has."""
     try:
         h5py: Any = import_module("h5py")
@@ -144,7 +145,7 @@ def _read_store(name: str, kind: str | None) -> Queries:
         raise FileError(f"{name}: found queries of kind {stored}, expected {kind}")
     points = np.concatenate(chunks)
     queries = points.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3)
-    return Queries(queries, stored, None if truth is None else truth.astype(bool))
+    return Queries(queries, cast(StoredKind, stored), None if truth is None else truth.astype(bool))
 
 
 def _chunk(file: dict[str, Any], c: int, truth: NDArray[Any] | None) -> NDArray[Any]:
@@ -168,7 +169,9 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
         raise ValueError(f"path is {_name(path)!r}; expected the name of a CSV file (`ccd convert` writes HDF5)")
     array = doubles("queries", queries, (None, 8, 3))
     check_finite("queries", array)
-    known = None if truth is None else np.asarray(truth, np.bool_)
+    known = None if truth is None else as_array("truth", truth)
+    if known is not None and known.size and (known.dtype.kind not in "biu" or (known != known.astype(bool)).any()):
+        raise TypeError(f"truth is an array of {known.dtype}; expected booleans, or 0 and 1")
     if known is not None and known.shape != array.shape[:1]:
         raise ValueError(f"truth: found shape {known.shape}, expected ({len(array)},)")
     lines = []
@@ -194,7 +197,7 @@ def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices,
     return at_start, at_end, faces, edges
 
 
-def _checked_result(result: StepResult, vertices: int) -> tuple[dict[str, Indices], dict[str, Doubles]]:
+def _checked_result(result: StepResult, vertices: int) -> tuple[dict[Kind, Indices], dict[Kind, Doubles]]:
     """Pairs by kind; times, rows of low and high, where there are any."""
     if not isinstance(result, StepResult):
         raise TypeError(f"result: found {type(result).__name__}, expected what ccd.step returns")

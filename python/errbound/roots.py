@@ -3,6 +3,10 @@
 Coefficients ascend, as in numpy.polynomial: [-2, 0, 1] is x^2 - 2. Floats are the exact numbers that
 they are; whole numbers and fractions.Fraction may have any size. Intervals [a, b] are closed; their
 ends are floats, infinite ones included.
+
+Calls release the interpreter's lock, and Ctrl-C ends them. max_operations and max_bytes limit the search of
+roots, as errbound::root_limits in C++: operations on words of 64 bits, about a nanosecond each, and memory of the
+rows of numbers held at a time, estimated. A search that would go beyond them raises LimitError.
 """
 from __future__ import annotations
 
@@ -17,7 +21,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Doubles, check_finite, doubles, option
+from ._arrays import Doubles, check_finite, check_shape, doubles, option
+
+LimitError = _native.LimitError
 
 INFINITELY_MANY = -1
 """The number of roots of the polynomial that is zero."""
@@ -31,11 +37,14 @@ def _coefficients(name: str, p: Coefficients) -> Doubles | list[str]:
         raise TypeError(f"{name}: found {p!r}, expected a sequence of coefficients")
     if len(p) == 0:
         raise ValueError(f"{name}: found no coefficients, expected at least one")
+    if isinstance(p, np.ndarray) and p.dtype.kind in "iuO":
+        check_shape(name, p, (None,))
+        p = p.tolist()
     if isinstance(p, np.ndarray) or all(isinstance(c, (float, np.floating)) for c in p):
         array = doubles(name, p, (None,))
         check_finite(name, array)
         return array
-    if not all(isinstance(c, (Rational, float, np.integer)) for c in p):
+    if not all(isinstance(c, (Rational, float, np.integer)) and not isinstance(c, bool) for c in p):
         raise TypeError(f"{name}: found {p!r}, expected floats, whole numbers or fractions")
     if not all(math.isfinite(c) for c in p if isinstance(c, (float, np.floating))):
         raise ValueError(f"{name}: found {p!r}, expected finite numbers")
@@ -51,23 +60,44 @@ def _interval(a: float, b: float) -> tuple[float, float]:
     return a, b
 
 
+def _limits(max_operations: int | None, max_bytes: int | None) -> list[int | None]:
+    return [None if value is None else option(name, value, int, 2**64)
+            for name, value in (("max_operations", max_operations), ("max_bytes", max_bytes))]
+
+
 class Roots:
     """The distinct real roots of p in [a, b], ascending, each in an interval of its own.
 
     low, high: float64 (k,): the neighbouring doubles between which each root lies, or twice the double
-    that it is (is_double). multiplicity: int64 (k,). everywhere: p is zero, and no root is listed.
-    Not for two threads at once. Cost: microseconds at low degree (docs/polynomials.md).
+    that it is (is_double, bool (k,)); computed when first read. multiplicity: int64 (k,). everywhere: p is zero, and no
+    root is listed. For one call at a time: a second thread's raises RuntimeError. Cost: microseconds at low degree
+    (docs/polynomials.md).
     """
 
-    def __init__(self, p: Coefficients, a: float = -math.inf, b: float = math.inf) -> None:
+    def __init__(self, p: Coefficients, a: float = -math.inf, b: float = math.inf, *,
+                 max_operations: int | None = None, max_bytes: int | None = None) -> None:
         self._interval = a, b = _interval(a, b)
-        self._roots = _native.Roots(_coefficients("p", p), a, b)
-        found = [self._roots.neighbouring_doubles(k) for k in range(len(self._roots))]
-        ends = np.array(found, np.float64).reshape(-1, 2)
-        self.low, self.high = ends[:, 0], ends[:, 1]
-        self.is_double: NDArray[np.bool_] = self.low == self.high
-        self.multiplicity = np.array([self._roots.multiplicity(k) for k in range(len(found))], np.int64)
+        self._roots = _native.Roots(_coefficients("p", p), a, b, *_limits(max_operations, max_bytes))
+        self._ends: Doubles | None = None
+        self.multiplicity: NDArray[np.int64] = np.asarray(self._roots.multiplicities())
         self.everywhere: bool = self._roots.everywhere()
+
+    def _neighbouring_doubles(self) -> Doubles:
+        if self._ends is None:
+            self._ends = np.asarray(self._roots.neighbouring_doubles())
+        return self._ends
+
+    @property
+    def low(self) -> Doubles:
+        return self._neighbouring_doubles()[:, 0]
+
+    @property
+    def high(self) -> Doubles:
+        return self._neighbouring_doubles()[:, 1]
+
+    @property
+    def is_double(self) -> NDArray[np.bool_]:
+        return np.asarray(self.low == self.high)
 
     def __len__(self) -> int:
         return len(self._roots)
@@ -76,52 +106,53 @@ class Roots:
         a, b = self._interval
         if self.everywhere:
             return f"<roots.Roots of zero: everywhere in [{a}, {b}]>"
-        return f"<roots.Roots: {len(self)} in [{a}, {b}], low={np.array2string(self.low, threshold=20)}>"
+        return f"<roots.Roots: {len(self)} in [{a}, {b}]>"
 
     def _check(self, k: int) -> int:
         k = operator.index(k)
         if not 0 <= k < len(self):
-            raise IndexError(f"k: found {k}, expected 0 to {len(self) - 1}")
+            raise IndexError(f"k is {k}; expected 0 to {len(self) - 1}" if len(self) else
+                             f"k is {k}; expected none, as there are no roots")
         return k
 
     def interval(self, k: int, width: float | None = None) -> tuple[Fraction, Fraction]:
         """An interval of at most that width, if given: root k is strictly inside, or is both ends."""
+        k = self._check(k)
         if width is not None:
             width = option("width", width, float)
             if not 0 < width < math.inf:
-                raise ValueError(f"width: found {width}, expected a positive finite number")
-            self._roots.refine(self._check(k), width)
-        low, high = (Fraction(int(n, 16)) * Fraction(2)**e
-                     for n, e in self._roots.interval(self._check(k)))
+                raise ValueError(f"width is {width}; expected a finite number > 0")
+        low, high = (Fraction(int(n, 16)) * Fraction(2)**e for n, e in self._roots.interval(k, width))
         return low, high
 
     def sign_at(self, g: Coefficients) -> NDArray[np.int8]:
         """The signs, (k,), of another polynomial at each root."""
-        c = _coefficients("g", g)
-        return np.array([self._roots.sign_at(c, k) for k in range(len(self))], np.int8)
+        return np.asarray(self._roots.signs_at(_coefficients("g", g)))
 
     def signs_taken(self) -> tuple[bool, bool, bool]:
         """Whether p is negative, zero, positive somewhere in [a, b]."""
-        return self._roots.signs_on(*self._interval)
+        return self._roots.occurring_signs()
 
 
-def isolate(p: Coefficients, a: float = -math.inf, b: float = math.inf) -> Roots:
+def isolate(p: Coefficients, a: float = -math.inf, b: float = math.inf, *, max_operations: int | None = None,
+            max_bytes: int | None = None) -> Roots:
     """The real roots of p in [a, b]."""
-    return Roots(p, a, b)
+    return Roots(p, a, b, max_operations=max_operations, max_bytes=max_bytes)
 
 
-def count(p: ArrayLike, a: float = -math.inf, b: float = math.inf) -> int | NDArray[np.int64]:
+def count(p: ArrayLike, a: float = -math.inf, b: float = math.inf, *, max_operations: int | None = None,
+          max_bytes: int | None = None) -> int | NDArray[np.int64]:
     """The number of distinct real roots in [a, b]; INFINITELY_MANY if p is zero.
 
-    Of a float array (n, degree + 1), of each row: int64 (n,), without the interpreter's lock.
+    Of a float array (n, degree + 1), of each row: int64 (n,); limits are those of a row.
     """
     a, b = _interval(a, b)
+    limits = _limits(max_operations, max_bytes)
     if isinstance(p, np.ndarray) and p.ndim == 2:
         rows = doubles("p", p, (None, None))
         check_finite("p", rows)
-        return np.asarray(_native.count_of_rows(rows, a, b))
-    found = _native.Roots(_coefficients("p", p), a, b)  # type: ignore[arg-type]
-    return INFINITELY_MANY if found.everywhere() else len(found)
+        return np.asarray(_native.count_of_rows(rows, a, b, *limits))
+    return _native.count(_coefficients("p", p), a, b, *limits)  # type: ignore[arg-type]
 
 
 def common_factor(p: Coefficients, q: Coefficients) -> list[int]:

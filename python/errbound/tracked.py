@@ -2,12 +2,19 @@
 
     x = tracked.array([0.1, 0.2]); y = x * x - 0.3 * x
     y.value, y.error, y.sign
+    tracked.exp(-x**2).sum(), x @ y
 
-The number that exact arithmetic would have given is within error of value, under every rule but "none".
-Rules: none, safe, tight (the default), sharp, interval, residual (docs/bound-rules.md).
+The number that exact arithmetic would have given is within error of value, under every rule except "none".
+Rules: none, safe, tight (the default), sharp, interval, residual, affine, relative (docs/bound-rules.md).
+Operations release the interpreter's lock, and Ctrl-C ends them.
+
+explain returns the parts of an error of an array(..., explained=True), by operation and scope (docs/how-wrong.md).
 """
 from __future__ import annotations
 
+import math
+import sys
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -21,16 +28,34 @@ UNCERTAIN = 2
 
 
 class Array:
-    """Operators + - * / and abs on arrays of one rule and dtype, or with plain numbers, broadcast as NumPy's.
+    """Operators + - * / ** @ and abs on arrays of one rule and dtype, or with plain numbers, broadcast as NumPy's.
 
-    Division by a rule that has none (safe) is a ValueError. Indexing, slices and reshape copy. Python's sum adds
-    along the first axis; there is no power, and NumPy's functions are not for these arrays: sqrt, fma, minimum,
-    maximum of this module are.
+    Plain numbers that dtype does not hold are within the rounding error of their conversion. Division by a rule that
+    has none (safe) is a ValueError. Indexing, slices and reshape copy. NumPy's functions do not take these arrays;
+    this module has functions of their own. Pickled arrays keep value and error, as array() makes them, but not what
+    the rule knows beyond these.
     """
-    __array_ufunc__ = None  # so that NumPy's arrays leave operators to this class
+    __array_ufunc__ = None  # NumPy's arrays leave operators to this class
 
-    def __init__(self, row: Any, shape: tuple[int, ...], rule: str, dtype: np.dtype[Any]) -> None:
-        self._row, self.shape, self.rule, self.dtype = row, shape, rule, dtype
+    def __init__(self, row: Any, shape: tuple[int, ...], rule: str, dtype: np.dtype[Any],
+                 explained: bool = False) -> None:
+        self._row, self.shape, self.rule, self.dtype, self.explained = row, shape, rule, dtype, explained
+
+    def _made(self, row: Any, shape: tuple[int, ...] | None = None) -> Array:
+        return Array(row, self.shape if shape is None else shape, self.rule, self.dtype, self.explained)
+
+    def __reduce__(self) -> Any:
+        return _from_pickle, (self.value, self.error, self.rule, self.dtype, self.explained)
+
+    def __copy__(self) -> Array:
+        return self  # arrays do not change
+
+    def __deepcopy__(self, memo: Any) -> Array:
+        return self
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        raise TypeError("argument is a tracked array; expected a plain one, such as x.value, or a function of "
+                        "errbound.tracked")
 
     @property
     def value(self) -> NDArray[Any]:
@@ -56,7 +81,7 @@ class Array:
 
     def _taken(self, places: NDArray[np.int64]) -> Array:
         row = self._row.taken(np.ascontiguousarray(places, np.int64).reshape(-1))
-        return Array(row, places.shape, self.rule, self.dtype)
+        return self._made(row, places.shape)
 
     def _places(self) -> NDArray[np.int64]:
         return np.arange(len(self._row), dtype=np.int64).reshape(self.shape)
@@ -70,10 +95,45 @@ class Array:
 
     def scale(self, exponent: int) -> Array:
         """Times 2^exponent: exact unless it underflows, which the bound then covers."""
-        return Array(self._row.scaled(exponent), self.shape, self.rule, self.dtype)
+        return self._made(self._row.scaled(exponent))
+
+    @property
+    def ndim(self) -> int:
+        return len(self.shape)
+
+    @property
+    def size(self) -> int:
+        return math.prod(self.shape)
+
+    @property
+    def T(self) -> Array:
+        """A copy with the axes reversed."""
+        return self._taken(self._places().T)
+
+    def sum(self, axis: int | None = None, *, out: None = None) -> Array:
+        """The sum of all numbers, or along an axis, from the first to the last; 0 of none. out: for np.sum; None."""
+        if out is not None:
+            raise TypeError("out is given; expected none")
+        places = self._places().reshape(-1) if axis is None else np.moveaxis(self._places(), axis, -1)
+        if places.shape[-1] == 0:
+            return self._like(np.zeros(places.shape[:-1], self.dtype))
+        return self._made(self._taken(places)._row.sums(places.shape[-1]), places.shape[:-1])
+
+    def __matmul__(self, other: Any) -> Array:
+        return dot(self, other)
+
+    def __rmatmul__(self, other: Any) -> Array:
+        return dot(self._like(other), self)
+
+    def __pow__(self, exponent: Any) -> Array:
+        return pow(self, exponent)
+
+    def __rpow__(self, base: Any) -> Array:
+        return pow(self._like(base), self)
 
     def _like(self, other: Any) -> Array:
-        return other if isinstance(other, Array) else array(other, rule=self.rule, dtype=self.dtype)
+        return other if isinstance(other, Array) else array(other, rule=self.rule, dtype=self.dtype,
+                                                            explained=self.explained)
 
     def _broadcast(self, shape: tuple[int, ...]) -> Array:
         return self if self.shape == shape else self._taken(np.broadcast_to(self._places(), shape))
@@ -82,7 +142,7 @@ class Array:
         other = self._like(other)
         shape = np.broadcast_shapes(self.shape, other.shape)
         a, b = (x._broadcast(shape) for x in ((other, self) if swapped else (self, other)))
-        return Array(getattr(a._row, operation)(b._row), shape, self.rule, self.dtype)
+        return self._made(a._row.combine(operation, b._row), shape)
 
     def __add__(self, other: Any) -> Array:
         return self._with(other, "add")
@@ -109,21 +169,46 @@ class Array:
         return self._with(other, "divide", swapped=True)
 
     def __neg__(self) -> Array:
-        return Array(self._row.negated(), self.shape, self.rule, self.dtype)
+        return _of_each("negative", self)
 
     def __pos__(self) -> Array:
         return self
 
     def __abs__(self) -> Array:
-        return Array(self._row.absolute(), self.shape, self.rule, self.dtype)
+        return _of_each("abs", self)
 
     def __bool__(self) -> bool:
-        raise TypeError("tracked: found an array as a condition, expected the sign of one")
+        raise TypeError("condition is a tracked array; expected its sign or its value")
 
     def __eq__(self, other: object) -> Any:
-        raise TypeError("tracked: found ==, which may be uncertain, expected (x - y).sign == 0")
+        raise _comparison("==")
+
+    def __ne__(self, other: object) -> Any:
+        raise _comparison("!=")
+
+    def __lt__(self, other: Any) -> Any:
+        raise _comparison("<")
+
+    def __le__(self, other: Any) -> Any:
+        raise _comparison("<=")
+
+    def __gt__(self, other: Any) -> Any:
+        raise _comparison(">")
+
+    def __ge__(self, other: Any) -> Any:
+        raise _comparison(">=")
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _comparison(operator: str) -> TypeError:
+    return TypeError(f"comparison is x {operator} y of tracked numbers, which may be uncertain; expected "
+                     f"(x - y).sign {operator} 0, where UNCERTAIN is {UNCERTAIN}, or x.value {operator} y.value for a "
+                     "choice that may be wrong")
+
+
+def _from_pickle(value: NDArray[Any], error: NDArray[Any], rule: str, dtype: Any, explained: bool) -> Array:
+    return array(value, error, rule=rule, dtype=dtype, explained=explained)
 
 
 def _first_array(name: str, *operands: Any) -> Array:
@@ -133,20 +218,165 @@ def _first_array(name: str, *operands: Any) -> Array:
     raise TypeError(f"{name}: found no tracked array, expected at least one")
 
 
+def _of_each(name: str, x: Array) -> Array:
+    x = _first_array(name, x)
+    return x._made(x._row.function(name))
+
+
+def _of_each_two(name: str, x: Any, y: Any) -> Array:
+    return _first_array(name, x, y)._like(x)._with(y, name)
+
+
 def sqrt(x: Array) -> Array:
-    """Square roots; nothing is known (error is infinity or NaN) where x may be negative."""
-    x = _first_array("sqrt", x)
-    return Array(x._row.root(), x.shape, x.rule, x.dtype)
+    """Square roots; the error is infinite where x may be negative."""
+    return _of_each("sqrt", x)
+
+
+def cbrt(x: Array) -> Array:
+    """Cube roots, also of negative numbers."""
+    return _of_each("cbrt", x)
+
+
+def exp(x: Array) -> Array:
+    """e^x"""
+    return _of_each("exp", x)
+
+
+def exp2(x: Array) -> Array:
+    """2^x"""
+    return _of_each("exp2", x)
+
+
+def expm1(x: Array) -> Array:
+    """e^x - 1"""
+    return _of_each("expm1", x)
+
+
+def log(x: Array) -> Array:
+    """Natural logarithms; the error is infinite unless x is certainly positive."""
+    return _of_each("log", x)
+
+
+def log2(x: Array) -> Array:
+    """Logarithms to base 2, as log."""
+    return _of_each("log2", x)
+
+
+def log10(x: Array) -> Array:
+    """Logarithms to base 10, as log."""
+    return _of_each("log10", x)
+
+
+def log1p(x: Array) -> Array:
+    """log(1 + x); the error is infinite unless x is certainly greater than -1."""
+    return _of_each("log1p", x)
+
+
+def sin(x: Array) -> Array:
+    """Sines of angles in radians."""
+    return _of_each("sin", x)
+
+
+def cos(x: Array) -> Array:
+    """Cosines of angles in radians."""
+    return _of_each("cos", x)
+
+
+def tan(x: Array) -> Array:
+    """Tangents of angles in radians; the error is infinite where x may be at a pole."""
+    return _of_each("tan", x)
+
+
+def asin(x: Array) -> Array:
+    """Angles in [-pi/2, pi/2]; the error is infinite unless x is certainly in [-1, 1]."""
+    return _of_each("asin", x)
+
+
+def acos(x: Array) -> Array:
+    """Angles in [0, pi]; the error is infinite unless x is certainly in [-1, 1]."""
+    return _of_each("acos", x)
+
+
+def atan(x: Array) -> Array:
+    """Angles in [-pi/2, pi/2]."""
+    return _of_each("atan", x)
+
+
+def sinh(x: Array) -> Array:
+    """Hyperbolic sines."""
+    return _of_each("sinh", x)
+
+
+def cosh(x: Array) -> Array:
+    """Hyperbolic cosines."""
+    return _of_each("cosh", x)
+
+
+def tanh(x: Array) -> Array:
+    """Hyperbolic tangents."""
+    return _of_each("tanh", x)
+
+
+def asinh(x: Array) -> Array:
+    """Inverse hyperbolic sines."""
+    return _of_each("asinh", x)
+
+
+def acosh(x: Array) -> Array:
+    """Inverse hyperbolic cosines, not negative; the error is infinite unless x is certainly 1 or more."""
+    return _of_each("acosh", x)
+
+
+def atanh(x: Array) -> Array:
+    """Inverse hyperbolic tangents; the error is infinite unless x is certainly between -1 and 1."""
+    return _of_each("atanh", x)
+
+
+def atan2(y: Any, x: Any) -> Array:
+    """Angles of the points (x, y), in [-pi, pi]; the error is infinite where a point may be the origin."""
+    return _of_each_two("atan2", y, x)
+
+
+def hypot(x: Any, y: Any) -> Array:
+    """Square roots of x^2 + y^2, without overflow on the way."""
+    return _of_each_two("hypot", x, y)
+
+
+def pow(x: Any, y: Any) -> Array:
+    """x^y: by products of the rule for an integer y, and by the system's function otherwise.
+
+    The error is infinite where x may be zero or negative and y is not an integer.
+    """
+    first = _first_array("pow", x, y)
+    if isinstance(y, (int, np.integer)) and not isinstance(y, bool) and -2**31 <= y < 2**31:
+        return first._made(first._row.power(int(y)))
+    return _of_each_two("pow", x, y)
 
 
 def minimum(x: Any, y: Any) -> Array:
     """The lesser of each two, by their values."""
-    return _first_array("minimum", x, y)._like(x)._with(y, "minimum")
+    return _of_each_two("minimum", x, y)
 
 
 def maximum(x: Any, y: Any) -> Array:
     """The greater of each two, by their values."""
-    return _first_array("maximum", x, y)._like(x)._with(y, "maximum")
+    return _of_each_two("maximum", x, y)
+
+
+def dot(x: Any, y: Any) -> Array:
+    """Dot products and products of matrices, of one or two axes each, as x @ y.
+
+    Values are those of sums from the first term to the last. The bound is the rule's for a whole product where it has
+    one (tight, sharp, relative: the running error bound; residual: the compensated dot product).
+    """
+    first = _first_array("dot", x, y)
+    a, b = first._like(x), first._like(y)
+    if a.ndim not in (1, 2) or b.ndim not in (1, 2) or a.shape[-1] != b.shape[0]:
+        raise ValueError(f"shapes are {a.shape} and {b.shape}; expected (n, k) or (k,), and (k, m) or (k,)")
+    shape = a.shape[:-1] + b.shape[1:]
+    if a.shape[-1] == 0:
+        return first._like(np.zeros(shape, first.dtype))
+    return first._made(a._row.dots(b.T._row, a.shape[-1]), shape)
 
 
 def fma(x: Any, y: Any, z: Any) -> Array:
@@ -155,23 +385,105 @@ def fma(x: Any, y: Any, z: Any) -> Array:
     all_three = [first._like(each) for each in (x, y, z)]
     shape = np.broadcast_shapes(*(each.shape for each in all_three))
     a, b, c = (each._broadcast(shape) for each in all_three)
-    return Array(a._row.fused(b._row, c._row), shape, first.rule, first.dtype)
+    return first._made(a._row.fused(b._row, c._row), shape)
 
 
-def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype: Any = None) -> Array:
+@dataclass(frozen=True)
+class Contribution:
+    """A part of an error: amount, at least 0; known, its part that is known with its sign; operation; scopes.
+
+    operation: + - * / scale, the name of a function, input (a number within an error), or the rest (parts too small
+    to be kept). scopes: name, file and line of each scope, the outermost first.
+    """
+    amount: float
+    known: float
+    operation: str
+    scopes: tuple[tuple[str, str, int], ...]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """The parts of the error of one number, the largest first; printed as a table (docs/how-wrong.md)."""
+    name: str
+    rule: str
+    value: float
+    error: float
+    contributions: tuple[Contribution, ...]
+    _table: str
+
+    def __str__(self) -> str:
+        return self._table
+
+
+def explain(x: Array, name: str = "result") -> Explanation:
+    """Where the error of x comes from: an explained array of one number, whose name is for the table."""
+    x, name = _first_array("explain", x), option("name", name, str)
+    if x.size != 1:
+        raise ValueError(f"shape of x is {x.shape}; expected one number, such as x[0]")
+    _, rule, value, error, table, parts = x._row.explained_at(0, name)
+    contributions = tuple(Contribution(amount, known, operation, tuple(scopes))
+                          for amount, known, operation, scopes in parts)
+    return Explanation(name, rule, value, error, contributions, table)
+
+
+class scope:
+    """A part of the program that explanations name: `with tracked.scope("mean"): ...`.
+
+    Operations in it are apart from those outside. Scopes nest; each thread has its own.
+    """
+
+    def __init__(self, name: str) -> None:
+        caller = sys._getframe(1)
+        self._scope = _native.Scope(option("name", name, str), caller.f_code.co_filename, caller.f_lineno)
+
+    def __enter__(self) -> scope:
+        self._scope.enter()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._scope.leave()
+
+
+def _rounded_to(number: np.dtype[Any], values: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Values in that type, and bounds of the errors of their conversion."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        rounded = values.astype(number)
+        exact = (rounded == values) | np.isnan(rounded)
+        if values.dtype.kind in "iu" and not exact.all():
+            exact &= False  # NumPy compares integers as doubles
+        elif values.dtype.kind in "iu" and values.dtype.itemsize * 8 > np.finfo(number).nmant:
+            exact = rounded.astype(object) == values.astype(object)
+        return rounded, np.where(exact, number.type(0), np.spacing(np.abs(rounded)))
+
+
+def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype: Any = None,
+          explained: bool = False) -> Array:
     """Numbers known to lie within error of value (0: exactly; infinity or NaN: anywhere), of any shape.
 
-    dtype: float64 or float32, that of value by default. A value that it does not hold is rounded, as
-    NumPy does, and counts as the exact number then.
+    dtype: float64 or float32, that of value by default. A value that it does not hold is rounded, and its error grows
+    by a unit in the last place. explained: for explain; float64 by the rules tight and residual only. Operations then
+    take some hundred times as long.
     """
     values, rule = as_array("value", value), option("rule", rule, str)
+    explained = option("explained", explained, bool)
     number = np.dtype(dtype or (np.float32 if values.dtype == np.float32 else np.float64))
     if number not in (np.float32, np.float64):
         raise TypeError(f"dtype: found {number}, expected float64 or float32")
     if values.dtype.kind not in "fiu":
         raise TypeError(f"value: found {values.dtype}, expected numbers")
-    errors = np.broadcast_to(as_array("error", error), values.shape)
+    errors = as_array("error", error)
+    if errors.dtype.kind not in "fiu":
+        raise TypeError(f"error is an array of {errors.dtype}; expected real numbers")
+    errors = np.broadcast_to(errors, values.shape)
     if (errors < 0).any():
-        raise ValueError(f"error: found {errors.min()}, expected none that is negative")
-    flat = [np.ascontiguousarray(x, number).reshape(-1) for x in (values, errors)]
-    return Array(_native.tracked_row(flat[0], flat[1], rule), values.shape, rule, number)
+        raise ValueError(f"error is {errors.min()}; expected numbers >= 0")
+    if explained and number != np.float64:
+        raise ValueError(f"dtype is {number}; expected float64 for an explained array")
+    rounded, conversion = _rounded_to(number, values)
+    bound, rounding = _rounded_to(number, errors)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for more in rounding, conversion:
+            bound = np.where(more == 0, bound, np.nextafter(bound + more, number.type(math.inf)))
+    flat = [np.ascontiguousarray(x, number).reshape(-1) for x in (rounded, bound)]
+    make = _native.explained_row if explained else _native.tracked_row
+    return Array(make(flat[0], flat[1], rule), values.shape, rule, number, explained)

@@ -1,12 +1,21 @@
 // Arrays of tracked numbers: of float or double, under each bound rule.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/elementary.hpp>
+#include <errbound/explain/explain.hpp>
 #include <errbound/functions.hpp>
+#include <errbound/rules/affine.hpp>
+#include <errbound/rules/relative.hpp>
 #include <errbound/tracked.hpp>
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -15,6 +24,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "interruptible.hpp"
 
 namespace errbound::python {
 namespace {
@@ -27,17 +37,86 @@ class tracked_row {
     virtual nb::object values() const = 0;
     virtual nb::object errors() const = 0;
     virtual nb::object signs() const = 0;
-    virtual std::unique_ptr<tracked_row> combine(char operation,
+    virtual std::unique_ptr<tracked_row> function(const std::string& name) const = 0;
+    virtual std::unique_ptr<tracked_row> combine(const std::string& name,
                                                  const tracked_row& other) const = 0;
     virtual std::unique_ptr<tracked_row> fused(const tracked_row& factor,
                                                const tracked_row& term) const = 0;
-    virtual std::unique_ptr<tracked_row> negated() const = 0;
-    virtual std::unique_ptr<tracked_row> absolute() const = 0;
-    virtual std::unique_ptr<tracked_row> root() const = 0;
+    virtual std::unique_ptr<tracked_row> power(int exponent) const = 0;
     virtual std::unique_ptr<tracked_row> scaled(int exponent) const = 0;
     virtual std::unique_ptr<tracked_row> taken(const input<std::int64_t, -1>& places) const = 0;
+    /// The sums of each `length` numbers, one after the other.
+    virtual std::unique_ptr<tracked_row> sums(std::size_t length) const = 0;
+    /// The dot products of each `length` numbers of this row with each of the other.
+    virtual std::unique_ptr<tracked_row> dots(const tracked_row& other,
+                                              std::size_t length) const = 0;
+    virtual explanation explained_at(std::size_t i, const std::string& name) const = 0;
 };
 using row_pointer = std::unique_ptr<tracked_row>;
+
+template <class Number>
+struct named_function {
+    const char* name;
+    Number (*apply)(const Number&);
+};
+template <class Number>
+constexpr std::array named_functions{
+    named_function<Number>{"negative", [](const Number& x) { return -x; }},
+    named_function<Number>{"abs", [](const Number& x) { return abs(x); }},
+    named_function<Number>{"sqrt", [](const Number& x) { return sqrt(x); }},
+    named_function<Number>{"cbrt", [](const Number& x) { return cbrt(x); }},
+    named_function<Number>{"exp", [](const Number& x) { return exp(x); }},
+    named_function<Number>{"exp2", [](const Number& x) { return exp2(x); }},
+    named_function<Number>{"expm1", [](const Number& x) { return expm1(x); }},
+    named_function<Number>{"log", [](const Number& x) { return log(x); }},
+    named_function<Number>{"log2", [](const Number& x) { return log2(x); }},
+    named_function<Number>{"log10", [](const Number& x) { return log10(x); }},
+    named_function<Number>{"log1p", [](const Number& x) { return log1p(x); }},
+    named_function<Number>{"sin", [](const Number& x) { return sin(x); }},
+    named_function<Number>{"cos", [](const Number& x) { return cos(x); }},
+    named_function<Number>{"tan", [](const Number& x) { return tan(x); }},
+    named_function<Number>{"asin", [](const Number& x) { return asin(x); }},
+    named_function<Number>{"acos", [](const Number& x) { return acos(x); }},
+    named_function<Number>{"atan", [](const Number& x) { return atan(x); }},
+    named_function<Number>{"sinh", [](const Number& x) { return sinh(x); }},
+    named_function<Number>{"cosh", [](const Number& x) { return cosh(x); }},
+    named_function<Number>{"tanh", [](const Number& x) { return tanh(x); }},
+    named_function<Number>{"asinh", [](const Number& x) { return asinh(x); }},
+    named_function<Number>{"acosh", [](const Number& x) { return acosh(x); }},
+    named_function<Number>{"atanh", [](const Number& x) { return atanh(x); }}};
+
+template <class Number>
+Number quotient_of(const Number& x, const Number& y) {
+    if constexpr (detail::rule_divides<typename Number::rule_type, typename Number::value_type>)
+        return x / y;
+    throw std::invalid_argument(std::string("rule is ") + Number::rule_type::name +
+                                ", which has no division; expected another rule");
+}
+
+template <class Number>
+struct named_operation {
+    const char* name;
+    Number (*apply)(const Number&, const Number&);
+};
+template <class Number>
+constexpr std::array named_operations{
+    named_operation<Number>{"add", [](const Number& x, const Number& y) { return x + y; }},
+    named_operation<Number>{"subtract", [](const Number& x, const Number& y) { return x - y; }},
+    named_operation<Number>{"multiply", [](const Number& x, const Number& y) { return x * y; }},
+    named_operation<Number>{"divide", quotient_of<Number>},
+    named_operation<Number>{"minimum", [](const Number& x, const Number& y) { return min(x, y); }},
+    named_operation<Number>{"maximum", [](const Number& x, const Number& y) { return max(x, y); }},
+    named_operation<Number>{"hypot", [](const Number& x, const Number& y) { return hypot(x, y); }},
+    named_operation<Number>{"atan2", [](const Number& x, const Number& y) { return atan2(x, y); }},
+    named_operation<Number>{"pow", [](const Number& x, const Number& y) { return pow(x, y); }}};
+
+template <class Table>
+auto named(const Table& table, const std::string& name) {
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const auto& entry) { return name == entry.name; });
+    if (found == table.end()) throw std::invalid_argument("tracked: no function " + name);
+    return found->apply;
+}
 
 template <class T, class Rule>
 class row_of final : public tracked_row {
@@ -58,76 +137,86 @@ class row_of final : public tracked_row {
             return static_cast<std::int8_t>(static_cast<int>(sign_of(x)) - 1);
         });
     }
-    row_pointer combine(char operation, const tracked_row& other) const override {
-        const row_of& row = alike(other);
-        switch (operation) {
-            case '+':
-                return pairwise(row, [](const number& x, const number& y) { return x + y; });
-            case '-':
-                return pairwise(row, [](const number& x, const number& y) { return x - y; });
-            case '*':
-                return pairwise(row, [](const number& x, const number& y) { return x * y; });
-            case '<':
-                return pairwise(row, [](const number& x, const number& y) { return min(x, y); });
-            case '>':
-                return pairwise(row, [](const number& x, const number& y) { return max(x, y); });
-            default:
-                if constexpr (!std::is_same_v<Rule, safe>)  // whose division does not compile
-                    return pairwise(row, [](const number& x, const number& y) { return x / y; });
-                throw std::invalid_argument("tracked: this bound rule has no division");
-        }
+    row_pointer function(const std::string& name) const override {
+        const auto apply = named(named_functions<number>, name);
+        return made(size(), [&](std::size_t i) { return apply(all_[i]); });
+    }
+    row_pointer combine(const std::string& name, const tracked_row& other) const override {
+        const row_of& row = of_same_length(other);
+        const auto apply = named(named_operations<number>, name);
+        return made(size(), [&](std::size_t i) { return apply(all_[i], row.all_[i]); });
     }
     row_pointer fused(const tracked_row& factor, const tracked_row& term) const override {
-        const row_of &b = alike(factor), &c = alike(term);
-        std::vector<number> made;
-        for (std::size_t i = 0; i < size(); ++i) made.push_back(fma(all_[i], b.all_[i], c.all_[i]));
-        return std::make_unique<row_of>(std::move(made));
+        const row_of &b = of_same_length(factor), &c = of_same_length(term);
+        return made(size(), [&](std::size_t i) { return fma(all_[i], b.all_[i], c.all_[i]); });
     }
-    row_pointer negated() const override {
-        return each([](const number& x) { return -x; });
-    }
-    row_pointer absolute() const override {
-        return each([](const number& x) { return abs(x); });
-    }
-    row_pointer root() const override {
-        return each([](const number& x) { return sqrt(x); });
+    row_pointer power(int exponent) const override {
+        return made(size(), [&](std::size_t i) { return pow(all_[i], exponent); });
     }
     row_pointer scaled(int exponent) const override {
-        return each([exponent](const number& x) { return scale(x, exponent); });
+        return made(size(), [&](std::size_t i) { return scale(all_[i], exponent); });
     }
     row_pointer taken(const input<std::int64_t, -1>& places) const override {
-        std::vector<number> some;
-        for (const std::int64_t i : items_of<std::int64_t>(places))
-            some.push_back(all_.at(static_cast<std::size_t>(i)));
-        return std::make_unique<row_of>(std::move(some));
+        const auto chosen = items_of<std::int64_t>(places);
+        return made(chosen.size(),
+                    [&](std::size_t i) { return all_.at(static_cast<std::size_t>(chosen[i])); });
+    }
+    row_pointer sums(std::size_t length) const override {
+        return made(length == 0 ? 0 : size() / length, [&](std::size_t i) {
+            const auto part = block(i, length);
+            number sum = part[0];
+            for (const number& x : part.subspan(1)) sum += x;
+            return sum;
+        });
+    }
+    row_pointer dots(const tracked_row& other, std::size_t length) const override {
+        const row_of& row = alike(other);
+        const std::size_t columns = length == 0 ? 0 : row.size() / length;
+        return made(length == 0 ? 0 : size() / length * columns, [&](std::size_t i) {
+            return dot(block(i / columns, length), row.block(i % columns, length));
+        });
+    }
+    explanation explained_at(std::size_t i, const std::string& name) const override {
+        if constexpr (is_explained<Rule>)
+            return explain(all_.at(i), name);
+        else
+            throw std::invalid_argument(
+                "x is an array without explanations; expected one of array(..., explained=True)");
     }
 
   private:
     const row_of& alike(const tracked_row& other) const {
         const auto* row = dynamic_cast<const row_of*>(&other);
         if (row == nullptr)
-            throw std::invalid_argument("tracked: found arrays of two rules or number types");
-        if (row->size() != size())
-            throw std::invalid_argument("tracked: found rows of different lengths");
+            throw std::invalid_argument(
+                "operands are tracked arrays of two rules or dtypes; expected one");
         return *row;
+    }
+    const row_of& of_same_length(const tracked_row& other) const {
+        const row_of& row = alike(other);
+        if (row.size() != size())
+            throw std::invalid_argument("tracked: found rows of different lengths");
+        return row;
+    }
+    std::span<const number> block(std::size_t i, std::size_t length) const {
+        return std::span(all_).subspan(i * length, length);
     }
     template <class Number, class Convert>
     nb::object numbers_from(const Convert& convert) const {
         std::vector<Number> found;
+        found.reserve(size());
         for (const number& x : all_) found.push_back(convert(x));
         return numbers_of<Number>(std::move(found));
     }
-    template <class Operation>
-    row_pointer each(const Operation& operation) const {
-        std::vector<number> made;
-        for (const number& x : all_) made.push_back(operation(x));
-        return std::make_unique<row_of>(std::move(made));
-    }
-    template <class Operation>
-    row_pointer pairwise(const row_of& other, const Operation& operation) const {
-        std::vector<number> made;
-        for (std::size_t i = 0; i < size(); ++i) made.push_back(operation(all_[i], other.all_[i]));
-        return std::make_unique<row_of>(std::move(made));
+    /// Numbers number(0), number(1), ..., without the interpreter's lock.
+    template <class At>
+    static row_pointer made(std::size_t count, const At& at) {
+        std::vector<number> all;
+        all.reserve(count);
+        in_parts(count, 4096, [&](std::size_t first, std::size_t size) {
+            for (std::size_t i = first; i < first + size; ++i) all.push_back(at(i));
+        });
+        return std::make_unique<row_of>(std::move(all));
     }
 
     std::vector<number> all_;
@@ -153,9 +242,51 @@ row_pointer row_by(const input<T, -1>& values, const input<T, -1>& errors,
     if (rule == "sharp") return row_within<T, sharp>(values, errors);
     if (rule == "interval") return row_within<T, interval>(values, errors);
     if (rule == "residual") return row_within<T, residual>(values, errors);
-    throw std::invalid_argument("rule: found '" + rule +
-                                "', expected one of none, safe, tight, sharp, interval, residual");
+    if (rule == "affine") return row_within<T, affine>(values, errors);
+    if (rule == "relative") return row_within<T, relative>(values, errors);
+    throw std::invalid_argument("rule is '" + rule +
+                                "'; expected one of none, safe, tight, sharp, interval, residual, "
+                                "affine, relative");
 }
+
+row_pointer explained_row(const input<double, -1>& values, const input<double, -1>& errors,
+                          const std::string& rule) {
+    if (rule == "tight") return row_within<double, explained<tight>>(values, errors);
+    if (rule == "residual") return row_within<double, explained<residual>>(values, errors);
+    throw std::invalid_argument("rule is '" + rule +
+                                "'; expected tight or residual for an explained array");
+}
+
+/// Name, rule, value, error, table, and rows of amount, known part, operation and scopes.
+nb::tuple explained_at(const tracked_row& row, std::size_t i, const std::string& name) {
+    const explanation e = row.explained_at(i, name);
+    nb::list contributions;
+    for (const contribution& c : e.contributions) {
+        nb::list scopes;
+        for (const place& s : c.scopes) scopes.append(nb::make_tuple(s.name, s.file, s.line));
+        contributions.append(nb::make_tuple(c.amount, c.known, c.operation, scopes));
+    }
+    return nb::make_tuple(e.name, e.rule, e.value, e.error, text_of(e), contributions);
+}
+
+/// A scope from `enter` to `leave`, which are called in pairs on one thread.
+class kept_scope {
+  public:
+    kept_scope(std::string name, std::string file, std::uint32_t line)
+        : name_(std::move(name)), file_(std::move(file)), line_(line) {}
+    kept_scope(const kept_scope&) = delete;
+    kept_scope& operator=(const kept_scope&) = delete;
+
+    void enter() { scopes_.push_back(std::make_unique<scope>(name_, file_, line_)); }
+    void leave() {
+        if (!scopes_.empty()) scopes_.pop_back();
+    }
+
+  private:
+    std::string name_, file_;
+    std::uint32_t line_;
+    std::vector<std::unique_ptr<scope>> scopes_;
+};
 
 }  // namespace
 
@@ -165,26 +296,25 @@ void bind_tracked(nb::module_& m) {
         .def("values", &tracked_row::values)
         .def("errors", &tracked_row::errors)
         .def("signs", &tracked_row::signs)
-        .def("add", [](const tracked_row& a, const tracked_row& b) { return a.combine('+', b); })
-        .def("subtract",
-             [](const tracked_row& a, const tracked_row& b) { return a.combine('-', b); })
-        .def("multiply",
-             [](const tracked_row& a, const tracked_row& b) { return a.combine('*', b); })
-        .def("divide", [](const tracked_row& a, const tracked_row& b) { return a.combine('/', b); })
-        .def("minimum",
-             [](const tracked_row& a, const tracked_row& b) { return a.combine('<', b); })
-        .def("maximum",
-             [](const tracked_row& a, const tracked_row& b) { return a.combine('>', b); })
+        .def("function", &tracked_row::function)
+        .def("combine", &tracked_row::combine)
         .def("fused", &tracked_row::fused)
-        .def("negated", &tracked_row::negated)
-        .def("absolute", &tracked_row::absolute)
-        .def("root", &tracked_row::root)
+        .def("power", &tracked_row::power)
         .def("scaled", &tracked_row::scaled)
-        .def("taken", &tracked_row::taken);
+        .def("taken", &tracked_row::taken)
+        .def("sums", &tracked_row::sums)
+        .def("dots", &tracked_row::dots)
+        .def("explained_at", explained_at);
     m.def("tracked_row", row_by<double>, nb::arg("values").noconvert(),
           nb::arg("errors").noconvert(), nb::arg("rule"));
     m.def("tracked_row", row_by<float>, nb::arg("values").noconvert(),
           nb::arg("errors").noconvert(), nb::arg("rule"));
+    m.def("explained_row", explained_row, nb::arg("values").noconvert(),
+          nb::arg("errors").noconvert(), nb::arg("rule"));
+    nb::class_<kept_scope>(m, "Scope")
+        .def(nb::init<std::string, std::string, std::uint32_t>())
+        .def("enter", &kept_scope::enter)
+        .def("leave", &kept_scope::leave);
 }
 
 }  // namespace errbound::python

@@ -1,5 +1,8 @@
 """What is wrong is said, by name: reports of arguments that were once taken in silence or blamed on no one."""
+import copy
 import pickle
+import subprocess
+import sys
 from fractions import Fraction
 
 import numpy as np
@@ -31,7 +34,8 @@ FRAMES = io.Mesh(BEFORE, np.array(FACES)), io.Mesh(AFTER, np.array(FACES))
     ({"distance": -1}, ValueError, "distance: found -1.0, expected a finite number that is not negative"),
     ({"distance": np.nan}, ValueError, "distance: found nan"), ({"t_max": np.inf}, ValueError, "t_max: found inf"),
     ({"thickness": [0, 0, np.inf, 0]}, ValueError, "thickness: row 2: found inf"),
-    ({"thickness": 1.0}, ValueError, r"thickness: found shape \(\), expected \(4,\)"),
+    ({"thickness": 0.1}, ValueError, "thickness is 0.1; expected a number for each of 4 vertices, or distance= for one"),
+    ({"thickness": [0, 0]}, ValueError, r"thickness: found shape \(2,\), expected \(4,\)"),
     ({"method": "tight", "times": True}, ValueError, "^found method tight, expected exact"),
     ({"between_groups": False}, ValueError, "between_groups: found False without groups"),
     ({"pinned": [0, 3]}, ValueError, r"pinned: found shape \(2,\), expected \(4,\): a flag for each vertex"),
@@ -44,11 +48,93 @@ def test_options_of_steps(options, error, said):
         ccd.step(BEFORE, AFTER, FACES, **options)
 
 
+@pytest.mark.parametrize("wrong, error, said", [
+    ([2**53 + 1, 1], ValueError, "row 0 of thickness is 9007199254740993; expected a number that a double equals"),
+    ([.5, 2**53 + 1], ValueError, "row 1 of thickness is 9007199254740993; expected"),
+    ([1, Fraction(1, 3)], ValueError, "row 1 of thickness is 1/3; expected a number that a double equals"),
+    (np.array([1, np.longdouble(1) / 3]), ValueError, "row 1 of thickness is 0.333"),
+    (np.array([1, 2**63 + 1], np.uint64), ValueError, "row 1 of thickness is 9223372036854775809"),
+    ([10**400, 1], ValueError, "row 0 of thickness is 1000"),
+    ([1, 1j], TypeError, "thickness has items of type complex128; expected real numbers"),
+    (["1", "2"], TypeError, "thickness has items of type <U1; expected real numbers"),
+    ([True, False], TypeError, "thickness has items of type bool; expected real numbers"),
+    ([True, .5], TypeError, "thickness has items of type bool; expected real numbers"),
+    ([None, 1], TypeError, "thickness has items of type NoneType; expected real numbers"),
+    ([1, -1], ValueError, "thickness: row 1: found -1.0, expected a finite number that is not negative"),
+])
+def test_numbers_are_not_rounded(wrong, error, said):
+    """thickness rounded in silence. A = 0, B = 2^53 + 2: 2^53 + 1 and 1 reach each other, 2^53 and 1 do not."""
+    positions = np.array([[0, 0, 0], [2.0**53 + 2, 0, 0]])
+    with pytest.raises(error, match=said):
+        ccd.decide([[0, 1]], "vertex_vertex", positions=(positions, positions), thickness=wrong)
+
+
+@pytest.mark.parametrize("exact", [
+    [2**53 + 2, 0], [Fraction(2**53 + 2), 0], np.array([2**53 + 2, 0], np.longdouble), [2.0**53 + 2, Fraction(1, 4)],
+    np.array([2**53 + 2, 0], np.uint64), np.array([2**53 + 2, 1], object)])
+def test_numbers_that_doubles_equal_are_taken(exact):
+    positions = np.array([[0, 0, 0], [2.0**53 + 2, 0, 0]])
+    assert ccd.decide([[0, 1]], "vertex_vertex", positions=(positions, positions), thickness=exact).collides.all()
+
+
+@pytest.mark.parametrize("wrong, error, said", [
+    ([[0, 0, 2**53 + 1]], ValueError, "row 0 of before is 9007199254740993; expected a number that a double equals"),
+    ([[0, 0, .5], [0, 2**53 + 1, 0]], ValueError, "row 1 of before is 9007199254740993; expected"),
+    ([[0, 0, True], [0, 0, .5]], TypeError, "before has items of type bool; expected real numbers")])
+def test_positions_are_not_rounded(wrong, error, said):
+    with pytest.raises(error, match=said):
+        ccd.step(wrong, np.zeros((len(wrong), 3)), ())
+
+
+def test_indices_without_positions():
+    with pytest.raises(ValueError, match=r"queries is an array of shape \(1, 4\) without positions=; expected "
+                                         r"coordinates of shape \(n, 8, 3\), or vertex indices with positions="):
+        ccd.decide([[3, 0, 1, 2]], "vertex_face")
+    with pytest.raises(ValueError, match="thickness is given without positions=; expected both"):
+        ccd.decide(QUERY, "vertex_face", thickness=[1, 1, 1, 1])
+
+
+class OnlyDlpack:
+    def __init__(self, array, device=(1, 0)):
+        self._array, self._device = array, device
+
+    def __dlpack__(self, **options):
+        return self._array.__dlpack__(**options)
+
+    def __dlpack_device__(self):
+        return self._device
+
+
+def test_objects_that_only_have_dlpack():
+    assert ccd.decide(OnlyDlpack(QUERY), "vertex_face").collides.all()
+    assert ccd.step(OnlyDlpack(BEFORE), OnlyDlpack(AFTER), OnlyDlpack(np.array(FACES))).pairs.vertex_face.tolist()
+
+    class Unreadable(OnlyDlpack):
+        def __dlpack__(self, **options):
+            raise BufferError("of a device")
+
+    with pytest.raises(TypeError, match=r"queries is Unreadable, which NumPy cannot read \(of a device\); expected"):
+        ccd.decide(Unreadable(QUERY), "vertex_face")
+
+
+@pytest.mark.parametrize("truth", [[.5], ["yes"], [2]])
+def test_truth_is_booleans(truth, tmp_path):
+    with pytest.raises(TypeError, match="truth is an array of .*; expected booleans, or 0 and 1"):
+        io.write_queries(tmp_path / "vf.csv", QUERY, truth)
+
+
+@pytest.mark.parametrize("vertices, faces, edges", [
+    (BEFORE, [], ()), (BEFORE, np.empty((0, 3)), np.empty((0, 2))), ([], [], []), (np.empty((0, 3)), [], ())])
+def test_empty_arrays_are_written(vertices, faces, edges, tmp_path):
+    io.write_mesh(tmp_path / "mesh.ply", vertices, faces, edges)
+    assert b"element face 0" in (tmp_path / "mesh.ply").read_bytes()
+
+
 def test_options_have_types_and_words():
     hints = ccd.SearchOptions.__annotations__.keys()
     assert ccd._OF_SEARCH.keys() == hints and ccd._OF_ADVANCE.keys() == ccd.AdvanceOptions.__annotations__.keys()
     assert ccd._OF_RUN.keys() == ccd.RunOptions.__annotations__.keys()
-    said = " ".join(c.__doc__ for c in (ccd.SearchOptions, ccd.RunOptions, ccd.AdvanceOptions))
+    said = " ".join(c.__doc__ for c in (ccd.SearchOptions, ccd.UntimedOptions, ccd.RunOptions, ccd.AdvanceOptions))
     assert all(name in said for name in [*ccd._OF_RUN, *ccd._OF_ADVANCE])
 
 
@@ -178,21 +264,25 @@ def test_ends_of_intervals_are_doubles(a, b, error):
 
 @pytest.mark.parametrize("width", [0, -1, np.nan, np.inf])
 def test_widths_are_positive(width):
-    with pytest.raises(ValueError, match=f"width: found {float(width)}"):
+    with pytest.raises(ValueError, match=f"width is {float(width)}; expected a finite number > 0"):
         roots.isolate([-2, 0, 1]).interval(0, width)
 
 
 def test_errors_are_not_negative():
-    with pytest.raises(ValueError, match="error: found -1, expected none that is negative"):
+    with pytest.raises(ValueError, match="error is -1; expected numbers >= 0"):
         tracked.array([1.0, 2.0], [0, -1])
     assert (tracked.array([1.0, 2.0], [np.nan, np.inf]).error == np.inf).all()
 
 
 def test_a_tracked_array_is_no_condition():
     x = tracked.array([0.1, 0.2])
-    for ask in lambda: x == x, lambda: x != 0.1, lambda: bool(x):
-        with pytest.raises(TypeError, match="tracked: found"):
+    with pytest.raises(TypeError, match="condition is a tracked array; expected its sign or its value"):
+        bool(x)
+    for ask in lambda: x == x, lambda: x != 0.1, lambda: x < 1, lambda: x <= 1, lambda: 1 < x, lambda: x >= x:
+        with pytest.raises(TypeError, match=r"may be uncertain; expected \(x - y\)\.sign .* or x\.value"):
             ask()
+    with pytest.raises(TypeError, match="argument is a tracked array; expected a plain one, such as x.value"):
+        predicates.orient2d(x, x, x)
     with pytest.raises(TypeError, match="rule: found 3, expected a name"):
         tracked.array([1], rule=3)
 
@@ -229,6 +319,22 @@ def test_what_is_printed_is_short():
                   io.Queries(QUERY, "vertex_face", None), ccd.Steps(faces, vertices=2000)):
         assert len(repr(shown)) < 800 and "object at" not in repr(shown), repr(shown)
     assert "everywhere" in repr(roots.isolate([0, 0]))
+
+
+def test_numpys_reductions_of_tracked_arrays_end_without_words():
+    """They left nanobind's report of a leaked instance."""
+    code = ("import numpy as np\nfrom errbound import tracked\nx = tracked.array([1.0, 2.0])\n"
+            "assert np.sum(x).value == 3\ntry: np.prod(x)\nexcept TypeError: pass\n")
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout + found.stderr == ""
+
+
+def test_tracked_arrays_are_copied_and_pickled():
+    x = tracked.array([0.1, 0.2], 1e-3, rule="residual", dtype=np.float32) * 3
+    for again in pickle.loads(pickle.dumps(x)), copy.copy(x), copy.deepcopy(x):
+        assert again.rule == "residual" and again.dtype == np.float32
+        assert (again.value == x.value).all() and (again.error >= x.error).all()
+        assert (again.error <= 1.001 * x.error).all()
 
 
 def test_results_are_copied_and_pickled():

@@ -3,6 +3,7 @@ import platform
 import re
 import threading
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -68,6 +69,23 @@ def test_contact_by_hand():
     assert within.low.tolist() == within.high.tolist() == [0.25]
 
 
+@pytest.mark.parametrize("kind, points", ccd.POINTS.items())
+def test_weights_are_as_wide_as_the_pairs(kind, points):
+    """They had four columns for all kinds, and so did not broadcast with pairs."""
+    queries = random_queries(300, points)
+    positions, pairs = as_pairs(queries)
+    found = ccd.first_contact(pairs, kind, positions=positions)
+    chosen = pairs[found.query]
+    assert found.weights.shape == found.points.shape == chosen.shape and len(found) > 0
+    at = (positions[0] + found.low[0] * (positions[1] - positions[0]))[chosen[0]]
+    assert (found.weights[0][:, None] * at).shape == (points, 3)
+
+
+def test_names_of_types_are_those_of_the_library():
+    assert sorted(get_args(ccd.MethodName)) == sorted(m.name for m in ccd.methods())
+    assert list(get_args(ccd.Kind)) == list(ccd.POINTS)
+
+
 def test_instruction_sets():
     """A compiler that does not tell what the processor has would leave the slowest kernels alone."""
     about = Path("/proc/cpuinfo")
@@ -106,10 +124,10 @@ def with_nan():
 
 
 @pytest.mark.parametrize("call, error, said", [
-    (lambda: ccd.decide(FALLING, "vf"), ValueError, "kind: found 'vf', expected one of vertex_face"),
+    (lambda: ccd.decide(FALLING, "vf"), ValueError, "kind is 'vf'; expected one of vertex_face"),
     (lambda: ccd.decide(FALLING[:, :6], "vertex_face"), ValueError,
      r"queries: found shape \(1, 6, 3\), expected \(n, 8, 3\)"),
-    (lambda: ccd.decide(FALLING.astype(complex), "vertex_face"), TypeError, "queries: found complex128"),
+    (lambda: ccd.decide(FALLING.astype(complex), "vertex_face"), TypeError, "queries has items of type complex128; expected real numbers"),
     (lambda: ccd.decide(with_nan(), "vertex_face"), ValueError, "queries: row 2: found .*nan"),
     (lambda: ccd.first_time(with_nan(), "vertex_face"), ValueError, "queries: row 2: found .*nan"),
     (lambda: ccd.decide(FALLING, "vertex_face", method="best"), ValueError,

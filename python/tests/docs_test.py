@@ -26,6 +26,17 @@ def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
     assert {path.name for path in tmp_path.iterdir()} <= {"examples", "out"}, "git does not ignore other files"
 
 
+@pytest.mark.parametrize("page", ["README.md", "python/README.md"])
+def test_blocks_have_types(page, tmp_path):
+    """README's example failed: times of a step with times=True were Optional."""
+    api = pytest.importorskip("mypy.api", reason="mypy is not installed (pip install mypy)")
+    blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.MULTILINE | re.DOTALL)
+    (tmp_path / "example.py").write_text("\n".join(blocks))
+    found, errors, status = api.run(["--strict", "--config-file=", f"--cache-dir={tmp_path}",
+                                     str(tmp_path / "example.py")])
+    assert status == 0, found + errors
+
+
 def test_pages_that_docstrings_name_are_in_the_package():
     docs = importlib.resources.files("errbound") / "docs"
     names = {name for file in (ROOT / "python" / "errbound").glob("*.py")

@@ -1,5 +1,7 @@
 """Predicates, roots and tracked arrays against fractions."""
 import math
+import operator
+import threading
 from fractions import Fraction
 
 import numpy as np
@@ -89,6 +91,57 @@ def test_roots_of_products():
     assert roots.count(rows).tolist() == [roots.count(row) for row in rows]
 
 
+def three_terms(degree):
+    p = np.zeros(degree + 1)
+    p[[0, degree // 2, degree]] = -2, .5, 1
+    return p
+
+
+def test_roots_of_high_degree():
+    """isolate took 22 s: neighbouring doubles were computed at once, by values of five million bits."""
+    found = roots.isolate(three_terms(100000))
+    assert len(found) == 2
+    np.testing.assert_array_equal(found.high, np.nextafter(found.low, 2))
+    expected = math.log((math.sqrt(33) - 1) / 4) / 50000
+    np.testing.assert_allclose(np.log(abs(found.high)), expected, rtol=1e-9)
+    low, high = found.interval(1, 1e-40)
+    assert 0 < high - low <= Fraction(1e-40) and found.low[1] < low
+    assert found.sign_at([0, 1]).tolist() == [-1, 1]
+
+
+def test_limits_of_roots():
+    hard = np.cos(np.arange(600.0) ** 2)
+    for call in roots.isolate, roots.count, lambda p, **limits: roots.count(p[None], **limits):
+        with pytest.raises(roots.LimitError, match="beyond its limits"):
+            call(hard, max_operations=1000)
+        with pytest.raises(roots.LimitError, match="beyond its limits"):
+            call(hard, max_bytes=1000)
+        with pytest.raises(ValueError, match="max_operations: found -1"):
+            call(hard, max_operations=-1)
+    assert roots.count([-2, 0, 1], max_operations=1000, max_bytes=1000) == 2
+
+
+def test_roots_do_not_hold_the_lock():
+    """One thread counts while another looks for roots; both ask the same roots, which one at a time may."""
+    found = roots.isolate(three_terms(30000))
+    refused, counted = [], 0
+    working = threading.Thread(target=lambda: found.interval(0, 1e-300))
+    working.start()
+    while working.is_alive():
+        counted += 1
+        try:
+            found.interval(0)
+        except RuntimeError as error:
+            refused.append(str(error))
+    assert counted > 0 and set(refused) <= {"Roots: another call is under way; expected one call at a time"}
+
+
+@pytest.mark.parametrize("p", [np.array([1, 0, -2**60 - 1]), [Fraction(1), 0, -2**60 - 1]])
+def test_coefficients_of_any_size(p):
+    low, high = roots.isolate(p, 0).interval(0, 1e-40)
+    assert low**2 < Fraction(1, 2**60 + 1) < high**2
+
+
 def test_roots_say_what_is_wrong():
     with pytest.raises(ValueError, match=r"a, b: found \[2.0, 1.0\]"):
         roots.count([1.0, 1.0], 2, 1)
@@ -137,6 +190,112 @@ def test_tracked_functions(rule, dtype):
         tracked.minimum(a, tracked.array(1.0, rule="none", dtype=dtype))
 
 
+RULES = ["safe", "tight", "sharp", "interval", "residual", "affine", "relative"]
+
+
+def fractions_of(x):
+    return [Fraction(float(v)) for v in np.ravel(x)]
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("rule", RULES)
+def test_tracked_sums_and_products(rule, dtype):
+    x, y = RANDOM.standard_normal((2, 6, 5)).astype(dtype)
+    a = tracked.array(x, rule=rule, dtype=dtype)
+    p = [fractions_of(row) for row in x]
+    q = [fractions_of(row) for row in y]
+    for found, exact in [
+        (a.sum(), [sum(sum(row) for row in p)]), (np.sum(a, axis=0), [sum(row[j] for row in p) for j in range(5)]),
+        (a.sum(1), [sum(row) for row in p]), (sum(a), [sum(row[j] for row in p) for j in range(5)]),
+        (a @ y.T, [sum(u * v for u, v in zip(r, s)) for r in p for s in q]),
+        (x @ a.T, [sum(u * v for u, v in zip(r, s)) for r in p for s in p]),
+        (a[0] @ y[1], [sum(u * v for u, v in zip(p[0], q[1]))]), (a @ y[1], [sum(map(operator.mul, r, q[1])) for r in p]),
+        (tracked.dot(y[2], a.T), [sum(u * v for u, v in zip(q[2], r)) for r in p]),
+        (a**3, [v**3 for r in p for v in r]), (a**0, [1] * 30), (a**np.int8(2), [v**2 for r in p for v in r]),
+    ]:
+        assert found.size == len(exact) and found.dtype == dtype and found.rule == rule
+        for value, error, true in zip(fractions_of(found.value), np.ravel(found.error), exact):
+            assert not np.isfinite(error) or abs(value - true) <= Fraction(float(error))
+    assert np.isfinite((abs(a) @ abs(y).T).error).all()
+    assert (a @ y.T).shape == (6, 6) and (a[0] @ y[0]).shape == () and a.sum().shape == ()
+    assert a[:, :0].sum(1).value.tolist() == [0] * 6 and (a[:, :0] @ y[:0, :2].reshape(0, 2)).value.tolist() == [[0, 0]] * 6
+    with pytest.raises(ValueError, match=r"shapes are \(6, 5\) and \(6, 5\); expected"):
+        a @ y
+
+
+@pytest.mark.parametrize("rule", RULES)
+@pytest.mark.parametrize("name, low, high", [
+    ("exp", -5, 5), ("exp2", -5, 5), ("expm1", -5, 5), ("log", .1, 9), ("log2", .1, 9), ("log10", .1, 9),
+    ("log1p", -.9, 9), ("sin", -9, 9), ("cos", -9, 9), ("tan", -1.5, 1.5), ("asin", -.9, .9), ("acos", -.9, .9),
+    ("atan", -9, 9), ("sinh", -5, 5), ("cosh", -5, 5), ("tanh", -5, 5), ("asinh", -9, 9), ("acosh", 1.1, 9),
+    ("atanh", -.9, .9), ("cbrt", -9, 9), ("sqrt", .1, 9)])
+def test_tracked_functions(name, low, high, rule):
+    numpys = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "asinh": "arcsinh", "acosh": "arccosh",
+              "atanh": "arctanh"}.get(name, name)
+    x = np.linspace(low, high, 101)
+    for error in 0, 1e-9:
+        found = getattr(tracked, name)(tracked.array(x, error, rule=rule))
+        for inside in x, x - .999 * error, x + .999 * error:
+            true = getattr(np, numpys)(inside.astype(np.longdouble))
+            assert (abs(found.value - true) <= found.error + abs(true) * 1e-18).all()
+    assert np.isfinite(found.error).sum() > 90 or rule == "relative"
+
+
+def test_tracked_functions_of_two():
+    x, y = RANDOM.uniform(.1, 9, (2, 50))
+    a = tracked.array(x)
+    wide = x.astype(np.longdouble)
+    for found, true in (a**y, wide**y), (2.5**a, np.longdouble(2.5)**wide), (tracked.hypot(a, y), np.hypot(wide, y)), (
+            tracked.atan2(y, a), np.arctan2(y.astype(np.longdouble), wide)), (tracked.pow(a, -2), wide**-2):
+        assert (abs(found.value - true) <= found.error + abs(true) * 1e-18).all() and np.isfinite(found.error).all()
+    assert not np.isfinite((tracked.array(-1.0)**0.5).error)
+
+
+def test_affine_knows_what_is_the_same():
+    x = tracked.array([1.0, 2.0], 0.25, rule="affine")
+    assert (x - x).error.tolist() == [0, 0] and ((x + 1) - (x - 1)).error.max() < 1e-15
+    assert tracked.array([3.0], 1e-9, rule="relative").error[0] < 1.001e-9
+
+
+@pytest.mark.parametrize("value, dtype, least", [
+    (2**53 + 1, np.float64, 1), (0.1, np.float32, 1e-9), (np.longdouble(1) / 3, np.float64, 1e-17),
+    (np.uint64(2**64 - 1), np.float64, 1), (2**24 + 1, np.float32, 1), (1e300, np.float32, np.inf)])
+def test_conversions_of_tracked_numbers_count(value, dtype, least):
+    """They counted as exact, whatever they were rounded to."""
+    x = tracked.array(value, dtype=dtype)
+    assert x.error >= least
+    if np.isfinite(x.value):
+        assert abs(Fraction(float(x.value)) - Fraction(*getattr(value, "item", lambda: value)().as_integer_ratio())) <= Fraction(float(x.error))
+    assert tracked.array(0.0, 0.1, dtype=np.float32).error > 0.1
+    assert tracked.array([2**60, 3], dtype=np.float64).error.tolist() == [0, 0]
+
+
+def test_explanations():
+    x = tracked.array([0.1, 0.2, 0.3], explained=True)
+    with tracked.scope("squares"):
+        squares = x * x
+    with tracked.scope("mean"):
+        mean = squares.sum() / 3
+    found = tracked.explain(mean, "mean of squares")
+    assert found.value == mean.value and found.error == mean.error
+    assert [(c.operation, [s[0] for s in c.scopes]) for c in found.contributions] == [
+        ("+", ["mean"]), ("*", ["squares"]), ("/", ["mean"])]
+    assert found.contributions[0].scopes[0][1].endswith("numbers_test.py")
+    assert sum(c.amount for c in found.contributions) == pytest.approx(found.error)
+    assert str(found).startswith("mean of squares = 0.0466") and "squares (numbers_test.py:" in str(found)
+    signed = tracked.explain((tracked.array([0.1, 3], rule="residual", explained=True) ** 2).sum())
+    assert any(c.known for c in signed.contributions)
+    plain = tracked.array([0.1, 0.2, 0.3])
+    np.testing.assert_array_equal(squares.error, (plain * plain).error)
+    with pytest.raises(ValueError, match="x is an array without explanations; expected one of array"):
+        tracked.explain(plain[0])
+    with pytest.raises(ValueError, match=r"shape of x is \(3,\); expected one number"):
+        tracked.explain(x)
+    for wrong in {"rule": "affine"}, {"dtype": np.float32}:
+        with pytest.raises(ValueError, match="for an explained array"):
+            tracked.array(1.0, explained=True, **wrong)
+
+
 def test_tracked_operators():
     x = tracked.array([1.0, 2.0], error=[0, 0.5])
     np.testing.assert_array_equal((1 - x).value, [0, -1])
@@ -146,7 +305,7 @@ def test_tracked_operators():
     assert x.reshape(2, 1).shape == (2, 1) and (x.reshape(2, 1) * x).shape == (2, 2)
     with pytest.raises(ValueError, match="no division"):
         tracked.array(1.0, rule="safe") / 3
-    with pytest.raises(ValueError, match="rule: found 'best'"):
+    with pytest.raises(ValueError, match="rule is 'best'; expected one of none"):
         tracked.array(1.0, rule="best")
     with pytest.raises(ValueError, match="two rules"):
         x + tracked.array(1.0, rule="sharp")

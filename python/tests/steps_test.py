@@ -88,6 +88,16 @@ def test_plane():
     assert found.pairs.vertex_edge.tolist() == [[2, 0, 1]] and found.first_contact == (0.5, 0.5)
 
 
+def test_advance_in_the_plane_returns_rows_of_two():
+    """It returned rows of three, which the next call refused."""
+    steps = ccd.Steps.in_plane([[0, 1]], vertices=3)
+    before = np.array([[-1.0, 0], [1, 0], [0, 1]])
+    free = steps.advance(before, before - [[0, 0], [0, 0], [0, 2]])
+    assert free.positions.shape == (3, 2) and 0 < free.fraction < 0.5
+    assert len(steps.run(before, free.positions).pairs) == 0
+    assert steps.advance(free.positions, free.positions + [[0, 0], [0, 0], [0, 1]]).fraction == 1
+
+
 @pytest.mark.parametrize("call, error, said", [
     (lambda s, x: ccd.step(x, x[:-1], s), ValueError, "after: found 8 vertices, expected 9"),
     (lambda s, x: ccd.step(x, x, [[0, 1, 9]]), IndexError, "faces: row 0: found vertex 9, expected 0 to 8"),
@@ -111,7 +121,7 @@ def test_one_call_at_a_time():
 
 INTERRUPTED = """
 import numpy as np, signal, sys
-from errbound import ccd, predicates
+from errbound import ccd, predicates, roots, tracked
 signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
 n = 3000000
 x = np.zeros(({points}, 3))
@@ -128,6 +138,9 @@ except KeyboardInterrupt:
     (4, "ccd.decide(np.tile(np.arange(4), (n, 1)), 'edge_edge', positions=(x, x), method='exact')"),
     (4, "ccd.decide(np.tile(np.arange(4), (n, 1)), 'edge_edge', positions=(x, x), method='bsc-exact')"),
     (1, "predicates.insphere(*[np.zeros((n, 3))] * 5)"),
+    (1, "roots.isolate(np.cos(np.arange(3000.0) ** 2))"),
+    (1, "roots.isolate([-2] + [0] * 9999 + [1]).sign_at(np.cos(np.arange(3000.0) ** 2))"),
+    (1, "tracked.sin(tracked.array(np.ones(n), rule='affine'))"),
 ])
 def test_ctrl_c(points, call):
     code = INTERRUPTED.format(points=points, call=call)
