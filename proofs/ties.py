@@ -43,7 +43,8 @@ TIES = {
                 ("expression",)),
 }
 # Whose functions decide, too.
-OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/function_error.hpp",
+OTHERS = ["include/errbound/elementary.hpp", "include/errbound/functions/angle_reduction.hpp",
+          "include/errbound/functions/function_error.hpp",
           "include/errbound/functions/function_of_range.hpp", "include/errbound/roots/double_order.hpp",
           "include/errbound/roots/floating_roots.hpp", "include/errbound/roots/nearby_value.hpp",
           "include/errbound/roots/polynomial_stages.hpp",

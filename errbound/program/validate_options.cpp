@@ -135,12 +135,14 @@ validate_arguments validate_options::checked() {
     support::require_one_standard_input("--queries", all.queries);
     all.functions.numbers = all.options.numbers;
     const auto has_functions = [](number_type number) {
-        return number == number_type::float_type || number == number_type::double_type;
+        return number == number_type::float_type || number == number_type::double_type ||
+               number == number_type::long_double_type;
     };
     if (!all.functions.functions.empty() &&
         std::ranges::none_of(all.functions.numbers, has_functions))
         throw support::usage_error(
-            "--functions: found --numbers without float and double, expected one of them");
+            "--functions: found --numbers without float, double and long double, expected one of "
+            "them");
     all.functions.seed = all.options.seed;
     all.kind = ccd::find_kind(kind_);
     all.expressions = line_.count("--expressions") > 0 ||

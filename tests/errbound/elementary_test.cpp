@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <mpfr.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <errbound/binary128.hpp>
 #include <errbound/elementary.hpp>
 #include <errbound/explain/elementary.hpp>
 #include <errbound/small_floats.hpp>
@@ -12,7 +15,9 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
+#include "errbound/validation/hard_angles.hpp"
 #include "tests/support/any_format.hpp"
 #include "tests/support/scaled.hpp"
 
@@ -151,6 +156,8 @@ class checker {
             case 0:
                 return near(static_cast<int>(random_() % 9) - 4.0);
             case 1:  // zeros, extremes and poles of the waves
+                if constexpr (std::floating_point<T>)
+                    if (random_() % 2) return hard_angle();
                 return near(1.5707963267948966 * (static_cast<int>(random_() % 2000) - 1000));
             case 2:  // where results overflow, underflow, or no longer change
                 return near((random_() % 2 ? 1 : -1) * overflow_of(f));
@@ -159,6 +166,15 @@ class checker {
             default:
                 return sized();
         }
+    }
+    T hard_angle() {
+        const int most = std::min(limits::max_exponent, 1024);  // as sized()
+        while (hard_angles_.empty())
+            hard_angles_ = errbound::validation::hard_angles<T>(
+                static_cast<int>(random_() % static_cast<unsigned>(most)));
+        const T angle = hard_angles_.back();
+        hard_angles_.pop_back();
+        return random_() % 2 ? angle : -angle;
     }
     /// Of long doubles not the largest and smallest: sums of them would have too many bits.
     T sized() {
@@ -174,6 +190,7 @@ class checker {
     }
 
     std::mt19937_64 random_{21};
+    std::vector<T> hard_angles_;
     number first_, second_, result_;
     mpfr_number x_{2400}, y_{2400}, exact_{260}, off_{200}, value_{64}, error_{64};
 };
@@ -340,6 +357,164 @@ TYPED_TEST(ElementaryFunctionsOfDoubles, TakeZeroForANumberWithoutASign) {
     const number angle = atan2(number(-0.0), number(-1));
     EXPECT_GE(angle.error(), std::abs(angle.value() - M_PI));
     EXPECT_LE(atan2(number(0.0), number(-1)).error(), 0x1p-48);
+}
+
+TYPED_TEST(ElementaryFunctionsOfDoubles, OfLargeAnglesNearMultiplesOfHalfPiHoldTheExactResult) {
+    // By glibc 2.36 these are off by up to 136,921 units in the last place: its reduction of large
+    // angles has an absolute error. Exact results by MPFR, rounded to nearest.
+    using number = typename TestFixture::number;
+    const auto expect = [](const number& x, double exact) {
+        const double unit = 0x1p-52 * std::abs(exact);
+        EXPECT_LE(std::abs(x.value() - exact), unit);
+        EXPECT_GE(x.error(), std::abs(x.value() - exact));
+        EXPECT_LE(x.error(), 4.5 * unit);
+        EXPECT_EQ(sign_of(x), exact < 0 ? sign_type::negative : sign_type::positive);
+    };
+    expect(cos(number(0x1.69eab0985179bp+246)), -0x1.61ecec9c577fdp-58);
+    expect(sin(number(0x1.4c96c11134d36p+578)), -0x1.6ec67bcf77522p-58);
+    expect(sin(number(0x1.b951f1572eba5p+26)), -0x1.f54f5227a4e84p-57);
+    expect(sin(number(-0x1.b951f1572eba5p+26)), 0x1.f54f5227a4e84p-57);
+    expect(tan(number(0x1.69eab0985179bp+246)), 0x1.72567cb9047a9p+57);
+    expect(tan(number(0x1.b951f1572eba5p+26)), -0x1.f54f5227a4e84p-57);
+    expect(cos(number(0x1.6ac5b262ca1ffp+849)), -0x1.14ae72e6ba22fp-61);
+    expect(sin(number(1e22)), -0x1.b453ab76bf397p-1);
+    // A slope is 1 + the square of the tangent. (Some rules only know relative errors.)
+    const number near_pole = number::within(0x1.69eab0985179bp+246, 0x1p-70);
+    const double tangent = 0x1.72567cb9047a9p+57;
+    if (near_pole.error() == 0x1p-70)
+        EXPECT_LE(tan(near_pole).error(), 1.1 * 0x1p-70 * tangent * tangent);
+    EXPECT_FALSE(std::isfinite(tan(number::within(0x1.69eab0985179bp+246, 0x1p-56)).error()));
+}
+
+/// Compares sin, cos and tan of plain numbers with MPFR's.
+template <class T>
+class hard_angle_checker {
+  public:
+    void check(int exponent) {
+        for (const T angle : errbound::validation::hard_angles<T>(exponent)) {
+            const T x = count_ % 2 == 0 ? angle : -angle;
+            set<T>(x_.get(), x);
+            check(mpfr_sin, "sin", sin(tracked<T>(x)), x);
+            check(mpfr_cos, "cos", cos(tracked<T>(x)), x);
+            check(mpfr_tan, "tan", tan(tracked<T>(x)), x);
+        }
+    }
+    int count() const { return count_; }
+
+  private:
+    void check(int (*exact)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t), const char* name,
+               const tracked<T>& r, T x) {
+        ++count_;
+        exact(exact_.get(), x_.get(), MPFR_RNDN);
+        set<T>(off_.get(), r.value());
+        mpfr_sub(off_.get(), off_.get(), exact_.get(), MPFR_RNDN);
+        set<T>(error_.get(), r.error());
+        EXPECT_LE(mpfr_cmpabs(off_.get(), error_.get()), 0) << text(name, x);
+        // Five units at most, so that the bound is of use, too.
+        mpfr_div(error_.get(), error_.get(), exact_.get(), MPFR_RNDN);
+        EXPECT_LE(std::abs(mpfr_get_d(error_.get(), MPFR_RNDN)), 5 * double(unit)) << text(name, x);
+    }
+    static std::string text(const char* name, T x) {
+        char line[100];
+        std::snprintf(line, sizeof line, "%s(%La)", name, static_cast<long double>(x));
+        return line;
+    }
+
+    static constexpr T unit = number_traits<T>::epsilon();
+    int count_ = 0;
+    mpfr_number x_{number_traits<T>::digits}, exact_{260}, off_{260}, error_{260};
+};
+
+template <class T>
+class HardAngles : public testing::Test {};
+using hard_angle_numbers = testing::Types<float, double, long double>;
+TYPED_TEST_SUITE(HardAngles, hard_angle_numbers);
+
+TYPED_TEST(HardAngles, OfEveryExponentHoldTheExactResult) {
+    using traits = number_traits<TypeParam>;
+    hard_angle_checker<TypeParam> all;
+    for (int e = 0; e < std::min(traits::max_exponent, 1024); ++e) all.check(e);
+    // Those of long double only: all of them at a scale of 64, in minutes.
+    const int step = std::max(64 / support::scaled(1), 1);
+    for (int e = 1024; e < traits::max_exponent; e += step) all.check(e);
+    EXPECT_GT(all.count(), 20 * std::min(traits::max_exponent, 1024));
+    testing::Test::RecordProperty("cases", all.count());
+}
+
+template <class T>
+class AngleReduction : public testing::Test {
+  public:
+    /// Compares an angle with its quadrant and remainder.
+    void check(T x) {
+        const auto reduced = errbound::detail::angle_reduction<T>::of(x);
+        set_exactly(difference_.get(), x);
+        mpfr_div(turns_.get(), difference_.get(), half_pi_.get(), MPFR_RNDN);
+        mpfr_rint(turns_.get(), turns_.get(), MPFR_RNDN);
+        mpfr_fms(difference_.get(), turns_.get(), half_pi_.get(), difference_.get(), MPFR_RNDN);
+        for (const T part : {reduced.high, reduced.low}) {
+            set_exactly(part_.get(), part);
+            mpfr_add(difference_.get(), difference_.get(), part_.get(), MPFR_RNDN);
+        }
+        set_exactly(part_.get(), reduced.error);
+        ASSERT_LE(mpfr_cmpabs(difference_.get(), part_.get()), 0);
+        const T small = number_traits<T>::epsilon() * T(0x1p-16);
+        ASSERT_TRUE(reduced.error <= small * number_traits<T>::abs(reduced.high));
+        mpfr_fmod_ui(turns_.get(), turns_.get(), 4, MPFR_RNDN);
+        ASSERT_EQ(mpfr_get_si(turns_.get(), MPFR_RNDN), reduced.quadrant);
+    }
+
+  private:
+    static void set_exactly(mpfr_ptr to, T x) {
+        const int exponent = x == 0 ? 0 : number_traits<T>::exponent(x);
+        T rest = number_traits<T>::scale(x, -exponent);
+        mpfr_set_zero(to, 1);
+        for (; rest != 0; rest -= static_cast<T>(static_cast<double>(rest)))
+            mpfr_add_d(to, to, static_cast<double>(rest), MPFR_RNDN);
+        mpfr_mul_2si(to, to, exponent, MPFR_RNDN);
+    }
+
+    static constexpr mpfr_prec_t precision = number_traits<T>::max_exponent + 600;
+    mpfr_number half_pi_ = [] {
+        mpfr_number x(precision);
+        mpfr_const_pi(x.get(), MPFR_RNDN);
+        mpfr_div_2ui(x.get(), x.get(), 1, MPFR_RNDN);
+        return x;
+    }();
+    mpfr_number difference_{precision}, turns_{precision}, part_{precision};
+};
+using reduced_numbers = testing::Types<float, double, long double
+#ifdef __SIZEOF_FLOAT128__
+                                       ,
+                                       errbound::float128
+#endif
+                                       >;
+TYPED_TEST_SUITE(AngleReduction, reduced_numbers);
+
+TYPED_TEST(AngleReduction, HasTheRemainderOfHardAngles) {
+    constexpr int most = number_traits<TypeParam>::max_exponent;
+    for (int e = 20; e<most; e += most> 1024 ? 256 : 4)
+        for (const TypeParam x : errbound::validation::hard_angles<TypeParam>(e))
+            if (x >= TypeParam(0x1p20)) this->check(x);
+    this->check(number_traits<TypeParam>::largest());
+}
+
+TEST(DigitsOfPi, AreThoseOfMpfr) {
+    constexpr int digits = 64 * static_cast<int>(errbound::detail::two_over_pi.size());
+    mpfr_number pi(digits + 64), x(digits + 64);
+    mpfr_const_pi(pi.get(), MPFR_RNDN);
+    const auto expect_digits = [&x](const auto& words) {
+        for (const std::uint64_t word : words) {
+            for (const std::uint64_t half : {word >> 32, word & 0xffffffff}) {
+                mpfr_mul_2ui(x.get(), x.get(), 32, MPFR_RNDN);
+                EXPECT_EQ(mpfr_get_ui(x.get(), MPFR_RNDZ), half);
+                mpfr_frac(x.get(), x.get(), MPFR_RNDN);
+            }
+        }
+    };
+    mpfr_ui_div(x.get(), 2, pi.get(), MPFR_RNDN);
+    expect_digits(errbound::detail::two_over_pi);
+    mpfr_div_2ui(x.get(), pi.get(), 3, MPFR_RNDN);
+    expect_digits(errbound::detail::half_pi);
 }
 
 TEST(ElementaryFunctionsOfNone, AreThoseOfPlainArithmetic) {

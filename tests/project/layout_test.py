@@ -22,9 +22,10 @@ SOURCES = CPP | {".py"}
 LAYERS = [
     ("floating-point facts", r"include/errbound/((environment|number_traits|small_floats|binary128|sign|error_free)\.hpp|detail/)"),
     ("bound rules", r"include/errbound/rules/"),
-    ("tracked scalar", r"include/errbound/((tracked|functions)\.hpp|functions/)"),
+    ("tracked scalar", r"include/errbound/(tracked|functions)\.hpp"),
     ("linear algebra", r"include/errbound/(linear/|(eigen|certified_solve)\.hpp)"),
     ("exact numbers", r"include/errbound/(integers/|multiprecision\.hpp)"),
+    ("elementary functions", r"include/errbound/functions/"),
     ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),
     ("predicates", r"include/errbound/(predicate\w*\.hpp|filters/)"),
     ("all of errbound", r"include/errbound/(?!validation/)"),

@@ -55,11 +55,22 @@ constexpr double documented_error(elementary_function f, bool is_wide) {
     return (is_wide ? wide : narrow)[static_cast<int>(f)];
 }
 
+constexpr bool is_function_of_angle(elementary_function f) {
+    using enum elementary_function;
+    return f == sin || f == cos || f == tan;
+}
+
+/// From this size on, angles are reduced by angle_reduction.hpp: the system's functions of them are
+/// not evaluated.
+inline constexpr double least_reduced_angle = 0x1p20;
+
 }  // namespace detail
 
 /// The assumption: wherever the system's function F has a finite result v for arguments of type T
 /// in its domain, |v − f| is at most so many units in the last place of the exact result f, which
-/// are of η where f is subnormal; in rounding to nearest. From 0.5 to 1024.
+/// are of η where f is subnormal; in rounding to nearest. From 0.5 to 1024. For sin, cos and tan
+/// this is assumed below 2^20 only, because glibc's reduction of larger doubles has an absolute
+/// error: near multiples of π/2, cos(0x1.69eab0985179bp+246) is off by 136,921 units.
 ///
 /// The defaults are at least the errors that the GNU C library documents (its manual, "Known
 /// Maximum Errors in Math Functions", x86-64; for long double the larger one of those of 80 and 128

@@ -9,9 +9,11 @@
 #include <cmath>
 #include <errbound/error_free.hpp>
 #include <errbound/functions.hpp>
+#include <errbound/functions/angle_reduction.hpp>
 #include <errbound/functions/function_error.hpp>
 #include <errbound/small_floats.hpp>
 #include <type_traits>
+#include <utility>
 
 namespace errbound {
 
@@ -264,24 +266,105 @@ T change_of_tangent(const bounded<T>& tangent, const T& e) {
     return enlarged<T>(numerator / (1 - product)) + traits::underflow_unit();
 }
 
+/// f(h + l + d) for |d| <= r.error, h = r.high and l = r.low, from f(h) and f'(h), where |f'| <= 3
+/// and |f''| <= 6: f(h) + l·f'(h) is off by at most 3l² + 3|d|. The error is enlarged.
+template <class T>
+bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_high,
+                             const bounded<T>& slope) {
+    using traits = number_traits<T>;
+    const T product = rounded_product(r.low, slope.value), low = traits::abs(r.low);
+    const with_error<T> sum = two_sum(at_high.value, product);
+    const T small = rounded_product(low, T(slope.error + 3 * low)) + half_ulp(product);
+    const T error = small + (3 * r.error + traits::underflow_unit());
+    return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
+}
+
+/// −1/y, its error enlarged; infinite where y may be 0: |1/(ŷ + d) − 1/ŷ| <= e/(|ŷ|(|ŷ| − e)) for
+/// |d| <= e.
+template <class T>
+bounded<T> negative_reciprocal(const bounded<T>& y) {
+    using traits = number_traits<T>;
+    const T v = -1 / y.value, size = traits::abs(y.value);
+    const T divisor = rounded_product(size, T(size - y.error));
+    if (!(divisor >= traits::smallest_normal())) return {v, traits::infinity()};
+    return {v, enlarged<T>(y.error / divisor + (half_ulp(v) + traits::underflow_unit()))};
+}
+
+/// The tangent of a reduced angle, its error enlarged.
+template <class T>
+bounded<T> tangent_of(const reduced_angle<T>& r) {
+    const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
+    const T t = at_high.value;
+    // |t| < 1.01, so that two roundings are off by less than 2ε.
+    const bounded<T> slope{T(1 + t * t), T(3 * (at_high.error + number_traits<T>::epsilon()))};
+    const bounded<T> result = moved_by_low_part(r, at_high, slope);
+    return r.quadrant % 2 == 0 ? result : negative_reciprocal(result);
+}
+
+template <class T>
+bounded<T> negated(const bounded<T>& x) {
+    return {T(-x.value), x.error};
+}
+
+/// The sine of r + quadrants·π/2 and its derivative, errors enlarged.
+template <class T>
+void sine_of(const reduced_angle<T>& r, int quadrants, bounded<T>& sine, bounded<T>& derivative) {
+    using enum elementary_function;
+    const bounded<T> at_high = evaluated<sin>(r.high), slope = evaluated<cos>(r.high);
+    sine = moved_by_low_part(r, at_high, slope);
+    derivative = moved_by_low_part(r, slope, negated(at_high));
+    if (quadrants % 2 != 0) sine = std::exchange(derivative, negated(sine));
+    if (quadrants % 4 >= 2) sine = negated(sine), derivative = negated(derivative);
+}
+
+/// At least |v − f(x)| for x within e > 0 of x̂ and f = sin, cos or tan, from f(x̂), computed as v,
+/// and from its derivative there.
+template <elementary_function F, class T>
+T error_of_angle_function(const bounded<T>& at, const bounded<T>& derivative, const T& e) {
+    if constexpr (F == elementary_function::tan) {
+        return enlarged<T>(at.error + change_of_tangent<T>(at, e));
+    } else {
+        const T error = at.error + change_of_wave<T>(derivative, e);
+        // No more than the distance of v from the other end of the range.
+        const T range = 1 + number_traits<T>::abs(at.value);
+        return enlarged<T>(error < range ? error : range);
+    }
+}
+
+/// F of what is within e of x̂, for |x̂| >= least_reduced_angle: from the system's functions of
+/// angles up to π/4.
+template <elementary_function F, class T>
+[[gnu::noinline]] bounded<T> function_of_large_angles(T x, T e) {
+    using enum elementary_function;
+    const reduced_angle<T> r = angle_reduction<T>::of(number_traits<T>::abs(x));
+    bounded<T> at{}, derivative{};
+    if constexpr (F == tan)
+        at = tangent_of(r);
+    else
+        sine_of(r, r.quadrant + (F == cos ? 1 : 0), at, derivative);
+    if (F != cos && x < 0) at = negated(at);
+    if (e == 0) return at;
+    if (!number_traits<T>::is_finite(e)) return {at.value, number_traits<T>::infinity()};
+    return {at.value, error_of_angle_function<F>(at, derivative, e)};
+}
+
 /// F of what is within e of x̂.
 template <elementary_function F, class T>
 bounded<T> function_of_range(const T& x, const T& e) {
     using enum elementary_function;
     using traits = number_traits<T>;
+    if constexpr (is_function_of_angle(F))
+        if (traits::abs(x) >= T(least_reduced_angle) && traits::is_finite(x)) [[unlikely]]
+            return function_of_large_angles<F>(T(x), T(e));
     const T v = system_function<F>(x);
     if (!traits::is_finite(x) || !traits::is_finite(e) || !is_in_domain<F>(x, e))
         return {v, traits::infinity()};
     const T own = error_of_function<F>(v);
     if (e == 0) return {v, is_exact_result<F>(x, v) ? T(0) : enlarged<T>(own)};
-    if constexpr (F == sin || F == cos) {
-        constexpr elementary_function derivative = F == sin ? cos : sin;
-        const T error = own + change_of_wave<T>(evaluated<derivative>(x), e);
-        // No more than the distance of v from the other end of the range.
-        const T range = 1 + traits::abs(v);
-        return {v, enlarged<T>(error < range ? error : range)};
-    } else if constexpr (F == tan) {
-        return {v, enlarged<T>(own + change_of_tangent<T>({v, own}, e))};
+    if constexpr (is_function_of_angle(F)) {
+        bounded<T> derivative{};
+        if constexpr (F != tan) derivative = evaluated<(F == sin ? cos : sin)>(x);
+        return {v, error_of_angle_function<F>({v, own}, derivative, e)};
     } else {
         return {v, enlarged<T>(error_by_slope<F>(x, e, v))};
     }

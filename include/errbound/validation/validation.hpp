@@ -124,10 +124,11 @@ struct function_options {
     std::vector<number_type> numbers{number_type::double_type, number_type::float_type};
 };
 
-/// The system's functions against MPFR: whether function_error holds. Arguments are random bits,
-/// and those that are hard: near multiples of π/2, zeros, ends of domains and where results
-/// overflow, underflow or pass a power of two. Of float and double; other types have float's
-/// functions, and are left out. Cost: about a microsecond an argument.
+/// Compares the system's functions with MPFR's: whether function_error holds. Arguments are random
+/// bits, and hard ones: near multiples of π/2 of every size, near zeros and ends of domains, and
+/// where results overflow, underflow or pass a power of two. sin, cos and tan of 2^20 and more are
+/// the library's own, and are compared with their bounds. For float, double and long double; other
+/// types are skipped. Cost: about a microsecond an argument.
 evidence evidence_of_functions(const function_options& options);
 
 /// The forms of stored queries and BSC itself on them, operation by operation, in double. The
