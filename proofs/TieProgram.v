@@ -1,10 +1,10 @@
-(** The definitions of Code.v, CompoundCode.v, RelativeCode.v and AffineCode.v over IEEE floats, and those of integers
-    of words, as a program: tie.ml evaluates them on tiny formats, on float and on double, and on integers of up to four
-    words, and tests/errbound/validation/tie_test.cpp holds the C++ code to what comes out. *)
+(** The definitions of Code.v, CompoundCode.v, SlopeCode.v, RelativeCode.v and AffineCode.v over IEEE floats, and
+    those of integers of words, as a program: tie.ml evaluates them on tiny formats, on float and on double, and on
+    integers of up to four words, and tests/errbound/validation/tie_test.cpp compares the C++ code with the results. *)
 
 From Coq Require Import ZArith Extraction ExtrOcamlBasic.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
-From Errbound Require Import Code CompoundCode RelativeCode AffineCode Ieee.
+From Errbound Require Import Code CompoundCode RelativeCode AffineCode SlopeCode Ieee.
 From Errbound Require Words WordBits SparseProduct.
 
 Section Bits.
@@ -60,6 +60,7 @@ Extraction "code.ml" code_of_float float_of_code floats
   tight_rule sharp_rule safe_rule interval_rule residual_rule
   tracked_exactly tracked_error tracked_negate tracked_sqrt tracked_abs tracked_min tracked_max tracked_fma
   tight_operations sharp_operations safe_operations interval_operations residual_operations
+  interval_sqrt interval_fma slope_sqrt slope_fma
   tracked_midpoint tracked_lerp tracked_hypot tracked_copysign tracked_pow tracked_dot tracked_horner
   tight_most tight_dot sharp_most sharp_dot exponent
   constant relative_operations relative_dot

@@ -310,8 +310,8 @@ let operations f =
         (fun v x s y t -> put_bound (operations.rule_multiply v x s y t))
         (Option.map (fun divide v x s y t -> put_bound (divide v x s y t)) operations.rule_divide)
         (fun v x s e -> put_bound (operations.rule_scale v x s e)) in
-  (* functions of tracked numbers, by a rule; `dot` is its own, if it has one *)
-  let functions operations ?dot name states put_bound =
+  (* functions of tracked numbers, by a rule; `dot`, `sqrt` and `fma` are its own, if it has them *)
+  let functions operations ?dot ?sqrt ?fma name states put_bound =
     let rule = operations.the_rule in
     let put_number (v, b) = put v; put_bound b in
     let named operation = name ^ "." ^ operation in
@@ -326,13 +326,14 @@ let operations f =
     let exactly = tracked_exactly rule in
     let some = spread states and exact = Array.map exactly f.values in
     let of_value zero = Array.of_list (List.filter (fun x -> a.equal (fst x) zero) (Array.to_list some)) in
-    let fma = tracked_fma a rule and lerp = tracked_lerp a operations in
+    let sqrt = Option.value sqrt ~default:(tracked_sqrt a fused rule) in
+    let fma = Option.value fma ~default:(tracked_fma a rule) and lerp = tracked_lerp a operations in
     let number = number_draws f rule some in
     let dot = Option.value dot ~default:(tracked_dot a operations) in
-    [ one "sqrt" states (tracked_sqrt a fused rule);
+    [ one "sqrt" states sqrt;
       of_one (named "sqrt_exact") f.values (fun v ->
-          put_number (tracked_sqrt a fused rule (exactly v));
-          put_number (tracked_sqrt a fused rule (exactly (a.times v v))));
+          put_number (sqrt (exactly v));
+          put_number (sqrt (exactly (a.times v v))));
       one "abs" states (tracked_abs a rule);
       two "min" states states (tracked_min a rule);
       two "max" states states (tracked_max a rule);
@@ -417,14 +418,17 @@ let operations f =
     @ of_exact "relative" relative (fun _ -> 0.) put_double
     @ of_rule affine "affine" affine_states (put_affine put)
     @ of_exact "affine" affine affine.the_rule.rule_exact (put_affine put) in
+  let by_slope operations crowded =
+    functions operations ~sqrt:(slope_sqrt a fused operations crowded) ~fma:(slope_fma a fused operations) in
+  let at_limit b = List.length b.parts = 3 in
   let of_functions =
     functions (tight_operations a) ?dot:(own_dot tight_most tight_dot) "tight" error_states put
     @ functions (sharp_operations a) ?dot:(own_dot sharp_most sharp_dot) "sharp" error_states put
     @ functions (safe_operations a) "safe" safe_states put_safe
-    @ functions (interval_operations a fused) "interval" interval_states put2
-    @ functions (residual_operations a fused) "residual" residual_states put2
+    @ functions (interval_operations a fused) ~sqrt:(interval_sqrt a fused) ~fma:(interval_fma a) "interval" interval_states put2
+    @ by_slope (residual_operations a fused) (fun _ -> false) ?dot:None "residual" residual_states put2
     @ functions relative ~dot:(relative_dot a doubles f.to_double f.of_double fused) "relative" relative_states put_double
-    @ functions affine "affine" affine_states (put_affine put) in
+    @ by_slope affine at_limit ?dot:None "affine" affine_states (put_affine put) in
   (of_rules, of_functions)
 
 let write ?(only = fun _ -> true) f =
@@ -447,7 +451,8 @@ let write_fused f =
           [ ".multiply"; ".divide"; ".pow"; ".dot"; ".horner" ])
       [ "interval"; "residual"; "relative"; "affine" ] ||
     List.exists (fun rule -> List.mem name [ rule ^ ".sqrt"; rule ^ ".sqrt_exact" ])
-      [ "tight"; "sharp"; "safe"; "interval"; "residual"; "relative"; "affine" ] in
+      [ "tight"; "sharp"; "safe"; "interval"; "residual"; "relative"; "affine" ] ||
+    List.mem name [ "residual.fma"; "residual.fma_exact"; "affine.fma"; "affine.fma_exact" ] in
   write ~only:asks fused
 
 (* Integers of n words: words of zeros, of ones, with one bit, and random ones. Words are put as two of

@@ -69,4 +69,26 @@ struct ScalarBinaryOpTraits<T, errbound::tracked<T, Rule>, BinaryOp> {
     using ReturnType = errbound::tracked<T, Rule>;
 };
 
+namespace internal {
+
+/// True if one factor holds tracked numbers and the other one plain numbers.
+template <class Left, class Right>
+concept mixed_tracked_product = errbound::is_tracked<typename Left::Scalar>
+!= errbound::is_tracked<typename Right::Scalar>;
+
+/// Products of dynamic size are computed entry by entry, as those of fixed size: Eigen's blocked
+/// kernels convert one scalar to the other.
+template <class Left, class Right>
+requires mixed_tracked_product<Left, Right>
+struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemmProduct>
+    : generic_product_impl<Left, Right, DenseShape, DenseShape, CoeffBasedProductMode> {
+};
+template <class Left, class Right>
+requires mixed_tracked_product<Left, Right>
+struct generic_product_impl<Left, Right, DenseShape, DenseShape, GemvProduct>
+    : generic_product_impl<Left, Right, DenseShape, DenseShape, CoeffBasedProductMode> {
+};
+
+}  // namespace internal
+
 }  // namespace Eigen

@@ -155,4 +155,15 @@ constexpr division_remainder<T> remainder_of_division(const T& a, const T& b, co
     return {(a - product.value) - product.error, exact};
 }
 
+/// The remainder x − v² of a rounded root v = √x, x >= 0 finite.
+///
+/// Derivation, where two_product(v, v) = (p, e) is exact and v is not 0: x − p is exact (Sterbenz),
+/// and x − v² is a multiple of ulp(v)², at most v·ulp(v) in size: since |√x − v| <= ulp(v)/2, it is
+/// at most v·ulp(v) + ulp(v)²/4. Cost: as of a quotient. Source: Bohlender, Walter, Kornerup,
+/// Matula 1991. Proof: proofs/IeeeSlopes.v, remainder_of_root_known.
+template <class T>
+constexpr division_remainder<T> remainder_of_root(const T& x, const T& v) {
+    return remainder_of_division(x, v, v);
+}
+
 }  // namespace errbound

@@ -74,15 +74,15 @@ constexpr tracked<T, Rule> lesser_or_either(const tracked<T, Rule>& a, const tra
 
 }  // namespace detail
 
-/// √x; unknown where x may be negative. Exact where x is and its root is a T.
-///
-/// With e = x.error() and x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ + √(x̂ − e)), and
-/// the computed root of x̂ is off by a rounding of its own. The divisor is rounded up to three times
-/// on its way ((x̂ − e), its root, the sum; v itself is one), the quotient and the sum once each.
-/// Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v, sqrt_sound.
+namespace detail {
+
+/// √x by x.error(). With e = x.error() and x̂ = x.value(): |√x − √x̂| = |x − x̂|/(√x + √x̂) <= e/(√x̂ +
+/// √(x̂ − e)), and the computed root of x̂ is off by a rounding of its own. The divisor is rounded up
+/// to three times on its way ((x̂ − e), its root, the sum; v itself is one), the quotient and the
+/// sum once each. Proof: proofs/IeeeFunctions.v, sqrt_known; in any direction, proofs/Functions.v,
+/// sqrt_sound.
 template <class T, class Rule>
-constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
-    static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
+constexpr tracked<T, Rule> root_by_error(const tracked<T, Rule>& x) {
     using traits = number_traits<T>;
     using number = tracked<T, Rule>;
     const T v = traits::sqrt(x.value()), e = x.error();
@@ -92,11 +92,66 @@ constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
         const with_error<T> square = two_product(v, v);
         if (product_error_is_exact(v, v, square) && square.error == 0 && square.value == x.value())
             return v;
-        return number::within(v, detail::enlarged<T>(detail::rounding_of(v)));
+        return number::within(v, enlarged<T>(rounding_of(v)));
     }
     const T divisor = v + traits::sqrt(T(x.value() - e));
-    return number::within(
-        v, detail::enlarged<T>(e / divisor + T(detail::rounding_of(v) + traits::underflow_unit())));
+    return number::within(v,
+                          enlarged<T>(e / divisor + T(rounding_of(v) + traits::underflow_unit())));
+}
+
+/// `by_slope` if it has the value of `by_error` and an error at most an eighth above its error,
+/// else `by_error`. Both stand for the same number.
+template <class T, class Rule>
+constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
+                                  const tracked<T, Rule>& by_slope) {
+    const T most = by_error.error();
+    if (by_slope.value() == by_error.value() && by_slope.error() <= T(most + most / T(8)))
+        return by_slope;
+    return by_error;
+}
+
+/// √x = v + (x − v²)/(√x + v) by the rule's operations, v the value of `root`, a number that stands
+/// for √x. x − v² is the remainder x̂ − v², which is a T, and x − x̂: its value is that of the error
+/// of v, so that the sum is v again. `root` itself where the remainder is not known.
+/// Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_sqrt_by_slope_gives.
+template <class T, class Rule>
+constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracked<T, Rule>& root) {
+    using number = tracked<T, Rule>;
+    const division_remainder<T> remainder = remainder_of_root(x.value(), root.value());
+    if (!remainder.exact || root.value() == 0 || !number_traits<T>::is_finite(root.error()))
+        return root;
+    const number at(x.value()), v(root.value());
+    const number inherited = x - at;
+    const number change = inherited + number(remainder.value);
+    const number divisor = root + v;
+    const number quotient = change / divisor;
+    return v + quotient;
+}
+
+}  // namespace detail
+
+/// √x; unknown where x may be negative. Exact where x is and its root is a T.
+///
+/// By the rule's own square_root where it has one (`interval`); where the rule keeps errors to
+/// first order (`residual`, `affine`), they go through the slope 1/(2v), and the rounding error of
+/// v is known; else from x.error().
+template <class T, class Rule>
+constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
+    static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
+    if constexpr (detail::rule_has_square_root<Rule, T>) {
+        const T v = number_traits<T>::sqrt(x.value());
+        return tracked<T, Rule>::from_bound(
+            v, Rule::template square_root<T>(v, {x.value(), x.bound()}));
+    } else if constexpr (detail::keeps_first_order<Rule>) {
+        using number = tracked<T, Rule>;
+        const number root = detail::root_by_error(x);
+        const number best = detail::closer(root, detail::root_by_slope(x, root));
+        if constexpr (requires { Rule::is_crowded(best.bound()); })
+            if (Rule::is_crowded(best.bound())) return number::within(best.value(), best.error());
+        return best;
+    } else {
+        return detail::root_by_error(x);
+    }
 }
 
 /// |x|, by the sign of its value: off by no more than x, for ||x| − |x̂|| <= |x − x̂|.
@@ -108,6 +163,23 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
         sign == (below ? sign_type::negative : sign_type::positive) || sign == sign_type::zero)
         return below ? -x : x;
     return tracked<T, Rule>::within(number_traits<T>::abs(x.value()), x.error());
+}
+
+/// |x|, by C's name for it.
+template <class T, class Rule>
+constexpr tracked<T, Rule> fabs(const tracked<T, Rule>& x) {
+    return abs(x);
+}
+
+/// True if value and error are finite: the number is known, and finite.
+template <class T, class Rule>
+constexpr bool isfinite(const tracked<T, Rule>& x) {
+    return number_traits<T>::is_finite(x.value()) && number_traits<T>::is_finite(x.error());
+}
+/// True if the value is NaN: nothing is known of the number.
+template <class T, class Rule>
+constexpr bool isnan(const tracked<T, Rule>& x) {
+    return x.value() != x.value();
 }
 
 /// The lesser of a and b, by their values, as plain arithmetic has it. Where it is not certain that
@@ -124,30 +196,82 @@ constexpr tracked<T, Rule>(max)(const tracked<T, Rule>& a, const tracked<T, Rule
                                  : -detail::lesser_or_either(-a, -b);
 }
 
+namespace detail {
+
+/// ab + c by errors σ, where v is its rounded value: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb +
+/// σa(|b̂| + σb) + σc. Each product may lose η where it underflows, and |b̂| + σb, rounded before,
+/// some more of it, which the third η pays where σa(|b̂| + σb) is so small that the factor 1 + 8ε is
+/// lost; the longest way to the bound has six roundings.
+/// Proof: proofs/IeeeFunctions.v, fma_known; in any direction, proofs/Functions.v, fma_sound.
+template <class T, class Rule>
+constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
+                                          const tracked<T, Rule>& b, const tracked<T, Rule>& c) {
+    using traits = number_traits<T>;
+    const T of_a = a.error(), of_b = b.error(), of_c = c.error();
+    const T products = rounded_product(traits::abs(a.value()), of_b) +
+                       rounded_product(of_a, T(traits::abs(b.value()) + of_b));
+    return tracked<T, Rule>::within(
+        v, enlarged<T>(rounding_of(v) + (products + T(of_c + 3 * traits::underflow_unit()))));
+}
+
+/// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations, v the
+/// value of `sum`, a number that stands for ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, the
+/// error of v is (s − v) + f + e. `sum` itself where e or f is not known. Proof:
+/// proofs/IeeeSlopes.v, fma_by_slope_known; of `affine`, affine_fma_by_slope_gives.
+template <class T, class Rule>
+constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
+                                          const tracked<T, Rule>& c, const tracked<T, Rule>& sum) {
+    using number = tracked<T, Rule>;
+    const number at_a(a.value()), at_b(b.value()), at_c(c.value()), v(sum.value());
+    const with_error<T> product = two_product(a.value(), b.value());
+    const with_error<T> total = two_sum(product.value, c.value());
+    if (!product_error_is_exact(a.value(), b.value(), product) ||
+        !number_traits<T>::is_finite(total.error))
+        return sum;
+    // One operation after the other: rules count sources.
+    const number difference = number(total.value) - v;
+    const number partial = difference + number(total.error);
+    const number rounding = partial + number(product.error);
+    const number change_of_b = b - at_b;
+    const number of_b = a * change_of_b;
+    const number change_of_a = a - at_a;
+    const number of_a = change_of_a * at_b;
+    const number change_of_c = c - at_c;
+    const number products = of_a + of_b;
+    const number inherited = products + change_of_c;
+    const number change = inherited + rounding;
+    return v + change;
+}
+
+}  // namespace detail
+
 /// ab + c, rounded once: by number_traits<T>::fma, which is slow where the processor has none. Does
 /// not compile where the C library's rounds twice.
 ///
-/// With errors σ: |v − (ab + c)| <= |v|ε/(1 − ε) + η + |â|σb + σa(|b̂| + σb) + σc. Each product may
-/// lose η where it underflows, and |b̂| + σb, rounded before, some more of it, which the third η
-/// pays where σa(|b̂| + σb) is so small that the factor 1 + 8ε is lost; the longest way to the bound
-/// has six roundings. Proof: proofs/IeeeFunctions.v, fma_known; in any direction,
-/// proofs/Functions.v, fma_sound.
+/// By the rule's own `fused` where it has one (`interval`); where the rule keeps errors to first
+/// order (`residual`, `affine`), they go through the derivatives, and the rounding error of the
+/// value is known; else from the errors of a, b and c.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {
     static_assert(has_subnormals<T>, "errbound: fma needs a number type with subnormal numbers");
     static_assert(!std::is_floating_point_v<T> || detail::fma_rounds_once,
                   "errbound: this C library's fma rounds twice; compile with -mfma");
-    using traits = number_traits<T>;
-    const T v = traits::fma(a.value(), b.value(), c.value());
-    const T of_a = a.error(), of_b = b.error(), of_c = c.error();
-    const bool product_is_zero = (a.value() == 0 && of_a == 0) || (b.value() == 0 && of_b == 0);
-    if (product_is_zero && traits::is_finite(v)) return c;  // whose value v is
-    const T products = detail::rounded_product(traits::abs(a.value()), of_b) +
-                       detail::rounded_product(of_a, T(traits::abs(b.value()) + of_b));
-    return tracked<T, Rule>::within(
-        v, detail::enlarged<T>(detail::rounding_of(v) +
-                               (products + T(of_c + 3 * traits::underflow_unit()))));
+    using number = tracked<T, Rule>;
+    const T v = number_traits<T>::fma(a.value(), b.value(), c.value());
+    const auto is_zero = [](const number& x) { return x.value() == 0 && x.error() == 0; };
+    // c's value is v then.
+    if ((is_zero(a) || is_zero(b)) && number_traits<T>::is_finite(v)) return c;
+    if constexpr (detail::rule_has_fused<Rule, T>) {
+        return number::from_bound(
+            v, Rule::template fused<T>(v, {a.value(), a.bound()}, {b.value(), b.bound()},
+                                       {c.value(), c.bound()}));
+    } else if constexpr (detail::keeps_first_order<Rule>) {
+        const number sum = detail::fused_by_error(v, a, b, c);
+        return detail::closer(sum, detail::fused_by_slope(a, b, c, sum));
+    } else {
+        return detail::fused_by_error(v, a, b, c);
+    }
 }
 
 /// (a + b)/2, as the rule has sum and scaling; where the sum overflows, the sum of halves.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <errbound/complex.hpp>
 #include <errbound/explain/explain.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/rules/affine.hpp>
@@ -48,8 +50,109 @@ TYPED_TEST(Functions, RootsAreOffByAboutARounding) {
     }
     // Half of what x is off by, relatively.
     const number wide = sqrt(number::within(100, 1));
-    EXPECT_GE(wide.error(), 10 - std::sqrt(99.0));
+    EXPECT_GE(wide.error(), (10 - std::sqrt(99.0)) * (1 - 0x1p-40));
     EXPECT_LE(wide.error(), 0.0505 * number::within(100, 1).error());
+}
+
+/// √2 − v for v = fl(√2), to double precision: (2 − v²)/(√2 + v), whose numerator fma rounds once.
+double error_of_root_of_two() {
+    const double v = std::sqrt(2.0);
+    return std::fma(-v, v, 2.0) / (2 * v);
+}
+
+// fl(√2) is above √2 by 9.67e-17; half a unit in its last place is 1.11e-16.
+TEST(FirstOrder, ResidualKnowsTheErrorOfARoot) {
+    using number = tracked<double, errbound::residual>;
+    const double off = error_of_root_of_two();
+    const number root = sqrt(number(2));
+    EXPECT_LT(off, -9.6e-17);
+    EXPECT_NEAR(root.error(), -off, -1e-15 * off);
+    EXPECT_EQ(sign_of(root - number(std::sqrt(2.0))), sign_type::negative);
+    // Errors of arguments pass on with their signs: √((1 + 2^-52)(1 − 2^-52)) = 1 − 2^-105 + ...,
+    // and the product rounds to 1.
+    const number below = sqrt(number(1 + 0x1p-52) * number(1 - 0x1p-52));
+    EXPECT_EQ(below.value(), 1);
+    EXPECT_NEAR(below.error(), 0x1p-105, 0x1p-150);
+    EXPECT_EQ(sign_of(below - number(1)), sign_type::negative);
+    EXPECT_FALSE(std::isfinite(sqrt(number(1) - number(2)).error()));
+}
+
+// Both factors are known to within 2.5e-4 and have the same error.
+TEST(FirstOrder, AffineKeepsTheSourcesOfARootsArgument) {
+    using number = tracked<double, errbound::affine>;
+    const number x = number::within(2, 1e-3), root = sqrt(x);
+    EXPECT_LE(root.error(), 3.54e-4);
+    EXPECT_LE((root * root - x).error(), 4e-7);
+    EXPECT_LE((sqrt(x) - root).error(), 2e-7);
+    EXPECT_LE((fma(x, number(3), number(1)) - number(3) * x).error(), 4e-15);
+}
+
+TEST(FirstOrder, IntervalsHaveTheRootsOfTheirEnds) {
+    using number = tracked<double, errbound::interval>;
+    const auto ends = sqrt(number::within(2.5, 1.5)).bound();
+    EXPECT_GE(ends.lower, 1 - 0x1p-51);
+    EXPECT_LE(ends.lower, 1);
+    EXPECT_GE(ends.upper, 2);
+    EXPECT_LE(ends.upper, 2 + 0x1p-50);
+    const auto point = sqrt(number(2)).bound();
+    EXPECT_EQ(point.upper, std::sqrt(2.0));
+    EXPECT_GE(point.lower, std::nextafter(std::sqrt(2.0), 1.0));
+    // 3·[1, 2] − 3 lies in [0, 3].
+    const auto fused = fma(number(3), number::within(1.5, 0.5), number(-3)).bound();
+    EXPECT_GE(fused.lower, -0x1p-49);
+    EXPECT_GE(fused.upper, 3);
+    EXPECT_LE(fused.upper, 3 + 0x1p-49);
+}
+
+TEST(FirstOrder, ResidualKnowsTheErrorOfAFusedSum) {
+    using number = tracked<double, errbound::residual>;
+    // (1 + 2^-30)³ = 1 + 3·2^-30 + 3·2^-60 + 2^-90, which rounds to 1 + 3·2^-30.
+    const number one_and_more(1 + 0x1p-30);
+    const number square = fma(one_and_more, one_and_more, number(0));
+    const number cube = fma(square, one_and_more, number(0));
+    EXPECT_NEAR(cube.error(), 3 * 0x1p-60 + 0x1p-90, 0x1p-105);
+    EXPECT_EQ(fma(number(3), number(5), number(7)).error(), 0);
+    EXPECT_EQ(sign_of(fma(one_and_more, one_and_more, number(-(1 + 0x1p-29)))),
+              sign_type::positive);
+}
+
+// As generic code calls them, of built-in numbers too.
+template <class Number>
+bool is_usual(const Number& x) {
+    using std::fabs, std::isfinite, std::isnan;
+    return isfinite(x) && !isnan(fabs(x));
+}
+TYPED_TEST(Functions, GenericCodeCallsFabsIsfiniteAndIsnan) {
+    using number = typename TestFixture::number;
+    using std::isnan;
+    EXPECT_TRUE(is_usual(-2.5));
+    EXPECT_TRUE(is_usual(number(-2.5)));
+    EXPECT_EQ(fabs(number(-2.5)).value(), 2.5);
+    const double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(is_usual(number::within(1, infinity)));
+    EXPECT_FALSE(is_usual(number(infinity)));
+    EXPECT_FALSE(isnan(number(infinity)));
+    EXPECT_TRUE(isnan(number(std::numeric_limits<double>::quiet_NaN())));
+    EXPECT_FALSE(is_usual(sqrt(number(-1))));
+}
+
+// (3 + 4i)² = −7 + 24i has size 25; the angle of 1 + i is π/4.
+TEST(Complex, SizeAngleAndPolarForm) {
+    using number = tracked<double, errbound::sharp>;
+    using std::abs, std::arg;
+    const std::complex<number> z(number(3), number(4)), square = z * z;
+    EXPECT_EQ(square.real().value(), -7);
+    EXPECT_EQ(square.imag().value(), 24);
+    EXPECT_NEAR(abs(square).value(), 25, abs(square).error());
+    EXPECT_LE(abs(square).error(), 1e-13);
+    EXPECT_EQ((z / z).real().value(), 1);
+    EXPECT_EQ(abs(std::complex<double>(3, 4)), 5);
+    const number quarter = arg(std::complex<number>(number(1), number(1)));
+    EXPECT_NEAR(quarter.value(), 0.78539816339744831, quarter.error() + 1e-16);
+    const std::complex<number> back = polar(number(2), quarter);
+    EXPECT_NEAR(back.real().value(), std::sqrt(2.0), back.real().error() + 1e-15);
+    EXPECT_LE(back.imag().error(), 1e-14);
+    EXPECT_FALSE(isfinite(arg(std::complex<number>(number(0), number(0)))));
 }
 
 TYPED_TEST(Functions, RootsOfWhatMayBeNegativeAreUnknown) {

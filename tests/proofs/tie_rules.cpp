@@ -35,7 +35,7 @@ bool is_told(const std::string& format, const std::vector<std::string>& differen
 }
 template <class T, class Rule>
 bool rule_differs(const tie::table& expected) {
-    if (!is_due(Rule::name)) return false;
+    if (!is_due(tie::table_name<Rule>())) return false;
     const std::string name = tie::format<T>().name;
     return is_told(name, tie::differences<T, Rule>(expected)) ||
            is_told(name, tie::differences_of_functions<T, Rule>(expected));

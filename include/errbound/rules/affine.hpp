@@ -28,10 +28,10 @@
 // Source: Comba, Stolfi 1993; de Figueiredo, Stolfi 2004 (Numerical Algorithms 37), with new terms
 // as small as error-free transformations make them.
 //
-// Functions that are not + − × ÷ (functions.hpp) start from the error of their arguments: their
-// results are new sources. Sources are told apart on all threads of one program; a number that
-// another process made must be made anew, by `within`. Not part of tracked.hpp: what counts sources
-// is global.
+// sqrt and fma keep sources; other functions (functions.hpp, elementary.hpp) start from the error
+// of their arguments, so that their results are new sources. Sources are told apart on all threads
+// of one program; a number that another process made must be made anew, by `within`. Not part of
+// tracked.hpp: what counts sources is global.
 #pragma once
 
 #include <array>
@@ -43,12 +43,35 @@
 
 namespace errbound {
 
+namespace detail {
+
+/// The limit of `affine`.
+inline constexpr std::size_t usual_affine_limit = 16;
+
+/// The name of affine_of<Limit>, with a zero at its end.
+template <std::size_t Limit>
+inline constexpr std::array<char, 32> affine_name = [] {
+    std::array<char, 32> name{'a', 'f', 'f', 'i', 'n', 'e'};
+    if (Limit == usual_affine_limit) return name;
+    std::size_t length = 7;
+    for (std::size_t rest = Limit; rest >= 10; rest /= 10) ++length;
+    name[6] = '<';
+    name[length + 1] = '>';
+    for (std::size_t rest = Limit, at = length; at > 6; --at, rest /= 10)
+        name[at] = static_cast<char>('0' + rest % 10);
+    return name;
+}();
+
+}  // namespace detail
+
 /// Affine arithmetic with at most Limit terms, which fill 16 bytes each, used or not. Cost: an
 /// operation is linear in the number of terms, plus Limit writes.
 template <std::size_t Limit>
 struct affine_of {
     static_assert(Limit >= 1, "errbound: affine arithmetic keeps one term at least");
-    static constexpr const char* name = "affine";
+    /// "affine" for `affine`, else "affine<Limit>".
+    static constexpr const char* name = detail::affine_name<Limit>.data();
+    static constexpr bool keeps_first_order = true;
 
     template <class T>
     struct term {
@@ -84,6 +107,12 @@ struct affine_of {
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.radius;
+    }
+    /// True at the limit on terms. A root, by which many numbers are divided, is then one source:
+    /// its own terms would push others out.
+    template <class T>
+    static constexpr bool is_crowded(const bound<T>& b) {
+        return b.count == Limit;
     }
     /// Proof: proofs/IeeeAffine.v, affine_negate_known.
     template <class T>
@@ -308,6 +337,6 @@ struct affine_of {
 };
 
 /// With at most 16 terms.
-using affine = affine_of<16>;
+using affine = affine_of<detail::usual_affine_limit>;
 
 }  // namespace errbound

@@ -50,6 +50,17 @@ struct derived_rule : Rule {
     static constexpr bound<T> scale(const T& v, rule_operand<T, Self> a, int e) {
         return Rule::template scale<T>(v, original<T>(a), e);
     }
+    template <class T>
+    static constexpr bound<T> square_root(const T& v, rule_operand<T, Self> a) requires(
+        detail::rule_has_square_root<Rule, T>) {
+        return Rule::template square_root<T>(v, original<T>(a));
+    }
+    template <class T>
+    static constexpr bound<T> fused(
+        const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b,
+        rule_operand<T, Self> c) requires(detail::rule_has_fused<Rule, T>) {
+        return Rule::template fused<T>(v, original<T>(a), original<T>(b), original<T>(c));
+    }
 
     /// An operand as one of Rule's, for Self to hand on.
     template <class T>

@@ -111,6 +111,38 @@ struct interval {
         return hull<T>(v, a.bound.lower / b.bound.lower, a.bound.lower / b.bound.upper,
                        a.bound.upper / b.bound.lower, a.bound.upper / b.bound.upper);
     }
+    /// The roots of both ends, which remainders round outwards where these are known.
+    /// Proof: proofs/IeeeSlopes.v, interval_square_root_known.
+    template <class T>
+    static constexpr bound<T> square_root(const T& v, rule_operand<T, interval> a) {
+        using traits = number_traits<T>;
+        if (!(a.bound.lower >= 0)) return unknown<T>();
+        const T lower = traits::sqrt(a.bound.lower), upper = traits::sqrt(a.bound.upper);
+        const division_remainder<T> of_lower = remainder_of_root<T>(a.bound.lower, lower);
+        const division_remainder<T> of_upper = remainder_of_root<T>(a.bound.upper, upper);
+        return checked<T>(v, of_lower.exact && of_lower.value >= 0 ? lower : below<T>(lower),
+                          of_upper.exact && of_upper.value <= 0 ? upper : above<T>(upper));
+    }
+    /// Both ends are among the four products of ends with the end of c, each rounded once.
+    /// Proof: proofs/IeeeSlopes.v, interval_fused_known.
+    template <class T>
+    static constexpr bound<T> fused(const T& v, rule_operand<T, interval> a,
+                                    rule_operand<T, interval> b, rule_operand<T, interval> c) {
+        using traits = number_traits<T>;
+        if (!traits::is_finite(a.bound.lower) || !traits::is_finite(b.bound.lower) ||
+            !traits::is_finite(c.bound.lower))
+            return unknown<T>();
+        const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
+        const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
+        const auto end = [&](const auto& choice, const T& of_c) {
+            return choice(choice(traits::fma(a.bound.lower, b.bound.lower, of_c),
+                                 traits::fma(a.bound.lower, b.bound.upper, of_c)),
+                          choice(traits::fma(a.bound.upper, b.bound.lower, of_c),
+                                 traits::fma(a.bound.upper, b.bound.upper, of_c)));
+        };
+        return checked<T>(v, below<T>(end(least, c.bound.lower)),
+                          above<T>(end(most, c.bound.upper)));
+    }
     /// Scaling by a power of two is exact unless it underflows.
     /// Proof: proofs/IeeeInterval.v, interval_scale_known.
     template <class T>

@@ -27,6 +27,7 @@ namespace errbound {
 struct residual {
     static constexpr const char* name = "residual";
     static constexpr int minimal_precision = 3;
+    static constexpr bool keeps_first_order = true;
 
     template <class T>
     struct bound {

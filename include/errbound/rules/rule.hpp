@@ -18,6 +18,15 @@
 //                                                not finite; zero only if the true value is zero
 //   correction(value, bound)                     what the rule knows of true value − value,
 //                                                signed and no larger than the error; default: 0
+//   square_root(result, a)                       the bound of the rounded √a, unknown where a may
+//   be
+//                                                negative; default: what the error of a tells
+//   fused(result, a, b, c)                       the bound of ab + c, rounded once; default: what
+//                                                the errors of a, b and c tell
+//   keeps_first_order                            true where the rule keeps errors with their signs
+//                                                or sources: √a and ab + c are then made of the
+//                                                rule's operations, which `divide` is among
+//   is_crowded(bound)                            of such a rule: true where √a is better one source
 //   template <class T> class dot_bound           what bounds s = 0, s += ab, s += cd, ... better
 //                                                than one operation after the other: for each step
 //                                                add_product(ab, s before, s after, a, b), at the
@@ -148,6 +157,23 @@ concept rule_has_dot = requires(typename Rule::template dot_bound<T> so_far, con
     so_far.add_product(value, value, value, a, a);
     { so_far.finished(value) } -> bound_of<Rule, T>;
 };
+
+template <class Rule, class T>
+concept rule_has_square_root = requires(const T& value, rule_operand<T, Rule> a) {
+    { Rule::template square_root<T>(value, a) } -> bound_of<Rule, T>;
+};
+template <class Rule, class T>
+concept rule_has_fused = requires(const T& value, rule_operand<T, Rule> a) {
+    { Rule::template fused<T>(value, a, a, a) } -> bound_of<Rule, T>;
+};
+
+template <class Rule>
+inline constexpr bool keeps_first_order = [] {
+    if constexpr (requires { Rule::keeps_first_order; })
+        return Rule::keeps_first_order;
+    else
+        return false;
+}();
 
 template <class Rule>
 inline constexpr bool holds_without_subnormals = [] {

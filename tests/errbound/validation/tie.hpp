@@ -34,6 +34,13 @@ using errbound::validation::tiny_float;
 /// With few terms, so that results have to be shortened.
 using affine = errbound::affine_of<3>;
 
+/// The rule's name in the table, where `affine` has one for every limit on terms.
+template <class Rule>
+std::string table_name() {
+    const std::string name = Rule::name;
+    return name.substr(0, name.find('<'));
+}
+
 /// The error that it is told, to ask the default sign_of.
 struct given_error {
     static constexpr const char* name = "given error";
@@ -467,7 +474,7 @@ std::vector<operation> operations_of(const format<T>& f, const states<T, Rule>& 
                 h, Rule::template divide<T>(T(a.value / b.value), a.as_operand(), b.as_operand()));
         }));
     s.own(f, all);
-    for (operation& o : all) o.name = std::string(Rule::name) + "." + o.name;
+    for (operation& o : all) o.name = table_name<Rule>() + "." + o.name;
     return all;
 }
 

@@ -17,6 +17,7 @@ struct functions : tie::library_functions {
 
     template <class T, class Rule>
     static tracked<T, Rule> root(const tracked<T, Rule>& x) {
+        if constexpr (errbound::detail::rule_has_square_root<Rule, T>) return sqrt(x);
         using traits = number_traits<T>;
         using number = tracked<T, Rule>;
         const T v = traits::sqrt(x.value()), e = x.error();
@@ -55,6 +56,7 @@ struct functions : tie::library_functions {
     template <class T, class Rule>
     static tracked<T, Rule> fused(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                   const tracked<T, Rule>& c) {
+        if constexpr (errbound::detail::rule_has_fused<Rule, T>) return fma(a, b, c);
         using traits = number_traits<T>;
         const T v = traits::fma(a.value(), b.value(), c.value());
         const T of_a = a.error(), of_b = b.error(), of_c = Without == 12 ? T(0) : c.error();

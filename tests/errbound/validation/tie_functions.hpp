@@ -158,7 +158,7 @@ class functions_of {
         std::vector<operation> made = of_one_number();
         for (auto& more : {of_two_numbers(), of_three_numbers(), of_lists()})
             made.insert(made.end(), more.begin(), more.end());
-        for (operation& o : made) o.name = std::string(Rule::name) + "." + o.name;
+        for (operation& o : made) o.name = table_name<Rule>() + "." + o.name;
         return made;
     }
 
