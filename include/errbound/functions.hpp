@@ -113,7 +113,7 @@ constexpr tracked<T, Rule> closer(const tracked<T, Rule>& by_error,
 /// √x = v + (x − v²)/(√x + v) by the rule's operations, v the value of `root`, a number that stands
 /// for √x. x − v² is the remainder x̂ − v², which is a T, and x − x̂: its value is that of the error
 /// of v, so that the sum is v again. `root` itself where the remainder is not known.
-/// Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_sqrt_by_slope_gives.
+/// Proof: proofs/IeeeSlopes.v, sqrt_by_slope_known; of `affine`, affine_slope_sqrt_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracked<T, Rule>& root) {
     using number = tracked<T, Rule>;
@@ -135,6 +135,8 @@ constexpr tracked<T, Rule> root_by_slope(const tracked<T, Rule>& x, const tracke
 /// By the rule's own square_root where it has one (`interval`); where the rule keeps errors to
 /// first order (`residual`, `affine`), they go through the slope 1/(2v), and the rounding error of
 /// v is known; else from x.error().
+/// Proof: proofs/IeeeSlopes.v, slope_sqrt_known, interval_sqrt_known; proofs/IeeeFunctions.v,
+/// sqrt_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> sqrt(const tracked<T, Rule>& x) {
     static_assert(has_subnormals<T>, "errbound: sqrt needs a number type with subnormal numbers");
@@ -165,7 +167,7 @@ constexpr tracked<T, Rule> abs(const tracked<T, Rule>& x) {
     return tracked<T, Rule>::within(number_traits<T>::abs(x.value()), x.error());
 }
 
-/// |x|, by C's name for it.
+/// |x|, by C's name for it. Proof: proofs/IeeeFunctions.v, abs_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fabs(const tracked<T, Rule>& x) {
     return abs(x);
@@ -217,7 +219,7 @@ constexpr tracked<T, Rule> fused_by_error(const T& v, const tracked<T, Rule>& a,
 /// ab + c = v + (âb̂ + ĉ − v) + (a(b − b̂) + (a − â)b̂) + (c − ĉ) by the rule's operations, v the
 /// value of `sum`, a number that stands for ab + c. With âb̂ = p + e and p + ĉ = s + f exactly, the
 /// error of v is (s − v) + f + e. `sum` itself where e or f is not known. Proof:
-/// proofs/IeeeSlopes.v, fma_by_slope_known; of `affine`, affine_fma_by_slope_gives.
+/// proofs/IeeeSlopes.v, fma_by_slope_known; of `affine`, affine_slope_fma_gives.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                           const tracked<T, Rule>& c, const tracked<T, Rule>& sum) {
@@ -251,6 +253,8 @@ constexpr tracked<T, Rule> fused_by_slope(const tracked<T, Rule>& a, const track
 /// By the rule's own `fused` where it has one (`interval`); where the rule keeps errors to first
 /// order (`residual`, `affine`), they go through the derivatives, and the rounding error of the
 /// value is known; else from the errors of a, b and c.
+/// Proof: proofs/IeeeSlopes.v, slope_fma_known, interval_fma_known; proofs/IeeeFunctions.v,
+/// fma_known.
 template <class T, class Rule>
 constexpr tracked<T, Rule> fma(const tracked<T, Rule>& a, const tracked<T, Rule>& b,
                                const tracked<T, Rule>& c) {

@@ -101,6 +101,35 @@ void expect_plain_numbers_converted_within_their_error() {
     EXPECT_EQ(integer.error(), exact.error());
 }
 
+// (1 2; 3 4)(5 6; 7 8) = (19 22; 43 50), each factor plain in turn, of sizes known at run time.
+TEST(Eigen, MixedProductsOfDynamicSize) {
+    Eigen::MatrixXd a(2, 2), b(2, 2), both(2, 2);
+    a << 1, 2, 3, 4;
+    b << 5, 6, 7, 8;
+    both << 19, 22, 43, 50;
+    const Eigen::MatrixX<number> tracked_a = a.cast<number>(), tracked_b = b.cast<number>();
+    const Eigen::MatrixX<number> right = tracked_a * b, left = a * tracked_b;
+    Eigen::MatrixX<number> sum = Eigen::MatrixX<number>::Ones(2, 2);
+    sum.noalias() += tracked_a.transpose() * Eigen::MatrixXd(a.transpose());
+    const Eigen::VectorX<number> image = tracked_a * Eigen::VectorXd(b.col(0));
+    const Eigen::VectorX<number> row = Eigen::RowVectorXd(a.row(0)) * tracked_b;
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j) {
+            EXPECT_EQ(right(i, j).value(), both(i, j));
+            EXPECT_EQ(left(i, j).value(), both(i, j));
+            EXPECT_EQ(sum(i, j).value(), (a.transpose() * a.transpose())(i, j) + 1);
+        }
+        EXPECT_EQ(image(i).value(), both(i, 0));
+        EXPECT_EQ(row(i).value(), both(0, i));
+    }
+    // 30 terms of 0.1·x, x known to within 1e-3: 30·0.1·1e-3.
+    const Eigen::MatrixX<number> known =
+        Eigen::MatrixX<number>::Constant(30, 30, number::within(1, 1e-3));
+    const Eigen::MatrixX<number> tenths = Eigen::MatrixXd::Constant(30, 30, 0.1) * known;
+    EXPECT_GE(tenths(29, 29).error(), 2.99e-3);
+    EXPECT_LE(tenths(29, 29).error(), 3.01e-3);
+}
+
 TEST(Eigen, PlainNumbersOfOtherTypesAreWithinTheErrorOfTheirConversion) {
     expect_plain_numbers_converted_within_their_error<errbound::tight>();
     expect_plain_numbers_converted_within_their_error<errbound::residual>();

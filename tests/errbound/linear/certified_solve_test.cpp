@@ -4,9 +4,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <bit>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
+#include <errbound/binary128.hpp>
 #include <errbound/certified_solve.hpp>
+#include <errbound/eigen.hpp>
 #include <limits>
 #include <numeric>
 #include <string_view>
@@ -120,6 +123,43 @@ void expect_thirds(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y, bool must
             EXPECT_LE(abs(off), 3 * rational(x.errors(i, j))) << i << ' ' << j;
         }
 }
+
+#if LDBL_MANT_DIG == 113 || (defined(__SIZEOF_FLOAT128__) && defined(__GLIBC__))
+/// The number as a sum of three doubles, which hold its 113 bits.
+rational rational_of(errbound::float128 x) {
+    rational sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double part = static_cast<double>(x);
+        sum += rational(part);
+        x -= part;
+    }
+    return sum;
+}
+/// Refused in double precision; the LU decomposition of numbers tracked in binary128 gives every
+/// entry to `most` of its size.
+void expect_solved_in_binary128(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double most) {
+    using number = errbound::tracked<errbound::float128, errbound::residual>;
+    EXPECT_EQ(errbound::certified_solve(a, b).status, solve_status::nearly_singular);
+    const Eigen::MatrixX<number> x = a.cast<number>().partialPivLu().solve(b.cast<number>()).eval();
+    const auto exact = rational_systems::solve(a, b);
+    ASSERT_TRUE(exact);
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+        const rational truth = (*exact)(i, 0), off = rational_of(x(i, 0).value()) - truth;
+        EXPECT_LE(abs(off), rational_of(x(i, 0).error())) << i;
+        EXPECT_LE(rational_of(x(i, 0).error()), rational(most) * abs(truth)) << i;
+    }
+}
+TEST(CertifiedSolve, WhatIsRefusedTheLUDecompositionInBinary128Solves) {
+    Eigen::MatrixXd hilbert(12, 12);
+    for (Eigen::Index i = 0; i < 12; ++i)
+        for (Eigen::Index j = 0; j < 12; ++j) hilbert(i, j) = 1 / double(i + j + 1);
+    expect_solved_in_binary128(hilbert, Eigen::MatrixXd::Ones(12, 1), 1e-15);
+    // S. M. Rump: the solution is (205117922, 83739041).
+    Eigen::MatrixXd rump(2, 2);
+    rump << 64919121, -159018721, 41869520.5, -102558961;
+    expect_solved_in_binary128(rump, Eigen::MatrixXd::Identity(2, 1), 1e-15);
+}
+#endif
 
 TEST(CertifiedSolve, LargerSystemsWithKnownSolutions) {
     matrix_families::generator make(4);
