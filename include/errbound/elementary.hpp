@@ -15,6 +15,7 @@
 // device code: a device's functions have other errors, and no function_error names them.
 #pragma once
 
+#include <complex>
 #include <concepts>
 #include <errbound/conversion.hpp>
 #include <errbound/functions/function_error.hpp>
@@ -200,6 +201,27 @@ tracked<T, Rule> atan2(const tracked<T, Rule>& y, const Number& x) {
 template <class T, class Rule, detail::plain_number_for<T, Rule> Number>
 tracked<T, Rule> atan2(const Number& y, const tracked<T, Rule>& x) {
     return atan2(tracked<T, Rule>(y), x);
+}
+
+// Complex numbers of tracked parts: write `abs(z)`, or `using std::abs;` before it in generic code;
+// std::abs(z) does not compile. + − × ÷, `norm` and `conj` are those of std::complex.
+
+/// |z|: hypot of the parts, without overflow or underflow on the way.
+template <class T, class Rule>
+tracked<T, Rule> abs(const std::complex<tracked<T, Rule>>& z) {
+    return hypot(z.real(), z.imag());
+}
+
+/// The angle of z in [−π, π]; unknown where z may be 0. See atan2 for numbers near the cut.
+template <class T, class Rule>
+tracked<T, Rule> arg(const std::complex<tracked<T, Rule>>& z) {
+    return atan2(z.imag(), z.real());
+}
+
+/// The number of size r and angle θ: r·cos θ and r·sin θ.
+template <class T, class Rule>
+std::complex<tracked<T, Rule>> polar(const tracked<T, Rule>& r, const tracked<T, Rule>& angle) {
+    return {r * cos(angle), r * sin(angle)};
 }
 
 }  // namespace errbound

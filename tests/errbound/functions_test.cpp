@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <complex>
-#include <errbound/complex.hpp>
+#include <errbound/elementary.hpp>
 #include <errbound/explain/explain.hpp>
 #include <errbound/functions.hpp>
 #include <errbound/rules/affine.hpp>
