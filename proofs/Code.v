@@ -61,6 +61,7 @@ Open Scope code.
 Definition abs (x : T) : T := if x < #0 then - x else x.
 Definition max (x y : T) : T := if x < y then y else x.
 Definition is_finite (x : T) : bool := abs x <= largest T A.
+Definition least (m n : T) : T := if n < m then n else m.
 
 (** tracked.hpp, for rules without a sign of their own *)
 Definition sign_of (value error : T) : sign_type :=
@@ -109,6 +110,16 @@ Definition remainder_of_division (a b q : T) : T * bool :=
 (** rules/none.hpp *)
 Definition none_error (value : T) : T := if is_finite value then #0 else ∞.
 
+(** detail/sum_of_bounds.hpp *)
+Definition sum_above (x y : T) : T :=
+  let sum := x + y in
+  if sum - max x y < least x y then sum * (#1 + ε) else sum.
+Definition sum_of_bounds (enlarged own x y : T) : T :=
+  if (40 <=? digits T A)%Z then enlarged
+  else if own * #(2 ^ Z.max 0 (digits T A - 11)) < x + y then
+    least enlarged (sum_above own (sum_above x y))
+  else enlarged.
+
 (** rules/tight.hpp *)
 Definition tight_exact (value : T) : T := value - value.
 Definition tight_within (value error : T) : T :=
@@ -116,7 +127,8 @@ Definition tight_within (value error : T) : T :=
 Definition tight_rounding (v : T) : T := abs v * (ε * (#1 + ε)).
 Definition tight_inflated (bound : T) : T := bound * (#1 + #8 * ε).
 Definition is_zero (a sa : T) : bool := (a == #0) && (sa == #0).
-Definition tight_add (v sa sb : T) : T := tight_inflated (tight_rounding v + (sa + sb)).
+Definition tight_add (v sa sb : T) : T :=
+  sum_of_bounds (tight_inflated (tight_rounding v + (sa + sb))) (tight_rounding v) sa sb.
 Definition tight_multiply (v a sa b sb : T) : T :=
   if is_zero a sa || is_zero b sb then tight_rounding v
   else
@@ -140,7 +152,8 @@ Definition tight_scale (v a sa : T) (e : Z) : T :=
 (** rules/sharp.hpp; exact, within and is_zero are tight's. *)
 Definition sharp_rounding (v : T) : T := abs v * u.
 Definition sharp_inflated (bound : T) : T := bound * (#1 + #4 * ε).
-Definition sharp_add (v sa sb : T) : T := (sharp_rounding v + (sa + sb)) * (#1 + #2 * ε).
+Definition sharp_add (v sa sb : T) : T :=
+  sum_of_bounds ((sharp_rounding v + (sa + sb)) * (#1 + #2 * ε)) (sharp_rounding v) sa sb.
 Definition sharp_multiply (v a sa b sb : T) : T :=
   if is_zero a sa || is_zero b sb then sharp_rounding v
   else
@@ -222,7 +235,6 @@ Definition interval_add (v : T) (a b : T * T) : T * T :=
                      (if above_error <= #0 then upper else above upper).
 Definition interval_subtract (v : T) (a b : T * T) : T * T :=
   interval_add v a (interval_negate b).
-Definition least (m n : T) : T := if n < m then n else m.
 Definition most (m n : T) : T := if m < n then n else m.
 Definition hull (v w x y z : T) : T * T :=
   interval_checked v (below (least (least w x) (least y z))) (above (most (most w x) (most y z))).
@@ -273,8 +285,10 @@ Definition residual_add (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
   let own := snd (two_sum a b) in
   let inherited := two_sum (fst sa) (fst sb) in
   let correction := two_sum own (fst inherited) in
+  let lost := abs (snd inherited) + abs (snd correction) in
   (fst correction,
-   residual_inflated ((snd sa + snd sb) + (abs (snd inherited) + abs (snd correction)) + (v - v))).
+   sum_of_bounds (residual_inflated ((snd sa + snd sb) + lost)) (residual_inflated lost) (snd sa) (snd sb)
+     + (v - v)).
 Definition residual_subtract (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
   residual_add v a sa (- b) (residual_negate sb).
 Definition residual_multiply (v a : T) (sa : T * T) (b : T) (sb : T * T) : T * T :=
@@ -381,7 +395,8 @@ Variable R : rule B.
 
 Definition tracked_exactly (v : T) : T * B := (v, rule_exact B R v).
 Definition tracked_within (v e : T) : T * B := (v, rule_within B R v e).
-Definition tracked_error (x : T * B) : T := rule_error B R (fst x) (snd x).
+Definition tracked_error (x : T * B) : T :=
+  let error := rule_error B R (fst x) (snd x) in if error == error then error else ∞.
 Definition tracked_sign (x : T * B) : sign_type := rule_sign B R (fst x) (snd x).
 Definition tracked_negate (x : T * B) : T * B := (- fst x, rule_negate B R (snd x)).
 Definition tracked_subtract (a b : T * B) : T * B :=

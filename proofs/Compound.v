@@ -9,7 +9,7 @@
 From Coq Require Import Reals ZArith Lia Lra Bool List.
 From Flocq Require Import Core.
 From Errbound Require Import Code CompoundCode DotProduct.
-From Errbound Require Format Tight.
+From Errbound Require Format Tight Upper.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -47,7 +47,7 @@ Record keeps : Prop := {
   keeps_beside_zero a b x : holds a b x -> holds (plus _ A (integer T A 0%Z) a) b x;
   keeps_without_zero a sa x b c d r e : holds a sa x ->
     let v := plus _ A a (times _ A b (minus _ A c c)) in
-    holds v d r -> less _ A (rule_error _ _ rule v d) e = true -> holds a d r
+    holds v d r -> less _ A (tracked_error T A B rule (v, d)) e = true -> holds a d r
 }.
 Hypothesis K : keeps.
 
@@ -168,8 +168,10 @@ Proof.
     apply add_kept; [now apply step_kept |]. apply multiply_kept; auto. apply (keeps_subtract K); auto. }
   assert (EV : fst (horner_step T A B by_rule at_value (fst s) c0) = fst result).
   { unfold horner_step, result. simpl. now rewrite SV. }
-  unfold tracked_holds in *. revert KS C. unfold tracked_error, tracked_add at 1 3. cbn [fst snd].
-  rewrite EV. intros KS C. exact (keeps_without_zero K _ _ _ _ _ _ _ _ KR KS C).
+  unfold tracked_holds in *. set (added := tracked_add T A B by_rule (horner_step _ _ _ _ _ _ _) _) in *.
+  assert (EA : added = (plus T A (fst result) (times T A (fst (snd s)) (minus T A (fst x) (fst x))), snd added)).
+  { rewrite (surjective_pairing added) at 1. f_equal. unfold added, tracked_add. cbn [fst]. rewrite EV. reflexivity. }
+  rewrite EA in KS, C. cbn [fst snd] in KS. exact (keeps_without_zero K _ _ _ _ _ _ _ _ KR KS C).
 Qed.
 
 End Compound.
@@ -194,6 +196,21 @@ Proof.
   intros N. unfold tight_exact. cbn [minus reals]. rewrite Rminus_eq_0, Format.rnd_0 by auto.
   split; [exact N |]. split; [apply Format.number_0 |]. rewrite Rminus_eq_0, Rabs_R0. lra.
 Qed.
+Lemma sum_of_bounds_reals enlarged own x y :
+  sum_of_bounds R rounded enlarged own x y = Upper.sum_of_bounds p emin direction enlarged own x y.
+Proof.
+  unfold sum_of_bounds, Upper.sum_of_bounds.
+  replace (integer R rounded (2 ^ Z.max 0 (digits R rounded - 11))) with (bpow radix2 (Z.max 0 (p - 11))).
+  2: { cbn [integer digits reals]. change 2%Z with (radix_val radix2). rewrite IZR_Zpower by lia. reflexivity. }
+  assert (S : forall s t, sum_above R rounded s t = Upper.sum_above p emin direction s t).
+  { intros s t. unfold sum_above, Upper.sum_above, Code.max, Code.least. cbn [plus minus times less integer epsilon reals].
+    replace (if Rlt_bool s t then t else s) with (Rmax s t)
+      by (unfold Rmax; destruct (Rle_dec s t); case Rlt_bool_spec; lra).
+    replace (if Rlt_bool t s then t else s) with (Rmin s t)
+      by (unfold Rmin; destruct (Rle_dec s t); case Rlt_bool_spec; lra).
+    reflexivity. }
+  rewrite !S. reflexivity.
+Qed.
 Theorem tight_keeps : keeps R rounded R (tight_operations R rounded) (fun x => x) known_within.
 Proof.
   assert (P : (0 <= p)%Z) by lia.
@@ -206,10 +223,10 @@ Proof.
   - apply exactly_known, Format.number_0.
   - apply exactly_known. change 1 with (bpow radix2 0). apply Format.number_power; auto. lia.
   - intros a b x H. apply exactly_known, H.
-  - intros a sa x b sb y (A & SA & HA) (B & SB & HB). unfold tight_add. rewrite Rounding.
-    split; [apply N |]. split; [apply N |]. now apply Tight.tight_add_sound.
-  - intros a sa x b sb y (A & SA & HA) (B & SB & HB). unfold tight_add. rewrite Rounding.
-    split; [apply N |]. split; [apply N |]. now apply Tight.tight_subtract_sound.
+  - intros a sa x b sb y (A & SA & HA) (B & SB & HB). unfold tight_add. rewrite sum_of_bounds_reals, Rounding.
+    split; [apply N |]. split; [apply (Tight.tight_add_number p emin direction) |]. now apply Tight.tight_add_sound.
+  - intros a sa x b sb y (A & SA & HA) (B & SB & HB). unfold tight_add. rewrite sum_of_bounds_reals, Rounding.
+    split; [apply N |]. split; [apply (Tight.tight_add_number p emin direction) |]. now apply Tight.tight_subtract_sound.
   - intros a sa x b sb y (A & SA & HA) (B & SB & HB). unfold tight_multiply. rewrite Rounding, !abs_reals.
     split; [apply N |]. split; [apply (Tight.tight_multiply_number p emin direction (fl (a * b)) a sa b sb) |].
     now apply Tight.tight_multiply_sound.

@@ -11,7 +11,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Format.
-From Errbound Require Code Ieee Tight Safe.
+From Errbound Require Code Ieee Tight Safe Upper.
 Open Scope R_scope.
 
 Section Computed.
@@ -271,9 +271,10 @@ Proof.
   assert (PS : 0 <= fl (sa + sb)) by (apply rnd_nonnegative; lra).
   destruct (rounding_facts (fl (a + b))) as [NR PR].
   assert (P2 : 0 <= fl (rounding (fl (a + b)) + fl (sa + sb))) by (apply rnd_nonnegative; lra).
-  split; [apply rnd_number |]. split; [apply rnd_number |]. split; [apply rnd_number |].
+  split; [apply rnd_number |]. split; [apply (Tight.tight_add_number p emin nearest) |]. split; [apply rnd_number |].
   split; [| split; [exact K0 | split; [exact V |]]].
-  - apply rnd_nonnegative, Rmult_le_pos; [exact P2 |].
+  - apply Upper.sum_of_bounds_sound; auto with typeclass_instances; try lia; [lra |].
+    apply rnd_nonnegative, Rmult_le_pos; [exact P2 |].
     apply rnd_above; auto with typeclass_instances; [apply number_0 |].
     assert (0 <= fl (8 * eps)) by (apply rnd_nonnegative; generalize (eps_positive p); lra). lra.
   - intros Few. apply K in Few. destruct Few as [Few EK]. rewrite EK, power_succ by lia. split; [| lia].
@@ -295,7 +296,8 @@ Proof.
       assert (1 <= (1 + u) ^ 3) by (apply pow_R1_Rle; lra). assert (0 <= (1 + u) * h) by nra.
       assert ((1 + u) * h * 1 <= (1 + u) * h * (1 + u) ^ 3) by (apply Rmult_le_compat_l; lra).
       assert (0 <= eps * ((1 + u) * h * (1 + u) ^ 3)) by (apply Rmult_le_pos; lra). lra. }
-    unfold Tight.tight_add. set (R := rounding (fl (a + b))) in *.
+    apply Rle_trans with (1 := Upper.sum_of_bounds_at_most _ _ _ _ _ _ _).
+    unfold Tight.tight_enlarged. set (R := rounding (fl (a + b))) in *.
     apply Rle_trans with (1 := up_inflated _ (rnd_number _) P2).
     apply Rle_trans with ((R + (sa + sb) * (1 + u)) * h).
     + replace ((R + (sa + sb) * (1 + u)) * h)
@@ -620,23 +622,23 @@ Proof.
 Qed.
 End Theorems.
 
-(** 1 + 0 + ... + 0 with n zeros: its value, tight's error and safe's bound, as the code computes them. *)
-Section Zeros.
+(** 1 times 1, n times: its value, tight's error and safe's bound, as the code computes them. *)
+Section Ones.
 Variable T : Type.
 Variable A : Code.arithmetic T.
-Fixpoint zeros_added (n : nat) : T * T * (T * Z) :=
+Fixpoint ones_multiplied (n : nat) : T * T * (T * Z) :=
   let number v := (v, Code.tight_exact T A v, Code.safe_exact T A v) in
   match n with
   | O => number (Code.integer T A 1)
   | S n =>
-      let '(a, sa, (Ba, ka)) := zeros_added n in
-      let '(b, sb, (Bb, kb)) := number (Code.integer T A 0) in
-      let v := Code.plus T A a b in
-      (v, Code.tight_add T A v sa sb, Code.safe_add T A Ba ka Bb kb)
+      let '(a, sa, (Ba, ka)) := ones_multiplied n in
+      let '(b, sb, (Bb, kb)) := number (Code.integer T A 1) in
+      let v := Code.times T A a b in
+      (v, Code.tight_multiply T A v a sa b sb, Code.safe_multiply T A a Ba ka b Bb kb)
   end.
 Definition tight_exceeds (n : nat) : bool :=
-  let '(v, s, (B, k)) := zeros_added n in Code.less T A (Code.safe_error T A v B k) s.
-End Zeros.
+  let '(v, s, (B, k)) := ones_multiplied n in Code.less T A (Code.safe_error T A v B k) s.
+End Ones.
 Theorem computed_tight_may_exceed (p := 8%Z) (emax := 128%Z) :
-  tight_exceeds _ (Ieee.floats p emax (p_positive := eq_refl) (p_below := eq_refl)) 50 = true.
+  tight_exceeds _ (Ieee.floats p emax (p_positive := eq_refl) (p_below := eq_refl)) 70 = true.
 Proof. vm_compute. reflexivity. Qed.

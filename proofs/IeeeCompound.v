@@ -116,7 +116,7 @@ Hypothesis Keeps : keeps_operations B by_rule holds.
 Notation rule := (the_rule float B by_rule).
 Notation Rule := (keeps_promises _ _ _ Keeps).
 Notation tracked_known := (tracked_known p emax B holds).
-Notation error_of := (tracked_error float B rule).
+Notation error_of := (tracked_error float F B rule).
 
 Lemma integer_known n : (n = 0 \/ n = 1)%Z -> holds (integer _ F n) (rule_exact _ _ rule (integer _ F n)) (IZR n).
 Proof.
@@ -146,9 +146,9 @@ Proof.
     apply (known_alike _ _ _ Keeps) with a; auto. rewrite E, Z, Rplus_0_l. symmetry.
     apply (Format.rnd_exact p emin Format.nearest), number_B2R.
   - intros a sa x b c d r e H v KV L.
-    assert (KE := promise_error _ _ _ _ _ Rule v d r KV). destruct KE as [PE KE].
-    assert (FE : finite (rule_error _ _ rule v d)).
-    { destruct (rule_error _ _ rule v d) as [| s | |]; try discriminate; auto. simpl in PE. subst s.
+    assert (KE := error_of_known p emax B rule holds Rule (v, d) r KV). cbn [fst] in KE. destruct KE as [PE KE].
+    assert (FE : finite (error_of (v, d))).
+    { destruct (error_of (v, d)) as [| s | |]; try discriminate; auto. simpl in PE. subst s.
       now destruct e as [| [|] | | [|]]. }
     destruct (KE FE) as [FV _]. assert (G := plus_finite p emax _ _ FV). destruct G as (FA & FP & EV).
     assert (G := times_finite p emax _ _ FP). destruct G as (FB & FD & EP).
@@ -197,10 +197,8 @@ Theorem lerp_known x r y s z t : tracked_known x r -> tracked_known y s -> track
   tracked_known (tracked_lerp _ F _ by_rule x y z) ((1 - t) * r + t * s).
 Proof.
   intros KX KY KZ. unfold tracked_lerp. cbv zeta.
-  generalize (promise_error _ _ _ _ _ Rule _ _ _ KX) (promise_error _ _ _ _ _ Rule _ _ _ KY) (promise_error _ _ _ _ _ Rule _ _ _ KZ).
-  change (rule_error _ _ rule (fst x) (snd x)) with (error_of x).
-  change (rule_error _ _ rule (fst y) (snd y)) with (error_of y).
-  change (rule_error _ _ rule (fst z) (snd z)) with (error_of z).
+  generalize (error_of_known p emax B rule holds Rule _ _ KX) (error_of_known p emax B rule holds Rule _ _ KY)
+    (error_of_known p emax B rule holds Rule _ _ KZ).
   set (e := error_of x). set (g := error_of y). set (k := error_of z). intros LX LY LZ.
   destruct (zero_value p emax p_3) as [Z0 ZV]. destruct (integer_value p emax p_3 1 ltac:(lia)) as [O0 OV].
   assert (At : forall c, finite c -> equal _ F k (integer _ F 0) && equal _ F (fst z) c = true -> t = B2R c).
@@ -255,8 +253,7 @@ Proof.
   - destruct (_ || _); apply (promise_within _ _ _ _ _ Rule); intros H _; [discriminate H |].
     apply (IeeeFunctions.enlarged_finite p emax p_3) in H. destruct H as [H ->].
     apply plus_finite in H. destruct H as (H1 & H2 & ->). apply times_finite in H1. destruct H1 as (_ & FS & ->).
-    destruct (AV FS) as [_ ES]. assert (KE := promise_error _ _ _ _ _ Rule _ _ _ KS).
-    change (rule_error _ _ rule (fst size) (snd size)) with (error_of size) in KE.
+    destruct (AV FS) as [_ ES]. assert (KE := error_of_known p emax B rule holds Rule _ _ KS).
     destruct (proj2 KE H2) as [_ D]. rewrite (proj2 (integer_value p emax p_3 2 ltac:(lia))).
     apply (Functions.copysign_sound_nearest p emin p_3 (B2R (fst size)) _ r); auto using number_B2R.
     + apply (emin_p p emax p_3).
@@ -272,9 +269,7 @@ Theorem hypot_known exponent x r y s : (8 <= p)%Z ->
   tracked_known (tracked_hypot _ F _ by_rule exponent x y) (sqrt (r * r + s * s)).
 Proof.
   intros P8 Exponent KX KY. unfold tracked_hypot. cbv zeta.
-  generalize (promise_error _ _ _ _ _ Rule _ _ _ KX) (promise_error _ _ _ _ _ Rule _ _ _ KY).
-  change (rule_error _ _ rule (fst x) (snd x)) with (error_of x).
-  change (rule_error _ _ rule (fst y) (snd y)) with (error_of y).
+  generalize (error_of_known p emax B rule holds Rule _ _ KX) (error_of_known p emax B rule holds Rule _ _ KY).
   set (e := error_of x). set (g := error_of y). intros LX LY.
   destruct (zero_value p emax p_3) as [Z0 ZV].
   destruct (Code.is_finite _ F (e ⊕ g)) eqn:C; cbn [negb].

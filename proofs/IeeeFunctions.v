@@ -140,10 +140,13 @@ Variable holds : float -> B -> R -> Prop.
 Hypothesis Rule : promises B rule holds.
 
 Definition tracked_known (x : float * B) (r : R) : Prop := holds (fst x) (snd x) r.
-Notation error_of := (tracked_error float B rule).
+Notation error_of := (tracked_error float F B rule).
 
 Lemma error_of_known x r : tracked_known x r -> known (fst x) (error_of x) r.
-Proof. apply (promise_error _ _ _ Rule). Qed.
+Proof.
+  intros K. unfold tracked_error. cbv zeta. destruct equal; [now apply (promise_error _ _ _ Rule) |].
+  split; [reflexivity | discriminate].
+Qed.
 Lemma negate_known x r : tracked_known x r -> tracked_known (tracked_negate _ F _ rule x) (- r).
 Proof. apply (promise_negate _ _ _ Rule). Qed.
 

@@ -82,22 +82,49 @@ Proof.
   - now apply Residual.residual_negate_sound.
 Qed.
 
+(** The remainder of a sum, of ra, rb and what its corrections lost, e and f. *)
+Lemma remainders_finite ra rb e f : nonnegative ra -> nonnegative rb ->
+  let lost := abs _ F e ⊕ abs _ F f in
+  let bound := sum_of_bounds _ F (residual_inflated _ F (ra ⊕ rb ⊕ lost)) (residual_inflated _ F lost) ra rb in
+  finite bound -> finite ra /\ finite rb /\ finite e /\ finite f /\
+  B2R ra + B2R rb + (Rabs (B2R e) + Rabs (B2R f)) <= B2R bound.
+Proof.
+  intros PA PB lost bound H. unfold bound in *. clear bound. assert (PL : nonnegative lost) by (unfold lost; positive).
+  assert (Lost : finite lost -> finite e /\ finite f /\ B2R lost = fl (Rabs (B2R e) + Rabs (B2R f))).
+  { unfold lost. intros L. parts. repeat split; auto. now values. }
+  assert (NE := Format.number_abs p emin _ (number_B2R p emax e)).
+  assert (NF := Format.number_abs p emin _ (number_B2R p emax f)).
+  destruct (sum_of_bounds_finite p emax p_3 (residual_inflated _ F (ra ⊕ rb ⊕ lost)) (residual_inflated _ F lost) ra rb)
+    as [E | (FO & FA & FB & L)]; auto using nonnegative_inflated.
+  - rewrite E in H |- *. apply inflated_finite in H. destruct H as [H ->].
+    assert (G := plus_finite p emax _ _ H). destruct G as (FAB & FL & ->).
+    assert (G := plus_finite p emax _ _ FAB). destruct G as (FA & FB & ->).
+    destruct (Lost FL) as (FE & FF & ->). repeat split; auto.
+    apply Residual.inflated_remainders; auto using number_B2R, Rabs_pos, emin_p;
+      now apply (nonnegative_value p emax).
+  - apply inflated_finite in FO. destruct FO as [FL EO]. destruct (Lost FL) as (FE & FF & EL).
+    repeat split; auto. rewrite EO, EL in L.
+    generalize (Residual.inflated_losses p emin p_3 emin_p _ _ NE NF (Rabs_pos _) (Rabs_pos _)). lra.
+Qed.
 Lemma sum_known v a sa x b sb y : (finite v -> B2R v = fl (B2R a + B2R b)) ->
   residual_known a sa x -> residual_known b sb y ->
   residual_known v (residual_add _ F v a sa b sb) (x + y).
 Proof.
   intros V [PA KA] [PB KB]. unfold residual_add. cbv zeta. split; cbn [fst snd].
-  { apply nonnegative_inflated. positive. }
-  intros FC FR. apply inflated_finite in FR. destruct FR as [FR ER]. parts.
-  match goal with H : finite v |- _ => specialize (V H) end.
-  match goal with H : finite (snd (two_sum _ _ (snd _) _)) |- _ =>
-    apply two_sum_finite in H; destruct H as (FO & _ & E1 & E2) end.
-  match goal with H : finite (snd (two_sum _ _ (fst sa) _)) |- _ =>
-    apply two_sum_finite in H; destruct H as (CA & CB & E3 & E4) end.
+  { apply nonnegative_plus; auto using nonnegative_nothing.
+    apply nonnegative_sum_of_bounds; auto; apply nonnegative_inflated; positive. }
+  intros FC FR. apply plus_finite in FR. destruct FR as (FS & FN & ER).
+  assert (G := minus_finite p emax _ _ FN). destruct G as (FV & _ & EN). specialize (V FV).
+  apply remainders_finite in FS; auto. destruct FS as (RA & RB & FE & FF & L).
+  apply two_sum_finite in FE. destruct FE as (CA & CB & E3 & E4).
+  apply two_sum_finite in FF. destruct FF as (FO & _ & E1 & E2).
   apply two_sum_finite in FO. destruct FO as (_ & _ & _ & E5).
-  destruct (KA ltac:(auto) ltac:(auto)) as [FA HA], (KB ltac:(auto) ltac:(auto)) as [FB HB].
-  split; auto. generalize (Residual.residual_add_sound p emin p_3 emin_p _ _ _ _ _ _ _ _ HA HB).
-  unfold Residual.residual_add. cbv zeta. cbn [fst snd]. now values.
+  destruct (KA CA RA) as [_ HA], (KB CB RB) as [_ HB]. split; auto.
+  assert (D := Residual.residual_sum_error p emin p_3 emin_p _ _ _ _ _ _ _ _ HA HB). cbv zeta in D.
+  rewrite E4, E2, E5, E3 in L. rewrite <- V in D. repeat split; auto using number_B2R.
+  rewrite ER, EN, Rminus_eq_0, (Format.rnd_0 p emin Format.nearest), Rplus_0_r,
+    (Format.rnd_exact p emin Format.nearest) by apply number_B2R.
+  rewrite E1, E5, E3. lra.
 Qed.
 Theorem residual_add_known a sa x b sb y : residual_known a sa x -> residual_known b sb y ->
   residual_known (a ⊕ b) (residual_add _ F (a ⊕ b) a sa b sb) (x + y).
@@ -107,6 +134,13 @@ Theorem residual_subtract_known a sa x b sb y : residual_known a sa x -> residua
 Proof.
   intros KA KB. apply sum_known; auto using residual_negate_known. rewrite opposite_value.
   intros H. now apply minus_finite in H.
+Qed.
+
+(** A number whose value is d and that is known to be 0. *)
+Theorem residual_displacement_known d : finite d -> residual_known d (opposite _ F d, integer _ F 0) 0.
+Proof.
+  intros FD. destruct (zero_value p emax p_3) as [Z0 Z]. split; [now apply nonnegative_integer |]. cbn [fst snd].
+  intros _ _. split; auto. rewrite opposite_value, Z. apply Residual.residual_displacement_sound, number_B2R.
 Qed.
 
 Theorem residual_scale_known a sa x e : residual_known a sa x ->

@@ -17,7 +17,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core IEEE754.BinarySingleNaN.
 From Errbound Require Import Code Ieee.
-From Errbound Require Format Tight Sharp.
+From Errbound Require Format Tight Sharp Upper.
 Open Scope R_scope.
 
 Section Rules.
@@ -86,11 +86,14 @@ Proof. unfold tight_rounding, Tight.rounding. intros H. parts. split; auto. valu
 Lemma tight_inflated_finite b : finite (tight_inflated _ F b) ->
   finite b /\ B2R (tight_inflated _ F b) = Tight.inflated p emin Format.nearest (B2R b).
 Proof. unfold tight_inflated, Tight.inflated. intros H. parts. split; auto. values. reflexivity. Qed.
-Lemma tight_add_finite v sa sb : finite (tight_add _ F v sa sb) ->
+Definition tight_enlarged (v sa sb : float) : float := tight_inflated _ F (tight_rounding _ F v ⊕ (sa ⊕ sb)).
+Definition sharp_enlarged (v sa sb : float) : float :=
+  (sharp_rounding _ F v ⊕ (sa ⊕ sb)) ⊗ (integer _ F 1 ⊕ integer _ F 2 ⊗ epsilon _ F).
+Lemma tight_enlarged_finite v sa sb : finite (tight_enlarged v sa sb) ->
   finite v /\ finite sa /\ finite sb /\
-  B2R (tight_add _ F v sa sb) = Tight.tight_add p emin Format.nearest (B2R v) (B2R sa) (B2R sb).
+  B2R (tight_enlarged v sa sb) = Tight.tight_enlarged p emin Format.nearest (B2R v) (B2R sa) (B2R sb).
 Proof.
-  unfold tight_add. intros H. apply tight_inflated_finite in H. destruct H as [H E]. parts.
+  unfold tight_enlarged. intros H. apply tight_inflated_finite in H. destruct H as [H E]. parts.
   apply tight_rounding_finite in H. destruct H as [H ER]. repeat split; auto.
   values. reflexivity.
 Qed.
@@ -101,19 +104,18 @@ Proof. unfold sharp_rounding, Sharp.rounding. intros H. parts. split; auto. now 
 Lemma sharp_inflated_finite b : finite (sharp_inflated _ F b) ->
   finite b /\ B2R (sharp_inflated _ F b) = Sharp.inflated p emin (B2R b).
 Proof. unfold sharp_inflated, Sharp.inflated. intros H. parts. split; auto. now values. Qed.
-Lemma sharp_add_finite v sa sb : finite (sharp_add _ F v sa sb) ->
+Lemma sharp_enlarged_finite v sa sb : finite (sharp_enlarged v sa sb) ->
   finite v /\ finite sa /\ finite sb /\
-  B2R (sharp_add _ F v sa sb) = Sharp.sharp_add p emin (B2R v) (B2R sa) (B2R sb).
+  B2R (sharp_enlarged v sa sb) = Sharp.sharp_enlarged p emin (B2R v) (B2R sa) (B2R sb).
 Proof.
-  unfold sharp_add. intros H. parts.
+  unfold sharp_enlarged. intros H. parts.
   match goal with H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H end.
   repeat split; auto. now values.
 Qed.
 
 (** Both rules' bounds are taken apart alike: none is below zero, and finite ones are what they are over the real
     numbers. *)
-Ltac positive_bound := unfold tight_add, tight_inflated, tight_rounding, sharp_add, sharp_inflated, sharp_rounding;
-  positive.
+Ltac positive_bound := unfold tight_inflated, tight_rounding, sharp_inflated, sharp_rounding; positive.
 Ltac rounded := match goal with
   | H : finite (tight_rounding _ _ _) |- _ => apply tight_rounding_finite in H; destruct H
   | H : finite (sharp_rounding _ _ _) |- _ => apply sharp_rounding_finite in H; destruct H
@@ -122,11 +124,80 @@ Ltac inflated := match goal with
   | H : finite (tight_inflated _ _ _) |- _ => apply tight_inflated_finite in H; destruct H
   | H : finite (sharp_inflated _ _ _) |- _ => apply sharp_inflated_finite in H; destruct H
   end.
-Ltac sum_known as_reals sound :=
-  intros [PA KA] [PB KB]; split; [positive_bound |];
-  intros H; apply as_reals in H; destruct H as (FV & FA & FB & E); split; auto;
-  destruct (KA FA) as [A HA], (KB FB) as [B HB]; rewrite E; parts; values;
-  apply sound; auto using number_B2R; apply emin_p.
+(** Sums of bounds. *)
+Lemma minus_nonnegative_finite x y : finite x -> finite y -> nonnegative x -> nonnegative y ->
+  finite (x ⊖ y).
+Proof.
+  intros FX FY PX PY. apply nonnegative_value in PX, PY.
+  generalize (Bminus_correct p emax _ _ mode_NE x y FX FY). rewrite Rlt_bool_true; [now intros (_ & ? & _) |].
+  apply Rle_lt_trans with (Rmax (B2R x) (B2R y)).
+  - apply (Format.rnd_abs_below p emin Format.nearest).
+    + apply Rmax_case; apply number_B2R.
+    + apply Rabs_le. generalize (Rmax_l (B2R x) (B2R y)) (Rmax_r (B2R x) (B2R y)). lra.
+  - apply Rmax_case; (apply Rle_lt_trans with (1 := Rle_abs _); apply abs_B2R_lt_emax).
+Qed.
+Lemma nonnegative_sum_above x y : nonnegative x -> nonnegative y -> nonnegative (sum_above _ F x y).
+Proof. intros X Y. unfold sum_above. cbv zeta. destruct less; positive. Qed.
+Lemma sum_above_finite x y : nonnegative x -> nonnegative y -> finite (sum_above _ F x y) ->
+  finite x /\ finite y /\ B2R (sum_above _ F x y) = Upper.sum_above p emin Format.nearest (B2R x) (B2R y).
+Proof.
+  intros PX PY H. assert (FS : finite (x ⊕ y)).
+  { revert H. unfold sum_above. cbv zeta. destruct less; auto. intros H. apply times_finite in H. tauto. }
+  assert (G := plus_finite p emax _ _ FS). destruct G as (FX & FY & ES).
+  split; auto. split; auto. revert H. unfold sum_above, Upper.sum_above. cbv zeta.
+  assert (M : finite (max _ F x y) /\ nonnegative (max _ F x y) /\ B2R (max _ F x y) = Rmax (B2R x) (B2R y)).
+  { unfold max. rewrite less_finite by auto. unfold Rmax. case Rlt_bool_spec; intros C;
+      destruct (Rle_dec (B2R x) (B2R y)); repeat split; auto; lra. }
+  assert (L : finite (least _ F x y) /\ B2R (least _ F x y) = Rmin (B2R x) (B2R y)).
+  { unfold least. rewrite less_finite by auto. unfold Rmin. case Rlt_bool_spec; intros C;
+      destruct (Rle_dec (B2R x) (B2R y)); split; auto; lra. }
+  destruct M as (FM & PM & EM), L as (FL & EL).
+  assert (PS : nonnegative (x ⊕ y)) by positive.
+  assert (D := minus_nonnegative_finite _ _ FS FM PS PM).
+  assert (G := minus_finite p emax _ _ D). destruct G as (_ & _ & ED).
+  rewrite (less_finite p emax _ _ D FL), ED, ES, EM, EL.
+  destruct Rlt_bool; intros H; [| exact ES]. apply times_finite in H. destruct H as (_ & H & ->).
+  rewrite ES. parts. now values.
+Qed.
+
+(** Either the one bound of a sum, or what adds own and x + y upwards. *)
+Lemma nonnegative_sum_of_bounds enlarged own x y : nonnegative enlarged -> nonnegative own -> nonnegative x ->
+  nonnegative y -> nonnegative (sum_of_bounds _ F enlarged own x y).
+Proof.
+  intros PE PO PX PY. unfold sum_of_bounds. destruct (40 <=? _)%Z; auto. destruct less; auto.
+  unfold least. destruct less; auto using nonnegative_sum_above.
+Qed.
+Lemma sum_of_bounds_finite enlarged own x y : nonnegative own -> nonnegative x -> nonnegative y ->
+  finite (sum_of_bounds _ F enlarged own x y) ->
+  sum_of_bounds _ F enlarged own x y = enlarged \/
+  finite own /\ finite x /\ finite y /\
+  B2R own + (B2R x + B2R y) <= B2R (sum_of_bounds _ F enlarged own x y).
+Proof.
+  intros PO PX PY. unfold sum_of_bounds. destruct (40 <=? _)%Z; auto. destruct less; auto.
+  unfold least. destruct less; auto. intros H. right. assert (P := nonnegative_sum_above x y PX PY).
+  destruct (sum_above_finite _ _ PO P H) as (FO & FS & E). destruct (sum_above_finite _ _ PX PY FS) as (FX & FY & ES).
+  repeat split; auto. rewrite E, ES. apply nonnegative_value in PO, PX, PY.
+  assert (L : (emin <= - p)%Z) by apply emin_p.
+  assert (S : B2R x + B2R y <= Upper.sum_above p emin Format.nearest (B2R x) (B2R y)).
+  { apply Upper.sum_above_sound; auto using number_B2R with typeclass_instances; lia. }
+  apply Rle_trans with (B2R own + Upper.sum_above p emin Format.nearest (B2R x) (B2R y)); [lra |].
+  apply Upper.sum_above_sound; auto using number_B2R with typeclass_instances; try lia; [| lra].
+  apply Upper.sum_above_number; auto with typeclass_instances.
+Qed.
+
+Lemma sum_bounded first own v sa sb e :
+  nonnegative first -> nonnegative own -> nonnegative sa -> nonnegative sb ->
+  (finite first -> finite own /\ finite sa /\ finite sb /\ B2R own + (B2R sa + B2R sb) <= B2R first) ->
+  (finite own -> finite sa -> finite sb -> finite v /\ Rabs (B2R v - e) <= B2R own + (B2R sa + B2R sb)) ->
+  known v (sum_of_bounds _ F first own sa sb) e.
+Proof.
+  intros PF PO PA PB One Error. split; [now apply nonnegative_sum_of_bounds |]. intros H.
+  assert (G : finite own /\ finite sa /\ finite sb /\
+    B2R own + (B2R sa + B2R sb) <= B2R (sum_of_bounds _ F first own sa sb)).
+  { destruct (sum_of_bounds_finite first own sa sb PO PA PB H) as [E | G]; auto.
+    rewrite E in *. now apply One. }
+  destruct G as (FO & FA & FB & L). destruct (Error FO FA FB) as [FV D]. split; auto. lra.
+Qed.
 
 Theorem tight_exact_known a : known a (tight_exact _ F a) (B2R a).
 Proof.
@@ -150,12 +221,45 @@ Proof.
     rewrite (Format.rnd_exact p emin Format.nearest); auto. apply number_B2R.
 Qed.
 
+Lemma tight_sum_bounded v sa sb e : nonnegative sa -> nonnegative sb ->
+  (finite v -> finite sa -> finite sb -> Rabs (B2R v - e) <=
+     Tight.rounding p emin Format.nearest (B2R v) + (B2R sa + B2R sb)) ->
+  known v (tight_add _ F v sa sb) e.
+Proof.
+  intros PA PB H. apply (sum_bounded (tight_enlarged v sa sb) (tight_rounding _ F v)); auto;
+    try solve [unfold tight_enlarged; positive_bound].
+  - intros One. assert (G := tight_enlarged_finite _ _ _ One). destruct G as (_ & FA & FB & E).
+    rewrite E. unfold tight_enlarged in One. apply tight_inflated_finite in One.
+    destruct One as [One _]. parts. repeat split; auto.
+    rewrite (proj2 (tight_rounding_finite v ltac:(assumption))).
+    apply Tight.tight_enlarged_sound_nearest; auto using number_B2R, nonnegative_value; apply emin_p.
+  - intros FO FA FB. apply tight_rounding_finite in FO. destruct FO as [FV EV]. rewrite EV. auto.
+Qed.
+Lemma sharp_sum_bounded v sa sb e : nonnegative sa -> nonnegative sb ->
+  (finite v -> finite sa -> finite sb -> Rabs (B2R v - e) <=
+     Sharp.rounding p emin (B2R v) + (B2R sa + B2R sb)) ->
+  known v (sharp_add _ F v sa sb) e.
+Proof.
+  intros PA PB H. apply (sum_bounded (sharp_enlarged v sa sb) (sharp_rounding _ F v)); auto;
+    try solve [unfold sharp_enlarged; positive_bound].
+  - intros One. assert (G := sharp_enlarged_finite _ _ _ One). destruct G as (_ & FA & FB & E).
+    rewrite E. unfold sharp_enlarged in One. parts. repeat split; auto.
+    rewrite (proj2 (sharp_rounding_finite v ltac:(assumption))).
+    apply Sharp.sharp_enlarged_sound; auto using number_B2R, nonnegative_value; apply emin_p.
+  - intros FO FA FB. apply sharp_rounding_finite in FO. destruct FO as [FV EV]. rewrite EV. auto.
+Qed.
+(** By what `error` says of the rounded result of known numbers. *)
+Ltac sum_known bounded error :=
+  intros [PA KA] [PB KB]; apply bounded; auto; intros FV FA FB;
+  destruct (KA FA) as [_ HA], (KB FB) as [_ HB]; parts; values;
+  apply error; auto using number_B2R, Format.number_opp; apply emin_p.
+
 Theorem tight_add_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊕ b) (tight_add _ F (a ⊕ b) sa sb) (x + y).
-Proof. sum_known tight_add_finite Tight.tight_add_sound_nearest. Qed.
+Proof. sum_known tight_sum_bounded Tight.tight_sum_error_nearest. Qed.
 Theorem tight_subtract_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊖ b) (tight_add _ F (a ⊖ b) sa sb) (x - y).
-Proof. sum_known tight_add_finite Tight.tight_subtract_sound_nearest. Qed.
+Proof. sum_known tight_sum_bounded Tight.tight_difference_error_nearest. Qed.
 
 (** A product with an exact zero. *)
 Lemma zero_times a b : finite (a ⊗ b) -> B2R a = 0 \/ B2R b = 0 -> B2R (a ⊗ b) = 0.
@@ -198,17 +302,6 @@ Proof. unfold tight_multiply. product_known (Tight.tight_multiply_sound_nearest 
 Lemma abs_finite_intro x : finite x -> finite (abs _ F x).
 Proof.
   intros X. unfold abs. destruct (less _ F x (integer _ F 0)); auto. simpl. now rewrite is_finite_Bopp.
-Qed.
-Lemma minus_nonnegative_finite x y : finite x -> finite y -> nonnegative x -> nonnegative y ->
-  finite (x ⊖ y).
-Proof.
-  intros FX FY PX PY. apply nonnegative_value in PX, PY.
-  generalize (Bminus_correct p emax _ _ mode_NE x y FX FY). rewrite Rlt_bool_true; [now intros (_ & ? & _) |].
-  apply Rle_lt_trans with (Rmax (B2R x) (B2R y)).
-  - apply (Format.rnd_abs_below p emin Format.nearest).
-    + apply Rmax_case; apply number_B2R.
-    + apply Rabs_le. generalize (Rmax_l (B2R x) (B2R y)) (Rmax_r (B2R x) (B2R y)). lra.
-  - apply Rmax_case; (apply Rle_lt_trans with (1 := Rle_abs _); apply abs_B2R_lt_emax).
 Qed.
 Lemma distance_positive b sb y : known b sb y ->
   less _ F (integer _ F 0) (abs _ F b ⊖ sb) = true ->
@@ -365,10 +458,10 @@ Qed.
 (** The rule sharp. *)
 Theorem sharp_add_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊕ b) (sharp_add _ F (a ⊕ b) sa sb) (x + y).
-Proof. sum_known sharp_add_finite Sharp.sharp_add_sound. Qed.
+Proof. sum_known sharp_sum_bounded Sharp.sharp_sum_error. Qed.
 Theorem sharp_subtract_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊖ b) (sharp_add _ F (a ⊖ b) sa sb) (x - y).
-Proof. sum_known sharp_add_finite Sharp.sharp_subtract_sound. Qed.
+Proof. sum_known sharp_sum_bounded Sharp.sharp_difference_error. Qed.
 Theorem sharp_multiply_known a sa x b sb y : known a sa x -> known b sb y ->
   known (a ⊗ b) (sharp_multiply _ F (a ⊗ b) a sa b sb) (x * y).
 Proof. unfold sharp_multiply. product_known (Sharp.sharp_multiply_sound p emin p_3 emin_p). Qed.

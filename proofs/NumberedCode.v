@@ -42,7 +42,7 @@ Open Scope code.
 Notation rule := (the_rule T B (by_rule O)).
 Notation number := (T * B)%type.
 Notation exactly := (tracked_exactly T B rule).
-Notation error_of := (tracked_error T B rule).
+Notation error_of := (tracked_error T A B rule).
 Notation sign := (tracked_sign T B rule).
 Notation negate := (tracked_negate T A B rule).
 

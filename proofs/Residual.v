@@ -15,7 +15,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
 From Errbound Require Import Format ErrorFree.
-From Errbound Require Code.
+From Errbound Require Code Upper.
 Open Scope R_scope.
 
 Section Residual.
@@ -50,8 +50,10 @@ Definition residual_add (v a ca ra b cb rb : R) : R * R :=
   let own := snd (two_sum p emin a b) in
   let inherited := two_sum p emin ca cb in
   let correction := two_sum p emin own (fst inherited) in
+  let lost := fl (Rabs (snd inherited) + Rabs (snd correction)) in
   (fst correction,
-   inflated (fl (fl (fl (ra + rb) + fl (Rabs (snd inherited) + Rabs (snd correction))) + fl (v - v)))).
+   fl (Upper.sum_of_bounds p emin nearest (inflated (fl (fl (ra + rb) + lost))) (inflated lost) ra rb +
+       fl (v - v))).
 Definition residual_scale (v a ca ra : R) (e : Z) : R * R :=
   let c := fl (ca * bpow radix2 e) in
   let r := fl (ra * bpow radix2 e) in
@@ -331,13 +333,13 @@ Proof.
   replace (- v + - c - - x) with (- (v + c - x)) by ring. now rewrite Rabs_Ropp.
 Qed.
 
-Theorem residual_add_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
-  let bound := residual_add (fl (a + b)) a ca ra b cb rb in
-  holds (fl (a + b)) (fst bound) (snd bound) (x + y).
+(** What the sums that make a correction lose, is all that the code adds to the remainders. *)
+Lemma residual_sum_error a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
+  let inherited := two_sum p emin ca cb in
+  let correction := two_sum p emin (snd (two_sum p emin a b)) (fst inherited) in
+  Rabs (fl (a + b) + fst correction - (x + y)) <= ra + rb + (Rabs (snd inherited) + Rabs (snd correction)).
 Proof.
-  intros KA KB. generalize (holds_nonnegative _ _ _ _ KA) (holds_nonnegative _ _ _ _ KB). intros PA PB.
-  destruct KA as (A & CA & RA & HA), KB as (B & CB & RB & HB).
-  unfold residual_add. cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r.
+  intros (A & CA & RA & HA) (B & CB & RB & HB). cbv zeta.
   assert (E : forall s t, number s -> number t ->
     number (fst (two_sum p emin s t)) /\ number (snd (two_sum p emin s t)) /\
     fst (two_sum p emin s t) + snd (two_sum p emin s t) = s + t).
@@ -348,17 +350,51 @@ Proof.
   destruct (E ca cb CA CB) as (NI & NF & EI). set (inherited := two_sum p emin ca cb) in *.
   destruct (E own (fst inherited) NO NI) as (NC & NG & EC).
   set (correction := two_sum p emin own (fst inherited)) in *.
-  repeat split; auto using inflated_number. { apply rnd_number. }
-  rewrite (rnd_exact _ (rnd_number _)).
-  apply Rle_trans with (ra + rb + (Rabs (snd inherited) + Rabs (snd correction))).
-  - replace (v + fst correction - (x + y))
-      with ((a + ca - x) + (b + cb - y) + (- snd inherited + - snd correction)) by lra.
-    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-    + apply Rle_trans with (1 := Rabs_triang _ _). lra.
-    + apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_Ropp. lra.
-  - apply inflated_summed with 2%nat; [| lia].
-    apply (summed_plus 1 _ _ 1); apply (summed_plus 0 _ _ 0);
-      apply summed_number; auto using number_abs, Rabs_pos.
+  replace (v + fst correction - (x + y))
+    with ((a + ca - x) + (b + cb - y) + (- snd inherited + - snd correction)) by lra.
+  apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+  - apply Rle_trans with (1 := Rabs_triang _ _). lra.
+  - apply Rle_trans with (1 := Rabs_triang _ _). rewrite !Rabs_Ropp. lra.
+Qed.
+(** Both of the code's bounds of a sum of remainders ra and rb and of losses e and f. *)
+Lemma inflated_remainders ra rb e f : number ra -> number rb -> number e -> number f ->
+  0 <= ra -> 0 <= rb -> 0 <= e -> 0 <= f -> ra + rb + (e + f) <= inflated (fl (fl (ra + rb) + fl (e + f))).
+Proof.
+  intros. apply inflated_summed with 2%nat; [| lia].
+  apply (summed_plus 1 _ _ 1); apply (summed_plus 0 _ _ 0); apply summed_number; auto.
+Qed.
+Lemma inflated_losses e f : number e -> number f -> 0 <= e -> 0 <= f -> e + f <= inflated (fl (e + f)).
+Proof. intros. apply inflated_summed with 1%nat; [| lia]. apply (summed_plus 0 _ _ 0); now apply summed_number. Qed.
+Lemma inflated_nonnegative x : 0 <= x -> 0 <= inflated x.
+Proof. intros P. rewrite inflated_exact. apply rnd_nonnegative. generalize u_8. nra. Qed.
+Theorem residual_add_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
+  let bound := residual_add (fl (a + b)) a ca ra b cb rb in
+  holds (fl (a + b)) (fst bound) (snd bound) (x + y).
+Proof.
+  intros KA KB. generalize (holds_nonnegative _ _ _ _ KA) (holds_nonnegative _ _ _ _ KB). intros PA PB.
+  assert (H := residual_sum_error _ _ _ _ _ _ _ _ KA KB). cbv zeta in H.
+  destruct KA as (_ & _ & RA & _), KB as (_ & _ & RB & _).
+  unfold residual_add. cbv zeta. cbn [fst snd]. rewrite nothing, Rplus_0_r.
+  set (e := Rabs (snd (two_sum p emin ca cb))) in *.
+  set (correction := two_sum p emin (snd (two_sum p emin a b)) (fst (two_sum p emin ca cb))) in *.
+  set (f := Rabs (snd correction)) in *.
+  assert (NE : number e) by (apply number_abs, rnd_number).
+  assert (NF : number f) by (apply number_abs, rnd_number).
+  assert (PE : 0 <= e) by apply Rabs_pos. assert (PF : 0 <= f) by apply Rabs_pos.
+  generalize (inflated_losses e f NE NF PE PF). intros L.
+  repeat split; try apply rnd_number.
+  match goal with |- _ <= fl ?bound =>
+    replace (fl bound) with bound
+      by (symmetry; apply rnd_exact, Upper.sum_of_bounds_number, inflated_number; auto with typeclass_instances)
+  end.
+  apply Upper.sum_of_bounds_sound; auto using inflated_number with typeclass_instances; try lia; try lra.
+  apply Rle_trans with (1 := H). now apply inflated_remainders.
+Qed.
+(** A number whose value is d and that is known to be 0. *)
+Theorem residual_displacement_sound d : number d -> holds d (- d) 0 0.
+Proof.
+  intros N. repeat split; auto using number_opp, number_0. replace (d + - d - 0) with 0 by ring.
+  rewrite Rabs_R0. lra.
 Qed.
 Theorem residual_subtract_sound a ca ra x b cb rb y : holds a ca ra x -> holds b cb rb y ->
   let bound := residual_add (fl (a - b)) a ca ra (- b) (- cb) rb in

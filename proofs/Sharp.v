@@ -7,7 +7,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
 From Errbound Require Import Format.
-From Errbound Require Tight.
+From Errbound Require Tight Upper.
 Open Scope R_scope.
 
 Section Sharp.
@@ -27,8 +27,10 @@ Notation is_zero := Tight.is_zero.
 Definition rounding (v : R) : R := fl (Rabs v * u).
 Definition inflated (bound : R) : R := fl (bound * fl (1 + fl (4 * eps))).
 
-Definition sharp_add (v sa sb : R) : R :=
+Definition sharp_enlarged (v sa sb : R) : R :=
   fl (fl (rounding v + fl (sa + sb)) * fl (1 + fl (2 * eps))).
+Definition sharp_add (v sa sb : R) : R :=
+  Upper.sum_of_bounds p emin nearest (sharp_enlarged v sa sb) (rounding v) sa sb.
 Definition sharp_multiply (v a sa b sb : R) : R :=
   if is_zero a sa || is_zero b sb then rounding v
   else
@@ -172,22 +174,43 @@ Qed.
 Lemma rounding_0 : rounding (fl 0) = 0.
 Proof. unfold rounding. rewrite rnd_0, Rabs_R0, Rmult_0_l. apply rnd_0. Qed.
 
+(** The error of a sum, and the first of the two bounds of it. *)
+Lemma sharp_sum_error a x sa b y sb :
+  number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a + b) - (x + y)) <= rounding (fl (a + b)) + (sa + sb).
+Proof.
+  intros A B HA HB.
+  replace (fl (a + b) - (x + y)) with ((fl (a + b) - (a + b)) + ((a - x) + (b - y))) by ring.
+  apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+  - now apply rounding_sum.
+  - apply Rle_trans with (1 := Rabs_triang _ _). lra.
+Qed.
+Lemma sharp_difference_error a x sa b y sb :
+  number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a - b) - (x - y)) <= rounding (fl (a - b)) + (sa + sb).
+Proof.
+  intros. apply sharp_sum_error; auto using number_opp.
+  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
+Qed.
+Lemma sharp_enlarged_sound v sa sb : number sa -> number sb -> 0 <= sa -> 0 <= sb ->
+  rounding v + (sa + sb) <= sharp_enlarged v sa sb.
+Proof.
+  intros. generalize u_8. intros. unfold sharp_enlarged. rewrite add_factor,
+    (Rplus_comm (rounding v) (sa + sb)), (Rplus_comm (rounding v) (fl (sa + sb))).
+  apply sum_of_three; auto using rounding_nonnegative, three_roundings; try lra.
+  apply rnd_number.
+Qed.
 Theorem sharp_add_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= sharp_add (fl (a + b)) sa sb.
 Proof.
-  intros A B SA SB HA HB. generalize u_8. intros.
+  intros A B SA SB HA HB.
   assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
   assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
-  apply Rle_trans with (sa + sb + rounding (fl (a + b))).
-  - replace (fl (a + b) - (x + y)) with (((a - x) + (b - y)) + (fl (a + b) - (a + b))) by ring.
-    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-    + apply Rle_trans with (1 := Rabs_triang _ _). lra.
-    + now apply rounding_sum.
-  - unfold sharp_add. rewrite add_factor, (Rplus_comm (rounding _)).
-    apply sum_of_three; auto using rounding_nonnegative, three_roundings; try lra.
-    apply rnd_number.
+  assert (H := sharp_sum_error a x sa b y sb A B HA HB).
+  apply Upper.sum_of_bounds_sound; auto using rounding_nonnegative with typeclass_instances; try lia; [apply rnd_number |].
+  apply Rle_trans with (1 := H). now apply sharp_enlarged_sound.
 Qed.
 
 Theorem sharp_subtract_sound a x sa b y sb :

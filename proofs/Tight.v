@@ -10,6 +10,7 @@
 From Coq Require Import Reals ZArith Lia Lra Psatz Bool.
 From Flocq Require Import Core.
 From Errbound Require Import Format.
+From Errbound Require Upper.
 Open Scope R_scope.
 
 Section Tight.
@@ -33,7 +34,9 @@ Definition is_zero (a sa : R) : bool := Req_bool a 0 && Req_bool sa 0.
 Definition tight_exact (a : R) : R := fl (a - a).
 (** For error >= 0. *)
 Definition tight_within (a error : R) : R := fl (error + fl (a - a)).
-Definition tight_add (v sa sb : R) : R := inflated (fl (rounding v + fl (sa + sb))).
+Definition tight_enlarged (v sa sb : R) : R := inflated (fl (rounding v + fl (sa + sb))).
+Definition tight_add (v sa sb : R) : R :=
+  Upper.sum_of_bounds p emin direction (tight_enlarged v sa sb) (rounding v) sa sb.
 Definition tight_multiply (v a sa b sb : R) : R :=
   if is_zero a sa || is_zero b sb then rounding v
   else
@@ -162,6 +165,20 @@ Proof.
   now apply inflated_sum_left.
 Qed.
 
+(** The error of a sum, and the bounds of it. *)
+Lemma sum_error_at_most a x sa b y sb :
+  number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a + b) - (x + y)) <= rounding (fl (a + b)) + (sa + sb).
+Proof.
+  intros A B HA HB.
+  replace (fl (a + b) - (x + y)) with ((fl (a + b) - (a + b)) + ((a - x) + (b - y))) by ring.
+  apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
+  - now apply rounding_sum.
+  - apply Rle_trans with (1 := Rabs_triang _ _). lra.
+Qed.
+Lemma enlarged_sound v sa sb : number sa -> number sb -> 0 <= sa -> 0 <= sb ->
+  rounding v + (sa + sb) <= tight_enlarged v sa sb.
+Proof. intros. apply inflated_sum_right; auto using rounding_nonnegative. apply rnd_number; auto. Qed.
 Lemma add_sound a x sa b y sb :
   number a -> number b -> number sa -> number sb ->
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
@@ -170,12 +187,9 @@ Proof.
   intros A B SA SB HA HB.
   assert (PA : 0 <= sa) by (generalize (Rabs_pos (a - x)); lra).
   assert (PB : 0 <= sb) by (generalize (Rabs_pos (b - y)); lra).
-  apply Rle_trans with (rounding (fl (a + b)) + (sa + sb)).
-  - replace (fl (a + b) - (x + y)) with ((fl (a + b) - (a + b)) + ((a - x) + (b - y))) by ring.
-    apply Rle_trans with (1 := Rabs_triang _ _). apply Rplus_le_compat.
-    + now apply rounding_sum.
-    + apply Rle_trans with (1 := Rabs_triang _ _). lra.
-  - apply inflated_sum_right; auto using rounding_nonnegative. apply rnd_number; auto.
+  assert (H := sum_error_at_most a x sa b y sb A B HA HB).
+  apply Upper.sum_of_bounds_sound; auto using rounding_nonnegative; try lia; [apply rnd_number |].
+  apply Rle_trans with (1 := H). now apply enlarged_sound.
 Qed.
 
 (** What the operands' bounds make of an exact product. *)
@@ -467,7 +481,7 @@ Qed.
 
 (** The code's bounds are numbers, so that results may be operands. *)
 Theorem tight_add_number v sa sb : number (tight_add v sa sb).
-Proof. apply rnd_number. Qed.
+Proof. apply Upper.sum_of_bounds_number, rnd_number; auto. Qed.
 Theorem tight_multiply_number v a sa b sb : number (tight_multiply v a sa b sb).
 Proof. unfold tight_multiply. destruct (_ || _); apply rnd_number. Qed.
 Theorem tight_divide_number v a sa b sb bound :
@@ -564,6 +578,22 @@ Theorem tight_add_sound_nearest a x sa b y sb :
   Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
   Rabs (fl (a + b) - (x + y)) <= tight_add p emin nearest (fl (a + b)) sa sb.
 Proof. apply (add_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
+
+(** What the code adds up, and the first of its two bounds. *)
+Lemma tight_sum_error_nearest a x sa b y sb :
+  number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a + b) - (x + y)) <= rounding p emin nearest (fl (a + b)) + (sa + sb).
+Proof. exact (sum_error_at_most p emin nearest p_3 emin_p a x sa b y sb). Qed.
+Lemma tight_difference_error_nearest a x sa b y sb :
+  number a -> number b -> Rabs (a - x) <= sa -> Rabs (b - y) <= sb ->
+  Rabs (fl (a - b) - (x - y)) <= rounding p emin nearest (fl (a - b)) + (sa + sb).
+Proof.
+  intros. apply tight_sum_error_nearest; auto using number_opp.
+  replace (- b - - y) with (- (b - y)) by ring. now rewrite Rabs_Ropp.
+Qed.
+Lemma tight_enlarged_sound_nearest v sa sb : number sa -> number sb -> 0 <= sa -> 0 <= sb ->
+  rounding p emin nearest v + (sa + sb) <= tight_enlarged p emin nearest v sa sb.
+Proof. apply (enlarged_sound p emin nearest p_3 emin_p _ _ error nearest_q6). Qed.
 
 Theorem tight_subtract_sound_nearest a x sa b y sb :
   number a -> number b -> number sa -> number sb ->

@@ -1,10 +1,14 @@
 (** Sums, products and quotients rounded upwards without touching the rounding mode, as the rules `affine`
     and `relative` do (include/errbound/rules/affine.hpp, relative.hpp): x times 1 + eps, rounded to nearest,
     is at least the successor of a normal x. What is subnormal gets eta more, or was exact. Lemmas for
-    Affine.v and Relative.v. *)
+    Affine.v and Relative.v.
+
+    Sums of bounds, rounded in any one direction, as detail/sum_of_bounds.hpp adds them for the rules `tight`,
+    `sharp` and `residual`: sum_above x y is x + y if that is a number, else the rounded sum or, if that is
+    less, the rounded sum times 1 + eps. *)
 
 From Coq Require Import Reals ZArith Lia Lra Psatz.
-From Flocq Require Import Core.
+From Flocq Require Import Core Sterbenz.
 From Errbound Require Import Format.
 Open Scope R_scope.
 
@@ -122,3 +126,112 @@ Proof.
   apply Rabs_le_inv in D. lra.
 Qed.
 End Upper.
+
+Section Sum_of_bounds.
+
+Variables p emin : Z.
+Context {p_positive : Prec_gt_0 p}.
+Variable direction : R -> Z.
+Context {direction_valid : Valid_rnd direction}.
+
+Notation fl := (rnd p emin direction).
+Notation number := (number p emin).
+Notation eps := (eps p).
+Notation smallest_normal := (smallest_normal p emin).
+Notation ulp := (ulp radix2 (FLT_exp emin p)).
+Notation succ := (succ radix2 (FLT_exp emin p)).
+
+(** The code, in its order of evaluation. *)
+Definition sum_above (x y : R) : R :=
+  let sum := fl (x + y) in
+  if Rlt_bool (fl (sum - Rmax x y)) (Rmin x y) then fl (sum * fl (1 + eps)) else sum.
+Definition sum_of_bounds (enlarged own x y : R) : R :=
+  if (40 <=? p)%Z then enlarged
+  else if Rlt_bool (fl (own * bpow radix2 (Z.max 0 (p - 11)))) (fl (x + y)) then
+    let careful := sum_above own (sum_above x y) in
+    if Rlt_bool careful enlarged then careful else enlarged
+  else enlarged.
+
+Hypothesis p_2 : (2 <= p)%Z.
+Hypothesis emin_p : (emin <= - p)%Z.
+
+Lemma one_and_eps : fl (1 + eps) = 1 + eps.
+Proof. apply rnd_exact; auto. apply (number_1_power p emin 1); auto; lia. Qed.
+Lemma sum_above_number x y : number (sum_above x y).
+Proof. unfold sum_above. cbv zeta. destruct Rlt_bool; now apply rnd_number. Qed.
+
+(** The successor of a normal number. *)
+Lemma succ_below s : number s -> smallest_normal <= s -> succ s <= fl (s * (1 + eps)).
+Proof.
+  intros N H. generalize (smallest_normal_positive p emin). intros P. apply rnd_above; auto.
+  - apply generic_format_succ; auto with typeclass_instances.
+  - rewrite succ_eq_pos by lra. rewrite Rmult_plus_distr_l, Rmult_1_r. apply Rplus_le_compat_l.
+    rewrite <- (Rabs_pos_eq s) at 2 by lra. apply ulp_FLT_le.
+    rewrite Rabs_pos_eq by lra. unfold Format.smallest_normal in H.
+    now replace (emin + p - 1)%Z with (emin + p - 1)%Z by lia.
+Qed.
+
+Theorem sum_above_sound x y : number x -> number y -> 0 <= x -> 0 <= y -> x + y <= sum_above x y.
+Proof.
+  intros X Y PX PY. unfold sum_above. cbv zeta. set (l := Rmax x y). set (m := Rmin x y).
+  assert (E : x + y = l + m) by (unfold l, m, Rmax, Rmin; destruct (Rle_dec x y); lra).
+  assert (L : number l) by (unfold l, Rmax; now destruct (Rle_dec x y)).
+  assert (B : 0 <= m <= l) by (unfold l, m, Rmax, Rmin; destruct (Rle_dec x y); lra).
+  rewrite E. set (s := fl (l + m)). assert (S : number s) by now apply rnd_number.
+  assert (D : fl (s - l) = s - l).
+  { apply rnd_exact; auto. apply sterbenz; auto with typeclass_instances.
+    assert (l <= s) by (apply rnd_above; auto; lra).
+    assert (s <= 2 * l); [| lra]. apply rnd_below; auto; [| lra].
+    rewrite Rmult_comm. change 2 with (bpow radix2 1). rewrite <- (scale_up p emin direction) by (auto; lia).
+    now apply rnd_number. }
+  rewrite D, one_and_eps. case Rlt_bool_spec; intros C; [| lra].
+  assert (N : smallest_normal <= s).
+  { apply Rnot_lt_le. intros K. enough (s = l + m) by lra. unfold s. apply sum_exact_below; auto.
+    - unfold m, Rmin. now destruct (Rle_dec x y).
+    - rewrite Rabs_pos_eq by lra. apply Rnot_le_lt. intros F.
+      assert (smallest_normal <= s); [| lra]. apply rnd_above; auto. now apply number_smallest_normal. }
+  apply Rle_trans with (2 := succ_below s S N). apply Rnot_lt_le. intros F.
+  assert (succ s <= s).
+  { apply (rnd_above p emin direction); auto; [| lra]. apply generic_format_succ; auto with typeclass_instances. }
+  assert (s < succ s); [| lra]. apply succ_gt_id. generalize (smallest_normal_positive p emin). lra.
+Qed.
+
+(** It is no more than one last place above the least bound that the format has. *)
+Theorem sum_above_exact x y : number x -> number y -> 0 <= x -> 0 <= y -> number (x + y) -> sum_above x y = x + y.
+Proof.
+  intros X Y PX PY N. unfold sum_above. cbv zeta. rewrite (rnd_exact p emin direction (x + y) N).
+  rewrite Rlt_bool_false; auto.
+  replace (x + y - Rmax x y) with (Rmin x y) by (unfold Rmax, Rmin; destruct (Rle_dec x y); lra).
+  rewrite rnd_exact; auto; [apply Rle_refl |]. unfold Rmin. now destruct (Rle_dec x y).
+Qed.
+Theorem sum_above_least x y z : 0 <= x -> 0 <= y -> number z -> x + y <= z -> sum_above x y <= fl (z * (1 + eps)).
+Proof.
+  intros PX PY Z H. unfold sum_above. cbv zeta. rewrite one_and_eps.
+  assert (S : fl (x + y) <= z) by now apply rnd_below.
+  assert (0 <= fl (x + y)) by (apply rnd_nonnegative; auto; lra). generalize (eps_positive p). intros P.
+  destruct Rlt_bool.
+  - apply rnd_le; auto. apply Rmult_le_compat_r; lra.
+  - apply Rle_trans with (1 := S). apply rnd_above; auto. nra.
+Qed.
+
+Theorem sum_of_bounds_at_most enlarged own x y : sum_of_bounds enlarged own x y <= enlarged.
+Proof.
+  unfold sum_of_bounds. cbv zeta. destruct (40 <=? p)%Z; [apply Rle_refl |].
+  destruct Rlt_bool; [| apply Rle_refl]. case Rlt_bool_spec; lra.
+Qed.
+Theorem sum_of_bounds_sound enlarged own x y e : number own -> number x -> number y ->
+  0 <= own -> 0 <= x -> 0 <= y -> e <= own + (x + y) -> e <= enlarged -> e <= sum_of_bounds enlarged own x y.
+Proof.
+  intros O X Y PO PX PY H L. unfold sum_of_bounds. cbv zeta. destruct (40 <=? p)%Z; auto.
+  destruct Rlt_bool; auto. destruct Rlt_bool; auto. apply Rle_trans with (1 := H).
+  generalize (sum_above_sound x y X Y PX PY). intros S.
+  apply Rle_trans with (own + sum_above x y); [lra |].
+  apply sum_above_sound; auto using sum_above_number; lra.
+Qed.
+Lemma sum_of_bounds_number enlarged own x y : number enlarged -> number (sum_of_bounds enlarged own x y).
+Proof.
+  intros N. unfold sum_of_bounds. cbv zeta. destruct (40 <=? p)%Z; auto. destruct Rlt_bool; auto.
+  destruct Rlt_bool; auto. apply sum_above_number.
+Qed.
+
+End Sum_of_bounds.

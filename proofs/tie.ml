@@ -161,7 +161,7 @@ let number_draws f rule states =
   let a = f.a in
   let is_small x = a.at_most (abs a x) (a.integer (z 2)) in
   let filter condition all = Array.of_list (List.filter condition (Array.to_list all)) in
-  let well_known x = is_small (fst x) && a.at_most (tracked_error rule x) (a.integer (z 1)) in
+  let well_known x = is_small (fst x) && a.at_most (tracked_error a rule x) (a.integer (z 1)) in
   let exact = Array.map (tracked_exactly rule) (filter is_small f.values) in
   let small = filter well_known states in
   fun kind ->

@@ -57,7 +57,7 @@ inline constexpr bool rule_divides = [] {
         return rule_has_divide<Rule, T>;
 }();
 
-/// NaN and infinity, which say that nothing is known, are passed on.
+/// A NaN, which formats without infinities have for one, is passed on.
 template <class T, class Rule>
 constexpr T larger_error(const tracked<T, Rule>& a, const tracked<T, Rule>& b) {
     const T x = a.error(), y = b.error();
@@ -419,7 +419,7 @@ constexpr decltype(auto) number_at(const Range& range, std::size_t i) {
 template <class T, class Rule, class A, class B>
 constexpr tracked<T, Rule> dot_of(std::size_t count, const A& a, const B& b) {
     using number = tracked<T, Rule>;
-    if constexpr (rule_has_dot<Rule, T>) {
+    if constexpr (rule_has_dot<Rule, T> && !bounds_are_wider<T, Rule>) {
         typename Rule::template dot_bound<T> bound;
         T sum(0);
         for (std::size_t i = 0; i < count; ++i) {

@@ -155,6 +155,24 @@ inline constexpr bool has_infinity = [] {
         return true;
 }();
 
+namespace detail {
+
+/// The type that holds T's numbers and makes its operations, which then round once more; T if there
+/// is none: number_traits<T>::computed_in.
+template <class T>
+struct type_that_computes {
+    using type = T;
+};
+template <class T>
+requires requires {
+    typename number_traits<T>::computed_in;
+}
+struct type_that_computes<T> {
+    using type = typename number_traits<T>::computed_in;
+};
+
+}  // namespace detail
+
 /// Whether T has subnormal numbers; a number_traits of one's own that does not say so has them.
 template <class T>
 inline constexpr bool has_subnormals = [] {

@@ -7,8 +7,8 @@
 // A decimal that `<<` prints is within one unit of its last digit of the exact number: its digits
 // are right, or the last one is off by one. Trailing zeros are digits like others: 0.30 says more
 // than 0.3. Where no digit is certain it is a zero, 0.00 or 0e+05, which says how large the number
-// can be. An exact number is printed by the shortest decimal that reads back as its value. `?`
-// stands for a number of which nothing is known. Streams' precision has no influence, their width
+// can be. An exact number is printed by the shortest decimal that reads back as its value. A number
+// whose error is infinite is printed as "unknown". Streams' precision has no influence, their width
 // has; so it is with std::format, whose width and alignment are a string's and which takes no
 // precision: how many digits are certain the number says.
 #pragma once
@@ -94,7 +94,7 @@ inline std::string with_exponent(std::string_view digits, int exponent) {
 /// unit, and the number by another half.
 template <std::floating_point T>
 std::string certain_digits(T value, T error) {
-    if (!std::isfinite(value) || !std::isfinite(error)) return "?";
+    if (!std::isfinite(value) || !std::isfinite(error)) return "unknown";
     if (error == 0) return decimal(value == 0 ? T(0) : value);
     // 18 digits may round up to the next power of ten, never to one below.
     constexpr int digits = 17;
@@ -151,7 +151,7 @@ std::string decimal_not_below(T x) {
 
 template <std::floating_point T>
 std::string value_and_radius(T value, T error) {
-    const std::string radius = !std::isfinite(value) || !std::isfinite(error) ? "?"
+    const std::string radius = !std::isfinite(value) || !std::isfinite(error) ? "unknown"
                                : error == 0                                   ? "0"
                                             : decimal_not_below(error);
     return decimal(value) + " ± " + radius;
@@ -172,7 +172,7 @@ std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
 }
 
 /// What streams print as value ± radius: the shortest decimal that reads back as the value, and one
-/// of two digits that reads back as at least the error (`?` where nothing is known). Read back into
+/// of two digits that reads back as at least the error (`unknown` if that is infinite). Read back into
 /// tracked::within, they hold the exact number.
 template <printable_number T, class Rule>
 std::string with_radius(const tracked<T, Rule>& x) {

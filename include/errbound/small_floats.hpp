@@ -191,6 +191,8 @@ using float8_e4m3 = small_float<4, 4, false>;  ///< no infinities; at most 448
 template <int P, int E, bool HasInfinity>
 struct number_traits<small_float<P, E, HasInfinity>> {
     using number = small_float<P, E, HasInfinity>;
+    /// Rules that can keep bounds in floats do so (tracked.hpp).
+    using computed_in = float;
     static constexpr int digits = P;
     static constexpr bool has_infinity = HasInfinity;
     static constexpr int max_exponent = (1 << (E - 1)) + (HasInfinity ? 0 : 1);

@@ -57,6 +57,21 @@ constexpr bool is_exactly(const T& v, Number value) {
     }
 }
 
+/// The type in which Rule keeps bounds of numbers of type T: T, or the one that computes T's
+/// operations, if the rule has a `displacement`. Bounds of 8 or 11 bits would grow with each of
+/// their own roundings.
+template <class T, class Rule>
+struct type_of_bounds {
+    using type = T;
+};
+template <class T, class Rule>
+requires rule_has_displacement<Rule, typename type_that_computes<T>::type>
+struct type_of_bounds<T, Rule> {
+    using type = typename type_that_computes<T>::type;
+};
+template <class T, class Rule>
+inline constexpr bool bounds_are_wider = !std::is_same_v<typename type_of_bounds<T, Rule>::type, T>;
+
 // Types of comparisons that do not exist. Their names are in the compiler's message.
 struct take_compare_or_by_value;
 struct take_sign_of_or_compare {};
@@ -80,7 +95,8 @@ class tracked {
   public:
     using value_type = T;
     using rule_type = Rule;
-    using bound_type = typename Rule::template bound<T>;
+    using bound_type =
+        typename Rule::template bound<typename detail::type_of_bounds<T, Rule>::type>;
 
     /// Exactly zero.
     constexpr tracked() : tracked(T(0)) {}
@@ -93,7 +109,7 @@ class tracked {
     /// A number that is known to lie within `error` of `value`; unknown unless error >= 0.
     static constexpr tracked within(const T& value, const T& error) {
         const T v = detail::rounded(value);
-        return {v, Rule::within(v, error)};
+        return {v, Rule::within(wide(v), wide(error))};
     }
     /// `value` with what the rule has said of it, for rules that wrap others: bound() of a number
     /// of that value.
@@ -103,29 +119,54 @@ class tracked {
 
     /// The value that plain arithmetic would have computed.
     constexpr const T& value() const { return value_; }
-    /// An upper bound of |value() − exact value|; infinity or NaN where nothing is known.
-    constexpr T error() const { return Rule::error(value_, bound_); }
+    /// An upper bound of |value() − exact value|; infinite where nothing is known (NaN in a format
+    /// without infinities), never NaN in others. So `x.error() <= tolerance` is safe, as is its
+    /// opposite.
+    constexpr T error() const {
+        const wide e = own_error();
+        if constexpr (widens) {
+            const T nearest(e);
+            if (wide(nearest) < e)  // ε times it is at least its last place, or η is
+                return nearest +
+                       (nearest * number_traits<T>::epsilon() + number_traits<T>::underflow_unit());
+            return e == e ? nearest : number_traits<T>::infinity();
+        } else {
+            return e == e ? e : number_traits<T>::infinity();
+        }
+    }
     /// What the rule stores, for those who study bounds.
     constexpr const bound_type& bound() const { return bound_; }
 
     friend constexpr tracked operator+(const tracked& a, const tracked& b) {
         const T v = a.value_ + b.value_;
-        return {v, Rule::template add<T>(v, a.as_operand(), b.as_operand())};
+        if constexpr (widens)
+            return rounded_from(v, a.widened() + b.widened());
+        else
+            return {v, Rule::template add<T>(v, a.as_operand(), b.as_operand())};
     }
     friend constexpr tracked operator-(const tracked& a, const tracked& b) {
         const T v = a.value_ - b.value_;
-        return {v, Rule::template subtract<T>(v, a.as_operand(), b.as_operand())};
+        if constexpr (widens)
+            return rounded_from(v, a.widened() - b.widened());
+        else
+            return {v, Rule::template subtract<T>(v, a.as_operand(), b.as_operand())};
     }
     friend constexpr tracked operator*(const tracked& a, const tracked& b) {
         const T v = detail::rounded_product(a.value_, b.value_);
-        return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
+        if constexpr (widens)
+            return rounded_from(v, a.widened() * b.widened());
+        else
+            return {v, Rule::template multiply<T>(v, a.as_operand(), b.as_operand())};
     }
     /// Does not compile for a rule without division. Unknown where b may be zero.
     friend constexpr tracked operator/(const tracked& a, const tracked& b) {
         static_assert(detail::rule_has_divide<Rule, T>,
                       "errbound: this bound rule has no divide(result, a, b)");
         const T v = a.value_ / b.value_;
-        return {v, Rule::template divide<T>(v, a.as_operand(), b.as_operand())};
+        if constexpr (widens)
+            return rounded_from(v, a.widened() / b.widened());
+        else
+            return {v, Rule::template divide<T>(v, a.as_operand(), b.as_operand())};
     }
     constexpr tracked operator-() const {
         if constexpr (requires { Rule::negate(bound_); })
@@ -143,17 +184,21 @@ class tracked {
     friend constexpr tracked scale(const tracked& x, int e) {
         const int power = (std::max)(e, -(std::numeric_limits<int>::max)());  // rules negate it
         const T v = number_traits<T>::scale(x.value_, power);
-        return {v, Rule::template scale<T>(v, x.as_operand(), power)};
+        if constexpr (widens)
+            return rounded_from(v, scale(x.widened(), power));
+        else
+            return {v, Rule::template scale<T>(v, x.as_operand(), power)};
     }
 
     /// The certain sign; the rule's own where it has one. Strict: a value that equals its bound may
     /// belong to zero. Proof of the default: proofs/IeeeRules.v, sign_of_known.
     friend constexpr sign_type sign_of(const tracked& x) {
-        if constexpr (detail::rule_has_sign<Rule, T>) return Rule::sign(x.value_, x.bound_);
-        const T e = x.error();
-        if (x.value_ > e) return sign_type::positive;
-        if (x.value_ < -e) return sign_type::negative;
-        return x.value_ == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
+        const wide v(x.value_);
+        if constexpr (detail::rule_has_sign<Rule, wide>) return Rule::sign(v, x.bound_);
+        const wide e = x.own_error();  // no number is greater than NaN
+        if (v > e) return sign_type::positive;
+        if (v < -e) return sign_type::negative;
+        return v == 0 && e == 0 ? sign_type::zero : sign_type::uncertain;
     }
     /// The certain sign of a − b. There is no operator<: it would have to guess. For choices that
     /// may be wrong without harm there is by_value.
@@ -164,17 +209,36 @@ class tracked {
     friend detail::take_compare_or_by_value operator<=>(const tracked&, const tracked&) = delete;
 
   private:
-    static constexpr tracked exactly(const T& value) { return {value, Rule::exact(value)}; }
+    static constexpr bool widens = detail::bounds_are_wider<T, Rule>;
+    using wide = typename detail::type_of_bounds<T, Rule>::type;
+
+    static constexpr tracked exactly(const T& value) { return {value, Rule::exact(wide(value))}; }
+    /// The rule's own, which may be NaN.
+    constexpr wide own_error() const { return Rule::error(wide(value_), bound_); }
+    constexpr tracked<wide, Rule> widened() const requires widens {
+        return tracked<wide, Rule>::from_bound(wide(value_), bound_);
+    }
+    /// The exact number that x stands for, by the value v. With d = v − x̂ and a number D that has
+    /// the value d and is 0, x + D has the value v; if d is not exact, it is unknown.
+    static constexpr tracked rounded_from(const T& v,
+                                          const tracked<wide, Rule>& x) requires widens {
+        const wide d = wide(v) - x.value();
+        if (d == 0) return {v, x.bound()};
+        const auto sum =
+            x + tracked<wide, Rule>::from_bound(d, Rule::template displacement<wide>(d));
+        if (sum.value() == wide(v)) return {v, sum.bound()};
+        return {v, Rule::within(wide(v), number_traits<wide>::infinity())};
+    }
     template <class Number>
     static constexpr tracked from_other(Number value) {
         using traits = number_traits<T>;
         const T v = detail::rounded(static_cast<T>(value));
         if (detail::is_exactly<T>(v, value)) return exactly(v);
         // What overflows may be the largest number, in some directions of rounding.
-        if (traits::abs(v) == traits::largest()) return {v, Rule::within(v, traits::infinity())};
+        if (traits::abs(v) == traits::largest()) return within(v, traits::infinity());
         // Of a normal number in any direction at most ε|v|, in two roundings less than 2ε|v|.
         const T relative = detail::rounded_product(traits::abs(v), T(2 * traits::epsilon()));
-        return {v, Rule::within(v, T(relative + traits::underflow_unit()))};
+        return within(v, T(relative + traits::underflow_unit()));
     }
 
     constexpr tracked(const T& value, const bound_type& bound) : value_(value), bound_(bound) {}

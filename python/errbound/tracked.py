@@ -64,7 +64,7 @@ class Array:
 
     @property
     def error(self) -> NDArray[Any]:
-        """Upper bounds of |value - exact value|; infinity or NaN where nothing is known."""
+        """Upper bounds of |value - exact value|; infinite where nothing is known, never NaN."""
         return self._row.errors().reshape(self.shape)  # type: ignore[no-any-return]
 
     @property

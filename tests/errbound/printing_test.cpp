@@ -64,7 +64,7 @@ void check(T value, T error) {
     const auto x = tracked<T>::within(value, error);
     const std::string text = certain_digits(x);
     if (!std::isfinite(static_cast<long double>(x.error()))) {
-        ASSERT_EQ(text, "?");
+        ASSERT_EQ(text, "unknown");
         return;
     }
     const read_decimal read(text);
@@ -131,7 +131,7 @@ TYPED_TEST(Printing, ValueAndRadiusHoldTheNumber) {
         ASSERT_NE(between, std::string::npos);
         const std::string radius = text.substr(between + std::string(" ± ").size());
         if (!traits::is_finite(x.error())) {
-            ASSERT_EQ(radius, "?");
+            ASSERT_EQ(radius, "unknown");
             continue;
         }
         ASSERT_EQ(read_back<printed>(text.substr(0, between)), static_cast<printed>(value)) << text;
@@ -171,8 +171,8 @@ TEST(PrintingText, IsAsOneWouldWriteIt) {
     EXPECT_EQ(text_of(within(-0.001, 0.01)), "0.0");
     EXPECT_EQ(text_of(within(0, 1e-10)), "0e-09");
     const double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(text_of(within(1, infinity)), "?");
-    EXPECT_EQ(text_of(tracked<double>(1) / tracked<double>(0)), "?");
+    EXPECT_EQ(text_of(within(1, infinity)), "unknown");
+    EXPECT_EQ(text_of(tracked<double>(1) / tracked<double>(0)), "unknown");
     EXPECT_EQ(with_radius(within(1, infinity)), "1 ± ?");
     for (const double sign : {1.0, -1.0}) {
         const double nothing = std::copysign(std::numeric_limits<double>::quiet_NaN(), sign);

@@ -13,13 +13,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <errbound/explain/elementary.hpp>
 #include <errbound/explain/explained.hpp>
 #include <errbound/explain/explanation.hpp>
 #include <errbound/explain/functions.hpp>
 #include <errbound/explain/scope.hpp>
-#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -30,11 +28,10 @@ namespace errbound {
 /// what tables call x. Cost: a look-up for each source.
 template <class T, class Rule, std::size_t Limit>
 explanation explain(const tracked<T, explained<Rule, Limit>>& x, std::string name = "result") {
-    const auto error = static_cast<double>(x.error());
     explanation e{std::move(name),
                   Rule::name,
                   static_cast<double>(x.value()),
-                  std::isnan(error) ? std::numeric_limits<double>::infinity() : error,
+                  static_cast<double>(x.error()),
                   {}};
     const auto& all = detail::all_sources::instance();
     for (const auto& entry : x.bound().contributions.entries())

@@ -88,6 +88,11 @@ struct explained {
         return from_outside<T>(value, Rule::template within<T>(value, error));
     }
     template <class T>
+    static bound<T> displacement(const T& value) requires detail::rule_has_displacement<Rule, T> {
+        const auto b = Rule::template displacement<T>(value);
+        return closed<T>(detail::operations::rounded, value, b, b, {});
+    }
+    template <class T>
     static constexpr T error(const T& value, const bound<T>& b) {
         return Rule::template error<T>(value, b.of_rule);
     }
@@ -173,9 +178,10 @@ struct explained {
     template <class T>
     static tracked<T, explained> closed(std::uint32_t function, const tracked<T, Rule>& result,
                                         const tracked<T, Rule>& own, ledger<T> contributions) {
+        using wide = typename detail::type_of_bounds<T, Rule>::type;
         return tracked<T, explained>::from_bound(
-            result.value(), closed<T>(function, result.value(), result.bound(), own.bound(),
-                                      std::move(contributions)));
+            result.value(), closed<wide>(function, wide(result.value()), result.bound(),
+                                         own.bound(), std::move(contributions)));
     }
 
   private:

@@ -28,9 +28,10 @@ namespace errbound {
 namespace detail {
 
 template <class T, class Rule>
-T known_correction(const tracked<T, Rule>& x) {
-    if constexpr (rule_has_correction<Rule, T>)
-        return Rule::template correction<T>(x.value(), x.bound());
+auto known_correction(const tracked<T, Rule>& x) {
+    using wide = typename type_of_bounds<T, Rule>::type;
+    if constexpr (rule_has_correction<Rule, wide>)
+        return Rule::template correction<wide>(wide(x.value()), x.bound());
     else
         return T(0);
 }

@@ -50,8 +50,9 @@ struct source {
 
 /// Operations that every rule has; functions' numbers follow.
 struct operations {
-    enum : std::uint32_t { input, plus, minus, times, divided_by, scaled, count };
-    static constexpr std::array<const char*, count> names{"input", "+", "-", "*", "/", "scale"};
+    enum : std::uint32_t { input, plus, minus, times, divided_by, scaled, rounded, count };
+    static constexpr std::array<const char*, count> names{
+        "input", "+", "-", "*", "/", "scale", "rounding to the type"};
 };
 
 /// Sources that were too small to be kept apart.

@@ -18,6 +18,7 @@
 // propagated as in Langlois 2001 (Automatic linear correction of rounding errors).
 #pragma once
 
+#include <errbound/detail/sum_of_bounds.hpp>
 #include <errbound/error_free.hpp>
 #include <errbound/rules/rule.hpp>
 #include <errbound/sign.hpp>
@@ -43,6 +44,12 @@ struct residual {
     template <class T>
     static constexpr bound<T> within(const T& value, const T& error) {
         return {T(0), error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
+    }
+    /// The bound of a number of this value that is known to be 0.
+    /// Proof: proofs/IeeeResidual.v, residual_displacement_known.
+    template <class T>
+    static constexpr bound<T> displacement(const T& value) {
+        return {-value, value - value};
     }
     /// |c| + ρ. Proof: proofs/IeeeResidual.v, residual_error_known.
     template <class T>
@@ -170,10 +177,11 @@ struct residual {
         const T own = two_sum<T>(a, b).error;
         const with_error<T> inherited = two_sum<T>(a_bound.correction, b_bound.correction);
         const with_error<T> correction = two_sum<T>(own, inherited.value);
-        return {
-            correction.value,
-            inflated<T>((a_bound.remainder + b_bound.remainder) +
-                        (traits::abs(inherited.error) + traits::abs(correction.error)) + (v - v))};
+        const T lost = traits::abs(inherited.error) + traits::abs(correction.error);
+        const T remainder =
+            detail::sum_of_bounds<T>(inflated<T>((a_bound.remainder + b_bound.remainder) + lost),
+                                     inflated<T>(lost), a_bound.remainder, b_bound.remainder);
+        return {correction.value, remainder + (v - v)};
     }
 
     /// What the roundings of two products x and y and of two sums take at most, with 4η for these

@@ -7,6 +7,7 @@
 //   within(value, error)                         of a number known to be within error of value
 //   error(value, bound)                          an upper bound of |value − true value|;
 //                                                infinity or NaN: nothing is known
+//                                                (tracked::error() returns infinity for both)
 //   add, subtract, multiply(result, a, b)        the bound of the rounded result of a ∘ b
 //   divide(result, a, b)                         likewise; leave it out if the rule has none
 //   scale(result, a, e)                          the bound of result = a·2^e, rounded once
@@ -19,14 +20,16 @@
 //   correction(value, bound)                     what the rule knows of true value − value,
 //                                                signed and no larger than the error; default: 0
 //   square_root(result, a)                       the bound of the rounded √a, unknown where a may
-//   be
-//                                                negative; default: what the error of a tells
+//                                                be negative; default: what the error of a tells
 //   fused(result, a, b, c)                       the bound of ab + c, rounded once; default: what
 //                                                the errors of a, b and c tell
 //   keeps_first_order                            true where the rule keeps errors with their signs
 //                                                or sources: √a and ab + c are then made of the
 //                                                rule's operations, which `divide` is among
 //   is_crowded(bound)                            of such a rule: true where √a is better one source
+//   displacement(value)                          the bound of a number of that value that is known
+//                                                to be 0: with it, bounds of numbers of 8 and 16
+//                                                bits are floats (tracked.hpp)
 //   template <class T> class dot_bound           what bounds s = 0, s += ab, s += cd, ... better
 //                                                than one operation after the other: for each step
 //                                                add_product(ab, s before, s after, a, b), at the
@@ -145,6 +148,10 @@ concept rule_sign_is_one = !rule_has_sign<Rule, T> ||
     { Rule::sign(value, bound) } -> std::same_as<sign_type>;
 };
 
+template <class Rule, class T>
+concept rule_has_displacement = requires(const T& value) {
+    { Rule::template displacement<T>(value) } -> bound_of<Rule, T>;
+};
 template <class Rule, class T>
 concept rule_has_correction = requires(const T& value,
                                        const typename Rule::template bound<T>& bound) {

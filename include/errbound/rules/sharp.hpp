@@ -16,6 +16,7 @@
 
 #include <errbound/detail/rounded.hpp>
 #include <errbound/detail/running_bound.hpp>
+#include <errbound/detail/sum_of_bounds.hpp>
 #include <errbound/rules/rule.hpp>
 
 namespace errbound {
@@ -40,6 +41,12 @@ struct sharp {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
+    /// The bound of a number of this value that is known to be 0.
+    /// Proof: proofs/IeeeRules.v, tight_within_known.
+    template <class T>
+    static constexpr bound<T> displacement(const T& value) {
+        return within<T>(value, number_traits<T>::abs(value));
+    }
     /// Proof of the sign that it makes: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
@@ -50,8 +57,10 @@ struct sharp {
     template <class T>
     static constexpr bound<T> add(const T& v, rule_operand<T, sharp> a, rule_operand<T, sharp> b) {
         using traits = number_traits<T>;
-        return {detail::rounded_product(T(rounding(v) + (a.bound.error + b.bound.error)),
-                                        T(1 + 2 * traits::epsilon()))};
+        const T own = rounding(v);
+        const T enlarged = detail::rounded_product(T(own + (a.bound.error + b.bound.error)),
+                                                   T(1 + 2 * traits::epsilon()));
+        return {detail::sum_of_bounds<T>(enlarged, own, a.bound.error, b.bound.error)};
     }
     /// Proof: proofs/IeeeRules.v, sharp_subtract_known.
     template <class T>

@@ -23,6 +23,7 @@
 
 #include <errbound/detail/rounded.hpp>
 #include <errbound/detail/running_bound.hpp>
+#include <errbound/detail/sum_of_bounds.hpp>
 #include <errbound/rules/rule.hpp>
 
 namespace errbound {
@@ -49,13 +50,20 @@ struct tight {
     static constexpr bound<T> within(const T& value, const T& error) {
         return {error >= 0 ? error + (value - value) : number_traits<T>::infinity()};
     }
+    /// The bound of a number of this value that is known to be 0.
+    /// Proof: proofs/IeeeRules.v, tight_within_known.
+    template <class T>
+    static constexpr bound<T> displacement(const T& value) {
+        return within<T>(value, number_traits<T>::abs(value));
+    }
     /// Proof of the sign that it makes: proofs/IeeeRules.v, sign_of_known.
     template <class T>
     static constexpr T error(const T&, const bound<T>& b) {
         return b.error;
     }
 
-    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add.
+    /// |v − (a + b)| <= |v|ε/(1 − ε) + σa + σb. Source: Theorem 1, Add. In long sums of short
+    /// formats the factor does not multiply σa and σb (detail/sum_of_bounds.hpp).
     /// Proof: proofs/IeeeRules.v, tight_add_known; in any direction, proofs/Tight.v,
     /// tight_add_sound.
     template <class T>
@@ -65,7 +73,9 @@ struct tight {
             if (v != 0 || traits::abs(a.value) != traits::abs(b.value))
                 return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error) +
                                     2 * traits::underflow_unit())};
-        return {inflated<T>(rounding(v) + (a.bound.error + b.bound.error))};
+        const T own = rounding(v);
+        return {detail::sum_of_bounds<T>(inflated<T>(own + (a.bound.error + b.bound.error)), own,
+                                         a.bound.error, b.bound.error)};
     }
     /// Source: Theorem 1, Subtract. Proof: proofs/IeeeRules.v, tight_subtract_known; in any
     /// direction, proofs/Tight.v, tight_subtract_sound.
