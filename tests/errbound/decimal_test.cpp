@@ -1,11 +1,19 @@
 // Decimals as tracked numbers, against rationals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cfenv>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <errbound/binary128.hpp>
 #include <errbound/decimal.hpp>
+#include <limits>
 #include <random>
 #include <string>
+#include <type_traits>
 
 #include "tests/support/any_format.hpp"
 #include "tests/support/long_double.hpp"
@@ -19,6 +27,72 @@ using errbound::sign_type;
 using errbound::tracked;
 using namespace errbound::literals;
 
+using integer =
+    boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
+
+/// Any number of a binary format as a rational, also one of 113 bits.
+template <class T>
+rational exact(const T& x) {
+    using traits = number_traits<T>;
+    if constexpr (traits::digits <= 64) {
+        return exactly_of(x);
+    } else {
+        if (x == 0) return 0;
+        const int e = traits::exponent(x);
+        const T fraction = traits::scale(x, -e);
+        const auto high = static_cast<double>(fraction);
+        const auto middle = static_cast<double>(fraction - T(high));
+        const auto low = static_cast<double>(fraction - T(high) - T(middle));
+        const rational power(integer(1) << static_cast<unsigned>(std::abs(e)));
+        const rational sum = exactly(high) + exactly(middle) + exactly(low);
+        return e < 0 ? rational(sum / power) : rational(sum * power);
+    }
+}
+rational power_of(int base, int n) {
+    const integer size =
+        boost::multiprecision::pow(integer(base), static_cast<unsigned>(std::abs(n)));
+    return n < 0 ? rational(integer(1), size) : rational(size);
+}
+
+/// x > 0 rounded to a multiple of the format's unit there: down, to nearest with ties to even, or
+/// up. A second way to what from_decimal computes.
+enum class direction { nearest, up };
+template <class T>
+rational rounded(const rational& x, direction to) {
+    using traits = number_traits<T>;
+    int end = static_cast<int>(msb(numerator(x))) - static_cast<int>(msb(denominator(x)));
+    end += x >= power_of(2, end) ? 1 : 0;  // 2^(end - 1) <= x < 2^end
+    const int unit = std::max(end, traits::min_exponent) - traits::digits;
+    const rational units = x * power_of(2, -unit);
+    integer n = numerator(units) / denominator(units);
+    const rational rest = units - n, half(1, 2);
+    if (to == direction::up ? rest != 0 : rest > half || (rest == half && n % 2 != 0)) ++n;
+    return n * power_of(2, unit);
+}
+
+/// Reads ±x, of that text, and compares value and error with what rationals give. Errors exceed the
+/// distance, rounded up, by less than a thousandth.
+template <class T, class Rule = errbound::tight>
+void check_text(const std::string& text, const rational& x) {
+    using traits = number_traits<T>;
+    const auto read = from_decimal<tracked<T, Rule>>(text);
+    const std::string shown = text.size() < 100 ? text : text.substr(0, 100) + "...";
+    const rational size = abs(x);
+    const rational nearest = size == 0 ? size : rounded<T>(size, direction::nearest);
+    if (nearest > exact(traits::largest())) {
+        EXPECT_FALSE(traits::is_finite(read.error())) << shown;
+        return;
+    }
+    ASSERT_TRUE(traits::is_finite(read.error())) << shown;
+    const rational value = exact(read.value()), off = abs(rational(value - x));
+    ASSERT_EQ(value, x < 0 ? rational(-nearest) : nearest) << shown;
+    const rational error = exact(read.error());
+    ASSERT_GE(error, off) << shown;
+    if (std::is_same_v<Rule, errbound::safe>) return;  // bounds all by the value's size
+    const rational most = off + off / 1000;
+    ASSERT_LE(error, off == 0 ? off : rounded<T>(most, direction::up)) << shown;
+}
+
 /// Random digits, with and without a point and an exponent, and what they stand for.
 struct random_decimal {
     std::string text;
@@ -27,51 +101,174 @@ struct random_decimal {
     random_decimal(std::mt19937_64& random, int reach) {
         if (random() % 3 == 0) text += '-';
         const bool negative = !text.empty();
-        const int digits = 1 + static_cast<int>(random() % (random() % 4 ? 6 : 30));
+        const int digits = 1 + static_cast<int>(random() % (random() % 4 ? 25 : 100));
         const int point = static_cast<int>(random() % static_cast<unsigned>(digits + 1));
         int e = static_cast<int>(random() % static_cast<unsigned>(2 * reach + 1)) - reach;
         if (random() % 2) e = 0;
+        integer all = 0;
         for (int i = 0; i < digits; ++i) {
             if (i == point) text += '.';
             const int digit = random() % 3 ? static_cast<int>(random() % 10) : 0;
             text += static_cast<char>('0' + digit);
-            exact = exact * 10 + digit;
+            all = all * 10 + digit;
         }
         if (e != 0) text += "e" + std::to_string(e);
-        for (int place = e - (digits - point); place != 0; place += place < 0 ? 1 : -1)
-            exact = place < 0 ? rational(exact / 10) : rational(exact * 10);
+        exact = all * power_of(10, e - (digits - point));
         if (negative) exact = -exact;
     }
 };
 
-template <class T, class Rule>
-void check(int reach) {
-    using traits = number_traits<T>;
-    std::mt19937_64 random(6);
-    int known = 0;
-    const int count = support::scaled(3000);
-    for (int k = 0; k < count; ++k) {
-        const random_decimal d(random, reach);
-        const auto x = from_decimal<tracked<T, Rule>>(d.text);
-        if (!traits::is_finite(x.error())) {
-            ASSERT_EQ(sign_of(x), sign_type::uncertain) << d.text;
-            continue;
-        }
-        ++known;
-        const rational off = exactly_of(x.value()) - d.exact;
-        ASSERT_LE(boost::multiprecision::abs(off), exactly_of(x.error())) << d.text;
-    }
-    EXPECT_GT(known, count / 4);
+/// n·2^e as a decimal of all its digits, which end in `more` of them.
+std::string exact_text(const integer& n, int e, const std::string& more = "") {
+    const integer digits =
+        e < 0 ? integer(n * numerator(power_of(5, -e))) : integer(n << static_cast<unsigned>(e));
+    return digits.str() + more + "e" +
+           std::to_string(std::min(e, 0) - static_cast<int>(more.size()));
+}
+/// The last digit one less, with a 9 after it: what is just below.
+std::string just_below(const integer& n, int e) {
+    const integer digits =
+        (e < 0 ? integer(n * numerator(power_of(5, -e))) : integer(n << static_cast<unsigned>(e))) *
+            10 -
+        1;
+    return digits.str() + "e" + std::to_string(std::min(e, 0) - 1);
 }
 
-TEST(Decimals, AreWithinTheirBounds) {
+/// A number of the format, the midpoint above it and what is next to that midpoint, by all digits:
+/// up to 767 of them for double.
+template <class T>
+void check_midpoint(const integer& significand, int unit) {
+    const auto x = [&](const integer& n, int e) { return rational(n) * power_of(2, e); };
+    check_text<T>(exact_text(significand, unit), x(significand, unit));
+    const integer n = 2 * significand + 1;
+    const rational middle = x(n, unit - 1);
+    const int places = std::max(1 - unit, 0);
+    check_text<T>(exact_text(n, unit - 1), middle);
+    check_text<T>("-" + exact_text(n, unit - 1, "1"), -(middle + power_of(10, -places - 1)));
+    check_text<T>(just_below(n, unit - 1), middle - power_of(10, -places - 1));
+    const std::string zeros(1000, '0');
+    check_text<T>(exact_text(n, unit - 1, zeros + "9"), middle + 9 * power_of(10, -places - 1001));
+}
+template <class T>
+void check_midpoints(int step) {
+    using traits = number_traits<T>;
+    std::mt19937_64 random(8);
+    const integer first = integer(1) << static_cast<unsigned>(traits::digits - 1);
+    const int least = traits::min_exponent - traits::digits;
+    for (const int n : {0, 1, 2, 3}) check_midpoint<T>(n, least);
+    for (int unit = least; unit <= traits::max_exponent - traits::digits; unit += step) {
+        check_midpoint<T>(first, unit);
+        check_midpoint<T>(2 * first - 1, unit);
+        integer any = first;
+        for (int bit = 0; bit < traits::digits - 1; ++bit)
+            if (random() % 2 != 0) any |= integer(1) << static_cast<unsigned>(bit);
+        check_midpoint<T>(any, unit);
+    }
+    check_midpoint<T>(first - 1, least);
+    check_midpoint<T>(2 * first - 1, traits::max_exponent - traits::digits);
+    check_midpoint<T>(2 * first - 2, traits::max_exponent - traits::digits);
+}
+
+template <class T, class Rule>
+void check(int reach) {
+    std::mt19937_64 random(6);
+    for (int k = 0; k < support::scaled(1000); ++k) {
+        const random_decimal d(random, reach);
+        check_text<T, Rule>(d.text, d.exact);
+    }
+}
+
+TEST(Decimals, AreTheNearestNumbersWithTheirDistance) {
     check<double, errbound::tight>(30);
-    check<double, errbound::residual>(320);
-    check<float, errbound::safe>(40);
-    check<support::long_double, errbound::interval>(60);
+    check<double, errbound::residual>(340);
+    check<float, errbound::safe>(50);
+    check<float, errbound::tight>(50);
+    check<support::long_double, errbound::tight>(60);
     check<errbound::float16, errbound::sharp>(5);
-    check<errbound::bfloat16, errbound::tight>(20);
+    check<errbound::bfloat16, errbound::tight>(45);
+    check<errbound::float8_e5m2, errbound::tight>(5);
     check<errbound::float8_e4m3, errbound::tight>(3);
+#ifdef __SIZEOF_FLOAT128__
+    check<errbound::float128, errbound::tight>(60);
+#endif
+}
+
+// The decimals that are hardest to round: all digits of midpoints of two numbers, and what is next
+// to them.
+TEST(Decimals, MidpointsAreRoundedToEvenAndWhatIsNextToThemIsNot) {
+    check_midpoints<double>(support::scaled(1) > 1 ? 1 : 37);
+    check_midpoints<float>(1);
+    check_midpoints<errbound::float16>(1);
+    check_midpoints<errbound::bfloat16>(1);
+    check_midpoints<errbound::float8_e5m2>(1);
+    check_midpoints<errbound::float8_e4m3>(1);
+    check_midpoints<support::long_double>(5000);
+#ifdef __SIZEOF_FLOAT128__
+    check_midpoints<errbound::float128>(9000);
+#endif
+}
+
+/// printf's 17 digits come back as the double they are of.
+TEST(Decimals, SeventeenDigitsReadBack) {
+    std::mt19937_64 random(9);
+    for (int k = 0; k < support::scaled(20000); ++k) {
+        const auto x = std::bit_cast<double>(random());
+        if (!std::isfinite(x)) continue;
+        std::array<char, 64> text{};
+        std::snprintf(text.data(), text.size(), "%.17g", x);
+        const auto read = from_decimal<tracked<double>>(text.data());
+        ASSERT_EQ(std::bit_cast<std::uint64_t>(read.value()), std::bit_cast<std::uint64_t>(x))
+            << text.data();
+    }
+}
+
+TEST(Decimals, AtTheEndsOfTheRange) {
+    using number = tracked<double>;
+    constexpr double largest = std::numeric_limits<double>::max();
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    EXPECT_EQ(from_decimal<number>("1.7976931348623157e308").value(), largest);
+    EXPECT_EQ(from_decimal<number>("1.7976931348623158e308").value(), largest);
+    EXPECT_TRUE(std::isinf(from_decimal<number>("1.7976931348623159e308").error()));
+    EXPECT_EQ(from_decimal<number>("2.2250738585072014e-308").value(), 0x1p-1022);
+    EXPECT_EQ(from_decimal<number>("4.9e-324").value(), least);
+    const auto tiny = from_decimal<number>("-1e-99999999999");
+    EXPECT_EQ(tiny.value(), 0);
+    EXPECT_EQ(tiny.error(), least);
+    EXPECT_TRUE(std::signbit(from_decimal<number>("-0").value()));
+}
+
+/// Digits of an exponent beyond the 6th count: these had been read as 1, 1 and 0.1, exactly.
+TEST(Decimals, ManyZerosDoNotMakeUpForALargeExponent) {
+    using number = tracked<double>;
+    const auto zeros = [](std::size_t count) { return std::string(count, '0'); };
+    EXPECT_TRUE(std::isinf(from_decimal<number>("0." + zeros(99999) + "1e1000000").error()));
+    EXPECT_TRUE(std::isinf(from_decimal<number>("0." + zeros(999999) + "1e9999999").error()));
+    const auto small = from_decimal<number>("1" + zeros(100000) + "e-1000000");
+    EXPECT_EQ(small.value(), 0);
+    EXPECT_GT(small.error(), 0);
+    for (const std::string& one : {"0." + zeros(99999) + "1e100000", "1" + zeros(99999) + "e-99999",
+                                   "1e" + zeros(100), "1." + zeros(100000)}) {
+        const auto x = from_decimal<number>(one);
+        EXPECT_EQ(x.value(), 1);
+        EXPECT_EQ(x.error(), 0);
+    }
+    EXPECT_TRUE(std::isinf(from_decimal<number>("1e" + std::string(40, '9')).error()));
+    EXPECT_EQ(from_decimal<number>("1e-" + std::string(40, '9')).value(), 0);
+    const auto long_third = from_decimal<number>("0." + std::string(100000, '3'));
+    EXPECT_EQ(long_third.value(), 1.0 / 3);
+    EXPECT_LT(long_third.error(), 0x1p-55);
+}
+
+TEST(Decimals, OfConstantsTheCompilerReadsTheSame) {
+    constexpr auto hard =
+        from_decimal<tracked<double>>("2.47032822920623272088284396434110686182e-324");
+    static_assert(hard.value() == 0);
+    static_assert((1.7976931348623157e308_tracked).value() == std::numeric_limits<double>::max());
+    static_assert((5.9604644775390625e-08_tracked).error() == 0);
+    constexpr auto small = from_decimal<tracked<errbound::float16>>("0.1");
+    static_assert(static_cast<float>(small.value()) == 0x1.998p-4F);
+    constexpr auto wide = from_decimal<tracked<support::long_double>>("0.1");
+    static_assert(wide.value() == 0.1L);
 }
 
 TEST(Decimals, WhatTheTypeHoldsIsExact) {
@@ -100,25 +297,33 @@ TEST(Decimals, ATenthIsNotTheDoubleNearestToIt) {
 }
 
 TEST(Decimals, WhatIsNoneIsUnknown) {
-    for (const char* text :
-         {"", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 ", " 1", "nan", "1e5x", "1e99999999999",
-          "1e-99999999999", "'1", "1'", "1''0", "1'.5", "1.'5"}) {
+    for (const char* text : {"", "-", ".", "e5", "1e", "1e+", "1.2.3", "1 ", " 1", "nan", "1e5x",
+                             "1e99999999999", "'1", "1'", "1''0", "1'.5", "1.'5"}) {
         const auto x = from_decimal<tracked<double>>(text);
         EXPECT_EQ(sign_of(x), sign_type::uncertain) << text;
         EXPECT_FALSE(std::isfinite(x.error())) << text;
     }
 }
 
-/// Reading is exact only to nearest. What the compiler has read is right in every direction.
-TEST(Decimals, AreUnknownInAnotherRoundingDirection) {
+/// Values are the same in every direction; the error is infinite only for rules that need rounding
+/// to nearest. What the compiler has read is right in every direction.
+TEST(Decimals, AreTheNearestInEveryRoundingDirection) {
     for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
         std::fesetround(direction);
         const auto read = from_decimal<tracked<double>>("353e-23");
-        const auto half = from_decimal<tracked<errbound::float16>>("0.5");
+        const auto sharp = from_decimal<tracked<double, errbound::sharp>>("353e-23");
+        const auto half = from_decimal<tracked<errbound::float16, errbound::sharp>>("0.5");
+        const auto wide = from_decimal<tracked<support::long_double>>("1e-4950");
+        const auto beyond = from_decimal<tracked<support::long_double>>("1e5000");
         const auto tenth = 0.1_tracked;
         std::fesetround(FE_TONEAREST);
-        EXPECT_FALSE(std::isfinite(read.error()));
-        EXPECT_FALSE(std::isfinite(static_cast<double>(half.error())));
+        EXPECT_EQ(read.value(), 353e-23);
+        EXPECT_LE(read.error(), 0x1p-53 * 353e-23);
+        EXPECT_EQ(sharp.value(), 353e-23);
+        EXPECT_TRUE(std::isinf(sharp.error()));
+        EXPECT_EQ(static_cast<double>(half.error()), 0);
+        EXPECT_EQ(wide.value(), from_decimal<tracked<support::long_double>>("1e-4950").value());
+        EXPECT_TRUE(std::isinf(beyond.error()));
         EXPECT_LT(tenth.error(), 0x1p-56);
     }
 }

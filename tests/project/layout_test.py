@@ -24,7 +24,7 @@ LAYERS = [
     ("bound rules", r"include/errbound/rules/"),
     ("tracked scalar", r"include/errbound/(tracked|functions)\.hpp"),
     ("linear algebra", r"include/errbound/(linear/|(eigen|certified_solve)\.hpp)"),
-    ("exact numbers", r"include/errbound/(integers/|multiprecision\.hpp)"),
+    ("exact numbers", r"include/errbound/(integers/|(multiprecision|decimal)\.hpp)"),
     ("elementary functions", r"include/errbound/functions/"),
     ("polynomials", r"include/errbound/((bernstein|bsc|polynomial)\.hpp|roots/)"),
     ("predicates", r"include/errbound/(predicate\w*\.hpp|filters/)"),
