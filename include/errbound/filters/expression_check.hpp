@@ -32,18 +32,21 @@ constexpr std::uint64_t hashed(std::uint64_t x) {
 /// How many are tried.
 inline constexpr std::size_t suppositions = 64;
 
-/// Signs of numbers, given as they are asked for. In every other supposition the first are zero:
-/// cases where much is zero are the deepest.
+/// Signs of numbers, given as they are evaluated. In every other supposition the first are zero:
+/// cases where much is zero are the deepest. All other signs are functions of the number, so that
+/// nothing has to be looked up: constant evaluation is slow.
 struct supposed_signs {
     /// Beyond any int, so that no number of an expression is a multiple; residues' products fit.
     static constexpr std::uint64_t prime = (std::uint64_t{1} << 32) - 5;
 
     std::uint64_t supposition;
-    std::array<std::uint64_t, counting_run::max_signs> numbers{};  ///< residues up to prime/2
-    std::array<sign_type, counting_run::max_signs> signs{};
+    /// Residues up to prime/2 in the order of evaluation, also repeated ones; of the first run.
+    std::array<std::uint64_t, counting_run::max_signs> numbers{};
     std::size_t size = 0;
-    std::size_t unknown = numbers.size();  ///< the number whose sign is uncertain
-    int asked = 0;                         ///< in this run
+    std::uint64_t unknown = 0;  ///< the number whose sign is uncertain; 0: none, in the first run
+    int asked = 0;              ///< in this run
+    std::array<std::uint64_t, 16> zeros{};  ///< the numbers that are supposed to be zero
+    std::size_t zero_count = 0;
 
     /// Of a residue. Opposite numbers have opposite signs.
     constexpr sign_type sign(std::uint64_t residue) {
@@ -51,57 +54,67 @@ struct supposed_signs {
         if (asked++ == counting_run::max_signs) too_many_signs();
         const bool opposite = residue > prime / 2;
         const std::uint64_t number = opposite ? prime - residue : residue;
-        std::size_t i = 0;
-        while (i < size && numbers[i] != number) ++i;
-        if (i == unknown) return sign_type::uncertain;
-        if (i == size) {
-            signs[i] = made_up(number);
-            numbers[size++] = number;
-        }
-        return opposite ? -signs[i] : signs[i];
+        if (number == unknown) return sign_type::uncertain;
+        if (unknown == 0) numbers[size++] = number;
+        if (is_zero(number)) return sign_type::zero;
+        const auto s = static_cast<sign_type>(hashed(number ^ (supposition << 32)) % 3);
+        return opposite ? -s : s;
     }
 
   private:
-    constexpr sign_type made_up(std::uint64_t number) const {
-        const std::uint64_t zeros = supposition % 2 == 0 ? 0 : supposition / 2 % 16;
-        if (size < zeros) return sign_type::zero;
-        return static_cast<sign_type>(hashed(number ^ (supposition << 32)) % 3);
+    constexpr bool is_zero(std::uint64_t number) {
+        if (supposition % 2 == 0) return false;
+        for (std::size_t i = 0; i < zero_count; ++i)
+            if (zeros[i] == number) return true;
+        if (zero_count == supposition / 2 % 16) return false;
+        zeros[zero_count++] = number;
+        return true;
     }
 };
 
-/// A number of the expression: its residue.
-class supposed_number {
-  public:
-    /// A coordinate, the one of this index among all.
-    constexpr supposed_number(supposed_signs& signs, std::uint64_t index)
-        : signs_(&signs), residue_(hashed(index) % prime) {}
-    constexpr supposed_number(std::same_as<int> auto c)
-        : residue_(static_cast<std::uint64_t>(c + std::int64_t{prime} * 2) % prime) {}
+/// A number of the expression: its residue. An aggregate: constructors cost as much as operations
+/// where constants are evaluated.
+struct supposed_number {
+    static constexpr std::uint64_t prime = supposed_signs::prime;
+
+    supposed_signs* signs;
+    std::uint64_t residue;
+
+    static constexpr std::uint64_t residue_of(int c) {
+        return static_cast<std::uint64_t>(c + std::int64_t{prime} * 2) % prime;
+    }
 
     friend constexpr supposed_number operator+(const supposed_number& x, const supposed_number& y) {
-        return {x.signs_ != nullptr ? x.signs_ : y.signs_, x.residue_ + y.residue_, modulo_prime};
+        return {x.signs, (x.residue + y.residue) % prime};
     }
     friend constexpr supposed_number operator-(const supposed_number& x, const supposed_number& y) {
-        return x + -y;
+        return {x.signs, (x.residue + (prime - y.residue)) % prime};
     }
     friend constexpr supposed_number operator*(const supposed_number& x, const supposed_number& y) {
-        return {x.signs_ != nullptr ? x.signs_ : y.signs_, x.residue_ * y.residue_, modulo_prime};
+        return {x.signs, x.residue * y.residue % prime};
     }
-    constexpr supposed_number operator-() const { return {signs_, prime - residue_, modulo_prime}; }
+    friend constexpr supposed_number operator+(const supposed_number& x, std::same_as<int> auto c) {
+        return x + supposed_number{x.signs, residue_of(c)};
+    }
+    friend constexpr supposed_number operator+(std::same_as<int> auto c, const supposed_number& x) {
+        return x + c;
+    }
+    friend constexpr supposed_number operator-(const supposed_number& x, std::same_as<int> auto c) {
+        return x - supposed_number{x.signs, residue_of(c)};
+    }
+    friend constexpr supposed_number operator-(std::same_as<int> auto c, const supposed_number& x) {
+        return supposed_number{x.signs, residue_of(c)} - x;
+    }
+    friend constexpr supposed_number operator*(const supposed_number& x, std::same_as<int> auto c) {
+        return x * supposed_number{x.signs, residue_of(c)};
+    }
+    friend constexpr supposed_number operator*(std::same_as<int> auto c, const supposed_number& x) {
+        return x * c;
+    }
+    constexpr supposed_number operator-() const { return {signs, (prime - residue) % prime}; }
     friend constexpr sign_type sign_of(const supposed_number& x) {
-        return x.signs_->sign(x.residue_);
+        return x.signs->sign(x.residue);
     }
-
-  private:
-    static constexpr std::uint64_t prime = supposed_signs::prime;
-    static constexpr struct reduction {
-    } modulo_prime{};
-
-    constexpr supposed_number(supposed_signs* signs, std::uint64_t value, reduction)
-        : signs_(signs), residue_(value % prime) {}
-
-    supposed_signs* signs_ = nullptr;
-    std::uint64_t residue_;
 };
 
 enum class expression_fault : std::uint8_t { none, asks_nothing, gives_up, acts_on_uncertain };
@@ -115,9 +128,10 @@ constexpr expression_fault find_fault(std::uint64_t supposition, const Run& run)
     if (signs.size == 0) return expression_fault::asks_nothing;
     if (!certain(answer)) return expression_fault::gives_up;
     // Of many signs each has its turn by some supposition.
-    const std::size_t stride = (signs.size + 5) / 6, last = signs.size;
-    for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < last; k += stride) {
-        signs.unknown = k;
+    const std::size_t stride = (signs.size + 5) / 6;
+    for (auto k = static_cast<std::size_t>(hashed(supposition) % stride); k < signs.size;
+         k += stride) {
+        signs.unknown = signs.numbers[k];
         signs.asked = 0;
         const sign_type other = run(signs);
         if (certain(other) && other != answer) return expression_fault::acts_on_uncertain;

@@ -2,7 +2,7 @@
 // scalar that counts.
 //
 // An expression may branch on signs. Then it is run once for each sequence of signs that it can be
-// given, up to `max_runs`; the counts are the largest of all.
+// given, up to a number of runs; the counts are the largest of all.
 #pragma once
 
 #include <array>
@@ -75,8 +75,8 @@ class expression_count {
         const auto run = x.run_ != nullptr ? x.run_ : y.run_;
         // Apart, for fewer statements in what is most often run: compilers limit them.
         if (x.degree_ == y.degree_)
-            return {run, larger(x.bits_, y.bits_) + 1, x.degree_,
-                    larger(x.roundings_, y.roundings_) + 1};
+            return {run, (x.bits_ < y.bits_ ? y.bits_ : x.bits_) + 1, x.degree_,
+                    (x.roundings_ < y.roundings_ ? y.roundings_ : x.roundings_) + 1};
         run->counts.mixed = true;
         return {run, larger(x.raised(y), y.raised(x)) + 1, larger(x.degree_, y.degree_),
                 larger(x.roundings_, y.roundings_) + 1};
@@ -173,11 +173,16 @@ struct expression_findings {
     bool has_one_answer = true;  ///< of all that were seen
 };
 
+/// The most runs: enough for any expression that evaluates five signs.
+inline constexpr int most_counting_runs = 250;
+/// Enough for a declared homogeneous expression. Only the bits of its numbers are still unknown,
+/// and branches that are too many for `most_counting_runs` are the reason for the declaration.
+inline constexpr int few_counting_runs = 28;
+
 /// `run(counting_run&)` runs the expression, whose coordinates are made of that argument, and
 /// returns its answer; where that is a number it asks for its sign.
 template <class Run>
-constexpr expression_findings count_expression(int coordinate_bits, const Run& run) {
-    constexpr int max_runs = 250;
+constexpr expression_findings count_expression(int coordinate_bits, int max_runs, const Run& run) {
     counting_run state;
     state.coordinate_bits = coordinate_bits;
     const sign_type first = run(state);

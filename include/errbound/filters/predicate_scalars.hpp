@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <errbound/detail/rounded.hpp>
 #include <errbound/filters/coordinates.hpp>
 #include <errbound/filters/expression_check.hpp>
@@ -18,18 +19,15 @@
 
 namespace errbound::filters {
 
-/// The argument of a predicate that an expression sees: coordinates become scalars when asked for.
-template <class Scalars, std::size_t Argument>
-struct point_view {
-    const Scalars& scalars;
-    constexpr decltype(auto) operator[](int i) const { return scalars.template at<Argument>(i); }
-};
+/// What an expression sees as argument `Argument`: a point, or, of dimension 0, a scalar. The types
+/// of points do not depend on their position, so that a function that an expression calls with
+/// different points is compiled once per scalar.
 template <class Shape, std::size_t Argument, class Scalars>
-constexpr auto view(const Scalars& scalars) {
+constexpr decltype(auto) view(const Scalars& scalars) {
     if constexpr (Shape::dimensions[Argument] == 0)
-        return scalars.template at<Argument>(0);
+        return scalars.template point<Argument>()[0];
     else
-        return point_view<Scalars, Argument>{scalars};
+        return scalars.template point<Argument>();
 }
 
 /// Coordinate i of a point, as a filter may use it: where it is not stored but computed, a product
@@ -42,62 +40,100 @@ constexpr T unfused_coordinate(const Point& p, int i) {
     else
         return detail::rounded(x);
 }
-/// Coordinates, where they are, for the static filter.
+/// A point for the static filter, which reads coordinates where they are.
+template <class T, bool Stored, class Point>
+struct filtered_point {
+    const Point& point;
+    constexpr filtered_coordinate<T> operator[](int i) const {
+        return {unfused_coordinate<T, Stored>(point, i)};
+    }
+};
 template <class T, bool Stored, class... Points>
 struct filtered_scalars {
     std::tuple<const Points&...> points;
     template <std::size_t Argument>
-    constexpr filtered_coordinate<T> at(int i) const {
-        return {unfused_coordinate<T, Stored>(std::get<Argument>(points), i)};
+    constexpr auto point() const {
+        using type = std::tuple_element_t<Argument, std::tuple<Points...>>;
+        return filtered_point<T, Stored, type>{std::get<Argument>(points)};
     }
 };
-/// The same for the semi-static one.
+/// A point for the semi-static filter.
+template <class T, bool Stored, class Point>
+struct semi_static_point {
+    const Point& point;
+    T* largest;
+    constexpr semi_static_coordinate<T> operator[](int i) const {
+        return {unfused_coordinate<T, Stored>(point, i), largest};
+    }
+};
 template <class T, bool Stored, class... Points>
 struct semi_static_scalars {
     std::tuple<const Points&...> points;
     T* largest;
     template <std::size_t Argument>
-    constexpr semi_static_coordinate<T> at(int i) const {
-        return {unfused_coordinate<T, Stored>(std::get<Argument>(points), i), largest};
+    constexpr auto point() const {
+        using type = std::tuple_element_t<Argument, std::tuple<Points...>>;
+        return semi_static_point<T, Stored, type>{std::get<Argument>(points), largest};
     }
 };
-/// Coordinates one after the other, made into scalars by a function, which may refer to them.
+/// A point of listed coordinates. `make` turns each into a scalar, which may refer to it.
+template <class Coordinate, class Make>
+struct listed_point {
+    const Coordinate* first;
+    const Make& make;
+    constexpr decltype(auto) operator[](int i) const { return make(first[i]); }
+};
 template <class Shape, class List, class Make>
 struct listed_scalars {
     const List& list;
     Make make;
     template <std::size_t Argument>
-    constexpr decltype(auto) at(int i) const {
-        constexpr std::size_t first = Shape::offset(Argument);
-        return make(list[first + static_cast<std::size_t>(i)]);
+    constexpr auto point() const {
+        return listed_point<typename List::value_type, Make>{list.data() + Shape::offset(Argument),
+                                                             make};
     }
 };
-/// Whether the points of a shape have this coordinate.
-template <class Shape, std::size_t Argument>
-constexpr bool has_coordinate(int i) {
-    return i == 0 || (i > 0 && i < Shape::dimensions[Argument]);
-}
-/// Coordinates that only count; `degrees`, if not null, has one for each.
+/// A point of coordinates that only count; `degrees`, if not null, has one for each.
+struct counted_point {
+    counting_run& run;
+    int dimension;
+    const int* degrees;
+    constexpr expression_count operator[](int i) const {
+        const bool is_there = i == 0 || (i > 0 && i < dimension);
+        if (!is_there) run.lacks_coordinates = true;
+        if (degrees == nullptr || !is_there) return expression_count(run);
+        return expression_count(run, degrees[i]);
+    }
+};
 template <class Shape>
 struct counted_scalars {
     counting_run& run;
     const int* degrees = nullptr;
     template <std::size_t Argument>
-    constexpr expression_count at(int i) const {
-        const bool is_there = has_coordinate<Shape, Argument>(i);
-        if (!is_there) run.lacks_coordinates = true;
-        if (degrees == nullptr || !is_there) return expression_count(run);
-        return expression_count(run,
-                                degrees[Shape::offset(Argument) + static_cast<std::size_t>(i)]);
+    constexpr counted_point point() const {
+        return {run, Shape::dimensions[Argument],
+                degrees == nullptr ? nullptr : degrees + Shape::offset(Argument)};
     }
 };
-/// Coordinates of which only their signs are supposed.
+/// Residues that stand for the coordinates of a shape.
+template <class Shape>
+inline constexpr auto supposed_residues = [] {
+    std::array<std::uint64_t, Shape::size> residues{};
+    for (std::size_t i = 0; i < Shape::size; ++i) residues[i] = hashed(i) % supposed_signs::prime;
+    return residues;
+}();
+/// A point of coordinates of which only their signs are supposed.
+struct supposed_point {
+    supposed_signs* signs;
+    const std::uint64_t* residues;
+    constexpr supposed_number operator[](int i) const { return {signs, residues[i]}; }
+};
 template <class Shape>
 struct supposed_scalars {
     supposed_signs& signs;
     template <std::size_t Argument>
-    constexpr supposed_number at(int i) const {
-        return {signs, Shape::offset(Argument) + static_cast<std::size_t>(i)};
+    constexpr supposed_point point() const {
+        return {&signs, supposed_residues<Shape>.data() + Shape::offset(Argument)};
     }
 };
 
@@ -151,10 +187,12 @@ template <class Shape, class F>
 inline constexpr bool branches =
     std::is_same_v<result_over<Shape, F, counted_scalars<Shape>>, sign_type>;
 
-/// What the expression asks for coordinates of this many bits, and of these degrees.
+/// What the expression asks for coordinates of this many bits, and of these degrees, found by at
+/// most `max_runs` runs.
 template <class Shape, class F>
-constexpr expression_findings findings_of(int coordinate_bits, const int* degrees = nullptr) {
-    return count_expression(coordinate_bits, [degrees](counting_run& run) {
+constexpr expression_findings findings_of(int coordinate_bits, int max_runs,
+                                          const int* degrees = nullptr) {
+    return count_expression(coordinate_bits, max_runs, [degrees](counting_run& run) {
         const auto x = evaluate<Shape>(F(), counted_scalars<Shape>{run, degrees});
         if (!branches<Shape, F> && run.asked > 0) run.number_after_signs = true;
         return conclude(x);

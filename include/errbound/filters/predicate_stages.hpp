@@ -38,7 +38,8 @@ class predicate_stages {
     static constexpr int word_bits = integers::word_coordinates<1>::max_bits;
 
   private:
-    static constexpr expression_findings findings = findings_of<Shape, F>(word_bits);
+    static constexpr int max_runs = Options::homogeneous ? few_counting_runs : most_counting_runs;
+    static constexpr expression_findings findings = findings_of<Shape, F>(word_bits, max_runs);
     static_assert(!findings.lacks_coordinates,
                   "errbound: the expression asks for a coordinate that the predicate's shape does "
                   "not have: of points<2, 2> a[0] and a[1]");
@@ -89,7 +90,7 @@ class predicate_stages {
         for (const int degree : Options::degrees)
             if (degree < 1) return false;
         const expression_counts by_degrees =
-            findings_of<Shape, F>(word_bits, Options::degrees.data()).counts;
+            findings_of<Shape, F>(word_bits, max_runs, Options::degrees.data()).counts;
         return by_degrees.complete && !by_degrees.mixed;
     }();
     static_assert(is_of_one_degree,
@@ -193,8 +194,10 @@ class predicate_stages {
             }
             return counted(by_words(words), word_integers);
         }
-        const sign_type s = by_two_words(list);
-        if (certain(s)) return counted(s, two_word_integers);
+        if constexpr (!branches<Shape, F>) {
+            const sign_type s = by_two_words(list);
+            if (certain(s)) return counted(s, two_word_integers);
+        }
         return counted(by_any(list), long_integers);
     }
     /// The coordinates times 2^(−s·degree), s such that the largest is near 1. Every number whose
@@ -272,13 +275,16 @@ class predicate_stages {
     static constexpr int short_bits = coordinate_bits(127);
     /// Coordinates of two words: their differences' products end before a word's end.
     static constexpr int two_word_bits = 124;
+    /// Of expressions of a higher degree than 3, operations of two words and more are calls:
+    /// inlined they take a second to compile. Expressions that branch go to the next stage: for
+    /// them this one would gain less time than it takes to compile.
+    using two_word_level = integers::integer_level<integers::integer_kind::words, two_word_bits,
+                                                   mixed, (counts.degree > 3)>;
     [[gnu::noinline]] static constexpr sign_type by_two_words(const coordinate_list& list) {
         const integers::common_unit unit(list);
         if (unit.bits > two_word_bits) return sign_type::uncertain;
-        return sign_over<Shape>(F(), list, [&](double x) {
-            return unit.template converted<
-                integers::integer_level<integers::integer_kind::words, two_word_bits, mixed>>(x);
-        });
+        return sign_over<Shape>(
+            F(), list, [&](double x) { return unit.template converted<two_word_level>(x); });
     }
 
     [[gnu::noinline]] static constexpr sign_type by_any(const coordinate_list& list) {

@@ -85,7 +85,7 @@ constexpr int count_filled(const word* x, int n) {
 
 /// r = a·b, for two's complement numbers of m and n words, trimmed, and an r of m + n.
 /// Proof: proofs/SparseProduct.v, any_product_exact.
-constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
+[[gnu::noinline]] constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n) {
     // Choosing words costs more than it saves unless most are left out.
     constexpr int worth = 4;
     const auto is_sparse = [](const word* x, int size) {
@@ -97,6 +97,31 @@ constexpr void multiply_any(word* r, const word* a, int m, const word* b, int n)
         multiply_sparse(r, b, n, a, m);
     else
         multiply_long(r, a, m, b, n);
+}
+
+/// The word of index i of a trimmed two's complement number of n words, also beyond its end.
+constexpr word word_or_sign(const word* x, int n, int i) {
+    return i < n ? x[i] : sign_word(x[n - 1]);
+}
+/// The size of x, of n words, without those that only repeat its sign.
+/// Proof: proofs/Words.v, trim_exact.
+constexpr int trimmed_size(const word* x, int n) {
+    while (n > 1 && x[n - 1] == sign_word(x[n - 2])) --n;
+    return n;
+}
+/// r = a + b, or a - b, by steps with a carry, for two's complement numbers of m and n words and an
+/// r of at most `capacity`; returns its trimmed size. Not inlined: one copy serves all capacities.
+template <word (*Step)(word, word, unsigned char&)>
+[[gnu::noinline]] constexpr int combine(word* r, int capacity, const word* a, int m, const word* b,
+                                        int n) {
+    const int shorter = m < n ? m : n;
+    const int longer = m < n ? n : m;
+    const int size = longer < capacity ? longer + 1 : capacity;
+    unsigned char carry = 0;
+    for (int i = 0; i < shorter; ++i) r[i] = Step(a[i], b[i], carry);
+    for (int i = shorter; i < size; ++i)
+        r[i] = Step(word_or_sign(a, m, i), word_or_sign(b, n, i), carry);
+    return trimmed_size(r, size);
 }
 
 }  // namespace words
@@ -150,12 +175,12 @@ class long_integer {
     /// Proof: proofs/Words.v, long_sum_exact.
     template <int A, int B>
     static constexpr long_integer sum(const long_integer<A>& a, const long_integer<B>& b) {
-        return {a, b, words::add_with_carry};
+        return combined<words::add_with_carry>(a, b);
     }
     /// Proof: proofs/Words.v, long_difference_exact.
     template <int A, int B>
     static constexpr long_integer difference(const long_integer<A>& a, const long_integer<B>& b) {
-        return {a, b, words::subtract_with_borrow};
+        return combined<words::subtract_with_borrow>(a, b);
     }
     /// Proof: proofs/SparseProduct.v, long_product_exact.
     template <int A, int B>
@@ -204,17 +229,15 @@ class long_integer {
   private:
     template <int>
     friend class long_integer;
+    struct uninitialised {};
 
-    template <int A, int B>
-    constexpr long_integer(const long_integer<A>& a, const long_integer<B>& b,
-                           word (*step)(word, word, unsigned char&)) {
-        const int shorter = a.size() < b.size() ? a.size() : b.size();
-        const int longer = a.size() < b.size() ? b.size() : a.size();
-        size_ = longer < Words ? longer + 1 : Words;
-        unsigned char carry = 0;
-        for (int i = 0; i < shorter; ++i) at(i) = step(a[i], b[i], carry);
-        for (int i = shorter; i < size_; ++i) at(i) = step(a.or_sign(i), b.or_sign(i), carry);
-        trim();
+    constexpr explicit long_integer(uninitialised) : size_(1) {}
+    template <word (*Step)(word, word, unsigned char&), int A, int B>
+    static constexpr long_integer combined(const long_integer<A>& a, const long_integer<B>& b) {
+        long_integer r(uninitialised{});
+        r.size_ = words::combine<Step>(r.words_.data(), Words, a.words_.data(), a.size(),
+                                       b.words_.data(), b.size());
+        return r;
     }
     template <int A, int B>
     constexpr long_integer(const long_integer<A>& a, const long_integer<B>& b) {
@@ -237,14 +260,8 @@ class long_integer {
         for (int i = 0; i < size_; ++i) at(i) = x[i];
     }
     constexpr word& at(int i) { return words_[static_cast<std::size_t>(i)]; }
-    constexpr word or_sign(int i) const {
-        return i < size_ ? (*this)[i] : words::sign_word((*this)[size_ - 1]);
-    }
-    /// Leaves out words that say nothing.
-    /// Proof: proofs/Words.v, trim_exact.
-    constexpr void trim() {
-        while (size_ > 1 && (*this)[size_ - 1] == words::sign_word((*this)[size_ - 2])) --size_;
-    }
+    constexpr word or_sign(int i) const { return words::word_or_sign(words_.data(), size_, i); }
+    constexpr void trim() { size_ = words::trimmed_size(words_.data(), size_); }
 
     int size_;
     std::array<word, std::size_t{Words}> words_;  ///< beyond the size never read

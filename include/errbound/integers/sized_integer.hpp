@@ -26,12 +26,13 @@ namespace errbound::integers {
 enum class integer_kind : std::uint8_t { floating, words, any_length };
 
 /// Coordinates lie strictly between −2^CoordinateBits and 2^CoordinateBits. Mixed: terms of
-/// different degree may be added.
-template <integer_kind Kind, int CoordinateBits, bool Mixed>
+/// different degree may be added. Called: operations of more words than the compiler has integers
+/// for are calls.
+template <integer_kind Kind, int CoordinateBits, bool Mixed, bool Called = false>
 struct integer_level {
     static constexpr integer_kind kind = Kind;
     static constexpr int coordinate_bits = CoordinateBits;
-    static constexpr bool mixed = Mixed;
+    static constexpr bool mixed = Mixed, called = Called;
 };
 
 template <integer_kind Kind, int Bits>
@@ -128,6 +129,16 @@ template <class Storage, class X, class Y>
 [[gnu::noinline]] constexpr Storage long_product(const X& x, const Y& y) {
     return Storage::product(x, y);
 }
+/// Operations of more words, as calls: inlined they are most of a long expression's code, which few
+/// inputs reach.
+template <class Storage, class X, class Y>
+[[gnu::noinline]] constexpr Storage called_product(const X& x, const Y& y) {
+    return narrowed<Storage::width / 64>(x * y);
+}
+template <bool Subtract, class Storage>
+[[gnu::noinline]] constexpr Storage called_sum(const Storage& x, const Storage& y) {
+    return Subtract ? x - y : x + y;
+}
 
 template <sized_operand X, sized_operand Y>
 [[gnu::always_inline]] constexpr auto operator*(const X& x, const Y& y) {
@@ -137,6 +148,8 @@ template <sized_operand X, sized_operand Y>
         return result{long_product<storage>(x.value, y.value), x.unit};
     } else if constexpr (result::is_native) {
         return result{static_cast<storage>(x.value) * static_cast<storage>(y.value), x.unit};
+    } else if constexpr (X::level::called) {
+        return result{called_product<storage>(as_fixed(x.value), as_fixed(y.value)), x.unit};
     } else {
         return result{narrowed<storage::width / 64>(as_fixed(x.value) * as_fixed(y.value)), x.unit};
     }
@@ -155,17 +168,21 @@ constexpr Storage shifted_word(words::word magnitude, int n) {
         return static_cast<Storage>(static_cast<Storage>(magnitude) << n);
 }
 
-/// x brought to a higher degree: times a power of 1 = 2^−unit units.
+/// x brought to a higher degree: times a power of 1 = 2^−unit units. x itself where it is of that.
 template <int Degree, class X>
-[[gnu::always_inline]] constexpr auto raised(const X& x) {
+[[gnu::always_inline]] constexpr decltype(auto) raised(const X& x) {
     using level = typename X::level;
     if constexpr (X::degree >= Degree) {
-        return x;
+        return (x);
     } else {
         static_assert(level::mixed, "errbound: the expression was taken for homogeneous");
         using one_type = sized_integer<level, level::coordinate_bits, 1>;
         using storage = typename one_type::storage;
-        return raised<Degree>(x * one_type{shifted_word<storage>(1, -x.unit), x.unit});
+        const one_type one{shifted_word<storage>(1, -x.unit), x.unit};
+        if constexpr (X::degree + 1 == Degree)
+            return x * one;
+        else
+            return raised<Degree>(x * one);
     }
 }
 
@@ -181,6 +198,8 @@ template <bool Subtract, class X, class Y>
     } else if constexpr (result::is_native) {
         const auto a = static_cast<storage>(x.value), b = static_cast<storage>(y.value);
         return result{Subtract ? a - b : a + b, x.unit};
+    } else if constexpr (X::level::called) {
+        return result{called_sum<Subtract, storage>(as_fixed(x.value), as_fixed(y.value)), x.unit};
     } else {
         const storage a = as_fixed(x.value), b = as_fixed(y.value);
         return result{Subtract ? a - b : a + b, x.unit};

@@ -1,0 +1,57 @@
+"""Predicates compile in a small multiple of the time that their header takes alone.
+
+usage: compile_time_test.py SOURCE_FOLDER COMPILER
+
+Compares user times of the compiler within one run, so that the machine's speed does not matter. Each limit
+lies halfway between the ratio measured and the one that it replaced.
+"""
+import pathlib
+import resource
+import subprocess
+import sys
+import tempfile
+
+TRIES = 4  # a ratio must be within its limit once: other work makes times longer, never shorter
+POINTS = {2: "const std::array<double, 2>&", 3: "const std::array<double, 3>&"}
+LIMITS = [(["segments_intersect3d 3 4"], 6), (["segment_intersects_triangle 3 5"], 10), (["insphere 3 5"], 7),
+          (["orient2d 2 3", "orient3d 3 4", "incircle 2 4", "insphere 3 5"], 11)]
+
+
+def source_of(predicates):
+    lines = ["#include <array>", "#include <errbound/predicates.hpp>"]
+    for predicate in predicates:
+        name, dimension, count = predicate.split()
+        names = "abcde"[:int(count)]
+        arguments = ", ".join(f"{POINTS[int(dimension)]} {point}" for point in names)
+        lines.append(f"errbound::sign_type {name}_of({arguments}) {{ return errbound::{name}({', '.join(names)}); }}")
+    return "\n".join(lines) + "\n"
+
+
+def user_seconds(predicates, root, compiler, folder):
+    source = folder / "predicates.cpp"
+    source.write_text(source_of(predicates))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    subprocess.run([compiler, "-std=c++20", "-O2", f"-I{root / 'include'}", "-c", source, "-o", folder / "predicates.o"],
+                   check=True)
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def main():
+    root, compiler = pathlib.Path(sys.argv[1]), sys.argv[2]
+    failed = False
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for predicates, limit in LIMITS:
+            for _ in range(TRIES):
+                header = user_seconds([], root, compiler, folder)
+                ratio = user_seconds(predicates, root, compiler, folder) / header
+                if ratio <= limit:
+                    break
+            names = ", ".join(predicate.split()[0] for predicate in predicates)
+            print(f"{names}: {ratio:.1f} times the header's {header:.2f} s, limit {limit}")
+            failed |= ratio > limit
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())
