@@ -15,8 +15,8 @@ enum class predicate_stage : std::uint8_t {
     exact_doubles,   ///< coordinates so short that no result takes more than 53 bits
     short_integers,  ///< so short that none takes more than 128
     word_integers,
-    two_word_integers,
-    long_integers,  ///< any finite coordinates; or the options' exact type
+    two_word_integers,  ///< expressions that branch do not have this stage
+    long_integers,      ///< any finite coordinates; or the options' exact type
 };
 inline constexpr std::size_t predicate_stage_count = 8;
 
