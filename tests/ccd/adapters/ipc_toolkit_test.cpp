@@ -186,6 +186,25 @@ TEST(conservative_rescaling, keeps_a_fraction_of_the_distance_at_the_start) {
     exact.conservative_rescaling = 0.75;
     EXPECT_EQ(ask(exact, onto_face), at(0.1875));
 }
+// The point falls from 1 to -3. It keeps a quarter of its distance, or the cap if that is less.
+TEST(max_gap, caps_the_gap_that_is_kept) {
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.125), onto_face), at(0.21875));
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.5), onto_face), at(0.1875));
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.125), onto_face, 0.5), at(0.09375));
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.125), onto_face, 0, std::nextafter(0.21875, 0)),
+              never);
+    EXPECT_EQ(ask(exact_narrow_phase(1, 0.125), onto_face), at(0.25));
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, least), onto_face), at(std::nextafter(0.25, 0)));
+    exact_narrow_phase exact(0.75);
+    exact.max_gap = 0.125;
+    EXPECT_EQ(ask(exact, onto_face), at(0.21875));
+}
+// The point stops at a distance of 1 from the other: a quarter of the gap at the start, 4.
+TEST(max_gap, does_not_report_pairs_that_stay_above_it) {
+    const ccd::vertex_vertex<double> nearer{{{0, 0, 0}, {3, 0, 0}}, still({4, 0, 0})};
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, 1), nearer), at(1));
+    EXPECT_EQ(ask(exact_narrow_phase(0.75, 0.5), nearer), never);
+}
 TEST(conservative_rescaling, reports_what_gets_nearer_without_contact) {
     const ccd::vertex_vertex<double> nearer{{{0, 0, 0}, {3, 0, 0}}, still({4, 0, 0})};
     EXPECT_EQ(ask(exact_narrow_phase(), nearer), never);
@@ -305,12 +324,13 @@ TEST(families, keep_a_fraction_of_their_distance_at_the_start) {
             query_families::source random(++seed);
             const double scale = random.one_in(2) ? 0.8 : 1 - 0.999 * random.unit();
             for (const double d : {0.0, support::some_distance(random, query)}) {
+                const double cap = random.one_in(2) ? infinity : std::ldexp(random.unit(), -8);
                 const answer full = ask(exact_narrow_phase(), query, d);
-                const answer a = ask(exact_narrow_phase(scale), query, d);
+                const answer a = ask(exact_narrow_phase(scale, cap), query, d);
                 EXPECT_TRUE(a.collides || !full.collides) << text;
                 EXPECT_LE(a.toi, full.toi) << text;
                 EXPECT_TRUE(a.toi > 0 || full.toi == 0) << text;
-                const double gap = gap_of(query, 1 - scale, d);
+                const double gap = std::min(gap_of(query, 1 - scale, d), cap);
                 const oracle::interval before{.high = std::min(a.toi, 1.0),
                                               .with_high = !a.collides};
                 if (gap == 0 || before.high == 0) continue;
