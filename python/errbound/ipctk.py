@@ -1,32 +1,35 @@
-"""For ipc-toolkit's Python package (pip install ipctk): its broad phase, and its two questions about
-steps, answered exactly.
+"""Exact broad phase, narrow phase and step sizes for ipc-toolkit's Python package (pip install ipctk).
 
     import errbound.ipctk
 
     broad_phase = errbound.ipctk.BroadPhase()
-    ipctk.compute_collision_free_stepsize(mesh, before, after, 0, broad_phase)  # only pairs that meet
-    errbound.ipctk.compute_collision_free_stepsize(mesh, before, after)         # or all of it, exactly
+    ipctk.compute_collision_free_stepsize(mesh, before, after, 0, broad_phase)  # the toolkit decides few pairs
+    errbound.ipctk.compute_collision_free_stepsize(mesh, before, after)         # every pair, exactly
 """
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Callable, Iterable, Mapping
 from itertools import product
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from . import ccd
-from ._results import StepResult
+from . import _native, ccd
+from ._arrays import Doubles, Indices, check_finite, check_shape, distance_option, doubles, option
+from ._planes import Planes
 
 try:
     import ipctk  # type: ignore[import-not-found, import-untyped, unused-ignore]
 except ImportError as error:
     raise ImportError("errbound.ipctk needs the package ipctk: pip install ipctk") from error
 
-__all__ = ["BroadPhase", "compute_collision_free_stepsize", "is_step_collision_free"]
+__all__ = ["BroadPhase", "ExactNarrowPhase", "compute_collision_free_stepsize", "is_step_collision_free"]
 
 _CanCollide = Callable[[int, int], bool]
+_Rows = Mapping[str, Indices]
 _FIRST_VERTICES = {"vertex_face": 1, "edge_edge": 2, "vertex_edge": 1, "vertex_vertex": 1}
 
 
@@ -36,140 +39,418 @@ def _steps(vertices: int, columns: int, edges: Any, faces: Any) -> ccd.Steps:
     return ccd.Steps(faces, edges, vertices=vertices)
 
 
-def _may_collide(kind: str, pair: Any, can_collide: _CanCollide) -> bool:
-    """As the toolkit has it: if some vertex of one element may collide with some of the other."""
-    first = _FIRST_VERTICES[kind]
-    return any(can_collide(int(v), int(w)) for v, w in product(pair[:first], pair[first:]))
+def _in_space(positions: Doubles) -> Doubles:
+    """Positions of two columns at z = 0."""
+    return np.pad(positions, ((0, 0), (0, 3 - positions.shape[1])))
+
+
+def _may_collide(kind: str, rows: Indices, can_collide: _CanCollide) -> NDArray[np.bool_]:
+    """True for each pair of which some vertex of one element may collide with some vertex of the other."""
+    first, allowed = _FIRST_VERTICES[kind], np.zeros(len(rows), bool)
+    for columns in product(range(first), range(first, rows.shape[1])):
+        rest = np.flatnonzero(~allowed)
+        if not len(rest):
+            break
+        allowed[rest] = [can_collide(v, w) for v, w in rows[rest][:, columns].tolist()]
+    return allowed
 
 
 class _Lookup:
-    """Numbers of elements by their vertices; of elements that are given twice, all."""
+    """Indices of elements by their sorted vertices; all of them if elements repeat."""
 
-    def __init__(self, elements: Any) -> None:
-        self._numbers: dict[tuple[int, ...], list[int]] = {}
-        for number, element in enumerate(np.sort(np.asarray(elements), axis=1).tolist()):
-            self._numbers.setdefault(tuple(element), []).append(number)
+    def __init__(self, elements: Any, vertices: int) -> None:
+        self._vertices = vertices
+        ordered = np.sort(np.asarray(elements), axis=1).astype(np.int64)
+        self._firsts = np.unique(self._joined(ordered[:, 0], ordered[:, 1]))
+        keys = self._keys(ordered)
+        self._order = np.argsort(keys, kind="stable")
+        self._sorted = keys[self._order]
 
-    def __call__(self, vertices: Any) -> list[int]:
-        return self._numbers.get(tuple(sorted(int(v) for v in vertices)), [])
+    def _joined(self, high: Any, low: Any) -> Any:
+        return high * self._vertices + low
+
+    def _keys(self, rows: Any) -> Any:
+        """One number for each row; -1 for rows whose first two vertices no element has."""
+        joined = self._joined(rows[:, 0], rows[:, 1])
+        places = np.searchsorted(self._firsts, joined)
+        known = self._firsts[np.minimum(places, len(self._firsts) - 1)] == joined
+        keys = self._joined(places, rows[:, 2]) if rows.shape[1] == 3 else places
+        return np.where(known, keys, -1)
+
+    def __call__(self, rows: Any) -> tuple[Any, Any]:
+        """Two arrays: positions in `rows`, and the index of an element with these vertices."""
+        if not len(rows) or not len(self._sorted):
+            return np.empty(0, np.int64), np.empty(0, np.int64)
+        keys = self._keys(np.sort(rows, axis=1).astype(np.int64))
+        begin, end = (np.searchsorted(self._sorted, keys, side) for side in ("left", "right"))
+        counts = end - begin
+        of_row = np.repeat(np.arange(len(rows)), counts)
+        within = np.arange(len(of_row)) - np.repeat(np.cumsum(counts) - counts, counts)
+        return of_row, self._order[begin[of_row] + within]
+
+
+def _ids(candidates: Any, *names: str) -> list[Any]:
+    """One array for each attribute of the toolkit's candidates."""
+    return [np.fromiter(map(attrgetter(name), candidates), np.int64, len(candidates)) for name in names]
+
+
+def _as_tuples(*columns: Any) -> list[tuple[int, ...]]:
+    return list(zip(*(column.tolist() for column in columns)))
 
 
 class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
-    """Hands on only pairs that come within twice the inflation radius of each other, exactly.
+    """Passes on only pairs that come within twice the inflation radius of each other, exactly.
 
-    Boxes that are inflated by a radius meet where their elements come within twice the radius, and
-    in many other places; those are left out. Pairs of faces and edges, and of two faces, which the
-    toolkit asks to find intersections, are those of its own default. Elements with a common vertex
-    are no pair.
+    Boxes inflated by a radius meet where their elements come within twice the radius, and in many
+    other places; those pairs are skipped. Candidates of faces and edges, and of two faces, with which the
+    toolkit finds intersections, are those of its default broad phase. Elements with a common vertex are
+    no pair. Memory and search structures are kept for the next step of the same mesh.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self._inner = ipctk.LBVH() if hasattr(ipctk, "LBVH") else ipctk.BVH()
-        self._found: StepResult | None = None
+        self._elements: tuple[Any, Any, int, int] | None = None
+        self._pairs_of: dict[str, Indices] = {}
+        self._theirs: Any = None
 
     def name(self) -> str:
         return "errbound"
 
     def build(self, *arguments: Any) -> None:
         """(vertices, edges, faces, inflation_radius), or (vertices_t0, vertices_t1, edges, faces,
-        inflation_radius)."""
+        inflation_radius). Arguments are copied: the toolkit passes views of arrays that it frees."""
+        super().build(*arguments)  # stores the dimension, and clears
         moving = np.ndim(arguments[2]) == 2 and len(arguments) >= 4 and np.ndim(arguments[3]) == 2
-        before, after = arguments[0], arguments[1 if moving else 0]
-        edges, faces, *rest = arguments[2 if moving else 1:]
-        self._before, self._after = np.asarray(before, float), np.asarray(after, float)
-        self._edges, self._faces = np.asarray(edges).reshape(-1, 2), np.asarray(faces).reshape(-1, 3)
-        self._distance = 2 * float(rest[0]) if rest else 0.0
-        super().build(*arguments)  # notes the dimension, and clears
-        self._inner.can_vertices_collide = self.can_vertices_collide
-        self._inner.build(*arguments)
-        self._found = None
+        edges, faces, *radius = arguments[2 if moving else 1:]
+        self._before, self._after = (np.array(arguments[i], float, order="C") for i in (0, int(moving)))
+        self._radius = float(radius[0]) if radius else 0.0
+        self._set_elements(np.array(edges, np.int32).reshape(-1, 2), np.array(faces, np.int32).reshape(-1, 3))
+        self._pairs_of, self._theirs = {}, None
 
     def clear(self) -> None:
-        self._inner.clear()
-        self._found = None
+        super().clear()
+        self._pairs_of, self._theirs = {}, None
 
-    def _pairs(self, kind: str) -> Iterator[Any]:
-        """Of the whole mesh, found once, those that the mesh lets collide."""
-        if self._found is None:
-            steps = _steps(len(self._before), self._before.shape[1], self._edges, self._faces)
-            self._found = steps.run(self._before, self._after, distance=self._distance)
-        for pair in getattr(self._found.pairs, kind):
-            if _may_collide(kind, pair, self.can_vertices_collide):
-                yield pair
+    def _set_elements(self, edges: Any, faces: Any) -> None:
+        shape = len(self._before), self._before.shape[1]
+        if self._elements is not None and self._elements[2:] == shape and all(
+                np.array_equal(*pair) for pair in zip(self._elements, (edges, faces))):
+            return
+        self._elements = (edges, faces, *shape)
+        self._edges, self._faces = edges, faces
+        self._steps = _steps(*shape, edges, faces)
+        self._edge_index, self._face_index = _Lookup(edges, shape[0]), _Lookup(faces, shape[0])
 
-    def _decided(self, kind: str, pairs: list[tuple[int, int]], rows: Any) -> list[tuple[int, int]]:
-        """Those of the default's pairs whose elements, `rows` of vertices, come near enough."""
-        if not pairs:
-            return []
-        before, after = self._before, self._after
-        if before.shape[1] == 2:
-            before, after = (np.pad(x, ((0, 0), (0, 1))) for x in (before, after))
-        near = ccd.decide(rows, kind, positions=(before, after), distance=self._distance).collides
-        return [pair for pair, is_near in zip(pairs, near) if is_near]
+    def _pairs(self, kind: str) -> Indices:
+        """The pairs of the whole mesh, found once, that the filter lets through."""
+        if not self._pairs_of:
+            found = self._steps.run(self._before, self._after, distance=2 * self._radius).pairs
+            self._pairs_of = {each: getattr(found, each) for each in _FIRST_VERTICES}
+        rows = self._pairs_of[kind]
+        return rows[_may_collide(kind, rows, self.can_vertices_collide)]
 
-    def detect_edge_edge_candidates(self) -> list[tuple[int, int]]:
-        number = _Lookup(self._edges)
-        return [(i, j) for pair in self._pairs("edge_edge")
-                for i, j in product(number(pair[:2]), number(pair[2:]))]
+    def _default(self) -> Any:
+        """The toolkit's default broad phase, without a filter: it would call one from its threads."""
+        if self._theirs is None:
+            self._theirs = ipctk.LBVH() if hasattr(ipctk, "LBVH") else ipctk.BVH()
+            arrays = [np.asfortranarray(a) for a in (self._before, self._after, self._edges, self._faces)]
+            self._theirs.build(*arrays, self._radius)
+        return self._theirs
 
-    def detect_face_vertex_candidates(self) -> list[tuple[int, int]]:
-        number = _Lookup(self._faces)
-        return [(i, int(pair[0])) for pair in self._pairs("vertex_face") for i in number(pair[1:])]
+    def _decided(self, kind: str, rows: Any) -> NDArray[np.bool_]:
+        """True for those of the default's pairs that come near enough and that the filter lets through."""
+        positions = _in_space(self._before), _in_space(self._after)
+        near = np.array(ccd.decide(rows, kind, positions=positions, distance=2 * self._radius).collides)
+        near[near] = _may_collide(kind, rows[near], self.can_vertices_collide)
+        return near
 
-    def detect_edge_vertex_candidates(self) -> list[tuple[int, int]]:
-        pairs = [(c.edge_id, c.vertex_id) for c in self._inner.detect_edge_vertex_candidates()]
-        return self._decided("vertex_edge", pairs, [(v, *self._edges[e]) for e, v in pairs])
+    def detect_edge_edge_candidates(self) -> list[tuple[int, ...]]:
+        rows = self._pairs("edge_edge")
+        of_row, first = self._edge_index(rows[:, :2])
+        place, second = self._edge_index(rows[of_row, 2:])
+        return _as_tuples(first[place], second)
 
-    def detect_vertex_vertex_candidates(self) -> list[tuple[int, int]]:
-        pairs = [(c.vertex0_id, c.vertex1_id) for c in self._inner.detect_vertex_vertex_candidates()]
-        return self._decided("vertex_vertex", pairs, pairs)
+    def detect_face_vertex_candidates(self) -> list[tuple[int, ...]]:
+        rows = self._pairs("vertex_face")
+        of_row, faces = self._face_index(rows[:, 1:])
+        return _as_tuples(faces, rows[of_row, 0])
 
-    def detect_edge_face_candidates(self) -> list[tuple[int, int]]:
-        return [(c.edge_id, c.face_id) for c in self._inner.detect_edge_face_candidates()]
+    def detect_edge_vertex_candidates(self) -> list[tuple[int, ...]]:
+        edges, vertices = _ids(self._default().detect_edge_vertex_candidates(), "edge_id", "vertex_id")
+        near = self._decided("vertex_edge", np.column_stack([vertices, self._edges[edges]]))
+        return _as_tuples(edges[near], vertices[near])
 
-    def detect_face_face_candidates(self) -> list[tuple[int, int]]:
-        return [(c.face0_id, c.face1_id) for c in self._inner.detect_face_face_candidates()]
+    def detect_vertex_vertex_candidates(self) -> list[tuple[int, ...]]:
+        first, second = _ids(self._default().detect_vertex_vertex_candidates(), "vertex0_id", "vertex1_id")
+        near = self._decided("vertex_vertex", np.column_stack([first, second]))
+        return _as_tuples(first[near], second[near])
+
+    def _of_default(self, found: Any, first: str, second: str) -> list[tuple[int, ...]]:
+        """The default's candidates of two elements, one a face, that the filter lets through."""
+        one, other = _ids(found, first, second)
+        elements = self._edges if first == "edge_id" else self._faces
+        allowed = [any(self.can_vertices_collide(v, w) for v, w in product(a, b))
+                   for a, b in zip(elements[one].tolist(), self._faces[other].tolist())]
+        return _as_tuples(one[allowed], other[allowed])
+
+    def detect_edge_face_candidates(self) -> list[tuple[int, ...]]:
+        return self._of_default(self._default().detect_edge_face_candidates(), "edge_id", "face_id")
+
+    def detect_face_face_candidates(self) -> list[tuple[int, ...]]:
+        return self._of_default(self._default().detect_face_face_candidates(), "face0_id", "face1_id")
+
+
+class _Pairs:
+    """Pairs on ways from `start`, and which of them may collide."""
+
+    def __init__(self, start: Doubles, distance: float, rows: _Rows, can_collide: _CanCollide | None = None) -> None:
+        self._start, self._distance, self._can_collide = start, distance, can_collide
+        self._rows = {kind: each for kind, each in rows.items() if len(each)}
+
+    def _allows(self, kind: str, row: int) -> bool:
+        return self._can_collide is None or bool(
+            _may_collide(kind, self._rows[kind][row:row + 1], self._can_collide)[0])
+
+    def least(self, lows: Iterable[tuple[str, Any, Any]]) -> float:
+        """The least of the times, each with its pair's row by kind, of pairs that may collide."""
+        named = [(kind, rows, times) for kind, rows, times in lows if len(rows)]
+        if not named:
+            return math.inf
+        times, rows = (np.concatenate([each[i] for each in named]) for i in (2, 1))
+        kinds = np.repeat(np.arange(len(named)), [len(each[1]) for each in named])
+        for i in np.argsort(times, kind="stable").tolist():
+            if self._allows(named[kinds[i]][0], int(rows[i])):
+                return float(times[i])
+        return math.inf
+
+    def first(self, end: Doubles) -> float:
+        """The largest double not after the first contact on the way to `end`; infinite if there is none."""
+        found = {kind: ccd.first_time(rows, kind, positions=(self._start, end), distance=self._distance)
+                 for kind, rows in self._rows.items()}
+        return self.least((kind, times.query, times.low) for kind, times in found.items())
+
+    def meet(self, end: Doubles) -> bool:
+        """True if some pair collides on the way to `end`."""
+        for kind, rows in self._rows.items():
+            near = ccd.decide(rows, kind, positions=(self._start, end), distance=self._distance).collides
+            if any(self._allows(kind, row) for row in np.flatnonzero(near).tolist()):
+                return True
+        return False
+
+    def first_with_gap(self, end: Doubles, rescaling: float, max_gap: float, t_max: float) -> float:
+        """The narrow phase's least time in [0, t_max]; infinite if there is none."""
+        least = math.inf
+        for kind, rows in self._rows.items():
+            queries = _native.Questions(kind, None, np.require(rows, np.uint32, ["C", "A"]), self._start, end)
+            least = min(least, queries.least_time(self._distance, rescaling, max_gap, min(t_max, least),
+                                                  lambda row, kind=kind: self._allows(kind, row)))
+        return least
+
+
+class _Mesh:
+    """All pairs of a mesh that it lets collide, on ways from `start`."""
+
+    def __init__(self, mesh: Any, start: Doubles, distance: float) -> None:
+        self._start, self._distance, self._can_collide = start, distance, mesh.can_collide
+        self._columns = int(mesh.dim)
+        self._steps = _steps(len(start), self._columns, mesh.edges, mesh.faces)
+        self._near = self._pairs({})  # those of the last step
+
+    def _pairs(self, found: Any) -> _Pairs:
+        rows = {kind: getattr(found, kind) for kind in _FIRST_VERTICES} if found else {}
+        return _Pairs(self._start, self._distance, rows, self._can_collide)
+
+    def _frames(self, end: Doubles) -> tuple[Doubles, Doubles]:
+        return self._start[:, :self._columns], end[:, :self._columns]
+
+    def first(self, end: Doubles) -> float:
+        found = self._steps.run(*self._frames(end), distance=self._distance, times=True)
+        assert found.times is not None
+        self._near = self._pairs(found.pairs)
+        lows = [(kind, found.times[kind]["low"]) for kind in _FIRST_VERTICES]
+        return self._near.least((kind, np.arange(len(low)), low) for kind, low in lows)
+
+    def meet(self, end: Doubles) -> bool:
+        """True if some pair collides on the way to `end`. Few are tested if the last step's do."""
+        if self._near.meet(end):
+            return True
+        self._near = self._pairs(self._steps.run(*self._frames(end), distance=self._distance).pairs)
+        return self._near.meet(end)
+
+    def first_with_gap(self, end: Doubles, rescaling: float, max_gap: float, t_max: float) -> float:
+        """The narrow phase's least time in [0, t_max], of pairs whose boxes meet until then; infinite if
+        there is none."""
+        distance = self._distance + (max_gap if max_gap < math.inf else 0.0)
+        if t_max < 1:  # the end is rounded
+            end_of_part = self._start + t_max * (end - self._start)
+            largest = max(np.abs(self._start).max(initial=0), np.abs(end).max(initial=0))
+            distance = (distance + 2.0**-46 * float(largest) + 2.0**-1070) * (1 + 2.0**-50)
+        else:
+            end_of_part = end
+        found = self._steps.candidates(*self._frames(end_of_part), distance=distance)
+        return self._pairs(found).first_with_gap(end, rescaling, max_gap, t_max)
+
+
+class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignore]
+    """The exact narrow phase: docs/from-ipc-toolkit.md compares it with the toolkit's.
+
+    conservative_rescaling, in (0, 1]: with less than 1 each pair keeps the fraction 1 - conservative_rescaling
+    of its distance above min_distance at the start, at most max_gap > 0, up to the time of impact.
+
+    Use it as narrow_phase_ccd= of this module's functions, for one pair, or for the candidates of a broad
+    phase by the two methods below. The toolkit's own functions call a narrow phase of Python's from their threads
+    while they hold the interpreter's lock: call ipctk.set_num_threads(1) first, or they wait forever.
+    """
+
+    def __init__(self, conservative_rescaling: float = 1.0, max_gap: float = math.inf) -> None:
+        super().__init__()
+        self.conservative_rescaling = option("conservative_rescaling", conservative_rescaling, float)
+        self.max_gap = option("max_gap", max_gap, float)
+        for name, value, end in (("conservative_rescaling", self.conservative_rescaling, 1), ("max_gap", self.max_gap,
+                                                                                              math.inf)):
+            if not 0 < value <= end:
+                raise ValueError(f"{name} is {value}; expected a number > 0 and <= {end}")
+
+    def _answer(self, kind: str, start: Any, end: Any, min_distance: float, tmax: float) -> tuple[bool, float]:
+        points = np.zeros((len(start), 2, 3))
+        points[:, 0, :len(start[0])], points[:, 1, :len(end[0])] = start, end
+        time = _native.Questions(kind, points.reshape(1, -1), None, None, None).least_time(
+            min_distance, self.conservative_rescaling, self.max_gap, tmax, None)
+        return time < math.inf, time
+
+    def point_point_ccd(self, p0_t0: ArrayLike, p1_t0: ArrayLike, p0_t1: ArrayLike, p1_t1: ArrayLike,
+                        min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
+        return self._answer("vertex_vertex", (p0_t0, p1_t0), (p0_t1, p1_t1), min_distance, tmax)
+
+    def point_edge_ccd(self, p_t0: ArrayLike, e0_t0: ArrayLike, e1_t0: ArrayLike, p_t1: ArrayLike, e0_t1: ArrayLike,
+                       e1_t1: ArrayLike, min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
+        return self._answer("vertex_edge", (p_t0, e0_t0, e1_t0), (p_t1, e0_t1, e1_t1), min_distance, tmax)
+
+    def point_triangle_ccd(self, p_t0: ArrayLike, t0_t0: ArrayLike, t1_t0: ArrayLike, t2_t0: ArrayLike,
+                           p_t1: ArrayLike, t0_t1: ArrayLike, t1_t1: ArrayLike, t2_t1: ArrayLike,
+                           min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
+        return self._answer("vertex_face", (p_t0, t0_t0, t1_t0, t2_t0), (p_t1, t0_t1, t1_t1, t2_t1),
+                            min_distance, tmax)
+
+    def edge_edge_ccd(self, ea0_t0: ArrayLike, ea1_t0: ArrayLike, eb0_t0: ArrayLike, eb1_t0: ArrayLike,
+                      ea0_t1: ArrayLike, ea1_t1: ArrayLike, eb0_t1: ArrayLike, eb1_t1: ArrayLike,
+                      min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
+        return self._answer("edge_edge", (ea0_t0, ea1_t0, eb0_t0, eb1_t0), (ea0_t1, ea1_t1, eb0_t1, eb1_t1),
+                            min_distance, tmax)
+
+    def is_step_collision_free(self, candidates: Any, mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike,
+                               min_distance: float = 0.0) -> bool:
+        """As candidates.is_step_collision_free: of these candidates, and of all vertices and planes."""
+        return _Step(mesh, vertices_t0, vertices_t1, min_distance, self, candidates).is_free()
+
+    def compute_collision_free_stepsize(self, candidates: Any, mesh: Any, vertices_t0: ArrayLike,
+                                        vertices_t1: ArrayLike, min_distance: float = 0.0) -> float:
+        """As candidates.compute_collision_free_stepsize: of these candidates, and of all vertices and planes."""
+        return _Step(mesh, vertices_t0, vertices_t1, min_distance, self, candidates).size()
+
+
+def _listed_rows(candidates: Any, edges: Any, faces: Any) -> _Rows:
+    """The vertices of the toolkit's candidates."""
+    vertex, edge = (_ids(candidates.ev_candidates, name)[0] for name in ("vertex_id", "edge_id"))
+    first, second = _ids(candidates.ee_candidates, "edge0_id", "edge1_id")
+    of_face, face = _ids(candidates.fv_candidates, "vertex_id", "face_id")
+    edges, faces = np.asarray(edges).reshape(-1, 2), np.asarray(faces).reshape(-1, 3)
+    rows = {"vertex_edge": [vertex, edges[edge]], "edge_edge": [edges[first], edges[second]],
+            "vertex_face": [of_face, faces[face]],
+            "vertex_vertex": _ids(candidates.vv_candidates, "vertex0_id", "vertex1_id")}
+    return {kind: np.column_stack(columns).astype(np.uint32) for kind, columns in rows.items()}
 
 
 class _Step:
-    """Steps of a toolkit's mesh, with the pairs that it lets collide."""
+    """One step of a toolkit's mesh: of all its pairs or of candidates, and of its planes."""
 
-    def __init__(self, mesh: Any, before: ArrayLike, min_distance: float) -> None:
-        self.before, self.distance = np.asarray(before, float), float(min_distance)
-        self._can_collide = mesh.can_collide
-        self._steps = _steps(len(self.before), self.before.shape[1], mesh.edges, mesh.faces)
+    def __init__(self, mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float,
+                 narrow: ExactNarrowPhase, candidates: Any = None) -> None:
+        distance, shape = distance_option(min_distance), (int(mesh.num_vertices), int(mesh.dim))
+        frames = [doubles(name, values, (None, None))
+                  for name, values in (("vertices_t0", before), ("vertices_t1", after))]
+        for name, frame in zip(("vertices_t0", "vertices_t1"), frames):
+            check_shape(name, frame, shape)
+            check_finite(name, frame)
+        self._start, self._end = (_in_space(frame) for frame in frames)
+        self._gap = narrow.conservative_rescaling, narrow.max_gap
+        self._planes = Planes(getattr(mesh, "planes", ()), self._start, distance)
+        self._pairs: Any = _Mesh(mesh, self._start, distance) if candidates is None else _Pairs(
+            self._start, distance, _listed_rows(candidates, mesh.edges, mesh.faces))
 
-    def first(self, after: Any) -> float:
-        """The least double at or before the first contact; infinite if there is none."""
-        found = self._steps.run(self.before, after, distance=self.distance, times=True)
-        assert found.times is not None
-        return min((float(low) for kind in _FIRST_VERTICES
-                    for pair, low in zip(getattr(found.pairs, kind), found.times[kind]["low"])
-                    if _may_collide(kind, pair, self._can_collide)), default=np.inf)
+    def _first(self) -> float:
+        time: float = min(self._planes.first(self._end), self._pairs.first(self._end))
+        if self._gap[0] < 1 and time > 0:
+            t_max = min(time, 1.0)
+            time = min(time, self._planes.first_with_gap(self._end, *self._gap),
+                       self._pairs.first_with_gap(self._end, *self._gap, t_max))
+        return time
+
+    def _meets(self, end: Doubles) -> bool:
+        return self._planes.first(end) < math.inf or self._pairs.meet(end)
+
+    def is_free(self) -> bool:
+        return self._first() == math.inf if self._gap[0] < 1 else not self._meets(self._end)
+
+    def size(self) -> float:
+        size = self._first()
+        if size == math.inf:
+            return 1.0
+        # The end of a step to the contact itself is rounded, and may be one: a little less then.
+        less = 2.0**-52
+        while size > 0:
+            if not self._meets(self._start + size * (self._end - self._start)):
+                return size
+            size, less = size * (1 - less), 2 * less
+        return 0.0
 
 
-def is_step_collision_free(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike,
-                           min_distance: float = 0.0) -> bool:
-    """Whether no two elements touch, or come within min_distance, on the straight way from
-    vertices_t0 to vertices_t1: no tolerance, no false alarm."""
-    return _Step(mesh, vertices_t0, min_distance).first(np.asarray(vertices_t1, float)) == np.inf
+def _exact_step(mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float, broad_phase: Any,
+                narrow: ExactNarrowPhase) -> _Step:
+    candidates = None
+    if broad_phase is not None and not isinstance(broad_phase, BroadPhase):
+        kept = narrow.max_gap if narrow.conservative_rescaling < 1 and narrow.max_gap < math.inf else 0.0
+        candidates = ipctk.Candidates()
+        candidates.build(mesh, np.asfortranarray(before), np.asfortranarray(after), (min_distance + kept) / 2,
+                         broad_phase)
+    return _Step(mesh, before, after, min_distance, narrow, candidates)
+
+
+def _theirs(function: Any, mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float, broad_phase: Any,
+            narrow: Any) -> Any:
+    """The toolkit's function, by its own narrow phase and our broad phase if there is no other."""
+    return function(mesh, np.asfortranarray(before), np.asfortranarray(after), min_distance,
+                    BroadPhase() if broad_phase is None else broad_phase, narrow)
+
+
+def is_step_collision_free(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike, min_distance: float = 0.0,
+                           broad_phase: Any = None, narrow_phase_ccd: Any = None) -> bool:
+    """True if no two elements touch, or come within min_distance, on the straight way from vertices_t0
+    to vertices_t1, and no vertex touches a plane of the mesh: no tolerance, no false alarm.
+
+    broad_phase: the toolkit's; its candidates are then decided instead of all pairs. narrow_phase_ccd: an
+    ExactNarrowPhase, the default; with another one this is the toolkit's function over our broad phase.
+    """
+    narrow = ExactNarrowPhase() if narrow_phase_ccd is None else narrow_phase_ccd
+    question = mesh, vertices_t0, vertices_t1, min_distance, broad_phase, narrow
+    if not isinstance(narrow, ExactNarrowPhase):
+        return bool(_theirs(ipctk.is_step_collision_free, *question))
+    return _exact_step(*question).is_free()
 
 
 def compute_collision_free_stepsize(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike,
-                                    min_distance: float = 0.0) -> float:
-    """The largest step size found to be free, from 0 to 1: on the way from vertices_t0 to
-    vertices_t0 + step * (vertices_t1 - vertices_t0), rounded as NumPy does, no two elements touch or
-    come within min_distance. 0 if some do so at the start."""
-    step = _Step(mesh, vertices_t0, min_distance)
-    after = np.asarray(vertices_t1, float)
-    size = step.first(after)
-    if size == np.inf:
-        return 1.0
-    # The end of a step to the contact itself is rounded, and may be one: a little less then.
-    less = 2.0**-52
-    while size > 0:
-        if step.first(step.before + size * (after - step.before)) == np.inf:
-            return size
-        size, less = size * (1 - less), 2 * less
-    return 0.0
+                                    min_distance: float = 0.0, broad_phase: Any = None,
+                                    narrow_phase_ccd: Any = None) -> float:
+    """The largest step size found to be free, from 0 to 1. On the way from vertices_t0 to
+    vertices_t0 + step * (vertices_t1 - vertices_t0), in exactly this form as NumPy rounds it, no two elements
+    touch or come within min_distance, and no vertex a plane of the mesh. 0 if some do so at the start.
+
+    Arguments: as is_step_collision_free. With ExactNarrowPhase(0.8, 1e-4) a gap is kept as well: with a
+    finite max_gap by all pairs, else by those whose swept boxes meet until the first contact.
+    Cost: two steps of ccd.Steps; with a gap that of the candidates, too.
+    """
+    narrow = ExactNarrowPhase() if narrow_phase_ccd is None else narrow_phase_ccd
+    question = mesh, vertices_t0, vertices_t1, min_distance, broad_phase, narrow
+    if not isinstance(narrow, ExactNarrowPhase):
+        return float(_theirs(ipctk.compute_collision_free_stepsize, *question))
+    return _exact_step(*question).size()

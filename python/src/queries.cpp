@@ -2,11 +2,14 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <ccd/adapters/kept_gap.hpp>
 #include <ccd/batch.hpp>
 #include <ccd/first_contacts.hpp>
 #include <ccd/first_times.hpp>
 #include <ccd/method.hpp>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -192,6 +195,36 @@ nb::dict first_contacts(const questions& asked, double t_max, int threads) {
     return found;
 }
 
+bool is_counted(const nb::object& counts, std::size_t query) {
+    if (counts.is_none()) return true;
+    const nb::gil_scoped_acquire held;
+    return nb::cast<bool>(counts(query));
+}
+
+/// The least time of a narrow phase that keeps a gap, of those queries for which counts(query) is
+/// true; infinite if there is none in [0, t_max]. counts is called only for queries with an earlier
+/// time than those before.
+double least_time(const questions& asked, double min_distance, double rescaling, double max_gap,
+                  double t_max, const nb::object& counts) {
+    const ccd::adapters::detail::kept_gap kept{rescaling, max_gap};
+    double least = std::numeric_limits<double>::infinity();
+    const auto shorten = [&](std::size_t i, const auto& query) {
+        const auto found =
+            ccd::adapters::detail::answer(query, kept, min_distance, std::min(t_max, least));
+        if (found.collides && found.toi < least && is_counted(counts, i)) least = found.toi;
+    };
+    in_parts(asked.size(), 4096, [&](std::size_t first, std::size_t count) {
+        asked.visit([&](const auto& queries, const auto&... pairs) {
+            for (std::size_t i = first; i < first + count; ++i)
+                if constexpr (sizeof...(pairs) == 0)
+                    shorten(i, queries[i]);
+                else
+                    shorten(i, query_of(queries, pairs[i]...));
+        });
+    });
+    return least;
+}
+
 nb::list methods() {
     nb::list all;
     for (const ccd::method_info& m : ccd::methods())
@@ -223,7 +256,9 @@ void bind_queries(nb::module_& m) {
              nb::arg("threads"))
         .def("first_times", first_times, nb::arg("t_max"), nb::arg("distance"),
              nb::arg("thickness").none(), nb::arg("threads"))
-        .def("first_contacts", first_contacts, nb::arg("t_max"), nb::arg("threads"));
+        .def("first_contacts", first_contacts, nb::arg("t_max"), nb::arg("threads"))
+        .def("least_time", least_time, nb::arg("min_distance"), nb::arg("rescaling"),
+             nb::arg("max_gap"), nb::arg("t_max"), nb::arg("counts").none());
     m.def("methods", methods);
     m.def("instruction_sets", instruction_sets);
 }

@@ -1,4 +1,12 @@
-"""Beside the real ipctk: step sizes that are free and no shorter, and a broad phase that loses nothing."""
+"""With the real ipctk: step sizes that are free and no shorter, and a broad phase that loses nothing."""
+import gc
+import math
+import os
+import random
+import subprocess
+import sys
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -6,6 +14,7 @@ ipctk = pytest.importorskip("ipctk", reason="ipctk is not installed (pip install
 if ipctk:
     from errbound import ccd, io
     from errbound import ipctk as exact
+    from errbound._planes import Planes
 
 
 def sheet_over_ball(cells=12):
@@ -125,6 +134,250 @@ def test_contact_at_the_start_and_pairs_that_may_not_collide():
     mesh.can_collide = lambda v, w: (v < 18) == (w < 18)
     assert exact.is_step_collision_free(mesh, before, after)
     assert exact.compute_collision_free_stepsize(mesh, before, after) == 1
+
+
+def falling_point():
+    """A point falls from z = 3 to 0.5; another, at z = 1, is in its way: contact at t = 0.8."""
+    before = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, 1], [0.2, 0.2, 3]])
+    after = before.copy()
+    after[4, 2] = 0.5
+    return before, after, np.array([[0, 1, 2]], np.int32)
+
+
+def test_points_that_the_toolkit_passes_in_temporaries():
+    """The toolkit builds the broad phase a second time, for points on no edge, from arrays that it
+    frees before it calls for candidates. A broad phase that kept views of them gave 1."""
+    before, after, faces = falling_point()
+    mesh = mesh_of(before, faces)
+    alone = ipctk.compute_collision_free_stepsize(mesh, before, after)
+    by_ours = ipctk.compute_collision_free_stepsize(mesh, before, after, 0, exact.BroadPhase())
+    ours = exact.compute_collision_free_stepsize(mesh, before, after)
+    assert 0.7999 < alone <= by_ours <= ours < Fraction(8, 10)
+    assert ours > 0.8 - 1e-12
+
+
+FREED = """
+import gc, sys
+import numpy as np, ipctk
+sys.path.insert(0, sys.argv[1])
+from ipctk_test import MADE, exact, falling_point, mesh_of
+for before, after, faces in [falling_point(), MADE[0]]:
+    mesh = mesh_of(before, faces)
+    print(ipctk.compute_collision_free_stepsize(mesh, before, after, 0, exact.BroadPhase()).hex())
+    gc.collect()
+"""
+
+
+def test_freed_memory_is_not_read():
+    """The C library overwrites what is freed, by MALLOC_PERTURB_; step sizes stay as they are."""
+    answers = {subprocess.run([sys.executable, "-c", FREED, os.path.dirname(__file__)], check=True, text=True,
+                              capture_output=True, env={**os.environ, "MALLOC_PERTURB_": byte}).stdout
+               for byte in ("0", "170")}
+    assert len(answers) == 1 and answers.pop().count("0x") == 2
+
+
+@pytest.mark.parametrize("kind", ["edge_edge", "face_vertex", "edge_vertex", "vertex_vertex", "edge_face", "face_face"])
+def test_the_broad_phase_keeps_no_view(kind):
+    before, after, faces = MADE[0]
+    arrays = [np.asfortranarray(a) for a in (before, after, ipctk.edges(faces), faces)]
+    expected, ours = exact.BroadPhase(), exact.BroadPhase()
+    expected.build(*arrays, 0.05)
+    found = sorted(getattr(expected, f"detect_{kind}_candidates")())
+    overwritten = [np.array(a, order="F") for a in arrays]
+    ours.build(*overwritten, 0.05)
+    for array in overwritten:
+        array[...] = 0
+    del overwritten, array
+    gc.collect()
+    assert found and sorted(getattr(ours, f"detect_{kind}_candidates")()) == found
+
+
+def test_one_broad_phase_for_meshes_in_turn():
+    by_ours = exact.BroadPhase()
+    for before, after, faces in [MADE[0], falling_point(), MADE[0]]:
+        mesh = mesh_of(before, faces)
+        fresh = ipctk.compute_collision_free_stepsize(mesh, before, after, 0, exact.BroadPhase())
+        assert ipctk.compute_collision_free_stepsize(mesh, before, after, 0, by_ours) == fresh
+
+
+class _Plane:
+    """As ipctk.Hyperplane, whose normals the toolkit takes to be of length 1."""
+
+    def __init__(self, normal, offset):
+        self.normal, self.offset = lambda: np.array(normal), lambda: offset
+
+
+def with_planes(mesh, *planes):
+    mesh.planes = [ipctk.Hyperplane(np.array(normal, float), np.array(origin, float)) for normal, origin in planes]
+    return mesh
+
+
+GROUND = ([0, 0, 1], [0, 0, 0])
+
+
+def falling_triangle():
+    before = np.array([[0, 0, 1], [1, 0, 1], [0, 1, 1.0]])
+    return before, before - [0, 0, 2], np.array([[0, 1, 2]], np.int32)
+
+
+def test_a_plane_stops_a_triangle():
+    """From z = 1 to -1 over the plane z = 0: contact at 0.5, for the toolkit at 0.4 with its gap."""
+    before, after, faces = falling_triangle()
+    mesh = with_planes(mesh_of(before, faces), GROUND)
+    assert ipctk.compute_collision_free_stepsize(mesh, before, after) == 0.4
+    ours = exact.compute_collision_free_stepsize(mesh, before, after)
+    assert ours < 0.5 and 0.5 - ours < 1e-15
+    assert not exact.is_step_collision_free(mesh, before, after)
+    assert exact.is_step_collision_free(mesh, before, before + ours * (after - before))
+    assert not exact.is_step_collision_free(mesh, before, before - [0, 0, 1])  # touches at the end
+    assert exact.compute_collision_free_stepsize(mesh, before, before - [0, 0, 0.5]) == 1
+    assert exact.compute_collision_free_stepsize(mesh, before, after, 0.25) == pytest.approx(0.375, abs=1e-15)
+    candidates = ipctk.Candidates()
+    candidates.build(mesh, np.asfortranarray(before), np.asfortranarray(after))
+    assert exact.ExactNarrowPhase().compute_collision_free_stepsize(candidates, mesh, before, after) == ours
+    for broad_phase in ipctk.BruteForce(), exact.BroadPhase():
+        assert exact.compute_collision_free_stepsize(mesh, before, after, 0, broad_phase) == ours
+
+
+def test_gaps_to_planes():
+    before, after, faces = falling_triangle()
+    mesh = with_planes(mesh_of(before, faces), GROUND)
+    for rescaling, cap, height in ((0.75, math.inf, 0.25), (0.75, 0.125, 0.125), (1, 0.125, 0)):
+        size = exact.compute_collision_free_stepsize(
+            mesh, before, after, narrow_phase_ccd=exact.ExactNarrowPhase(rescaling, cap))
+        assert size == pytest.approx((1 - height) / 2, abs=1e-15) and size <= (1 - height) / 2
+
+
+def test_planes_that_vertices_touch_or_leave():
+    before, after, faces = falling_triangle()
+    beneath = before - [0, 0, 2]
+    for plane in (GROUND, ([0, 0, -1], [0, 0, 0])):
+        mesh = with_planes(mesh_of(before, faces), plane)
+        assert exact.compute_collision_free_stepsize(mesh, before - [0, 0, 1], before) == 0  # touches at the start
+        assert exact.compute_collision_free_stepsize(mesh, beneath, beneath - [0, 0, 1]) == 1
+        assert not exact.is_step_collision_free(mesh, beneath, before)
+    slanted = with_planes(mesh_of(before, faces), ([0.6, 0, 0.8], [0, 0, 0]), GROUND)
+    assert 0 < exact.compute_collision_free_stepsize(slanted, before, after) < 0.5
+
+
+def within(plane, way, distance, until):
+    """True if a vertex is within the distance of the plane at some time in [0, until], exactly."""
+    def form(x):
+        return sum((Fraction(n) * Fraction(c) for n, c in zip(plane.normal().tolist(), x)), Fraction(plane.offset()))
+
+    first = form(way[0])
+    last = first + (form(way[1]) - first) * Fraction(until)
+    square = Fraction(distance)**2 * sum(Fraction(n)**2 for n in plane.normal().tolist())
+    return first * last <= 0 or min(first**2, last**2) <= square
+
+
+def test_times_at_planes_are_exact():
+    """Random, degenerate and extreme ways; times are compared with rational numbers."""
+    source, contacts = random.Random(48), 0
+    numbers = (lambda: float(source.randint(-3, 3)), lambda: source.uniform(-1, 1),
+               lambda: source.uniform(-1, 1) * 2.0**source.randint(-300, 300),
+               lambda: source.choice([5e-324, -5e-324, 1e308, -1e308, 0.0, 1.0, 1 + 2**-52, 1e-310]))
+    for _ in range(1000):
+        number = source.choice(numbers)
+        plane = _Plane([number() for _ in range(3)], number())
+        if not plane.normal().any():
+            continue
+        ways = np.array([[[number() for _ in range(3)] for _ in range(2)] for _ in range(source.randint(1, 5))])
+        distance = source.choice([0.0, abs(number())])
+        low = Planes([plane], ways[:, 0], distance).first(ways[:, 1])
+        if low == math.inf:
+            assert not any(within(plane, way.tolist(), distance, 1) for way in ways)
+            continue
+        contacts += 1
+        assert 0 <= low <= 1
+        assert low == 0 or not any(within(plane, way.tolist(), distance, math.nextafter(low, 0)) for way in ways)
+        assert any(within(plane, way.tolist(), distance, min(math.nextafter(low, 2), 1)) for way in ways)
+    assert contacts > 500
+
+
+def test_planes_and_coordinates_that_are_none():
+    before, after, faces = falling_triangle()
+    mesh = mesh_of(before, faces)
+    mesh.planes = [ipctk.Hyperplane(np.zeros(3), np.zeros(3))]
+    with pytest.raises(ValueError, match="plane 0 has normal"):
+        exact.is_step_collision_free(mesh, before, after)
+    with pytest.raises(ValueError, match="vertices_t1"):
+        exact.is_step_collision_free(mesh_of(before, faces), before, np.full_like(after, np.nan))
+    for wrong in (0, -1, 1.5, math.nan):
+        with pytest.raises(ValueError, match="conservative_rescaling is"):
+            exact.ExactNarrowPhase(wrong)
+    with pytest.raises(ValueError, match="max_gap is 0"):
+        exact.ExactNarrowPhase(0.8, 0)
+
+
+@pytest.mark.parametrize("scene", range(len(MADE)))
+def test_keyword_arguments_of_the_toolkit(scene):
+    before, after, faces = MADE[scene]
+    mesh = mesh_of(before, faces)
+    ours = exact.compute_collision_free_stepsize(mesh, before, after)
+    by_theirs = exact.compute_collision_free_stepsize(mesh, before, after, broad_phase=ipctk.BruteForce())
+    assert by_theirs == ours
+    gap = exact.compute_collision_free_stepsize(mesh, before, after,
+                                                narrow_phase_ccd=exact.ExactNarrowPhase(0.8, 1e-4))
+    wide = exact.compute_collision_free_stepsize(mesh, before, after, narrow_phase_ccd=exact.ExactNarrowPhase(0.5))
+    assert 0 < wide < gap < ours
+    there = before + gap * (after - before)
+    assert pairs_on_the_way(before, there, faces, 0) == 0
+    theirs = ipctk.TightInclusionCCD(conservative_rescaling=0.8)
+    assert exact.compute_collision_free_stepsize(mesh, before, after, narrow_phase_ccd=theirs) \
+        == ipctk.compute_collision_free_stepsize(mesh, before, after, 0, exact.BroadPhase(), theirs)
+    for narrow in None, theirs, exact.ExactNarrowPhase(0.8, 1e-4):
+        assert not exact.is_step_collision_free(mesh, before, after, narrow_phase_ccd=narrow)
+        assert exact.is_step_collision_free(mesh, before, before + 0.5 * gap * (after - before),
+                                            broad_phase=ipctk.BruteForce(), narrow_phase_ccd=narrow)
+
+
+def test_a_capped_gap_is_kept_by_all_pairs():
+    """Up to the step's end no pair comes nearer than the cap, or than a fifth of its first distance."""
+    before, after, faces = crossing_strips()
+    mesh, cap = mesh_of(before, faces), 1e-3
+    size = exact.compute_collision_free_stepsize(mesh, before, after,
+                                                 narrow_phase_ccd=exact.ExactNarrowPhase(0.8, cap))
+    there = before + size * (after - before)
+    assert pairs_on_the_way(before, there, faces, 0.999 * cap) == 0
+    assert pairs_on_the_way(before, before + min(1, 1.001 * size) * (after - before), faces, cap) > 0
+
+
+def test_candidates_by_the_exact_narrow_phase():
+    before, after, faces = crossing_strips()
+    mesh = mesh_of(before, faces)
+    start, end = np.asfortranarray(before), np.asfortranarray(after)
+    candidates = ipctk.Candidates()
+    candidates.build(mesh, start, end)
+    narrow = exact.ExactNarrowPhase()
+    size = narrow.compute_collision_free_stepsize(candidates, mesh, start, end)
+    assert size == exact.compute_collision_free_stepsize(mesh, start, end)
+    assert not narrow.is_step_collision_free(candidates, mesh, start, end)
+    assert narrow.is_step_collision_free(candidates, mesh, start, before + size * (after - before))
+    threads = ipctk.get_num_threads()
+    ipctk.set_num_threads(1)  # the toolkit keeps the interpreter's lock while its threads would call
+    try:
+        at_contact = candidates.compute_collision_free_stepsize(mesh, start, end, 0, narrow)
+        assert size <= at_contact <= size + 1e-12
+    finally:
+        ipctk.set_num_threads(threads)
+
+
+def test_a_filter_is_called_for_few_pairs():
+    before, after, faces = crossing_strips()
+    mesh, calls = mesh_of(before, faces), []
+
+    def between_strips(v, w):
+        calls.append((v, w))
+        return (v < 18) != (w < 18)
+
+    expected = exact.compute_collision_free_stepsize(mesh, before, after)
+    mesh.can_collide = between_strips
+    assert exact.compute_collision_free_stepsize(mesh, before, after) == expected
+    assert len(calls) < 20
+    gap = exact.ExactNarrowPhase(0.8)
+    assert exact.compute_collision_free_stepsize(mesh, before, after, narrow_phase_ccd=gap) < expected
+    assert len(calls) < 1000
 
 
 def test_stored_scenes(shared_data):
