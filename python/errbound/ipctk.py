@@ -211,6 +211,10 @@ class _Pairs:
         return self._can_collide is None or bool(
             _may_collide(kind, self._rows[kind][row:row + 1], self._can_collide)[0])
 
+    def any(self) -> bool:
+        """True if some pair may collide."""
+        return any(self._allows(kind, row) for kind, rows in self._rows.items() for row in range(len(rows)))
+
     def least(self, lows: Iterable[tuple[str, Any, Any]]) -> float:
         """The least of the times, each with its pair's row by kind, of pairs that may collide."""
         named = [(kind, rows, times) for kind, rows, times in lows if len(rows)]
@@ -275,7 +279,7 @@ class _Mesh:
         if self._near.meet(end):
             return True
         self._near = self._pairs(self._steps.run(*self._frames(end), distance=self._distance).pairs)
-        return self._near.meet(end)
+        return self._near.any()
 
     def first_with_gap(self, end: Doubles, rescaling: float, max_gap: float, t_max: float) -> float:
         """The narrow phase's least time in [0, t_max], of pairs whose boxes meet until then; infinite if
