@@ -200,7 +200,7 @@ Hypothesis Keeps : keeps_operations p emax B by_rule holds.
 Notation rule := (the_rule float B by_rule).
 Notation Rule := (keeps_promises _ _ _ _ _ Keeps).
 Notation tracked_known := (tracked_known p emax B holds).
-Notation error_of := (tracked_error float B rule).
+Notation error_of := (tracked_error float F B rule).
 Notation exactly := (tracked_exactly float B rule).
 
 Lemma exactly_known v : tracked_known (exactly v) (B2R v).

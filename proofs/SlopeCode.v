@@ -46,7 +46,7 @@ Definition interval_sqrt (x : T * (T * T)) : T * (T * T) :=
   let v := root (fst x) in (v, interval_square_root v (snd x)).
 (** Under every rule. *)
 Definition product_is_zero (B : Type) (rule : rule T B) (a b : T * B) : bool :=
-  is_zero T A (fst a) (tracked_error T B rule a) || is_zero T A (fst b) (tracked_error T B rule b).
+  is_zero T A (fst a) (tracked_error T A B rule a) || is_zero T A (fst b) (tracked_error T A B rule b).
 Definition interval_fma (a b c : T * (T * T)) : T * (T * T) :=
   let v := fma T A (fst a) (fst b) (fst c) in
   if product_is_zero _ (interval_rule T A) a b && is_finite v then c
@@ -62,7 +62,7 @@ Variable R : operations T B.
 Notation rule := (the_rule T B R).
 Notation number := (T * B)%type.
 Notation exactly := (tracked_exactly T B rule).
-Notation error_of := (tracked_error T B rule).
+Notation error_of := (tracked_error T A B rule).
 Notation subtract := (tracked_subtract T A B rule).
 Notation add := (tracked_add T A B R).
 Notation multiply := (tracked_multiply T A B R).
@@ -151,7 +151,7 @@ Definition numbered_slope_sqrt (crowded : B -> bool) (x : number) : counted numb
   let* root := numbered_sqrt T A has_fast_fma B by_rule x in
   let* by_slope := numbered_sqrt_by_slope x root in
   let best := closer R root by_slope in
-  if crowded (snd best) then numbered_within T B by_rule (fst best) (tracked_error T B rule best) else at_once best.
+  if crowded (snd best) then numbered_within T B by_rule (fst best) (tracked_error T A B rule best) else at_once best.
 
 Definition numbered_fma_by_slope (a b c sum : number) : counted number :=
   if no_fma_slope a b c then at_once sum
