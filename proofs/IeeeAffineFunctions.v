@@ -276,6 +276,10 @@ Definition last_operation (g : option Z) : operations float affine := {|
 Ltac only_last := unfold tracked_within, tracked_exactly, tracked_error, tracked_negate, tracked_sign, last_operation;
   cbn [affine_operations affine_rule the_rule rule_exact rule_within rule_error rule_negate rule_sign]; reflexivity.
 Notation last_rule g := (the_rule _ _ (last_operation g)).
+(** A finite error is the rule's own. *)
+Lemma finite_error R x : finite (tracked_error float F affine R x) ->
+  tracked_error _ F _ R x = rule_error _ _ R (fst x) (snd x).
+Proof. unfold tracked_error. cbv zeta. destruct equal; [reflexivity | discriminate]. Qed.
 Lemma last_sqrt g a : tracked_sqrt _ F fused _ (last_rule g) a = tracked_sqrt _ F fused _ (rule g) a.
 Proof. unfold tracked_sqrt. only_last. Qed.
 Lemma last_abs g a : tracked_abs _ F _ (last_rule g) a = tracked_abs _ F _ (rule g) a.
@@ -529,9 +533,11 @@ Proof.
   { apply gives_once; auto. apply of_within. intros H _. destruct (ready_known _ _ R1) as (e & U & K).
     assert (Rule := keeps_promises _ _ _ _ _ (last_operation_keeps e None U)).
     destruct (larger_error_finite p emax affine _ _ Rule x r y s (K _ _ X) (K _ _ Y) H) as (FX & FY & LX & LY).
+    assert (EX := finite_error _ x FX). assert (EY := finite_error _ y FY).
+    change (rule_error _ _ _ (fst x) (snd x)) with (radius (snd x)) in EX.
+    change (rule_error _ _ _ (fst y) (snd y)) with (radius (snd y)) in EY. rewrite EX in FX, LX. rewrite EY in FY, LY.
     destruct (proj2 (error_right j l1 _ _ R1 X) FX) as [AX DX], (proj2 (error_right j l1 _ _ R1 Y) FY) as [AY DY].
-    specialize (L AX AY). change (tracked_error _ _ _ x) with (radius (snd x)) in LX.
-    change (tracked_error _ _ _ y) with (radius (snd y)) in LY. apply Rabs_le_inv in DX, DY. apply Rabs_le.
+    specialize (L AX AY). apply Rabs_le_inv in DX, DY. apply Rabs_le.
     change (larger_error _ F _ (last_rule None) x y) with (larger_error _ F _ the_rule x y) in LX, LY.
     unfold Rmin. destruct (Rle_dec r s); lra. }
   destruct (tracked_sign _ _ _ difference); simpl in S; auto; rewrite Rmin_left by lra; now apply makes_at_once.
@@ -763,9 +769,12 @@ Proof.
   replace (t * B2R (fst x) + a0 + q * (r - B2R (fst x))) with (o * r + a0) in W by (rewrite E; ring).
   destruct (error_right k8 l8 _ _ R8 W) as [PE KE].
   assert (FE : finite (radius (snd by_slope))).
-  { revert C. change (less _ F (radius (snd by_slope)) (radius (snd result)) = true -> finite (radius (snd by_slope))).
-    destruct (radius (snd by_slope)) as [| g | |]; try discriminate; auto. simpl in PE. subst g.
-    now destruct (radius (snd result)) as [| [|] | | [|]]. }
+  { revert C. unfold tracked_error. cbv zeta.
+    change (rule_error _ _ _ (fst by_slope) (snd by_slope)) with (radius (snd by_slope)).
+    change (rule_error _ _ _ (fst result) (snd result)) with (radius (snd result)).
+    destruct (radius (snd by_slope)) as [| g | |]; auto; [simpl in PE; subst g |].
+    all: match goal with |- less _ _ _ ?error = _ -> _ => generalize error end;
+      intros [| [|] | | [|]] Less; vm_compute in Less; discriminate. }
   destruct (KE FE) as [FV _]. assert (FV' := FV). rewrite V8 in FV'.
   destruct (plus_finite p emax _ _ FV') as (FT & FC & ET). rewrite V6 in FC, ET.
   destruct (times_finite p emax _ _ FC) as (_ & FD & EC). rewrite V5 in FD, EC.
@@ -798,6 +807,8 @@ Proof.
     apply plus_finite in H. destruct H as (H1 & H2 & ->). apply times_finite in H1. destruct H1 as (_ & FS & ->).
     assert (ES : B2R (fst size) = Rabs (B2R (fst x))).
     { rewrite Z in FS |- *. now apply (IeeeCompound.abs_value p emax p_3 affine (by_rule (source k)) x). }
+    assert (E := finite_error _ size H2).
+    change (rule_error _ _ _ (fst size) (snd size)) with (radius (snd size)) in E. rewrite E in H2 |- *.
     destruct (proj2 (error_right j l1 _ _ R1 S) H2) as [_ D]. rewrite (proj2 (integer_value p emax p_3 2 ltac:(lia))).
     apply (Functions.copysign_sound_nearest p emin p_3 (B2R (fst size)) _ r); auto using number_B2R.
     + apply (emin_p p emax p_3).
@@ -818,7 +829,9 @@ Proof.
   split; [apply gives_once; auto; now apply of_sqrt |]. cbn [numbered_sqrt once fst]. intros H.
   destruct (ready_known _ _ Ready) as (e & U & K).
   assert (Rule := keeps_promises _ _ _ _ _ (last_operation_keeps e (source k) U)).
-  apply (sqrt_known p emax p_3 fused affine _ _ Rule a x); [now apply made_of_known, K |]. rewrite last_sqrt. exact H.
+  apply (sqrt_known p emax p_3 fused affine _ _ Rule a x); [now apply made_of_known, K |]. rewrite last_sqrt.
+  unfold tracked_error. cbv zeta. destruct equal eqn:E; [exact H |]. revert E.
+  rewrite (equal_finite p emax) by exact H. now rewrite Req_bool_true.
 Qed.
 Theorem affine_abs_gives : gives l k (numbered_abs _ F _ operation a) (Rabs x).
 Proof. apply gives_once; auto. now apply of_abs. Qed.

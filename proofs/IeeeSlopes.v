@@ -248,7 +248,7 @@ Theorem sqrt_by_slope_known x r root : tracked_known x r -> fst root = Code.root
   tracked_known (sqrt_by_slope _ F fused B by_rule x root) (sqrt r).
 Proof.
   intros X V K P. unfold sqrt_by_slope. destruct (no_root_slope _ _ _ _ _ _ _) eqn:C; [exact K |]. cbv zeta.
-  destruct (slope_of_root x root (sqrt r) V (promise_error _ _ _ _ _ Rule _ _ _ K) C) as (FE & PV & E).
+  destruct (slope_of_root x root (sqrt r) V (error_of_known p emax B rule holds Rule _ _ K) C) as (FE & PV & E).
   rewrite <- (root_and_change (B2R (fst x)) (B2R (fst root)) r) by auto. rewrite <- E.
   apply add_known; [apply exactly_known |]. apply divide_known.
   - apply add_known; [| apply exactly_known]. apply subtract_known; [exact X | apply exactly_known].
@@ -267,9 +267,9 @@ Proof.
   assert (H : tracked_known best (sqrt r) /\ (finite (error_of best) -> 0 <= r)).
   { unfold best. destruct (closer_either root (sqrt_by_slope _ F fused B by_rule x root)) as [-> | ->]; auto.
     split; auto. unfold sqrt_by_slope. destruct (no_root_slope _ _ _ _ _ _ _) eqn:C; [exact P |]. intros _.
-    apply P, (slope_of_root x root (sqrt r) (value_of_sqrt x) (promise_error _ _ _ _ _ Rule _ _ _ K) C). }
+    apply P, (slope_of_root x root (sqrt r) (value_of_sqrt x) (error_of_known p emax B rule holds Rule _ _ K) C). }
   destruct (crowded (snd best)); [| exact H]. destruct H as [HB PB].
-  assert (E := promise_error _ _ _ _ _ Rule _ _ _ HB). split.
+  assert (E := error_of_known p emax B rule holds Rule _ _ HB). split.
   - apply (promise_within _ _ _ _ _ Rule). intros FE _. now apply (proj2 E).
   - intros FE. apply PB. destruct (BinarySingleNaN.is_finite (error_of best)) eqn:N; auto. exfalso.
     apply (nothing_error p emax B rule holds Rule (fst best) (error_of best)); [congruence | exact FE].
@@ -310,8 +310,8 @@ Proof.
   - apply andb_prop in C. destruct C as [C _]. unfold product_is_zero in C.
     assert (E : x * y = 0).
     { apply orb_prop in C. destruct C as [C | C].
-      - rewrite (known_zero p emax p_3 _ _ _ (promise_error _ _ _ _ _ Rule _ _ _ X) C). ring.
-      - rewrite (known_zero p emax p_3 _ _ _ (promise_error _ _ _ _ _ Rule _ _ _ Y) C). ring. }
+      - rewrite (known_zero p emax p_3 _ _ _ (error_of_known p emax B rule holds Rule _ _ X) C). ring.
+      - rewrite (known_zero p emax p_3 _ _ _ (error_of_known p emax B rule holds Rule _ _ Y) C). ring. }
     now rewrite E, Rplus_0_l.
   - assert (K := fma_known p emax p_3 B rule holds Rule a x b y c z X Y Z).
     destruct (closer_either (tracked_fma _ F B rule a b c) (fma_by_slope _ F fused B by_rule a b c
@@ -482,8 +482,8 @@ Proof.
   apply andb_prop in C. destruct C as [C _]. unfold product_is_zero in C.
   assert (Rule := interval_promises p emax p_3 fused). assert (E : x * y = 0).
   { apply orb_prop in C. destruct C as [C | C].
-    - rewrite (known_zero p emax p_3 _ _ _ (promise_error _ _ _ _ _ Rule _ _ _ X) C). ring.
-    - rewrite (known_zero p emax p_3 _ _ _ (promise_error _ _ _ _ _ Rule _ _ _ Y) C). ring. }
+    - rewrite (known_zero p emax p_3 _ _ _ (error_of_known p emax _ _ _ Rule _ _ X) C). ring.
+    - rewrite (known_zero p emax p_3 _ _ _ (error_of_known p emax _ _ _ Rule _ _ Y) C). ring. }
   now rewrite E, Rplus_0_l.
 Qed.
 
@@ -530,14 +530,21 @@ Notation subtract_gives := (subtract_gives p emax p_4 fused limit source all_dif
 Notation multiply_gives := (multiply_gives p emax p_4 fused limit source all_different).
 Notation after_it H := (makes_after p emax fused limit source _ _ _ _ _ _ H).
 
+Lemma error_known l k n x : ready k l -> In (n, x) l -> known p emax (fst n) (tracked_error _ F _ rule n) x.
+Proof.
+  intros Ready I. assert (K := error_right p emax source k l n x Ready I). unfold tracked_error. cbv zeta.
+  destruct equal; [exact K | split; [reflexivity | discriminate]].
+Qed.
 Lemma sqrt_by_slope_gives l k x r root : ready k l -> In (x, r) l -> In (root, sqrt r) l ->
   fst root = Code.root _ F (fst x) -> (finite (radius _ (snd root)) -> 0 <= r) ->
   gives l k (numbered_sqrt_by_slope _ F fused _ operation x root) (sqrt r).
 Proof.
   intros Ready X W V P. unfold numbered_sqrt_by_slope.
   destruct (no_root_slope _ _ _ _ _ _ _) eqn:C; [now apply makes_at_once |]. cbv zeta.
-  assert (K := error_right p emax source k l root (sqrt r) Ready W).
+  assert (K := error_known l k root (sqrt r) Ready W).
   destruct (slope_of_root p emax p_3 fused _ first_rule x root (sqrt r) V K C) as (FE & PV & E).
+  assert (FR : finite (radius _ (snd root))).
+  { revert FE. unfold tracked_error. cbv zeta. destruct equal; [auto | discriminate]. }
   rewrite <- (root_and_change (B2R (fst x)) (B2R (fst root)) r) by auto. rewrite <- E.
   set (remainder := fst (remainder_of_root _ F fused (fst x) (fst root))) in *.
   apply beside_exactly with (v := fst root); auto. intros R1.
@@ -571,7 +578,7 @@ Proof.
   { destruct (closer_either p emax _ first_rule root s) as [E | E];
       [change (best = root) in E | change (best = s) in E]; rewrite E; auto. }
   destruct (crowded (snd best)); [| now apply makes_at_once].
-  assert (E := error_right p emax source i l2 best (sqrt r) R2 H).
+  assert (E := error_known l2 i best (sqrt r) R2 H).
   apply (gives_once p emax p_4 fused limit source all_different l2 i _ (sqrt r) R2).
   apply (of_within p emax fused limit (source i) l2 (fst best)). intros FE _. now apply (proj2 E).
 Qed.
@@ -627,8 +634,8 @@ Proof.
   intros Ready X Y Z. unfold numbered_slope_fma. cbv zeta. destruct (_ && _) eqn:C.
   - apply andb_prop in C. destruct C as [C _]. unfold product_is_zero in C. assert (E : x * y = 0).
     { apply orb_prop in C. destruct C as [C | C].
-      - rewrite (known_zero p emax p_3 _ _ _ (error_right p emax source k l a x Ready X) C). ring.
-      - rewrite (known_zero p emax p_3 _ _ _ (error_right p emax source k l b y Ready Y) C). ring. }
+      - rewrite (known_zero p emax p_3 _ _ _ (error_known l k a x Ready X) C). ring.
+      - rewrite (known_zero p emax p_3 _ _ _ (error_known l k b y Ready Y) C). ring. }
     apply makes_at_once; auto. now rewrite E, Rplus_0_l.
   - apply (after_it (affine_fma_gives p emax p_4 fused limit source all_different l k Ready a b c x y z X Y Z)).
     intros sum l1 j I1 R1 N. apply computed_incl in I1.
