@@ -12,7 +12,7 @@ inline constexpr std::uint64_t batches = 0xcffb6acc32b8e451;
 inline constexpr std::uint64_t steps = 0x0bb360f2b00feb19;
 inline constexpr std::uint64_t predicates = 0xb38eec9c973cd5f3;
 inline constexpr std::uint64_t roots = 0x2e77b39a5ec6cd3b;
-inline constexpr std::uint64_t bounds = 0x82406a83a8976148;
-inline constexpr std::uint64_t all = 0x82ee9536209555ba;
+inline constexpr std::uint64_t bounds = 0x807084e8c61e0216;
+inline constexpr std::uint64_t all = 0x31aed5c56bcb0900;
 
 }  // namespace everywhere::expected
