@@ -29,8 +29,8 @@ except ImportError as error:
 __all__ = ["BroadPhase", "ExactNarrowPhase", "compute_collision_free_stepsize", "is_step_collision_free"]
 
 _CanCollide = Callable[[int, int], bool]
-_Rows = Mapping[str, Indices]
-_FIRST_VERTICES = {"vertex_face": 1, "edge_edge": 2, "vertex_edge": 1, "vertex_vertex": 1}
+_Rows = Mapping[ccd.Kind, Indices]
+_FIRST_VERTICES: dict[ccd.Kind, int] = {"vertex_face": 1, "edge_edge": 2, "vertex_edge": 1, "vertex_vertex": 1}
 
 
 def _steps(vertices: int, columns: int, edges: Any, faces: Any) -> ccd.Steps:
@@ -44,7 +44,7 @@ def _in_space(positions: Doubles) -> Doubles:
     return np.pad(positions, ((0, 0), (0, 3 - positions.shape[1])))
 
 
-def _may_collide(kind: str, rows: Indices, can_collide: _CanCollide) -> NDArray[np.bool_]:
+def _may_collide(kind: ccd.Kind, rows: Indices, can_collide: _CanCollide) -> NDArray[np.bool_]:
     """True for each pair of which some vertex of one element may collide with some vertex of the other."""
     first, allowed = _FIRST_VERTICES[kind], np.zeros(len(rows), bool)
     for columns in product(range(first), range(first, rows.shape[1])):
@@ -141,7 +141,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         self._steps = _steps(*shape, edges, faces)
         self._edge_index, self._face_index = _Lookup(edges, shape[0]), _Lookup(faces, shape[0])
 
-    def _pairs(self, kind: str) -> Indices:
+    def _pairs(self, kind: ccd.Kind) -> Indices:
         """The pairs of the whole mesh, found once, that the filter lets through."""
         if not self._pairs_of:
             found = self._steps.run(self._before, self._after, distance=2 * self._radius).pairs
@@ -157,7 +157,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
             self._theirs.build(*arrays, self._radius)
         return self._theirs
 
-    def _decided(self, kind: str, rows: Any) -> NDArray[np.bool_]:
+    def _decided(self, kind: ccd.Kind, rows: Any) -> NDArray[np.bool_]:
         """True for those of the default's pairs that come near enough and that the filter lets through."""
         positions = _in_space(self._before), _in_space(self._after)
         near = np.array(ccd.decide(rows, kind, positions=positions, distance=2 * self._radius).collides)
@@ -207,7 +207,7 @@ class _Pairs:
         self._start, self._distance, self._can_collide = start, distance, can_collide
         self._rows = {kind: each for kind, each in rows.items() if len(each)}
 
-    def _allows(self, kind: str, row: int) -> bool:
+    def _allows(self, kind: ccd.Kind, row: int) -> bool:
         return self._can_collide is None or bool(
             _may_collide(kind, self._rows[kind][row:row + 1], self._can_collide)[0])
 
@@ -215,7 +215,7 @@ class _Pairs:
         """True if some pair may collide."""
         return any(self._allows(kind, row) for kind, rows in self._rows.items() for row in range(len(rows)))
 
-    def least(self, lows: Iterable[tuple[str, Any, Any]]) -> float:
+    def least(self, lows: Iterable[tuple[ccd.Kind, Any, Any]]) -> float:
         """The least of the times, each with its pair's row by kind, of pairs that may collide."""
         named = [(kind, rows, times) for kind, rows, times in lows if len(rows)]
         if not named:
@@ -315,7 +315,7 @@ class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignor
             if not 0 < value <= end:
                 raise ValueError(f"{name} is {value}; expected a number > 0 and <= {end}")
 
-    def _answer(self, kind: str, start: Any, end: Any, min_distance: float, tmax: float) -> tuple[bool, float]:
+    def _answer(self, kind: ccd.Kind, start: Any, end: Any, min_distance: float, tmax: float) -> tuple[bool, float]:
         points = np.zeros((len(start), 2, 3))
         points[:, 0, :len(start[0])], points[:, 1, :len(end[0])] = start, end
         time = _native.Questions(kind, points.reshape(1, -1), None, None, None).least_time(
@@ -359,9 +359,9 @@ def _listed_rows(candidates: Any, edges: Any, faces: Any) -> _Rows:
     first, second = _ids(candidates.ee_candidates, "edge0_id", "edge1_id")
     of_face, face = _ids(candidates.fv_candidates, "vertex_id", "face_id")
     edges, faces = np.asarray(edges).reshape(-1, 2), np.asarray(faces).reshape(-1, 3)
-    rows = {"vertex_edge": [vertex, edges[edge]], "edge_edge": [edges[first], edges[second]],
+    rows: dict[ccd.Kind, list[Any]] = {"vertex_edge": [vertex, edges[edge]], "edge_edge": [edges[first], edges[second]],
             "vertex_face": [of_face, faces[face]],
-            "vertex_vertex": _ids(candidates.vv_candidates, "vertex0_id", "vertex1_id")}
+            "vertex_vertex": list(_ids(candidates.vv_candidates, "vertex0_id", "vertex1_id"))}
     return {kind: np.column_stack(columns).astype(np.uint32) for kind, columns in rows.items()}
 
 
