@@ -33,7 +33,7 @@ template <class T>
 constexpr T sum_of_bounds(const T& enlarged, const T& own, const T& x, const T& y) {
     constexpr int digits = number_traits<T>::digits;
     if constexpr (digits < 40 && has_subnormals<T>) {
-        constexpr double few = power_of_two(std::max(digits - 11, 0));
+        constexpr double few = power_of_two((std::max)(digits - 11, 0));
         if (rounded_product(own, T(few)) < x + y) {
             const T careful = sum_above<T>(own, sum_above<T>(x, y));
             return careful < enlarged ? careful : enlarged;

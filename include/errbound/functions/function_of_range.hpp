@@ -274,8 +274,8 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     using traits = number_traits<T>;
     const T product = rounded_product(r.low, slope.value), low = traits::abs(r.low);
     const with_error<T> sum = two_sum(at_high.value, product);
-    const T small = rounded_product(low, T(slope.error + 3 * low)) + half_ulp(product);
-    const T error = small + (3 * r.error + traits::underflow_unit());
+    const T lost = rounded_product(low, T(slope.error + 3 * low)) + half_ulp(product);
+    const T error = lost + (3 * r.error + traits::underflow_unit());
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 

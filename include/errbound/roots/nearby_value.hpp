@@ -72,7 +72,7 @@ nearby_value<Integer> sum(nearby_value<Integer> a, nearby_value<Integer> b, int 
         const std::int64_t all = (std::max)(b.value == 0 ? 0 : floor_log2(b.value),
                                           b.error == 0 ? 0 : floor_log2(b.error)) +
                                  1;
-        b.drop(static_cast<int>(std::min(down, all)));
+        b.drop(static_cast<int>((std::min)(down, all)));
         b.exponent = a.exponent;  // nothing but the error is left if fewer bits were dropped
     }
     a.value += b.value;

@@ -39,7 +39,9 @@ struct tight : errbound::derived_rule<tight<Without>, errbound::tight> {
     template <class T>
     static bound<T> add(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
         const T own = Without == 3 ? T(0) : rounding(v);
-        return {inflated<4>(own + (a.bound.error + (Without == 5 ? T(0) : b.bound.error)))};
+        const T of_b = Without == 5 ? T(0) : b.bound.error;
+        return {errbound::detail::sum_of_bounds<T>(inflated<4>(own + (a.bound.error + of_b)), own,
+                                                   a.bound.error, of_b)};
     }
     template <class T>
     static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
@@ -93,7 +95,8 @@ struct sharp : errbound::derived_rule<sharp<Without>, errbound::sharp> {
         using traits = number_traits<T>;
         const T own = Without == 1 ? T(0) : rounding(v);
         const T factor = Without == 2 ? 1 + traits::epsilon() : 1 + 2 * traits::epsilon();
-        return {(own + (a.bound.error + b.bound.error)) * factor};
+        return {errbound::detail::sum_of_bounds<T>((own + (a.bound.error + b.bound.error)) * factor,
+                                                   own, a.bound.error, b.bound.error)};
     }
     template <class T>
     static bound<T> multiply(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
@@ -213,9 +216,11 @@ struct residual : errbound::derived_rule<residual<Without>, errbound::residual> 
         const with_error<T> correction = two_sum<T>(own, inherited.value);
         const T first = Without == 1 ? T(0) : traits::abs(inherited.error);
         const T second = Without == 2 ? T(0) : traits::abs(correction.error);
-        const T remainder = (a.bound.remainder + b.bound.remainder) + (first + second) + (v - v);
-        return {correction.value,
-                Without == 3 ? remainder : remainder * (1 + 8 * traits::epsilon())};
+        const T lost = first + second, factor = Without == 3 ? T(1) : 1 + 8 * traits::epsilon();
+        const T remainder = detail::sum_of_bounds<T>(
+            ((a.bound.remainder + b.bound.remainder) + lost) * factor, lost * factor,
+            a.bound.remainder, b.bound.remainder);
+        return {correction.value, remainder + (v - v)};
     }
     template <class T>
     static bound<T> subtract(const T& v, rule_operand<T, Self> a, rule_operand<T, Self> b) {
