@@ -172,8 +172,8 @@ std::ostream& operator<<(std::ostream& to, const tracked<T, Rule>& x) {
 }
 
 /// What streams print as value ± radius: the shortest decimal that reads back as the value, and one
-/// of two digits that reads back as at least the error (`unknown` if that is infinite). Read back into
-/// tracked::within, they hold the exact number.
+/// of two digits that reads back as at least the error (`unknown` if that is infinite). Read back
+/// into tracked::within, they hold the exact number.
 template <printable_number T, class Rule>
 std::string with_radius(const tracked<T, Rule>& x) {
     using printed = detail::printed_type<T>;

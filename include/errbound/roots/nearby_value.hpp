@@ -37,7 +37,8 @@ struct nearby_value {
     /// those of the value, one for those of the error.
     void cut(int bits) {
         const int excess =
-            (std::max)(value == 0 ? 0 : floor_log2(value), error == 0 ? 0 : floor_log2(error)) - bits;
+            (std::max)(value == 0 ? 0 : floor_log2(value), error == 0 ? 0 : floor_log2(error)) -
+            bits;
         if (excess > 0) drop(excess);
     }
     void drop(int count) {
@@ -70,7 +71,7 @@ nearby_value<Integer> sum(nearby_value<Integer> a, nearby_value<Integer> b, int 
     a.exponent -= up;
     if (const std::int64_t down = distance - up; down > 0) {
         const std::int64_t all = (std::max)(b.value == 0 ? 0 : floor_log2(b.value),
-                                          b.error == 0 ? 0 : floor_log2(b.error)) +
+                                            b.error == 0 ? 0 : floor_log2(b.error)) +
                                  1;
         b.drop(static_cast<int>((std::min)(down, all)));
         b.exponent = a.exponent;  // nothing but the error is left if fewer bits were dropped

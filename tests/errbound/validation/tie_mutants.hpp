@@ -217,9 +217,9 @@ struct residual : errbound::derived_rule<residual<Without>, errbound::residual> 
         const T first = Without == 1 ? T(0) : traits::abs(inherited.error);
         const T second = Without == 2 ? T(0) : traits::abs(correction.error);
         const T lost = first + second, factor = Without == 3 ? T(1) : 1 + 8 * traits::epsilon();
-        const T remainder = detail::sum_of_bounds<T>(
-            ((a.bound.remainder + b.bound.remainder) + lost) * factor, lost * factor,
-            a.bound.remainder, b.bound.remainder);
+        const T remainder =
+            detail::sum_of_bounds<T>(((a.bound.remainder + b.bound.remainder) + lost) * factor,
+                                     lost * factor, a.bound.remainder, b.bound.remainder);
         return {correction.value, remainder + (v - v)};
     }
     template <class T>
