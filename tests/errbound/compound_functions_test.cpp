@@ -77,16 +77,19 @@ class checker {
 
     static bool claims_nothing(const number& x) {
         if (traits::is_finite(x.value()) && traits::is_finite(x.error())) return false;
-        EXPECT_EQ(sign_of(x), sign_type::uncertain);
+        // Bounds that are kept in a wider type may tell the sign where the error overflows T.
+        if (!errbound::detail::bounds_are_wider<T, Rule> || !traits::is_finite(x.value())) {
+            EXPECT_EQ(sign_of(x), sign_type::uncertain);
+        }
         return true;
     }
     void check(const one& s, const char* what) {
+        const sign_type sign = sign_of(s.number);
+        ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact))
+            << what << " " << Rule::name;
         if (claims_nothing(s.number)) return;
         const rational off = exactly_of(s.number.value()) - s.exact;
         ASSERT_LE(boost::multiprecision::abs(off), exactly_of(s.number.error()))
-            << what << " " << Rule::name;
-        const sign_type sign = sign_of(s.number);
-        ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(s.exact))
             << what << " " << Rule::name;
     }
     void check_root(const number& root, const rational& square) {

@@ -161,14 +161,15 @@ class checker {
         ASSERT_TRUE(sign == sign_type::uncertain || sign == errbound::sign_of(exact))
             << what << " " << Rule::name;
     }
-    /// But for a few last places of the bound, and of η for each closing of terms.
+    /// Except for the factor 1 + (terms + 7)ε and some η of each closing of terms.
     void check_not_worse(const number& found, const number& one_by_one, std::size_t terms,
                          const char* what) {
         if (!errbound::promises_bound<Rule> || !traits::is_finite(one_by_one.error())) return;
         ASSERT_TRUE(traits::is_finite(found.error())) << what << " " << Rule::name;
         const rational slack = terms == 0 ? 0 : 1;
         ASSERT_LE(exactly_of(found.error()),
-                  exactly_of(one_by_one.error()) * (1 + slack * 8 * exactly_of(traits::epsilon())) +
+                  exactly_of(one_by_one.error()) *
+                          (1 + slack * (terms + 8) * exactly_of(traits::epsilon())) +
                       slack * (terms / 2 + 2) * exactly_of(traits::underflow_unit()))
             << what << " " << Rule::name << " " << terms;
     }

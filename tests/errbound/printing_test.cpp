@@ -173,10 +173,10 @@ TEST(PrintingText, IsAsOneWouldWriteIt) {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(text_of(within(1, infinity)), "unknown");
     EXPECT_EQ(text_of(tracked<double>(1) / tracked<double>(0)), "unknown");
-    EXPECT_EQ(with_radius(within(1, infinity)), "1 ± ?");
+    EXPECT_EQ(with_radius(within(1, infinity)), "1 ± unknown");
     for (const double sign : {1.0, -1.0}) {
         const double nothing = std::copysign(std::numeric_limits<double>::quiet_NaN(), sign);
-        EXPECT_EQ(with_radius(tracked<double>(nothing)), "nan ± ?");
+        EXPECT_EQ(with_radius(tracked<double>(nothing)), "nan ± unknown");
     }
     EXPECT_EQ(with_radius(tracked<double>(0.1)), "0.1 ± 0");
 }

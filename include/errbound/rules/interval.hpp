@@ -134,14 +134,21 @@ struct interval {
             return unknown<T>();
         const auto least = [](const T& m, const T& n) { return n < m ? n : m; };
         const auto most = [](const T& m, const T& n) { return n > m ? n : m; };
-        const auto end = [&](const auto& choice, const T& of_c) {
-            return choice(choice(traits::fma(a.bound.lower, b.bound.lower, of_c),
-                                 traits::fma(a.bound.lower, b.bound.upper, of_c)),
-                          choice(traits::fma(a.bound.upper, b.bound.lower, of_c),
-                                 traits::fma(a.bound.upper, b.bound.upper, of_c)));
+        bool overflows = false;  // to NaN, which no comparison would choose
+        const auto corner = [&](const T& x, const T& y, const T& z) {
+            const T value = traits::fma(x, y, z);
+            if constexpr (!has_infinity<T>) overflows |= !traits::is_finite(value);
+            return value;
         };
-        return checked<T>(v, below<T>(end(least, c.bound.lower)),
-                          above<T>(end(most, c.bound.upper)));
+        const auto end = [&](const auto& choice, const T& of_c) {
+            return choice(choice(corner(a.bound.lower, b.bound.lower, of_c),
+                                 corner(a.bound.lower, b.bound.upper, of_c)),
+                          choice(corner(a.bound.upper, b.bound.lower, of_c),
+                                 corner(a.bound.upper, b.bound.upper, of_c)));
+        };
+        const T lower = below<T>(end(least, c.bound.lower));
+        const T upper = above<T>(end(most, c.bound.upper));
+        return overflows ? unknown<T>() : checked<T>(v, lower, upper);
     }
     /// Scaling by a power of two is exact unless it underflows.
     /// Proof: proofs/IeeeInterval.v, interval_scale_known.

@@ -79,7 +79,7 @@ TEST(Table, SaysWhereNothingIsKnownOrNothingIsWrong) {
     explanation e = some();
     e.error = e.contributions[0].amount = infinity;
     EXPECT_EQ(text_of(e, 1),
-              "area = 2.5 ± ?, by tight\n"
+              "area = 2.5 ± unknown, by tight\n"
               "   amount    share  operation  scope\n"
               "  unknown  100.0 %  +          outer > inner (b.cpp:14)\n"
               "  and 2 more\n");
