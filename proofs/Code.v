@@ -92,12 +92,12 @@ Definition two_product (a b : T) : T * T :=
 Definition product_error_is_exact (a b : T) (product : T * T) : bool :=
   let (value, error) := product in
   if negb (is_finite value) || negb (is_finite error) then false
-  else if (a == #0) || (b == #0) then true
-  else if negb has_fast_fma && (digits T A <? 4)%Z then false
   else
     let s := ((digits T A + 1) / 2)%Z in
     let most := largest T A / #(2 ^ (s + 2)) in
     if (most < abs a) || (most < abs b) then false
+    else if (a == #0) || (b == #0) then true
+    else if negb has_fast_fma && (digits T A <? 4)%Z then false
     else if largest T A / #4 < abs value then false
     else η / u / u <= abs value.
 Definition remainder_of_division (a b q : T) : T * bool :=

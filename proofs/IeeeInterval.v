@@ -584,6 +584,8 @@ Proof.
   apply is_finite_true in C1, C2. intros H. specialize (Real C1 C2). generalize C1. intros FV.
   apply times_finite in C1. destruct C1 as (FA & FB & EV).
   split; auto. split; auto. split; auto. split; auto. rewrite Real, EV.
+  (* That large numbers are left out too is for the same bounds everywhere, not for this. *)
+  cbv zeta in H. destruct (_ || _) in H; [discriminate |].
   destruct zero_value' as [Z0 Z]. rewrite !equal_finite, Z in H by auto.
   assert (Zero : B2R a = 0 \/ B2R b = 0 -> fl (B2R a * B2R b) + snd (real_product (B2R a) (B2R b)) = B2R a * B2R b).
   { intros C. rewrite <- real_product_value, real_product_0 by auto. cbn [fst snd].
@@ -595,8 +597,7 @@ Proof.
   { revert H. destruct fused; [auto |]. destruct (Z.ltb_spec p 4); [discriminate | auto]. }
   replace (negb fused && (p <? 4)%Z) with false in H.
   2: { destruct P as [-> | P]; [reflexivity |]. destruct (Z.ltb_spec p 4), fused; auto; lia. }
-  (* That large numbers are left out too is for the same bounds everywhere, not for this. *)
-  cbv zeta in H. destruct (_ || _) in H; [discriminate |]. destruct (less _ _ _ _) in H; [discriminate |].
+  destruct (less _ _ _ _) in H; [discriminate |].
   destruct (u_value p emax p_3) as [Fu Vu]. destruct (eta_value p emax p_3) as [Fe Ve].
   assert (Nu : B2R (unit_roundoff _ F) <> 0) by (rewrite Vu; apply Rgt_not_eq, bpow_gt_0).
   set (w := underflow_unit _ F ⊘ unit_roundoff _ F ⊘ unit_roundoff _ F) in *.

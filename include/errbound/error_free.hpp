@@ -108,26 +108,26 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// Whether two_product(a, b)'s result is known to be exact: an operand is zero, or the product is
-/// far enough from underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and from
-/// overflow: |a|, |b| <= largest()/2^(s+2) (2^995 for double, 2^114 for float), s = ⌈p/2⌉, and
+/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2) (2^995 for
+/// double, 2^114 for float), s = ⌈p/2⌉, and an operand is zero or the product is far enough from
+/// underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and from overflow,
 /// |value| <= largest()/4. Derivation: the error, and each number on Dekker's way to it, is a
 /// multiple of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since
 /// |a| < 2^p·ulp(a), |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and
-/// |ab| >= |value|/(1 + u), so it is larger than η/2. Of large numbers fused multiply-add would
-/// find the error and Dekker's product would not; they are left out of both, so that bounds are the
-/// same on all processors: what is multiplied in split() is below 2^(s+1)·|x|, and higher parts are
-/// at most 1.25|x|, so that nothing on Dekker's way is above half of largest(). Proof:
-/// proofs/IeeeInterval.v, product_known.
+/// |ab| >= |value|/(1 + u), so it is larger than η/2. Fused multiply-add would find the error of
+/// large numbers, even times zero, and Dekker's product would not; both leave them out, so that
+/// bounds are the same on all processors: what is multiplied in split() is below 2^(s+1)·|x|, and
+/// higher parts are at most 1.25|x|, so that nothing on Dekker's way is above half of largest().
+/// Proof: proofs/IeeeInterval.v, product_known.
 template <class T>
 constexpr bool product_error_is_exact(const T& a, const T& b, const with_error<T>& product) {
     using traits = number_traits<T>;
     if (!traits::is_finite(product.value) || !traits::is_finite(product.error)) return false;
-    if (a == 0 || b == 0) return true;
-    if (!has_fast_fma<T> && traits::digits < least_precision_for_split) return false;
     constexpr int s = (traits::digits + 1) / 2;
     const T most = traits::largest() / T(detail::power_of_two(s + 2));
     if (traits::abs(a) > most || traits::abs(b) > most) return false;
+    if (a == 0 || b == 0) return true;
+    if (!has_fast_fma<T> && traits::digits < least_precision_for_split) return false;
     if (traits::abs(product.value) > traits::largest() / T(4)) return false;
     return traits::abs(product.value) >=
            traits::underflow_unit() / traits::unit_roundoff() / traits::unit_roundoff();

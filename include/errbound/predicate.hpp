@@ -18,8 +18,8 @@
 //  * tracked: errbound::tracked, under the bound rule of the options, if they name one;
 //  * integers: exact, coordinates on a common exponent. As they need it: of so few bits that
 //    doubles hold all results, or words of 128 bits do; coordinates of one word, of two, or of up
-//    to the full range of exponents. Without allocation; or the options' own exact type takes the
-//    place of the last.
+//    to the full range of exponents (an expression that branches has no stage of two words).
+//    Without allocation; or the options' own exact type takes the place of the last.
 //
 // Promised, for finite coordinates, under rounding to nearest and gradual underflow
 // (errbound/environment.hpp), contraction allowed: never uncertain, never wrong; underflow and
