@@ -108,9 +108,9 @@ constexpr with_error<T> two_product(const T& a, const T& b) {
     return {v, middle + detail::rounded_product(a_low, b_low)};
 }
 
-/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2) (2^995 for
-/// double, 2^114 for float), s = ⌈p/2⌉, and an operand is zero or the product is far enough from
-/// underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and from overflow,
+/// True if two_product(a, b)'s result is known to be exact: |a|, |b| <= largest()/2^(s+2) (2^995
+/// for double, 2^114 for float), s = ⌈p/2⌉, and an operand is zero or the product is far enough
+/// from underflow, |value| >= 2^(2p)·η (2^-968 for double, 2^-101 for float), and from overflow,
 /// |value| <= largest()/4. Derivation: the error, and each number on Dekker's way to it, is a
 /// multiple of ulp(a)·ulp(b), so it suffices that this power of two is at least η. Since
 /// |a| < 2^p·ulp(a), |ab| >= 2^(2p)·η makes it larger than η·|ab|/(2^(2p)·η); and

@@ -90,7 +90,7 @@ TYPED_TEST(ErrorFree, WhatCannotBeExactIsNotTakenForIt) {
     const T odd = 1 + std::numeric_limits<T>::epsilon();
     EXPECT_TRUE(known(odd, odd));
     EXPECT_TRUE(known(T(0), odd));
-    EXPECT_FALSE(known(T(0), huge));  // with fused multiply-add, too
+    EXPECT_FALSE(known(T(0), huge));       // with fused multiply-add, too
     EXPECT_FALSE(known(tiny * odd, odd));  // the error is below the smallest number
     EXPECT_FALSE(known(tiny, tiny));
     EXPECT_FALSE(known(huge, huge));
