@@ -200,7 +200,8 @@ class lockstep {
             // error() is rounded upwards to T if the bound is kept in a wider type.
             const rational lost =
                 errbound::detail::bounds_are_wider<T, Rule>
-                    ? error * 2 * exactly_of(errbound::number_traits<T>::epsilon())
+                    ? rational(error * 2 * exactly_of(errbound::number_traits<T>::epsilon()) +
+                               2 * exactly_of(errbound::number_traits<T>::underflow_unit()))
                     : rational(0);
             ASSERT_GE(rational(amounts + lost), error) << where;
         }
