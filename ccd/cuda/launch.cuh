@@ -12,6 +12,7 @@
 #include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -190,7 +191,7 @@ class device_launcher {
     void with_temporary(const Call& call) {
         if (!ok()) return;
         std::size_t bytes = 0;
-        if (!check(call(nullptr, bytes))) return;
+        if (!check_cub(call, nullptr, bytes)) return;
         void* memory = nullptr;
         if (temporary_) {
             memory = arena(*temporary_).template take<std::byte>(bytes);
@@ -202,7 +203,18 @@ class device_launcher {
             own_.resize(*this, std::max<std::size_t>(bytes, 1));
             memory = own_.data();
         }
-        if (ok()) check(call(memory, bytes));
+        if (ok()) check_cub(call, memory, bytes);
+    }
+    /// CUB returns most errors, but throws if cudaGetDevice or cudaSetDevice fails.
+    template <class Call>
+    bool check_cub(const Call& call, void* memory, std::size_t& bytes) {
+        try {
+            return check(call(memory, bytes));
+        } catch (const std::runtime_error& e) {
+            (void)cudaGetLastError();
+            fail(std::string("CUDA: ") + e.what());
+            return false;
+        }
     }
 
     stream stream_;
