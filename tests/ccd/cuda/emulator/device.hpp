@@ -1,0 +1,76 @@
+// The emulated device: its memory, the program's PTX modules, and the execution of a grid.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/ccd/cuda/emulator/ptx.hpp"
+
+namespace ptx {
+
+/// Allocations at addresses that the host cannot read; their content lies elsewhere. No address is
+/// used twice.
+class device_memory {
+  public:
+    device_memory();
+    void* allocate(u64 bytes);
+    bool free(void* p);  ///< false if p is not an allocation
+    bool contains(const void* p) const;
+    /// The content of `bytes` bytes at p, or null if not all of them are in one allocation.
+    char* content(const void* p, u64 bytes) const;
+    const memory_map& map() const { return map_; }
+
+  private:
+    void set_valid(u64 offset, u64 bytes, bool valid);
+
+    memory_map map_{};
+    std::map<u64, u64> allocations_;  // offset -> bytes
+    u64 next_ = 4096;
+};
+device_memory& memory();
+
+/// The byte that fresh memory, registers and stacks are filled with (PTXEMU_FILL).
+int fill_byte();
+/// A number of the environment, 0 if it is not there.
+long setting(const char* name);
+[[noreturn]] void stop(const char* format, ...);
+
+class module {
+  public:
+    /// Takes the PTX of a fatbinary.
+    explicit module(const unsigned char* fatbinary);
+    const kernel& find_kernel(const std::string& name);
+    void* find_function(const std::string& name);
+    /// The PTX as a file, for messages.
+    std::string file() const { return folder_ + "/module.ptx"; }
+
+  private:
+    /// A symbol of the shared object that translate.py makes of a kernel or a function.
+    void* load(const std::string& name, const char* symbol);
+
+    std::string ptx_, folder_;
+    std::map<std::string, const kernel*> kernels_;
+    std::map<std::string, void*> functions_;
+    std::map<std::string, u64> variables_;  // addresses
+};
+
+/// A kernel as the program names it.
+struct registered_kernel {
+    module* of;
+    std::string name;
+};
+
+struct launch {
+    module* of;
+    const kernel* code;
+    u32 grid[3], block[3], dynamic_shared_bytes;
+    std::vector<char> parameters;
+};
+/// Returns an empty string, or what a thread did wrong.
+std::string run(launch& l);
+
+/// The number of calls of the runtime so far.
+long runtime_calls();
+
+}  // namespace ptx

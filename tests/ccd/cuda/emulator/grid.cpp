@@ -1,0 +1,190 @@
+// The warps of a block advance in turn until each waits at a barrier. Within a warp, the lanes with
+// the smallest block index advance, so that lanes that diverged meet again where the compiler
+// expects it.
+#include <algorithm>
+#include <numeric>
+#include <random>
+
+#include "tests/ccd/cuda/emulator/device.hpp"
+
+namespace ptx {
+namespace {
+
+constexpr u32 stack_bytes = 96 * 1024;
+
+void* resolve_in_module(lane& l, const char* function) {
+    return static_cast<module*>(const_cast<void*>(l.block->module))->find_function(function);
+}
+
+class block_runner {
+  public:
+    explicit block_runner(launch& l)
+        : code_(*l.code),
+          threads_(l.block[0] * l.block[1] * l.block[2]),
+          warps_((threads_ + 31) / 32),
+          registers_(warps_.size() * 32 * code_.register_bytes / 16 + 4),
+          stacks_(std::size_t(threads_) * stack_bytes / 16),
+          shared_((code_.shared_bytes + l.dynamic_shared_bytes) / 16 + 1) {
+        std::copy_n(l.block, 3, block_.ntid);
+        std::copy_n(l.grid, 3, block_.nctaid);
+        block_.shared = reinterpret_cast<char*>(shared_.data());
+        block_.shared_bytes = code_.shared_bytes + l.dynamic_shared_bytes;
+        block_.parameters = l.parameters.data();
+        block_.memory = &memory().map();
+        block_.module = l.of;
+        block_.resolve = resolve_in_module;
+    }
+
+    void run(u32 x, u32 y, u32 z) {
+        block_.ctaid[0] = x, block_.ctaid[1] = y, block_.ctaid[2] = z;
+        std::memset(shared_.data(), fill_byte(), shared_.size() * sizeof shared_[0]);
+        std::memset(registers_.data(), fill_byte(), registers_.size() * sizeof registers_[0]);
+        for (u32 i = 0; i < warps_.size() * 32; ++i) start(i);
+        for (;;) {
+            bool waiting = false;
+            for (warp& w : warps_) waiting |= run_warp(w);
+            if (!waiting) return;
+            pass_barrier();
+        }
+    }
+
+  private:
+    struct alignas(16) line {
+        char bytes[16];
+    };
+
+    void start(u32 thread) {
+        warp& w = warps_[thread / 32];
+        if (thread % 32 == 0) {
+            w.registers = reinterpret_cast<char*>(registers_.data()) +
+                          std::size_t(thread) * code_.register_bytes;
+            w.existing = 0;
+        }
+        lane& l = w.lanes[thread % 32];
+        l = {};
+        l.next = exited;
+        if (thread >= threads_) return;
+        l.next = 0;
+        w.existing |= 1u << thread % 32;
+        l.id = thread % 32;
+        l.tid[0] = thread % block_.ntid[0];
+        l.tid[1] = thread / block_.ntid[0] % block_.ntid[1];
+        l.tid[2] = thread / block_.ntid[0] / block_.ntid[1];
+        char* const stack =
+            reinterpret_cast<char*>(stacks_.data()) + std::size_t(thread) * stack_bytes;
+        std::memset(stack, fill_byte(), code_.frame_bytes);
+        l.frame = l.stack = reinterpret_cast<u64>(stack);
+        l.stack_end = l.stack + (code_.frame_bytes + 15) / 16 * 16;
+        l.stack_limit = l.stack + stack_bytes;
+        l.block = &block_;
+    }
+
+    static u32 lanes_at(const warp& w, int next) {
+        u32 lanes = 0;
+        for (u32 i = 0; i < 32; ++i) lanes |= u32(w.lanes[i].next == next) << i;
+        return lanes;
+    }
+
+    /// Runs until all lanes have exited or wait at a barrier. Returns whether some wait.
+    bool run_warp(warp& w) {
+        for (;;) {
+            const u32 running = ~lanes_at(w, exited);
+            if (running == 0) return false;
+            bool advanced = false, at_barriers = true;
+            for (int at = -1; !advanced;) {
+                int next = exited;
+                for (const lane& l : w.lanes)
+                    if (l.next > at) next = std::min(next, l.next);
+                if (next == exited) break;
+                at = next;
+                advanced = advance(w, code_.blocks[at], lanes_at(w, at), running);
+                at_barriers = at_barriers && code_.blocks[at].kind == block_kind::barrier;
+            }
+            if (advanced) continue;
+            if (at_barriers) return true;
+            const lane& l = w.lanes[std::countr_zero(running)];
+            fail(l, "lanes of a warp wait for lanes that never come", 0, 0,
+                 code_.blocks[l.next].line);
+        }
+    }
+
+    /// Runs the block for the lanes that are there, if none of them has to wait.
+    bool advance(warp& w, const block& b, u32 here, u32 running) {
+        if (b.kind == block_kind::barrier) return false;
+        if (b.kind != block_kind::warp) {
+            b.run(w, here);
+            return true;
+        }
+        bool advanced = false;
+        for_lanes(here, [&](u32 i) {
+            if (advanced) return;
+            const u32 mask = b.key(w, i) & w.existing;
+            if (!(mask >> i & 1))
+                fail(w.lanes[i], "the mask of a warp's operation lacks the lane itself", mask, 0,
+                     b.line);
+            if ((mask & running & ~here) != 0) return;
+            for_lanes(mask & running, [&](u32 other) {
+                if ((b.key(w, other) & w.existing) != mask)
+                    fail(w.lanes[i], "lanes meet with different masks", mask, 0, b.line);
+            });
+            b.run(w, mask & running);
+            advanced = true;
+        });
+        return advanced;
+    }
+
+    /// All threads that have not exited have to be at one barrier.
+    void pass_barrier() {
+        int at = exited;
+        for (const warp& w : warps_)
+            for (const lane& l : w.lanes)
+                if (l.next != exited) {
+                    if (at != exited && l.next != at)
+                        fail(l, "threads wait at different barriers", 0, 0, code_.blocks[at].line);
+                    at = l.next;
+                }
+        const block& b = code_.blocks[at];
+        block_.any_true = false;
+        if (b.test != nullptr)
+            for (warp& w : warps_)
+                for_lanes(lanes_at(w, at), [&](u32 i) { block_.any_true |= b.test(w, i) != 0; });
+        for (warp& w : warps_) b.run(w, lanes_at(w, at));
+    }
+
+    const kernel& code_;
+    u32 threads_;
+    thread_block block_{};
+    std::vector<warp> warps_;
+    std::vector<line> registers_, stacks_, shared_;
+};
+
+/// The order in which blocks run: shuffled with the seed PTXEMU_SHUFFLE, except kernels of CUB,
+/// whose blocks wait for blocks of smaller index.
+std::vector<u32> block_order(const launch& l, u32 count) {
+    static std::mt19937_64 random(static_cast<u64>(setting("PTXEMU_SHUFFLE")));
+    std::vector<u32> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    if (setting("PTXEMU_SHUFFLE") != 0 && !std::strstr(l.code->name, "3cub"))
+        std::shuffle(order.begin(), order.end(), random);
+    return order;
+}
+
+}  // namespace
+
+std::string run(launch& l) {
+    block_runner runner(l);
+    try {
+        for (const u32 i : block_order(l, l.grid[0] * l.grid[1] * l.grid[2]))
+            runner.run(i % l.grid[0], i / l.grid[0] % l.grid[1], i / l.grid[0] / l.grid[1]);
+    } catch (const fault& f) {
+        char text[200];
+        const lane& t = *f.thread;
+        std::snprintf(text, sizeof text, "%s: address %llx, %u bytes, block %u, thread %u, ",
+                      f.what, static_cast<unsigned long long>(f.address), f.bytes,
+                      t.block->ctaid[0], t.tid[0]);
+        return text + l.of->file() + ":" + std::to_string(f.line) + ", " + l.code->name;
+    }
+    return {};
+}
+
+}  // namespace ptx
