@@ -14,7 +14,8 @@ import sys
 from instructions import CPP, Writer
 from ptx import Module, Unsupported
 
-FLAGS = ["-std=c++20", "-O1", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden", "-shared"]
+FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-strict-aliasing", "-fPIC", "-fvisibility=hidden", "-shared"]
+LARGE = 400_000  # characters of C++; the compilation of a larger function takes longer than its runs
 MEETINGS = {"shfl", "vote", "activemask", "bar"}
 ENDS = {"bra", "ret", "exit", "trap"}
 
@@ -210,7 +211,8 @@ def main(ptx_file, name, output):
             sys.exit(f"{ptx_file}: {name}: not implemented by the emulator: {why}")
         cpp = output + ".cpp"
         pathlib.Path(cpp).write_text(text)
-        subprocess.run([os.environ.get("CXX", "c++"), *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)),
+        level = "-O0" if len(text) > LARGE else "-O1"
+        subprocess.run([os.environ.get("CXX", "c++"), level, *FLAGS, "-I", os.path.dirname(os.path.abspath(__file__)),
                         "-o", output + ".new", cpp], check=True)
         os.rename(output + ".new", output)
 
