@@ -36,6 +36,6 @@ set(errbound_cuda_precision -fmad=false -ftz=false -prec-div=true -prec-sqrt=tru
 set(errbound_cuda_options ${errbound_cuda_targets} -std=c++20 --expt-relaxed-constexpr
                           ${errbound_cuda_precision} -Xcompiler=-ffp-contract=off,-Wall)
 # Tests read the PTX of the objects (tests/ccd/cuda/emulator).
-if(ERRBOUND_BUILD_TESTS)
+if(ERRBOUND_EMULATE_CUDA)
   list(APPEND errbound_cuda_options --no-compress)
 endif()

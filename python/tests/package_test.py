@@ -49,7 +49,9 @@ def test_objects_keep_no_view_of_the_arrays_they_are_made_from():
     before, after = arrays()["before"], arrays()["after"]
     steps, flat, numbers, found, queries = made_from(arrays())
     assert steps.run(before, after).pairs.vertex_face.tolist() == [[3, 0, 1, 2]]
-    assert len(flat.run(before[:, :2], after[:, :2] + [0, 1]).pairs) > 0
+    across = before[:, :2].copy()
+    across[4:] -= [0.5, 1.5]
+    assert flat.run(before[:, :2], across).pairs.vertex_edge.tolist() == [[1, 4, 5]]
     assert (numbers + numbers).value.tolist() == [2, 4, 6]
     assert len(found) == 2 and queries.pairs.vertex_face.tolist() == [[3, 0, 1, 2]]
 
