@@ -584,7 +584,7 @@ Proof.
   apply is_finite_true in C1, C2. intros H. specialize (Real C1 C2). generalize C1. intros FV.
   apply times_finite in C1. destruct C1 as (FA & FB & EV).
   split; auto. split; auto. split; auto. split; auto. rewrite Real, EV.
-  (* That large numbers are left out too is for the same bounds everywhere, not for this. *)
+  (* The test of large operands makes bounds equal on all processors; this theorem does not need it. *)
   cbv zeta in H. destruct (_ || _) in H; [discriminate |].
   destruct zero_value' as [Z0 Z]. rewrite !equal_finite, Z in H by auto.
   assert (Zero : B2R a = 0 \/ B2R b = 0 -> fl (B2R a * B2R b) + snd (real_product (B2R a) (B2R b)) = B2R a * B2R b).

@@ -177,7 +177,10 @@ class lockstep {
             if (errbound::detail::bounds_are_wider<T, Rule> && entries.front().is_finite()) {
                 // Only the error rounded to T overflows.
                 rational amounts = 0;
-                for (const auto& e : entries) amounts += exactly_of(e.size());
+                for (const auto& e : entries) {
+                    ASSERT_TRUE(e.is_finite()) << where;
+                    amounts += exactly_of(e.size());
+                }
                 const rational factor = 1 + 2 * exactly_of(traits::epsilon());
                 ASSERT_GE(rational(amounts * factor), exactly_of(traits::largest())) << where;
             } else {

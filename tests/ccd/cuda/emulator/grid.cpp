@@ -29,6 +29,7 @@ class block_runner {
         std::copy_n(l.grid, 3, block_.nctaid);
         block_.shared = reinterpret_cast<char*>(shared_.data());
         block_.shared_bytes = code_.shared_bytes + l.dynamic_shared_bytes;
+        block_.fill = fill_byte();
         block_.parameters = l.parameters.data();
         block_.memory = &memory().map();
         block_.module = l.of;

@@ -1,5 +1,5 @@
-// What device_launcher does, CUB included, against the host: loops, queues, scans, reductions,
-// sorting, memory.
+// Compares device_launcher, CUB included, with the host: loops, queues, scans, reductions, sorting,
+// memory.
 #include <algorithm>
 #include <cstdio>
 #include <random>

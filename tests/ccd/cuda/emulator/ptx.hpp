@@ -32,11 +32,12 @@ struct memory_map {
 struct lane;
 using resolver = void* (*)(lane&, const char* function);
 
-/// What the threads of a block share.
+/// The state that the threads of a block share.
 struct thread_block {
     u32 ntid[3], nctaid[3], ctaid[3];
     char* shared;
     u32 shared_bytes;
+    int fill;  ///< the byte that fresh frames hold
     char* parameters;
     const memory_map* memory;
     bool any_true;  ///< the result of the barrier's reduction
@@ -160,14 +161,14 @@ void store(char* p, T x) {
     std::memcpy(p, &x, sizeof x);
 }
 
-/// The frame of a function, in which no sensible value stands at first.
+/// The frame of a function, filled with the block's fill byte.
 class frame_scope {
   public:
     frame_scope(lane& l, u32 bytes, int line) : lane_(l), frame_(l.frame), end_(l.stack_end) {
         l.frame = l.stack_end;
         l.stack_end += (bytes + 15) & ~u64(15);
         if (l.stack_end > l.stack_limit) fail(l, "stack overflow", l.frame, bytes, line);
-        std::memset(reinterpret_cast<char*>(l.frame), 0xCB, bytes);
+        std::memset(reinterpret_cast<char*>(l.frame), l.block->fill, bytes);
     }
     ~frame_scope() { lane_.frame = frame_, lane_.stack_end = end_; }
 

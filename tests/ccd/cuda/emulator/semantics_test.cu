@@ -1,5 +1,5 @@
-// Each PTX instruction that the emulator implements against the host's operation, on special and
-// random operands.
+// Compares PTX instructions with the host's operations on special and random operands: arithmetic,
+// comparisons, conversions, bits, carries, and operations of warps.
 #include <cuda_runtime.h>
 
 #include <cmath>
@@ -204,7 +204,7 @@ CASE("add.s16 %0, %1, %2; shr.u16 %0, %0, 3;", u16, "h", u16, "h", u16(a + b) >>
 CASE("setp.lt.s16 p, %1, %2; not.pred q, p; selp.u16 %0, 1, 2, q;", s16, "h", s16, "h",
      a < b ? 2 : 1);
 
-/// What each lane of a warp finds by shuffles, votes and atomic operations.
+/// Writes the results of shuffles, votes and atomic operations of each lane.
 __global__ void meet(u32* out, u32* sum, u64* least) {
     const u32 t = threadIdx.x, all = ~0u;
     u32* const mine = out + 8 * t;
