@@ -6,9 +6,13 @@ and classical logic (checker.py); where the theorems do not state what statement
 and the files do not name the same theorems, or the C++ code names one that is not there; and where tie.txt,
 to which tests/errbound/validation/tie_test.cpp holds the C++ code, is not what the proofs' definitions
 compute. --names only compares names, and needs no Coq.
+
+A full check that passes writes a digest of the files it depends on to passed.txt, which is committed. --passed
+compares names, and fails unless today's files have that digest.
 """
 import argparse
 import concurrent.futures
+import hashlib
 import os
 import re
 import shutil
@@ -41,8 +45,20 @@ TIE_PROGRAMS = {"code": "tie", "symbols": "tie_symbols", "integers": "tie_intege
 TIE_PARTS = {"tie": [("words",), ("tiny_3_3",), ("tiny_5_3",), ("tiny_4_4",), ("floats",)]}
 
 
+PASSED = proofs / "passed.txt"
+
+
 def fail(message):
     sys.exit(f"proofs: {message}")
+
+
+def digest():
+    """A digest of every file that a full check depends on. README.md and the C++ code are compared always."""
+    sum_of_all = hashlib.sha256()
+    for path in sorted([*proofs.glob("*.v"), *proofs.glob("*.ml"), *proofs.glob("*.py"), proofs / "tie.txt",
+                        proofs / "statements.txt"]):
+        sum_of_all.update(f"{path.name} {path.stat().st_size}\n".encode() + path.read_bytes())
+    return sum_of_all.hexdigest() + "\n"
 
 
 def compare_with_readme(found):
@@ -120,8 +136,9 @@ def check_tie(build, tables):
     print(f"\ntie.txt: {len(table.splitlines())} hashes as the definitions compute them")
 
 
-def main(build):
+def main(build, passed):
     start = time.monotonic()
+    files = digest()
     found = checker.theorems(proofs, LIBRARY)
     compare_with_readme(found)
     compare_with_code(found)
@@ -129,6 +146,10 @@ def main(build):
         ties.count()
     except ValueError as why:
         fail(why)
+    if passed and (not PASSED.exists() or PASSED.read_text() != files):
+        fail("the files differ from those of the last full check that passed")
+    if passed:
+        print(f"{len(found)} theorems: names compared; the files are those of the last full check that passed")
     if build is None:
         return
     checker.compile_all(proofs, build, proofs.glob("*.ml"))
@@ -144,6 +165,7 @@ def main(build):
         check_tie(build, [table.result() for table in tables])
         compiled.result()
     print(records.table())
+    PASSED.write_text(files)
     print(f"{len(found)} theorems checked in {time.monotonic() - start:.0f} s")
 
 
@@ -153,10 +175,11 @@ if __name__ == "__main__":
     what = parser.add_mutually_exclusive_group()
     what.add_argument("build_folder", nargs="?", type=Path, help="where to build; what it holds is removed")
     what.add_argument("--names", action="store_true", help="only compare names")
+    what.add_argument("--passed", action="store_true", help="compare names, and the files with the last full check's")
     options = parser.parse_args()
-    if not options.names and options.build_folder is None:
-        parser.error("a build folder or --names is required")
+    if not (options.names or options.passed) and options.build_folder is None:
+        parser.error("a build folder, --names or --passed is required")
     try:
-        main(None if options.names else options.build_folder.resolve())
+        main(options.build_folder and options.build_folder.resolve(), options.passed)
     except checker.Refused as why:
         fail(why)

@@ -105,7 +105,7 @@ class Build:
         self.run("cmake", "-G", "Ninja", "-S", source, "-B", self.folder / folder,
                  f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/tests/everywhere/toolchain.cmake",
                  "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_FLAGS_RELEASE={self.target.level} -DNDEBUG",
-                 *self.target.options, *options, why="cannot be configured")
+                 "-DERRBOUND_TEST_FLAGS=", *self.target.options, *options, why="cannot be configured")
 
     def make(self, folder, *targets):
         self.run("cmake", "--build", self.folder / folder, "--target", *targets, "--", f"-j{self.jobs}",

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 MAIN = {"unit", "property", "program", "install"}
-OTHERS = {"sanitize", "memory", "threads", "device", "sources", "bench-smoke"}
+OTHERS = {"sanitize", "memory", "threads", "device", "sources", "bench-smoke", "nightly"}
 
 ctest, build = sys.argv[1:3]
 shown = subprocess.run([ctest, "--test-dir", build, "--show-only=json-v1"], check=True,
