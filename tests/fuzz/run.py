@@ -15,6 +15,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAVED = ROOT / "tests/fuzz/corpus"
 FOUND = ROOT / "out/fuzz"
+# Of each fuzzer in the tree. What runs find beyond stays in out/fuzz/NAME/corpus.
+SEEDS = 15
 
 
 def arguments():
@@ -25,7 +27,7 @@ def arguments():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N",
                         help="fuzzers at a time, else one per core")
     parser.add_argument("--minimise", action="store_true",
-                        help="then keep in tests/fuzz/corpus the fewest inputs that cover as much")
+                        help=f"then keep in tests/fuzz/corpus the {SEEDS} inputs of each that cover most")
     return parser.parse_intermixed_args()  # names also after options
 
 
@@ -62,17 +64,44 @@ def run(build, name, minutes):
             kept, found[-1] if found else "nothing" if status == 0 else f"stopped, see {folder}/log"]
 
 
+def features(build, name):
+    """The inputs, old and new, each with the edges it covers."""
+    folder = FOUND / name
+    control = folder / "control"
+    control.unlink(missing_ok=True)
+    shutil.rmtree(folder / "merged", ignore_errors=True)
+    (folder / "merged").mkdir()
+    subprocess.run([build / "fuzz" / name, "-set_cover_merge=1", "-use_counters=0", f"-merge_control_file={control}",
+                    folder / "merged", SAVED / name, folder / "corpus"],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    lines = control.read_text().splitlines()
+    paths = [pathlib.Path(path) for path in lines[2:2 + int(lines[0])]]
+    covered = {}
+    for line in lines[2 + len(paths):]:
+        what, number, *found = line.split()
+        if what == "FT":
+            covered[paths[int(number)]] = set(found)
+    return covered
+
+
 def minimise(build, name):
-    """The fewest inputs of old and new ones that cover the edges that all do."""
-    fewest = FOUND / name / "fewest"
-    shutil.rmtree(fewest, ignore_errors=True)
-    fewest.mkdir()
+    """Keeps at most SEEDS inputs, each the one that adds the most edges, a small one where several do."""
     saved = SAVED / name
     saved.mkdir(exist_ok=True)
-    subprocess.run([build / "fuzz" / name, "-set_cover_merge=1", "-use_counters=0", fewest, saved,
-                    FOUND / name / "corpus"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    left = features(build, name)
+    everything = set().union(*left.values())
+    seen, kept = set(), []
+    while left and len(kept) < SEEDS:
+        best = max(left, key=lambda path: (len(left[path] - seen), -path.stat().st_size, path.name))
+        if left[best] <= seen:
+            break
+        seen |= left.pop(best)
+        kept.append((best.name, best.read_bytes()))
     shutil.rmtree(saved)
-    shutil.move(fewest, saved)
+    saved.mkdir()
+    for file, content in kept:
+        (saved / file).write_bytes(content)
+    print(f"{name}: {len(kept)} inputs cover {len(seen)} of {len(everything)} features")
 
 
 def main():
