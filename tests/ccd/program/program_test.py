@@ -341,7 +341,7 @@ class Step(ProgramTest):
         quad, fan = [(0, 1, 2, 3), (4, 4, 4)], [(0, 1, 2), (0, 2, 3), (4, 4, 4)]
         files = [[self.write(f"{i}{name}.ply", frame(z, faces)) for i, z in enumerate((1, -1))]
                  for name, faces in (("quad", quad), ("fan", fan))]
-        self.bad_input("face with 4 vertices, expected a triangle (polygons are split by triangulate)", "step", *files[0])
+        self.bad_input("face with 4 vertices, expected a triangle (the option triangulate splits polygons)", "step", *files[0])
         pairs = self.directory / "pairs"
         for frames in files:
             self.good("step", *frames, "--triangulate", "--pairs", pairs)
