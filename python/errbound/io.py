@@ -169,6 +169,8 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
         raise ValueError(f"path is {_name(path)!r}; expected the name of a CSV file (`ccd convert` writes HDF5)")
     array = doubles("queries", queries, (None, 8, 3))
     check_finite("queries", array)
+    if len(array) == 0:
+        raise ValueError("queries: found none, expected one or more (an empty file is refused when it is read)")
     known = None if truth is None else as_array("truth", truth)
     if known is not None and known.size and (known.dtype.kind not in "biu" or (known != known.astype(bool)).any()):
         raise TypeError(f"truth is an array of {known.dtype}; expected booleans, or 0 and 1")

@@ -274,8 +274,9 @@ bounded<T> moved_by_low_part(const reduced_angle<T>& r, const bounded<T>& at_hig
     using traits = number_traits<T>;
     const T product = rounded_product(r.low, slope.value), low = traits::abs(r.low);
     const with_error<T> sum = two_sum(at_high.value, product);
-    const T lost = rounded_product(low, T(slope.error + 3 * low)) + half_ulp(product);
-    const T error = lost + (3 * r.error + traits::underflow_unit());
+    const T lost =
+        rounded_product(low, T(slope.error + rounded_product(T(3), low))) + half_ulp(product);
+    const T error = lost + (rounded_product(T(3), r.error) + traits::underflow_unit());
     return {sum.value, enlarged<T>(at_high.error + (traits::abs(sum.error) + error))};
 }
 
@@ -296,7 +297,8 @@ bounded<T> tangent_of(const reduced_angle<T>& r) {
     const bounded<T> at_high = evaluated<elementary_function::tan>(r.high);
     const T t = at_high.value;
     // |t| < 1.01, so that two roundings are off by less than 2ε.
-    const bounded<T> slope{T(1 + t * t), T(3 * (at_high.error + number_traits<T>::epsilon()))};
+    const bounded<T> slope{T(1 + rounded_product(t, t)),
+                           T(3 * (at_high.error + number_traits<T>::epsilon()))};
     const bounded<T> result = moved_by_low_part(r, at_high, slope);
     return r.quadrant % 2 == 0 ? result : negative_reciprocal(result);
 }

@@ -80,10 +80,11 @@ struct stochastic_of {
         const double mean = sum / Samples;
         for (const T& sample : b.samples) {
             const double off = static_cast<double>(T((sample - value) / largest)) - mean;
-            squares += off * off;
+            squares += detail::rounded_product(off, off);
         }
-        const double spread = students_t[Samples - 2] *
-                              number_traits<double>::sqrt(squares / (Samples - 1) / Samples);
+        const double spread =
+            detail::rounded_product(students_t[Samples - 2],
+                                    number_traits<double>::sqrt(squares / (Samples - 1) / Samples));
         return detail::rounded_product(largest, static_cast<T>((mean < 0 ? -mean : mean) + spread));
     }
     template <class T>
