@@ -37,7 +37,7 @@ void check_corners(std::uint64_t corners, const mesh_options& options, const std
     if (corners == 3 || (corners > 3 && options.triangulate)) return;
     throw file_error(where + ": found a face with " + std::to_string(corners) +
                      " vertices, expected a triangle" +
-                     (corners > 3 ? " (polygons are split by triangulate)" : ""));
+                     (corners > 3 ? " (the option triangulate splits polygons)" : ""));
 }
 
 namespace {

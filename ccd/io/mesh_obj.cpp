@@ -157,8 +157,8 @@ class obj_parser {
     void read_polyline(std::string_view line) {
         read_corners(line);
         if (corners_.size() < 2)
-            fail("found a line with " + std::to_string(corners_.size()) +
-                 " vertices, expected 2 or more");
+            fail("found " + std::to_string(corners_.size()) +
+                 " as the number of a line's vertices, expected 2 or more");
         for (std::size_t i = 1; i < corners_.size(); ++i) {
             result_.edges.push_back({corners_[i - 1], corners_[i]});
             edge_lines_.push_back(line_);

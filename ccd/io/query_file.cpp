@@ -281,6 +281,17 @@ bool is_store_file(const fs::path& path) {
     return is_store({first.data(), first.size()});
 }
 
+void add_truth_beside(const fs::path& path, query_file& to) {
+    const fs::path truth_path = truth_beside(path);
+    std::error_code error;
+    if (!fs::exists(truth_path, error)) return;
+    to.truth = parse_truth(read_whole(truth_path), truth_path.string());
+    if (to.truth->size() != to.size())
+        throw file_error(truth_path.string() + ": found " + std::to_string(to.truth->size()) +
+                         " truth values, expected " + std::to_string(to.size()) +
+                         ", one per query of " + path.string());
+}
+
 }  // namespace
 
 ccd::kind kind_of_file(const fs::path& path, std::optional<ccd::kind> kind) {
@@ -307,25 +318,30 @@ query_file parse_stored_queries(std::string_view bytes, const std::string& name,
     return store.read(0, store.size());
 }
 
-query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round) {
+query_file read_queries(const fs::path& path, std::optional<ccd::kind> kind, bool round,
+                        file_range range) {
+    const auto end_in = [&](std::uint64_t size) {
+        if (range.first > 0 && range.first >= size)
+            throw file_error(path.string() + ": found " + std::to_string(size) +
+                             " queries, expected more than the first " +
+                             std::to_string(range.first) + ", which are skipped");
+        return range.first + std::min(range.count, size - range.first);
+    };
     if (is_store_file(path)) {  // without a copy of all that is in it
         store_reader store(path);
         kind_in(store, path, kind);
-        return store.read(0, store.size());
+        return store.read(range.first, end_in(store.size()));
     }
     const std::string text = read_whole(path);
     query_file result = parse_stored_queries(text, path.string(), kind, round);
-    if (result.truth || is_store(text)) return result;
-
-    const fs::path truth_path = truth_beside(path);
-    std::error_code error;
-    if (!fs::exists(truth_path, error)) return result;
-    result.truth = parse_truth(read_whole(truth_path), truth_path.string());
-    if (result.truth->size() != result.size()) {
-        throw file_error(truth_path.string() + ": found " + std::to_string(result.truth->size()) +
-                         " truth values, expected " + std::to_string(result.size()) +
-                         ", one per query of " + path.string());
-    }
+    if (!result.truth && !is_store(text)) add_truth_beside(path, result);
+    const auto keep = [first = static_cast<std::ptrdiff_t>(range.first),
+                       end = static_cast<std::ptrdiff_t>(end_in(result.size()))](auto& all) {
+        all.erase(all.begin() + end, all.end());
+        all.erase(all.begin(), all.begin() + first);
+    };
+    std::visit(keep, result.queries);
+    if (result.truth) keep(*result.truth);
     return result;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/crc.hpp>
 #include <errbound/support/error.hpp>
 #include <fstream>
 #include <system_error>
@@ -51,7 +50,6 @@ class row_scanner {
         for (std::size_t i = 0; i + 1 < ranges.size(); ++i) ranges[i].end = ranges[i + 1].begin;
         ranges.back().end = content_end_;
         ++index_.columns;
-        index_.bytes = offset_;
         return std::move(index_);
     }
 
@@ -96,27 +94,16 @@ query_index index_queries(const std::filesystem::path& path, std::size_t queries
                          ": found no regular file, expected one, which can be read in parts");
     std::ifstream in(path, std::ios::binary);
     row_scanner rows(rows_per_query * queries_of_a_range);
-    boost::crc_32_type checksum;
     std::array<char, 1 << 16> block;
-    std::uint64_t bytes = 0;
-    bool in_store = false;
+    bool is_first = true;
     while (in.read(block.data(), block.size()), in.gcount() > 0) {
-        const auto size = static_cast<std::size_t>(in.gcount());
-        if (bytes == 0) in_store = is_store({block.data(), size});
-        if (!in_store) rows.take({block.data(), size});
-        checksum.process_bytes(block.data(), size);
-        bytes += size;
+        const std::string_view bytes(block.data(), static_cast<std::size_t>(in.gcount()));
+        if (std::exchange(is_first, false) && is_store(bytes))
+            return {ranges_of(store_reader(path), queries_of_a_range)};
+        rows.take(bytes);
     }
     if (!in.eof() || in.bad()) throw file_error(path.string() + ": cannot be read");
-    if (in_store)
-        return {ranges_of(store_reader(path), queries_of_a_range), 0, bytes, checksum.checksum()};
-    if (std::filesystem::exists(truth_beside(path), error)) {
-        const std::string truth = errbound::support::read_whole(truth_beside(path));
-        checksum.process_bytes(truth.data(), truth.size());
-    }
-    query_index index = rows.result();
-    index.checksum = checksum.checksum();
-    return index;
+    return rows.result();
 }
 
 range_reader::range_reader(std::filesystem::path path, std::optional<ccd::kind> kind, bool round,

@@ -1,4 +1,4 @@
-// Files of stored queries read a range at a time, by as many readers as like.
+// Files of stored queries, read one range at a time.
 #pragma once
 
 #include <ccd/io/query_file.hpp>
@@ -23,8 +23,6 @@ struct query_range {
 struct query_index {
     std::vector<query_range> ranges;  ///< at least one
     std::uint64_t columns = 0;        ///< of the first row; of a store: 0
-    std::uint64_t bytes = 0;
-    std::uint32_t checksum = 0;  ///< CRC-32 of the file, and of its truth if that lies beside it
 };
 
 /// Where each range of so many queries is, told by line ends alone. Throws

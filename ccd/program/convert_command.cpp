@@ -216,7 +216,7 @@ class convert final : public command {
             read.queries += queries.size();
             take(queries);
         }
-        read.bytes = index.bytes;
+        read.bytes = std::filesystem::file_size(file);
         return read;
     }
 

@@ -1,18 +1,64 @@
 // `ccd query`: decides stored queries with some methods, compares with the truth, times them.
-#include "ccd/program/query_command.hpp"
-
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
+#include "ccd/program/query_results.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/output_file.hpp"
 #include "errbound/support/progress_line.hpp"
 
 namespace ccd::program {
 
+namespace {
+
 using errbound::support::usage_error;
+
+class query final : public command {
+  public:
+    explicit query(CLI::App& program);
+    exit_status run() override;
+
+  private:
+    /// The checked options.
+    struct request {
+        std::vector<ccd::method> methods;
+        device_choice device;
+        time_question question;
+    };
+    /// Throws usage_error, device_error.
+    request checked_options() const;
+    time_question time_asked() const;
+    std::vector<ccd::method> methods_on(const device_choice& device) const;
+    std::vector<query_result> decide_files(const request& asked) const;
+    /// Prints and writes one result for each file and method.
+    void write(const std::vector<query_result>& results) const;
+    std::vector<std::optional<std::filesystem::path>> outputs() const {
+        return {verdicts_, toi_, json_};
+    }
+    /// True if an option is given that only `exact` supports.
+    bool asks_exact_alone() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
+
+    std::vector<std::filesystem::path> files_;
+    std::string kind_;  ///< empty: from each path
+    bool round_ = false;
+    io::file_range range_;
+    std::optional<std::filesystem::path> verdicts_, toi_, json_;
+    number_option separation_{line_, "--separation",
+                              "Ask for a distance of at most that, in place of contact"};
+    number_option t_max_{line_, "--t-max", "Ask about times from 0 to that, in place of 1"};
+    methods_option methods_{line_};
+    device_options device_{line_};
+};
 
 query::query(CLI::App& program) : command(program, "query", "Decide stored queries") {
     line_
@@ -32,6 +78,13 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
         "--round", round_,
         "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
         "them (decimals always mean the nearest double)");
+    line_.add_option("--first", range_.first, "Skip so many queries of each file")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48))
+        ->capture_default_str();
+    line_
+        .add_option("--count", range_.count,
+                    "Decide at most so many queries of each file, else all")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48));
     line_
         .add_option("--verdicts", verdicts_,
                     "Write 0 or 1 per query (one method, one file); -: standard output")
@@ -47,16 +100,16 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
 }
 
 exit_status query::run() {
-    const asked_for asked = checked_options();
+    const request asked = checked_options();
     errbound::support::require_good_outputs(outputs(), files_);
     // Nothing is printed or written unless all files are good.
     write(decide_files(asked));
     return done;
 }
 
-query::asked_for query::checked_options() const {
+query::request query::checked_options() const {
     errbound::support::require_one_standard_input("FILE", files_);
-    asked_for asked;
+    request asked;
     asked.device = device_.chosen();
     asked.question = time_asked();
     asked.methods = methods_on(asked.device);
@@ -107,20 +160,23 @@ std::vector<ccd::method> query::methods_on(const device_choice& device) const {
     return methods;
 }
 
-std::vector<query_result> query::decide_files(const asked_for& asked) const {
+std::vector<query_result> query::decide_files(const request& asked) const {
     std::vector<query_result> results;
     constexpr double seconds = 0.02;
     errbound::support::progress_line progress;
     for (std::size_t i = 0; i < files_.size(); ++i) {
         const std::string file = files_[i].string();
         progress.show(i, files_.size(), file);
-        const io::query_file queries = io::read_queries(files_[i], find_kind(kind_), round_);
+        const io::query_file queries =
+            io::read_queries(files_[i], find_kind(kind_), round_, range_);
         for (const ccd::method m : asked.methods)
             results.push_back(
                 decide_queries(queries, file, m, asked.device, asked.question, seconds));
     }
     return results;
 }
+
+}  // namespace
 
 std::unique_ptr<command> query_command(CLI::App& program) {
     return std::make_unique<query>(program);

@@ -1,10 +1,17 @@
 // `ccd stress`: every method on stiff and extreme queries, beside the exact answer.
-#include "ccd/program/stress_command.hpp"
-
+#include <CLI/CLI.hpp>
 #include <ccd/method.hpp>
+#include <cstddef>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "ccd/program/command.hpp"
+#include "ccd/program/options.hpp"
+#include "ccd/stress/output.hpp"
 #include "errbound/support/command_line.hpp"
 
 namespace ccd::program {
@@ -15,7 +22,22 @@ const stress::family* family_named(const std::string& name) {
                                            &stress::family::name);
 }
 
-}  // namespace
+class stress_run final : public command {
+  public:
+    explicit stress_run(CLI::App& program);
+    exit_status run() override;
+
+  private:
+    /// Throws usage_error.
+    stress::plan checked_plan() const;
+
+    stress::plan plan_;
+    stress::outputs out_;
+    std::string families_;
+    bool quick_ = false;
+    std::size_t queries_ = 1000;
+    methods_option methods_{line_};
+};
 
 stress_run::stress_run(CLI::App& program)
     : command(program, "stress",
@@ -23,7 +45,10 @@ stress_run::stress_run(CLI::App& program)
               "that is\n"
               "swept over its whole range; truth by unbounded integers") {
     line_.add_flag("--quick", quick_, "About a minute instead of ten");
-    line_.add_option("--family", families_, "Families F[,F...], else all")->type_name("F[,F...]");
+    line_
+        .add_option("--family", families_,
+                    "Families F[,F...], else all. A family's queries do not depend on\nthe others")
+        ->type_name("F[,F...]");
     line_
         .add_option("--queries", queries_,
                     "So many of each family, kind and value of the knob; fewer where the truth\n"
@@ -46,7 +71,9 @@ stress_run::stress_run(CLI::App& program)
 
 exit_status stress_run::run() {
     const stress::plan plan = checked_plan();
-    require_good_outputs();
+    std::vector<std::filesystem::path> others;
+    if (out_.folder) others = {*out_.folder / "stress.csv", *out_.folder / "stress.md"};
+    errbound::support::require_good_outputs({out_.json}, std::move(others));
     return stress::run_and_write(plan, out_, errbound::support::stream_for_people({out_.json}))
                ? done
                : broken_promise;
@@ -65,11 +92,7 @@ stress::plan stress_run::checked_plan() const {
     return plan;
 }
 
-void stress_run::require_good_outputs() const {
-    std::vector<std::filesystem::path> others;
-    if (out_.folder) others = {*out_.folder / "stress.csv", *out_.folder / "stress.md"};
-    errbound::support::require_good_outputs({out_.json}, std::move(others));
-}
+}  // namespace
 
 std::unique_ptr<command> stress_command(CLI::App& program) {
     return std::make_unique<stress_run>(program);

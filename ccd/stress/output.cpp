@@ -225,20 +225,7 @@ std::string markdown_of(const table& rows, const plan& what, const std::string& 
            markdown_table(families);
 }
 
-}  // namespace
-
-bool run_and_write(const plan& what, const outputs& to, std::ostream& text) {
-    prepare(to);
-    std::vector<cell> cells;
-    {
-        progress_line line;
-        cells = run(what, [&](std::size_t done, std::size_t all, const family& next) {
-            line.show(done, all, std::string(next.name));
-        });
-    }
-    return write(cells, what, to, text);
-}
-
+/// Makes the folder. Throws if it cannot be written to: before the run, not after it.
 void prepare(const outputs& to) {
     if (!to.folder) return;
     const fs::path& folder = *to.folder;
@@ -265,6 +252,20 @@ bool write(const std::vector<cell>& cells, const plan& what, const outputs& to,
     write_whole(files);
     text << text_of(rows, 2) << '\n' << legend << verdict;
     return broken.empty();
+}
+
+}  // namespace
+
+bool run_and_write(const plan& what, const outputs& to, std::ostream& text) {
+    prepare(to);
+    std::vector<cell> cells;
+    {
+        progress_line line;
+        cells = run(what, [&](std::size_t done, std::size_t all, const family& next) {
+            line.show(done, all, std::string(next.name));
+        });
+    }
+    return write(cells, what, to, text);
 }
 
 }  // namespace ccd::stress

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
-#include <vector>
 
 #include "ccd/stress/stress.hpp"
 
@@ -16,16 +15,9 @@ struct outputs {
     std::optional<std::filesystem::path> json;
 };
 
-/// Runs the plan and writes what was found, as the two functions below.
+/// Runs the plan and writes its cells. Makes the folder before the run. Returns true if all
+/// promises were kept. Otherwise the text names the broken ones, and the folder, or the current
+/// one, has a query for each. Throws errbound::support::file_error.
 bool run_and_write(const plan& what, const outputs& to, std::ostream& text);
-
-/// Makes the folder. Throws errbound::support::file_error if it cannot be written to: known now,
-/// not after the run.
-void prepare(const outputs& to);
-
-/// Writes the cells of the plan. Returns whether all promises were kept; else the text says which
-/// not, and a query for each is in the folder, or the current one. Throws
-/// errbound::support::file_error.
-bool write(const std::vector<cell>& cells, const plan& what, const outputs& to, std::ostream& text);
 
 }  // namespace ccd::stress

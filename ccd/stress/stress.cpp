@@ -144,10 +144,4 @@ std::vector<cell> run(const plan& what, const progress& show) {
     return cells;
 }
 
-std::vector<cell> run_at(const plan& what, const family& f, double knob) {
-    std::vector<cell> cells;
-    detail::on_threads(what.threads, [&] { add_cells(what, f, knob, cells); });
-    return cells;
-}
-
 }  // namespace ccd::stress

@@ -74,9 +74,6 @@ using progress = std::function<void(std::size_t done, std::size_t all, const fam
 /// timed on this one while nothing else runs. Deterministic but for the times.
 std::vector<cell> run(const plan& what, const progress& show);
 
-/// The cells of one family at one value of its knob, by kind and subject, as run has them.
-std::vector<cell> run_at(const plan& what, const family& f, double knob);
-
 /// How `said` breaks what `who` promises, if it does. `truth` is uncertain if coordinates are not
 /// finite. Promised are: no collision lost and none reported falsely, as far as the method says so;
 /// by a method that promises any of these, that `collides` and `separate` are certain; by one that

@@ -21,8 +21,7 @@ int run_command_line(int argc, char** argv) {
     app.require_subcommand(0, 1);            // none is told from an unknown one, which is named
     app.allow_windows_style_options(false);  // a path may begin with a slash
     app.set_version_flag("--version", std::string("errbound ") + ERRBOUND_VERSION);
-    constexpr int one_per_core = 0;
-    validate_options validate(app, one_per_core);
+    validate_options validate(app);
     explaining::explain_command explain(app);
     try {
         app.parse(argc, argv);

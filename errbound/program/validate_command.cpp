@@ -1,16 +1,27 @@
 // `errbound validate`: runs what was asked for.
 #include "errbound/program/validate_command.hpp"
 
+#include <ccd/io/query_file.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <errbound/validation/validation.hpp>
 #include <span>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "errbound/program/validate_results.hpp"
 #include "errbound/support/command_line.hpp"
 #include "errbound/support/progress_line.hpp"
 
 namespace errbound::validation {
+namespace {
+
+/// One kind of evidence of a run.
+struct part {
+    std::string name;  ///< "expressions", "tiny", "functions" or the file
+    evidence what;
+};
 
 std::vector<ccd::io::query_file> read_files(const validate_arguments& arguments) {
     std::vector<ccd::io::query_file> files;
@@ -19,6 +30,7 @@ std::vector<ccd::io::query_file> read_files(const validate_arguments& arguments)
     return files;
 }
 
+/// In the order of tables. The parts refer to the queries of `files`.
 std::vector<part> parts_of(const validate_arguments& arguments,
                            const std::vector<ccd::io::query_file>& files) {
     std::vector<part> parts;
@@ -38,6 +50,8 @@ std::vector<part> parts_of(const validate_arguments& arguments,
             {"expressions", evidence_of_expressions(arguments.rules, arguments.options)});
     return parts;
 }
+
+}  // namespace
 
 exit_status run_validate(const validate_arguments& arguments) {
     support::require_good_outputs({arguments.json, arguments.csv, arguments.functions_csv},

@@ -53,26 +53,13 @@ void require_use_of_every_float(const function_options& asked) {
 
 }  // namespace
 
-validate_options::validate_options(CLI::App& program, int threads)
+validate_options::validate_options(CLI::App& program)
     : line_(*program.add_subcommand(
           "validate",
           "Hold every bound rule's bounds and certain signs against MPFR, and report how tight "
           "they\nare. Random expressions, unless --tiny, --queries or --functions asks for "
           "those.")) {
-    arguments_.options.threads = threads;
-    line_
-        .add_option("--expressions", arguments_.options.expressions,
-                    "Random expressions, at least so many per rule and number type")
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
-        ->capture_default_str();
-    line_.add_option("--seed", arguments_.options.seed, "Same seed, same expressions")
-        ->check(support::checked_seed)
-        ->capture_default_str();
-    line_
-        .add_option("--operations", arguments_.options.operations,
-                    "Operations in an expression, at most")
-        ->check(CLI::Range(1, max_operations))
-        ->capture_default_str();
+    add_expressions();
     line_
         .add_option("--queries", arguments_.queries,
                     "Stored queries (ccd query --help says their form): their forms and BSC")
@@ -97,6 +84,29 @@ validate_options::validate_options(CLI::App& program, int threads)
     line_.add_option("--json", arguments_.json, "Write all tables as JSON")->type_name("OUT");
     line_.add_option("--csv", arguments_.csv, "Write the table of tightness as CSV")
         ->type_name("OUT");
+}
+
+void validate_options::add_expressions() {
+    line_
+        .add_option("--expressions", arguments_.options.expressions,
+                    "Random expressions, at least so many per rule and number type")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    line_.add_option("--seed", arguments_.options.seed, "Same seed, same expressions")
+        ->check(support::checked_seed)
+        ->capture_default_str();
+    line_
+        .add_option(
+            "--first", arguments_.options.first,
+            "Skip so many expressions of the seed's sequence. Runs with first 0, N, 2N, ... "
+            "and N\nexpressions each partition one long run")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40))
+        ->capture_default_str();
+    line_
+        .add_option("--operations", arguments_.options.operations,
+                    "Operations in an expression, at most")
+        ->check(CLI::Range(1, max_operations))
+        ->capture_default_str();
 }
 
 void validate_options::add_functions() {
@@ -161,6 +171,7 @@ void validate_options::require_use_of_options(const validate_arguments& all) con
         {"--rules", rules, "--expressions, --tiny or --queries"},
         {"--kind", !all.queries.empty(), "--queries"},
         {"--round", !all.queries.empty(), "--queries"},
+        {"--first", all.expressions, "--expressions"},
         {"--operations", all.expressions, "--expressions"},
         {"--numbers", random, "--expressions or --functions"},
         {"--seed", random, "--expressions or --functions"},

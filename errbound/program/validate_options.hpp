@@ -1,4 +1,4 @@
-// What the command line says of `errbound validate`, over ranks or not.
+// The command line of `errbound validate`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 
 namespace errbound::validation {
 
-enum exit_status { done = 0, bad_input = 1, violations_found = 1, stopped = 3 };
+enum exit_status { done = 0, bad_input = 1, violations_found = 1 };
 
 struct validate_arguments {
     std::vector<rule> rules;
@@ -27,15 +27,15 @@ struct validate_arguments {
 
 class validate_options {
   public:
-    /// Adds the command, with that many threads unless the line says others.
-    validate_options(CLI::App& program, int threads);
+    /// Adds the command.
+    explicit validate_options(CLI::App& program);
 
     bool was_given() const { return line_.parsed(); }
-    CLI::App& line() { return line_; }
     /// Of the parsed line. Throws errbound::support::usage_error.
     validate_arguments checked();
 
   private:
+    void add_expressions();
     void add_functions();
     /// Throws usage_error if an option was given that nothing asked for would use.
     void require_use_of_options(const validate_arguments& all) const;

@@ -7,8 +7,7 @@
 
 namespace errbound::validation {
 
-/// Numbered cases in some hundred chunks at most, one at least: a chunk's report is some hundred
-/// kilobytes where programs share chunks.
+/// Numbered cases in 1 to 400 chunks. A chunk's report takes some hundred kilobytes.
 class chunks {
   public:
     /// Chunks have `least` cases at least, but for the last.

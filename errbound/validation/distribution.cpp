@@ -4,9 +4,6 @@
 #include <cmath>
 #include <errbound/validation/distribution.hpp>
 #include <limits>
-#include <numeric>
-#include <stdexcept>
-#include <utility>
 
 namespace errbound::validation {
 namespace {
@@ -18,20 +15,6 @@ std::size_t bin_of(double log10_ratio) {
 }
 
 }  // namespace
-
-distribution::distribution(counts from)
-    : counts_(std::move(from)),
-      ratios_(std::accumulate(counts_.bins.begin(), counts_.bins.end(), std::uint64_t{0})) {
-    const auto& bins = counts_.bins;
-    const bool good = bins.empty()
-                          ? counts_.first_bin == 0 && counts_.least == 0 && counts_.most == 0
-                          : bins.front() > 0 && bins.back() > 0 && std::isfinite(counts_.least) &&
-                                std::isfinite(counts_.most) && counts_.least <= counts_.most &&
-                                counts_.first_bin == bin_of(counts_.least) &&
-                                counts_.first_bin + bins.size() - 1 == bin_of(counts_.most);
-    if (!good || counts_.covered > ratios_)
-        throw std::invalid_argument("found bins that no distribution has");
-}
 
 /// Has bins from first_bin on, as many; no fewer than there were.
 void distribution::make_room(std::size_t first_bin, std::size_t bins) {

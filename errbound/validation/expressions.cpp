@@ -181,9 +181,11 @@ struct study {
     std::vector<rule> rules;
     expression_options options;
 
-    // Rules without division see three of four expressions.
+    /// Number of expressions of which rules without division, which skip every fourth, see n.
+    static std::uint64_t indices(std::uint64_t n) { return n + (n + 2) / 3; }
+    std::uint64_t first() const { return indices(options.first); }
     chunks expressions() const {
-        return {options.expressions + (options.expressions + 2) / 3, least_chunk};
+        return {indices(options.first + options.expressions) - first(), least_chunk};
     }
     expression at(std::uint64_t index, number_type type) const {
         return random_expression(options.seed, index, type,
@@ -192,7 +194,8 @@ struct study {
 
     report report_of(std::uint64_t chunk) const {
         examination found;
-        for (auto [index, end] = expressions().of(chunk); index < end; ++index)
+        const auto [begin, end] = expressions().of(chunk);
+        for (std::uint64_t index = first() + begin; index < first() + end; ++index)
             for (const number_type type : options.numbers)
                 found.check(rules, at(index, type), type, index);
         report result;

@@ -50,27 +50,27 @@ def exact_doubles(name: str, values: ArrayLike) -> NDArray[Any]:
     if array.dtype.kind in "fiu" and array.dtype.itemsize <= 8 and not large and given.dtype.kind != "O":
         return array
     items = given.reshape(-1).tolist() if given.dtype != np.longdouble else list(given.flat)
-    wrong = [x for x in items if not _is_real(x)]
+    wrong = [x for x in items if not is_real(x)]
     if array.dtype.kind not in "fiuO" or wrong:
         found = type(wrong[0]).__name__ if given.dtype.kind == "O" else array.dtype
         raise TypeError(f"{name} has items of type {found}; expected real numbers")
-    converted = np.array([_nearest_double(x) for x in items], np.float64)
+    converted = np.array([nearest_double(x) for x in items], np.float64)
     for i, (x, y) in enumerate(zip(items, converted.tolist())):
         if x != y and x == x:
             row = f"row {np.unravel_index(i, given.shape)[0]} of {name}" if given.shape else name
-            raise ValueError(f"{row} is {x}; expected a number that a double equals")
+            raise ValueError(f"{row} is {x!s}; expected a number that a double equals")
     return converted.reshape(given.shape)
 
 
-def _is_real(value: Any) -> bool:
+def is_real(value: Any) -> bool:
     return isinstance(value, numbers.Real) and not isinstance(value, (bool, np.bool_))
 
 
-def _nearest_double(value: Any) -> float:
+def nearest_double(value: Any) -> float:
     try:
         return float(value)
     except OverflowError:  # of an integer or a fraction
-        return math.inf
+        return math.inf if value > 0 else -math.inf
 
 
 def doubles(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Doubles:
@@ -170,7 +170,7 @@ def option(name: str, value: Any, kind: type, end: int = 2**31) -> Any:
         raise TypeError(f"{name}: found {value!r}, expected {expected}")
     if kind is int and not 0 <= value < end:
         raise ValueError(f"{name}: found {value}, expected 0 to {end - 1}")
-    converted = _nearest_double(value) if kind is float else kind(value)
+    converted = nearest_double(value) if kind is float else kind(value)
     if converted != value and value == value:
         raise ValueError(f"{name}: found {value!r}, expected a number that a double equals")
     return converted
@@ -184,10 +184,10 @@ def end_time(value: Any) -> float:
     return t_max
 
 
-def distance_option(value: Any) -> float:
-    distance: float = option("distance", value, float)
+def distance_option(value: Any, name: str = "distance") -> float:
+    distance: float = option(name, value, float)
     if not 0 <= distance < math.inf:
-        raise ValueError(f"distance: found {distance}, expected a finite number that is not negative")
+        raise ValueError(f"{name}: found {distance}, expected a finite number that is not negative")
     return distance
 
 

@@ -370,7 +370,7 @@ class _Step:
 
     def __init__(self, mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float,
                  narrow: ExactNarrowPhase, candidates: Any = None) -> None:
-        distance, shape = distance_option(min_distance), (int(mesh.num_vertices), int(mesh.dim))
+        distance, shape = distance_option(min_distance, "min_distance"), (int(mesh.num_vertices), int(mesh.dim))
         frames = [doubles(name, values, (None, None))
                   for name, values in (("vertices_t0", before), ("vertices_t1", after))]
         for name, frame in zip(("vertices_t0", "vertices_t1"), frames):

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import as_array, option
+from ._arrays import as_array, is_real, nearest_double, option
 
 UNCERTAIN = 2
 """What sign says where the bound does not exclude zero, nor the value is known to be zero."""
@@ -444,6 +445,29 @@ class scope:
         self._scope.leave()
 
 
+def _with_conversion(name: str, values: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Values as an array of numbers, and bounds of the errors of their conversion to float64, if they needed one.
+
+    Integers of any size and fractions are converted. NumPy rounds integers among floats, so sequences are converted
+    item by item.
+    """
+    array = as_array(name, values)
+    given = array
+    if array.dtype == np.float64 and isinstance(values, Sequence):
+        given = np.asarray(values, object)
+    if given.dtype.kind != "O":
+        if array.dtype.kind not in "fiu":
+            raise TypeError(f"{name}: found {array.dtype}, expected numbers")
+        return array, np.zeros(array.shape)
+    items = given.reshape(-1).tolist()
+    wrong = [x for x in items if not is_real(x)]
+    if wrong:
+        raise TypeError(f"{name} has items of type {type(wrong[0]).__name__}; expected real numbers")
+    doubles = [nearest_double(x) for x in items]
+    errors = [0.0 if x == y or x != x else math.ulp(y) for x, y in zip(items, doubles)]
+    return np.array(doubles, np.float64).reshape(given.shape), np.array(errors, np.float64).reshape(given.shape)
+
+
 def _rounded_to(number: np.dtype[Any], values: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Values in that type, and bounds of the errors of their conversion."""
     with np.errstate(over="ignore", invalid="ignore"):
@@ -464,17 +488,12 @@ def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype:
     by a unit in the last place. explained: for explain; float64 by the rules tight and residual only. Operations then
     take some hundred times as long.
     """
-    values, rule = as_array("value", value), option("rule", rule, str)
+    (values, given), rule = _with_conversion("value", value), option("rule", rule, str)
     explained = option("explained", explained, bool)
     number = np.dtype(dtype or (np.float32 if values.dtype == np.float32 else np.float64))
     if number not in (np.float32, np.float64):
         raise TypeError(f"dtype: found {number}, expected float64 or float32")
-    if values.dtype.kind not in "fiu":
-        raise TypeError(f"value: found {values.dtype}, expected numbers")
-    errors = as_array("error", error)
-    if errors.dtype.kind not in "fiu":
-        raise TypeError(f"error is an array of {errors.dtype}; expected real numbers")
-    errors = np.broadcast_to(errors, values.shape)
+    errors, given_error = (np.broadcast_to(x, values.shape) for x in _with_conversion("error", error))
     if (errors < 0).any():
         raise ValueError(f"error is {errors.min()}; expected numbers >= 0")
     if explained and number != np.float64:
@@ -482,7 +501,7 @@ def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype:
     rounded, conversion = _rounded_to(number, values)
     bound, rounding = _rounded_to(number, errors)
     with np.errstate(over="ignore", invalid="ignore"):
-        for more in rounding, conversion:
+        for more in rounding, conversion, *_rounded_to(number, given), *_rounded_to(number, given_error):
             bound = np.where(more == 0, bound, np.nextafter(bound + more, number.type(math.inf)))
     flat = [np.ascontiguousarray(x, number).reshape(-1) for x in (rounded, bound)]
     make = _native.explained_row if explained else _native.tracked_row

@@ -259,7 +259,10 @@ def test_affine_knows_what_is_the_same():
 
 @pytest.mark.parametrize("value, dtype, least", [
     (2**53 + 1, np.float64, 1), (0.1, np.float32, 1e-9), (np.longdouble(1) / 3, np.float64, 1e-17),
-    (np.uint64(2**64 - 1), np.float64, 1), (2**24 + 1, np.float32, 1), (1e300, np.float32, np.inf)])
+    (np.uint64(2**64 - 1), np.float64, 1), (2**24 + 1, np.float32, 1), (1e300, np.float32, np.inf),
+    (2**64, np.float64, 0), (2**64 + 1, np.float64, 1), (-2**63 - 1, np.float32, 1), (10**400, np.float64, np.inf),
+    (Fraction(1, 3), np.float64, 1e-17), (Fraction(1, 10**400), np.float64, 5e-324),
+    (Fraction(1, 10**400), np.float32, 1e-45)])
 def test_conversions_of_tracked_numbers_count(value, dtype, least):
     """They counted as exact, whatever they were rounded to."""
     x = tracked.array(value, dtype=dtype)
@@ -268,6 +271,19 @@ def test_conversions_of_tracked_numbers_count(value, dtype, least):
         assert abs(Fraction(float(x.value)) - Fraction(*getattr(value, "item", lambda: value)().as_integer_ratio())) <= Fraction(float(x.error))
     assert tracked.array(0.0, 0.1, dtype=np.float32).error > 0.1
     assert tracked.array([2**60, 3], dtype=np.float64).error.tolist() == [0, 0]
+
+
+def test_sequences_of_integers_and_fractions():
+    """NumPy rounds the integers of such a list to float64 by itself."""
+    for values in [2**53 + 1, .5], [2**64 - 1, -1], [Fraction(1, 3), 2]:
+        x = tracked.array(values)
+        assert all(abs(Fraction(v) - Fraction(given)) <= Fraction(e)
+                   for v, given, e in zip(x.value.tolist(), values, x.error.tolist()))
+    assert tracked.array([2**64]).error.tolist() == [0] and (tracked.array([1.0]) * 2**64).value.tolist() == [2.0**64]
+    assert Fraction((tracked.array([0.0], [Fraction(1, 3)])).error[0]) >= Fraction(1, 3)
+    for wrong in [True], ["1"], [1j], [None], [True, .5]:
+        with pytest.raises(TypeError, match="expected (real )?numbers"):
+            tracked.array(wrong)
 
 
 def test_explanations():

@@ -32,7 +32,7 @@ LAYERS = [
     ("ccd: queries and calls", r"include/ccd/(?!ccd\.hpp)\w+\.hpp"),
     ("ccd: methods' headers", r"include/ccd/methods/"),
     ("all of ccd", r"include/ccd/"),
-    ("support of programs", r"errbound/(support|study)/"),
+    ("support of programs", r"errbound/support/"),
     ("validation", r"(include/)?errbound/validation/"),
     ("ccd: one query", r"ccd/(exact|contact)/"),
     ("ccd: other methods", r"ccd/methods/"),
@@ -46,7 +46,7 @@ LAYERS = [
     ("Python package", r"python/"),
 ]
 KNOWS_CCD = r"(include/)?errbound/(validation|program)/"  # as their CMakeLists.txt say
-INTERNAL = r"(errbound/(study|detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
+INTERNAL = r"(errbound/(detail|integers|filters|linear|roots)|ccd/(exact|contact|batch|step|cuda|mpi|io|stress|report))/\w+\.hpp"
 PUBLIC_HEADERS = r"include/(errbound/(rules/|validation/)?|ccd/((methods|study|adapters)/)?)\w+\.hpp$"
 
 

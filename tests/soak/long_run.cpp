@@ -81,6 +81,7 @@ class comparing_threads {
     comparing_threads(const state& from, const run_options& options, const part& what,
                       const std::atomic<int>& stop)
         : seed_(from.seed),
+          first_(what.blocks_for(from.first)),
           blocks_(options.blocks),
           what_(what),
           stop_(stop),
@@ -120,7 +121,7 @@ class comparing_threads {
             const std::uint64_t block = next_++;
             if (block >= blocks_) break;
             try {
-                findings of_block = what_.compare_block(seed_, block);
+                findings of_block = what_.compare_block(seed_, first_ + block);
                 const std::scoped_lock lock(mutex_);
                 found_.add(block, std::move(of_block));
             } catch (...) {
@@ -134,7 +135,7 @@ class comparing_threads {
         finished_.notify_all();
     }
 
-    std::uint64_t seed_, blocks_;
+    std::uint64_t seed_, first_, blocks_;
     const part& what_;
     const std::atomic<int>& stop_;
     std::atomic<bool> ending_ = false;
@@ -165,8 +166,11 @@ std::uint64_t part::blocks_for(std::uint64_t questions) const {
 
 std::string to_json(const state& s, const part& of) {
     json all = json_of(s.found);
-    all.update(
-        {{"part", of.name}, {"version", of.version}, {"seed", s.seed}, {"seconds", s.seconds}});
+    all.update({{"part", of.name},
+                {"version", of.version},
+                {"seed", s.seed},
+                {"first", s.first},
+                {"seconds", s.seconds}});
     return all.dump(1) + "\n";
 }
 
@@ -175,19 +179,11 @@ state from_json(const std::string& text, const part& of) {
         const json all = json::parse(text);
         if (all.at("part") != of.name || all.at("version") != of.version)
             throw std::runtime_error("the run asked other questions than this program does");
-        return {all.at("seed").get<std::uint64_t>(), findings_of(all),
+        return {all.at("seed").get<std::uint64_t>(), whole(all.at("first")), findings_of(all),
                 all.at("seconds").get<double>()};
     } catch (const json::exception& error) {
         throw std::runtime_error(std::string("not the state of a run: ") + error.what());
     }
-}
-
-std::string line_of(const findings& found) {
-    return json_of(found).dump();
-}
-
-findings findings_of(const std::string& line) {
-    return findings_of(json::parse(line));
 }
 
 fs::path state_path(const fs::path& folder) {
@@ -214,7 +210,7 @@ state run(state from, const run_options& options, const part& what, const std::a
     const clock::time_point start = clock::now();
     comparing_threads threads(from, options, what, stop);
     const auto now = [&] {
-        return state{from.seed, threads.found(), from.seconds + seconds_since(start)};
+        return state{from.seed, from.first, threads.found(), from.seconds + seconds_since(start)};
     };
     clock::time_point saved = start;
     while (!threads.finished_within(std::chrono::milliseconds(100))) {

@@ -1,8 +1,8 @@
 // A long run of comparisons: all cores, stopped and resumed at any time without a trace in its
 // result.
 //
-// A run is a sequence of blocks. Block b of a seed asks the same on every machine, so that a number
-// of blocks is all the state that a run has, beside what it found.
+// A run is a sequence of blocks. Block b of a seed asks the same on every machine. The state of a
+// run is therefore the first block, the number of blocks and what they found.
 #pragma once
 
 #include <atomic>
@@ -32,6 +32,7 @@ struct part {
 
 struct state {
     std::uint64_t seed = 1;
+    std::uint64_t first = 0;  ///< the number of questions before the first block of the run
     findings found = {};
     double seconds = 0;  ///< spent so far, over all sittings
     friend bool operator==(const state&, const state&) = default;
@@ -41,10 +42,6 @@ struct state {
 /// text, or questions other than this program's.
 std::string to_json(const state& s, const part& of);
 state from_json(const std::string& text, const part& of);
-
-/// Findings as one line, and back.
-std::string line_of(const findings& found);
-findings findings_of(const std::string& line);
 
 /// Where a run keeps its state; files of differing queries lie beside it.
 std::filesystem::path state_path(const std::filesystem::path& folder);

@@ -1,54 +1,101 @@
-// The program `ccd_mpi`: commands of `ccd` over the ranks of MPI.
+// The program `ccd_mpi`: steps of meshes over the ranks of MPI.
 //
 //   mpirun -n 4 ccd_mpi step FRAME0 FRAME1 --pairs pairs.csv
-//   mpirun -n 4 ccd_mpi query FILE... --journal kept
 //
-// Exit status 0 done, 1 bad input or, in stress, a method that broke its promise, 2 bad usage, 3
-// ended by a signal, with a journal to go on from. Rank 0 prints.
+// Exit status 0 done, 1 bad input, 2 bad usage. Rank 0 prints.
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <exception>
 #include <memory>
 #include <string>
+#include <thread>
 
-#include "ccd/io/store/store_reader.hpp"
 #include "ccd/program/command.hpp"
-#include "ccd/program/mpi/commands.hpp"
-#include "errbound/study/program.hpp"
+#include "ccd/program/mpi/step_command.hpp"
 #include "errbound/support/command_line.hpp"
+#include "errbound/support/program.hpp"
 
 namespace ccd::program {
 namespace {
 
-exit_status run_command_line(int argc, char** argv) {
+using errbound::support::usage_error;
+
+exit_status run_command_line(int argc, char** argv, int rank) {
     CLI::App app{
         "Exact continuous collision detection over the ranks of MPI.\n"
-        "Exit status: 0 done, 1 bad input, 2 bad usage, 3 ended by a signal, with a journal to go "
-        "on\nfrom; of stress also 1: a promise was broken.",
+        "Exit status: 0 done, 1 bad input, 2 bad usage.",
         "ccd_mpi"};
     app.require_subcommand(0, 1);
     app.set_version_flag("--version", std::string("ccd_mpi ") + ERRBOUND_VERSION);
-    const std::unique_ptr<command> commands[] = {distributed_step_command(app),
-                                                 distributed_query_command(app),
-                                                 distributed_stress_command(app)};
-    int rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    const std::unique_ptr<command> step = distributed_step_command(app);
     try {
         app.parse(argc, argv);
-        for (const auto& c : commands)
-            if (c->was_given()) return c->run();
-        throw errbound::support::usage_error("found no command, ccd_mpi --help lists them");
+        if (!step->was_given()) throw usage_error("found no command, ccd_mpi --help lists them");
+        return step->run();
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
-        if (rank == 0) app.exit(error);  // prints what --help and --version ask for
+        if (error.get_exit_code() != 0) throw usage_error(error.what());
+        if (rank == 0) app.exit(error);  // prints what --help and --version request
         return done;
     }
+}
+
+/// Waits for all ranks. An error that one rank throws is thrown on all ranks, unless the rank fails
+/// alone (no memory, another command line). The others then wait for it without end. In that case
+/// the result is false after some seconds.
+bool all_meet(MPI_Comm all, bool failed) {
+    MPI_Request request{};
+    MPI_Ibarrier(all, &request);
+    using clock = std::chrono::steady_clock;
+    const auto limit = clock::now() + std::chrono::seconds(5);
+    for (int met = 0;;) {
+        MPI_Test(&request, &met, MPI_STATUS_IGNORE);
+        if (met) return true;
+        if (failed && clock::now() > limit) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+/// Runs the command. The lowest failing rank rethrows its error; the others return its status.
+int run_on_rank(MPI_Comm all, int argc, char** argv, bool& met) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(all, &rank);
+    MPI_Comm_size(all, &size);
+    std::exception_ptr failure;
+    int status = 0;
+    try {
+        status = run_command_line(argc, argv, rank);
+    } catch (const usage_error&) {
+        failure = std::current_exception();
+        status = 2;
+    } catch (...) {
+        failure = std::current_exception();
+        status = 1;
+    }
+    met = all_meet(all, status != 0);
+    int first = rank;
+    if (met) {
+        const int own = failure ? rank : size;
+        MPI_Allreduce(&own, &first, 1, MPI_INT, MPI_MIN, all);
+    }
+    if (failure && rank == first) std::rethrow_exception(failure);
+    return status;
 }
 
 }  // namespace
 }  // namespace ccd::program
 
 int main(int argc, char** argv) {
-    ccd::io::leave_stores_at_exit();
-    return errbound::study::run_over_ranks("ccd_mpi", argc, argv, ccd::program::run_command_line);
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm all;
+    MPI_Comm_dup(MPI_COMM_WORLD, &all);
+    bool met = true;
+    const int status = errbound::support::run_program(
+        "ccd_mpi", [&] { return ccd::program::run_on_rank(all, argc, argv, met); });
+    if (!met) MPI_Abort(MPI_COMM_WORLD, status);
+    MPI_Comm_free(&all);
+    MPI_Finalize();
+    return status;
 }

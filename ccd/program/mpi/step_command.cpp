@@ -1,5 +1,7 @@
 // `ccd_mpi step`: one step of a mesh, from files of which each rank reads a share to one sorted
 // list of colliding pairs.
+#include "ccd/program/mpi/step_command.hpp"
+
 #include <algorithm>
 #include <ccd/mpi.hpp>
 #include <chrono>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "ccd/mpi/exchange.hpp"
-#include "ccd/program/mpi/commands.hpp"
 #include "ccd/program/mpi/shared_frames.hpp"
 #include "ccd/program/options.hpp"
 #include "ccd/program/pair_lines.hpp"

@@ -6,7 +6,9 @@
 #include <ccd/kind.hpp>
 #include <ccd/query.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,11 +48,18 @@ query_file parse_queries(std::string_view text, const std::string& name, ccd::ki
 query_file parse_stored_queries(std::string_view bytes, const std::string& name,
                                 std::optional<ccd::kind> kind, bool round);
 
+/// Some of a file's queries: at most `count`, from query `first` on.
+struct file_range {
+    std::uint64_t first = 0;
+    std::uint64_t count = std::numeric_limits<std::uint64_t>::max();
+};
+
 /// Reads a file, and truth from its column or from `../mma_bool/NAME_mma_bool.json` beside it.
 /// The kind is `kind` if given, else from the path. A store (ccd/io/query_store.hpp) has kind and
-/// truth of its own. Throws errbound::support::file_error.
+/// truth of its own. Returns the queries in `range`; text is read and checked in full. Throws
+/// errbound::support::file_error: bad content, or no query in the range.
 query_file read_queries(const std::filesystem::path& path, std::optional<ccd::kind> kind,
-                        bool round);
+                        bool round, file_range range = {});
 
 /// Reads a JSON array of booleans. `name` is used in messages. Throws
 /// errbound::support::file_error.

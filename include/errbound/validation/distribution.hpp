@@ -14,20 +14,6 @@ class distribution {
     // Beyond these ends, ratios share the outermost bins; the extremes are still kept exactly.
     static constexpr double least_log = -40, max_log = 100;
 
-    /// All that a distribution is, for keeping it elsewhere. Bin i has the ratios whose log10 is
-    /// nearest to least_log + i · resolution; bins[0] is bin first_bin, and its ends are not zero.
-    struct counts {
-        std::uint64_t exact = 0, unknown = 0, covered = 0;
-        std::size_t first_bin = 0;
-        std::vector<std::uint64_t> bins{};
-        double least = 0, most = 0;  ///< log10 of the extremes; 0 without ratios
-    };
-
-    distribution() = default;
-    /// Throws std::invalid_argument: what no distribution has.
-    explicit distribution(counts from);
-    const counts& stored() const { return counts_; }
-
     /// A ratio by its log10, which is finite.
     void add(double log10_ratio);
     /// The true error is zero, or too small for the reference to tell.
@@ -52,6 +38,15 @@ class distribution {
   private:
     void make_room(std::size_t first_bin, std::size_t bins);
     void widen(double least, double most);
+
+    /// Bin i counts the ratios whose log10 is nearest to least_log + i · resolution. bins[0] is bin
+    /// first_bin. The first and the last bin are not zero.
+    struct counts {
+        std::uint64_t exact = 0, unknown = 0, covered = 0;
+        std::size_t first_bin = 0;
+        std::vector<std::uint64_t> bins{};
+        double least = 0, most = 0;  ///< log10 of the extremes; 0 without ratios
+    };
 
     counts counts_;
     std::uint64_t ratios_ = 0;  // the sum of the bins

@@ -82,8 +82,7 @@ struct report {
     void merge(report later);
 };
 
-/// Evidence in numbered chunks, which are the same whoever takes them: the threads of one program,
-/// or of many.
+/// Evidence in numbered chunks, which do not depend on the number of threads.
 struct evidence {
     std::uint64_t chunks = 0;
     /// What a chunk finds. May be called from several threads at once.
@@ -103,6 +102,9 @@ report examine(const evidence& what, int threads, const progress& show = {});
 struct expression_options {
     std::uint64_t expressions = 10'000'000;  ///< at least so many per rule and number type
     std::uint64_t seed = 1;
+    /// Skips so many expressions of the seed's sequence. Ranges that follow one another partition
+    /// it.
+    std::uint64_t first = 0;
     int operations = 16;  ///< at most, in one expression; 1 to 48
     int threads = 0;      ///< 0: one per core
     std::vector<number_type> numbers{number_type::double_type, number_type::float_type};

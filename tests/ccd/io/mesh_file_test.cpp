@@ -204,8 +204,8 @@ TEST(Ply, BadInput) {
     EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "2 0 1\n")),
               "m.ply:13: found a face with 2 vertices, expected a triangle");
     EXPECT_EQ(ply_error(ascii_ply("3", "1", three + "4 0 1 2 0\n")),
-              "m.ply:13: found a face with 4 vertices, expected a triangle (polygons are split by "
-              "triangulate)");
+              "m.ply:13: found a face with 4 vertices, expected a triangle (the option "
+              "triangulate splits polygons)");
     // Coordinates.
     EXPECT_EQ(ply_error(ascii_ply("1", "1", "0 nan 0\n")),
               "m.ply:10: found 'nan', expected a finite number");
@@ -540,8 +540,8 @@ TEST(Shares, BadFilesAreToldOfBySomeShare) {
     std::string quad = good;
     quad[quad.size() - 5 * 8 - 13 * 10] = 4;  // the eleventh face's count
     EXPECT_EQ(first_error(quad),
-              "face 11: found a face with 4 vertices, expected a triangle (polygons are split by "
-              "triangulate)");
+              "face 11: found a face with 4 vertices, expected a triangle (the option "
+              "triangulate splits polygons)");
     mesh beyond = larger_mesh();
     beyond.faces[20][1] = 23;
     EXPECT_EQ(first_error(ply<double, std::int32_t>(beyond, "ascii", "double", "int")),

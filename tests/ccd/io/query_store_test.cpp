@@ -162,6 +162,12 @@ TEST_F(Store, IsReadInRanges) {
         EXPECT_EQ(truth, *file.truth);
     }
     EXPECT_EQ(bits_of(read_queries(path, kind::edge_edge, false)), bits_of(file));
+    std::vector<std::uint64_t> bits;
+    for (const file_range range :
+         {file_range{0, 65000}, file_range{65000, 1000}, file_range{66000}})
+        for (const std::uint64_t b : bits_of(read_queries(path, kind::edge_edge, false, range)))
+            bits.push_back(b);
+    EXPECT_EQ(bits, bits_of(file));
     EXPECT_NE(message_of([&] {
                   read_queries(path, kind::vertex_face, false);
               }).find("found queries of kind edge_edge, expected vertex_face"),

@@ -59,30 +59,28 @@ void compare(const scene& s, const question& asked) {
                      {.groups = asked.groups,
                       .distances = {asked.distance, thickness},
                       .filter = {.pinned = pinned, .skip_unused = asked.filtered}});
-    for (const auto& [placed, place] : placings(s)) {
-        const std::string name = s.name + ", " + asked.name + ", " + placed + ": ";
-        const share own = share_of(s, place, placed == "doubled");
-        const auto groups = of(asked.groups, own.of_whole);
-        const auto own_thickness = of(thickness, own.of_whole);
-        const auto own_pinned = of(pinned, own.of_whole);
-        const auto found =
-            ccd::mpi::advance(MPI_COMM_WORLD, own.part(),
-                              {.groups = groups,
-                               .distances = {asked.distance, own_thickness},
-                               .filter = {.pinned = own_pinned, .skip_unused = asked.filtered}});
-        expect(found.fraction == expected.fraction, name + "fractions differ");
-        expect(same(found.first_contact, expected.first_contact), name + "first contacts differ");
-        expect(found.positions == of(expected.positions, own.of_whole), name + "positions differ");
-        expect(found.fractions == of(expected.fractions, own.of_whole),
-               name + "fractions of vertices differ");
-        ccd::for_each_kind([&]<ccd::kind K>() {
-            expect(
-                found.touching_at_start.of<K>() == numbered<K>(expected.touching_at_start.of<K>()),
-                name + "pairs that touch at the start differ");
-            expect(found.near_at_start.of<K>() == numbered<K>(expected.near_at_start.of<K>()),
-                   name + "pairs near at the start differ");
-        });
-    }
+    const auto [placed, place] = next_placing(s);
+    const std::string name = s.name + ", " + asked.name + ", " + placed + ": ";
+    const share own = share_of(s, place, placed == "doubled");
+    const auto groups = of(asked.groups, own.of_whole);
+    const auto own_thickness = of(thickness, own.of_whole);
+    const auto own_pinned = of(pinned, own.of_whole);
+    const auto found =
+        ccd::mpi::advance(MPI_COMM_WORLD, own.part(),
+                          {.groups = groups,
+                           .distances = {asked.distance, own_thickness},
+                           .filter = {.pinned = own_pinned, .skip_unused = asked.filtered}});
+    expect(found.fraction == expected.fraction, name + "fractions differ");
+    expect(same(found.first_contact, expected.first_contact), name + "first contacts differ");
+    expect(found.positions == of(expected.positions, own.of_whole), name + "positions differ");
+    expect(found.fractions == of(expected.fractions, own.of_whole),
+           name + "fractions of vertices differ");
+    ccd::for_each_kind([&]<ccd::kind K>() {
+        expect(found.touching_at_start.of<K>() == numbered<K>(expected.touching_at_start.of<K>()),
+               name + "pairs that touch at the start differ");
+        expect(found.near_at_start.of<K>() == numbered<K>(expected.near_at_start.of<K>()),
+               name + "pairs near at the start differ");
+    });
 }
 
 void compare_scene(const scene& s) {
@@ -107,7 +105,7 @@ int main(int argc, char** argv) {
         compare_scene(soup(random, 300, 0.05));
         compare_scene(soup(random, 60, 0.3));
         for (const double unit : {0x1p-51, 0x1p-48, 0x1p-40})
-            compare_scene(of_last_places(random, 60, unit));
+            if (size <= 3 || unit == 0x1p-48) compare_scene(of_last_places(random, 60, unit));
         compare_scene(huge_face_and_heap());
         compare_scene({"nothing", {}, {}});
     });

@@ -4,21 +4,27 @@
 import json
 import os
 import pathlib
-import sys
+import subprocess
 import unittest
 
 from program_test import AFTER, BEFORE, FACES, SOURCE, ProgramTest, ply
 
-sys.path.append(str(SOURCE / "tests/support"))
-import over_ranks
-
 SCENES = pathlib.Path(os.environ["ERRBOUND_SHARED_DATA"]) / "scenes"
 RANKS = (1, 2, 3, 5)
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
+
+
+def run_over(ranks, *command):
+    """Exit status, output and errors of a program over ranks."""
+    done = subprocess.run([os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks), *map(str, command)],
+                          capture_output=True, text=True, env=ENVIRONMENT, timeout=300)
+    return done.returncode, done.stdout, done.stderr
 
 
 class DistributedStep(ProgramTest):
     def over_ranks(self, ranks, *arguments):
-        return over_ranks.run(ranks, os.environ["CCD_MPI_PROGRAM"], *arguments)
+        return run_over(ranks, os.environ["CCD_MPI_PROGRAM"], *arguments)
 
     def expect_same(self, before, after):
         one = [self.directory / f"one.{what}" for what in ("pairs", "toi", "json")]
@@ -76,7 +82,7 @@ class DistributedStep(ProgramTest):
         for folder, *arguments in arguments_of_ranks:
             line = " ".join(map(str, (os.environ["CCD_MPI_PROGRAM"], *arguments)))
             command += [":", os.environ["MPIEXEC_NUMPROC_FLAG"], "1", "sh", "-c", f"cd {folder} && exec {line}"]
-        found, _, err = over_ranks.run(1, *command[3:])
+        found, _, err = run_over(1, *command[3:])
         return found, err
 
     def test_other_files_of_the_same_name(self):

@@ -142,6 +142,24 @@ class Query(ProgramTest):
         self.bad_input("vf.csv:1: found '1'/'3' as x, which no double equals", "query", file)
         self.good("query", file, "--round")
 
+    def test_ranges_together_make_the_whole_file(self):
+        file = self.write("vf.csv", HIT + MISS + MISS + HIT + MISS)
+        out = self.directory / "verdicts"
+
+        def verdicts(*ranges):
+            lines = ""
+            for options in ranges:
+                self.good("query", file, "--method", "exact", "--verdicts", out, *options)
+                lines += out.read_text()
+            return lines
+        whole = verdicts(())
+        self.assertEqual(whole, "1\n0\n0\n1\n0\n")
+        self.assertEqual(verdicts(("--count", 2), ("--first", 2, "--count", 1),
+                                  ("--first", 3, "--count", 100)), whole)
+        self.bad_input("vf.csv: found 5 queries, expected more than the first 5, which are skipped",
+                       "query", file, "--first", 5)
+        self.bad_usage("query", file, "--count", 0)
+
     def test_hexadecimal_rows(self):
         rows = ["0x1p-2,0.25,1"] + ["0,0,0", "1,0,0", "0,1,0"] + \
                ["0x1p-2,0.25,-0x1p0"] + ["0,0,0", "1,0,0", "0,1,0"]
@@ -323,7 +341,7 @@ class Step(ProgramTest):
         quad, fan = [(0, 1, 2, 3), (4, 4, 4)], [(0, 1, 2), (0, 2, 3), (4, 4, 4)]
         files = [[self.write(f"{i}{name}.ply", frame(z, faces)) for i, z in enumerate((1, -1))]
                  for name, faces in (("quad", quad), ("fan", fan))]
-        self.bad_input("face with 4 vertices, expected a triangle (polygons are split by triangulate)", "step", *files[0])
+        self.bad_input("face with 4 vertices, expected a triangle (the option triangulate splits polygons)", "step", *files[0])
         pairs = self.directory / "pairs"
         for frames in files:
             self.good("step", *frames, "--triangulate", "--pairs", pairs)

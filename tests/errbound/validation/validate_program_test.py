@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+from collections import Counter
 
 PROGRAM = os.environ["ERRBOUND_PROGRAM"]
 
@@ -80,6 +81,23 @@ class Validate(unittest.TestCase):
         self.assertEqual(one, self.good(*common, "--threads", 3))
         self.assertNotEqual(one, self.good(*common, "--seed", 2))
 
+    def test_ranges_together_make_the_whole_run(self):
+        def totals(*ranges):
+            totals = Counter()
+            for first, end in zip(ranges, ranges[1:]):
+                out = self.directory / "out.json"
+                self.good("--rules", "tight,none", "--seed", 3, "--first", first,
+                          "--expressions", end - first, "--json", out)
+                found = json.loads(out.read_text())
+                for entry in found["counts"]:
+                    for count in ("cases", "values", "undetermined"):
+                        totals[entry["rule"], entry["number"], count] += entry[count]
+                for entry in found["tightness"]:
+                    key = entry["rule"], entry["number"], entry["quantity"]
+                    totals[key] += entry["ratios"] + entry["exact"] + entry["unknown"]
+            return totals
+        self.assertEqual(totals(0, 4000), totals(0, 1000, 1007, 4000))
+
     def test_queries(self):
         file = self.directory / "vf.csv"
         file.write_text(HIT)
@@ -130,6 +148,7 @@ class Validate(unittest.TestCase):
         for arguments, message in ((("--samples", 10), "--samples: found without --functions"),
                                    (("--every-float",), "--every-float: found without --functions"),
                                    (("--every-bound",), "--every-bound: found without --tiny"),
+                                   (("--tiny", "--first", 3), "--first: found without --expressions"),
                                    (("--rules", "tight,tight"), "--rules: found 'tight' twice"),
                                    (("--functions", "exp,exp"), "--functions: found 'exp' twice")):
             done = self.run_program("validate", *arguments)

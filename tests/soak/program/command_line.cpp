@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,6 +38,15 @@ std::string duration(double seconds) {
     return std::to_string(static_cast<std::uint64_t>(seconds)) + " s";
 }
 
+/// The number of questions in the first `blocks` blocks of a run.
+std::uint64_t questions_of(const soak::part& of, std::uint64_t first, std::uint64_t blocks) {
+    const std::uint64_t before = of.blocks_for(first);
+    return of.count(before + blocks) - of.count(before);
+}
+std::uint64_t questions_of(const soak::part& of, const soak::state& s) {
+    return questions_of(of, s.first, s.found.blocks);
+}
+
 /// A bar that moves on a terminal; elsewhere a line at half-minute intervals.
 class progress_display {
   public:
@@ -47,9 +57,9 @@ class progress_display {
         const double here = now.seconds - from_.seconds;
         if (here < shown_ + (terminal_ ? 0.5 : 30)) return;
         shown_ = here;
-        const std::uint64_t done = of_.count(now.found.blocks);
-        const std::uint64_t all = of_.count(blocks_);
-        const auto done_here = static_cast<double>(done - of_.count(from_.found.blocks));
+        const std::uint64_t done = questions_of(of_, now);
+        const std::uint64_t all = questions_of(of_, from_.first, blocks_);
+        const auto done_here = static_cast<double>(done - questions_of(of_, from_));
         const double rate = done_here / here;
         const double share = static_cast<double>(done) / static_cast<double>(all);
         std::string bar;
@@ -107,9 +117,8 @@ void report(const soak::part& of, const soak::state& s, const fs::path& folder) 
     for (std::size_t i = 0; i < s.found.differences.size() && i < 10; ++i)
         std::printf("\n%s", s.found.differences[i].text.c_str());
     std::printf("\nseed %ju: %s %s in %s, %s differ, checksum %016jx\n", std::uintmax_t{s.seed},
-                grouped(of.count(s.found.blocks)).c_str(), of.unit.c_str(),
-                duration(s.seconds).c_str(), grouped(s.found.different).c_str(),
-                std::uintmax_t{s.found.checksum});
+                grouped(questions_of(of, s)).c_str(), of.unit.c_str(), duration(s.seconds).c_str(),
+                grouped(s.found.different).c_str(), std::uintmax_t{s.found.checksum});
     for (const auto which : ccd::stored_kinds) {
         const fs::path path = folder / ("differences-" + std::string(short_name(which)) + ".csv");
         if (fs::exists(path)) {
@@ -124,9 +133,9 @@ void report(const soak::part& of, const soak::state& s, const fs::path& folder) 
     std::printf("state, with all that differ: %s\n", soak::state_path(folder).string().c_str());
 }
 
-/// The state to go on from.
-soak::state begin(const soak::part& of, std::uint64_t seed, bool seed_given, bool resume,
-                  const fs::path& folder) {
+/// The state to go on from. Options that are given must agree with a resumed state.
+soak::state begin(const soak::part& of, std::optional<std::uint64_t> seed,
+                  std::optional<std::uint64_t> first, bool resume, const fs::path& folder) {
     const fs::path path = soak::state_path(folder);
     if (!resume) {
         if (fs::exists(path)) {
@@ -134,7 +143,7 @@ soak::state begin(const soak::part& of, std::uint64_t seed, bool seed_given, boo
                                      ": found a run's state; go on with --resume, "
                                      "or forget it with --anew");
         }
-        return {.seed = seed};
+        return {.seed = seed.value_or(1), .first = first.value_or(0)};
     }
     soak::state s;
     const std::string text = errbound::support::read_whole(path);
@@ -143,10 +152,14 @@ soak::state begin(const soak::part& of, std::uint64_t seed, bool seed_given, boo
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(path.string() + ": " + error.what());
     }
-    if (seed_given && s.seed != seed) {
-        throw std::runtime_error(path.string() + ": found seed " + std::to_string(s.seed) +
-                                 ", expected the seed given, " + std::to_string(seed));
-    }
+    const auto require_same = [&](const char* name, std::uint64_t found, auto given) {
+        if (given && found != *given)
+            throw std::runtime_error(path.string() + ": found " + name + " " +
+                                     std::to_string(found) + ", expected the " + name + " given, " +
+                                     std::to_string(*given));
+    };
+    require_same("seed", s.seed, seed);
+    require_same("first", s.first, first);
     return s;
 }
 
@@ -196,20 +209,21 @@ void add_parts(CLI::App& app, command_line::choice& chosen) {
 
 }  // namespace
 
-command_line::command_line(const std::string& how, unsigned threads) {
-    options_.threads = threads;
+command_line::command_line() {
     chosen_.part = [] {
         return soak::comparison_part(soak::reference(), compared_with_reference());
     };
-    app_.name(how);
+    app_.name("./run soak");
     add_parts(app_, chosen_);
-    seed_option_ = app_.add_option("--seed", seed_, "Same seed, same questions")
-                       ->check(errbound::support::checked_seed)
-                       ->capture_default_str();
+    app_.add_option("--seed", seed_, "Same seed, same questions; 1 by default")
+        ->check(errbound::support::checked_seed);
+    app_.add_option("--first", first_,
+                    "Skip so many questions of the seed's sequence. Runs with first 0, N, 2N, ...\n"
+                    "and N questions each partition one long run")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
     app_.add_flag("--resume", resume_, "Go on where the last run stopped");
     app_.add_flag("--anew", anew_, "Forget the last run")->excludes("--resume");
-    app_.add_option("--threads", options_.threads, "0: one per core; over ranks those of each")
-        ->capture_default_str();
+    app_.add_option("--threads", options_.threads, "0: one per core")->capture_default_str();
     app_.add_option("--folder", options_.folder,
                     "For the state and what differs; by default out/soak/PART");
     app_.footer(
@@ -221,24 +235,26 @@ void command_line::parse(int argc, char** argv) {
     app_.parse(argc, argv);
     part_ = chosen_.part();
     if (options_.folder.empty()) options_.folder = fs::path("out/soak") / part_.name;
-    options_.blocks = part_.blocks_for(chosen_.count);
 }
 
-int command_line::run(const runner& run_part) const {
+int command_line::run() const {
     if (anew_) fs::remove(soak::state_path(options_.folder));
-    const state from = begin(part_, seed_, seed_option_->count() > 0, resume_, options_.folder);
+    const state from = begin(part_, seed_, first_, resume_, options_.folder);
+    run_options options = options_;
+    options.blocks = part_.blocks_for(from.first + chosen_.count) - part_.blocks_for(from.first);
     const errbound::support::awaited_signals signals("soak: asked to end; --resume goes on\n");
     std::printf("%s, seed %ju: %s of %s %s done\n", part_.name.c_str(), std::uintmax_t{from.seed},
-                grouped(part_.count(from.found.blocks)).c_str(),
-                grouped(part_.count(options_.blocks)).c_str(), part_.unit.c_str());
+                grouped(questions_of(part_, from)).c_str(),
+                grouped(questions_of(part_, from.first, options.blocks)).c_str(),
+                part_.unit.c_str());
     std::fflush(stdout);
-    progress_display display(part_, from, options_.blocks);
-    const soak::state last = run_part(from, options_, part_, signals.arrived(),
-                                      [&](const soak::state& now) { display(now); });
+    progress_display display(part_, from, options.blocks);
+    const soak::state last = soak::run(from, options, part_, signals.arrived(),
+                                       [&](const soak::state& now) { display(now); });
     display.end();
     report(part_, last, options_.folder);
     if (last.found.different > 0) return 1;
-    if (last.found.blocks < options_.blocks) {
+    if (last.found.blocks < options.blocks) {
         std::printf("stopped by signal %d; --resume goes on\n", signals.arrived().load());
         return 3;
     }

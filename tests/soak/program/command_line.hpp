@@ -1,17 +1,13 @@
-// What the soak is told, for one process and over ranks.
+// The options of the soak and their execution.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <functional>
-#include <string>
+#include <optional>
 
 #include "tests/soak/long_run.hpp"
 
 namespace soak {
-
-/// soak::run, or what does the same.
-using runner = std::function<decltype(soak::run)>;
 
 class command_line {
   public:
@@ -21,26 +17,21 @@ class command_line {
         soak::part (*part)() = nullptr;
     };
 
-    /// `how` it is called; `threads` unless it is told.
-    command_line(const std::string& how, unsigned threads);
+    command_line();
 
     /// Throws CLI::ParseError.
     void parse(int argc, char** argv);
     const CLI::App& app() const { return app_; }
 
-    const soak::part& part() const { return part_; }
-    const run_options& options() const { return options_; }
-
     /// Runs the part to its end or to a signal; returns the exit status. Throws std::runtime_error.
-    int run(const runner& run_part) const;
+    int run() const;
 
   private:
     CLI::App app_{"What is exact against a reference, or against itself."};
     choice chosen_;
     soak::part part_;
     run_options options_;
-    std::uint64_t seed_ = 1;
-    CLI::Option* seed_option_ = nullptr;
+    std::optional<std::uint64_t> seed_, first_;
     bool resume_ = false, anew_ = false;
 };
 

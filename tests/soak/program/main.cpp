@@ -7,13 +7,13 @@
 #include "tests/soak/program/command_line.hpp"
 
 int main(int argc, char** argv) try {
-    soak::command_line line("./run soak", 0);
+    soak::command_line line;
     try {
         line.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return line.app().exit(error) == 0 ? 0 : 2;
     }
-    return line.run(soak::run);
+    return line.run();
 } catch (const std::exception& error) {
     std::fprintf(stderr, "soak: %s\n", error.what());
     return 1;

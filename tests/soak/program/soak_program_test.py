@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 import time
 import unittest
+from collections import Counter
 from pathlib import Path
 
 PROGRAM = os.environ["SOAK_PROGRAM"]
@@ -62,6 +63,32 @@ class StopAndResume(unittest.TestCase):
     def test_symmetries(self):
         self.stop_and_resume(600000, "--symmetries")
 
+    def counts(self, name):
+        """The counts of a run by table and row, and the number of blocks."""
+        state = self.state(name)
+        self.assertEqual(state["different"], 0)
+        counts = Counter(blocks=state["blocks"])
+        for table in state["tables"]:
+            for row in table["rows"]:
+                for column, count in zip(table["columns"], row["counts"]):
+                    counts[table["title"], row["name"], column] += count
+        return counts
+
+    def test_ranges_together_make_the_whole_run(self):
+        for part, ranges in ((), (0, 4000, 8000)), (("--symmetries",), (0, 200000, 300000, 600000)):
+            with self.subTest(part=part):
+                whole = f"whole{len(part)}"
+                subprocess.run(
+                    self.command(whole, ranges[-1], *part), check=True, capture_output=True
+                )
+                total = Counter()
+                for first, end in zip(ranges, ranges[1:]):
+                    name = f"{whole}-{first}"
+                    command = self.command(name, end - first, "--first", str(first), *part)
+                    subprocess.run(command, check=True, capture_output=True)
+                    total += self.counts(name)
+                self.assertEqual(total, +self.counts(whole))
+
     def test_unfinished_run_is_not_overwritten(self):
         command = self.command("once", 1)
         self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
@@ -73,6 +100,11 @@ class StopAndResume(unittest.TestCase):
         )
         self.assertEqual(other_seed.returncode, 1)
         self.assertIn("found seed 1, expected the seed given, 2", other_seed.stderr)
+        other_range = subprocess.run(
+            command + ["--resume", "--first", "5"], capture_output=True, text=True
+        )
+        self.assertEqual(other_range.returncode, 1)
+        self.assertIn("found first 0, expected the first given, 5", other_range.stderr)
 
     def test_bad_usage(self):
         for options in (["many"], [1, "--unknown"]):

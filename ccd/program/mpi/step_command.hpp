@@ -1,4 +1,4 @@
-// The commands of ccd_mpi.
+// `ccd_mpi step`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,7 +9,5 @@
 namespace ccd::program {
 
 std::unique_ptr<command> distributed_step_command(CLI::App& program);
-std::unique_ptr<command> distributed_query_command(CLI::App& program);
-std::unique_ptr<command> distributed_stress_command(CLI::App& program);
 
 }  // namespace ccd::program
