@@ -42,7 +42,7 @@ constexpr method_info table[] = {
      "BSC in interval arithmetic, then in unbounded integers; Tang, Tong, Wang, Manocha 2014"},
     {method::safeccd, "safeccd", false, true,
      "never loses a collision; many false positives, from one uniform bound",
-     "SafeCCD; Wang 2014, corrected as docs/methods.md tells"},
+     "SafeCCD; Wang 2014, corrected: docs/collision-detection.md"},
     {method::safeccd_tight, "safeccd-tight", false, true,
      "never loses a collision; false positives where TightBound cannot tell",
      "SafeCCD with TightBound; Wang, Tang, Manocha, Tong 2015, Section 6"},

@@ -1,5 +1,5 @@
 // `root-parity`: the parity of a ray's crossings with the image of the domain's boundary, once over
-// intervals, where an uncertain sign ends it, and once over integers. docs/methods.md, "Root
+// intervals, where an uncertain sign ends it, and once over integers. proofs/README.md, "Root
 // parity", derives the map, the patches' triangles and the ray that is never degenerate.
 #include <algorithm>
 #include <array>

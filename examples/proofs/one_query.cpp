@@ -1,4 +1,5 @@
-// One query of exact, with the numbers that its stages look at: docs/one-query.md follows it.
+// One query of exact, with the numbers that its stages look at: docs/collision-detection.md
+// follows it.
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/methods/forms.hpp>

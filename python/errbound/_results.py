@@ -34,7 +34,7 @@ class Features(IntEnum):
 
 
 class NormalSource(IntEnum):
-    """What a normal is: docs/time-of-impact.md."""
+    """What a normal is: docs/collision-detection.md#contact-data."""
     CROSS_PRODUCT = 0
     NEAREST_POINTS = 1
     RELATIVE_VELOCITY = 2
@@ -114,7 +114,7 @@ class FirstTimes:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FirstContacts(FirstTimes):
-    """The same, and how they meet (docs/time-of-impact.md), k rows each:
+    """The same, and how they meet (docs/collision-detection.md#contact-data), k rows each:
 
     features: uint8, as Features numbers them. points: uint8 (k, p), p the number of points of the query: the indices
     of those that meet, as many as features says, then 0. weights: (k, p), one for each point of the query, each off

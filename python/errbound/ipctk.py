@@ -296,7 +296,7 @@ class _Mesh:
 
 
 class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignore]
-    """The exact narrow phase: docs/from-ipc-toolkit.md compares it with the toolkit's.
+    """The exact narrow phase: docs/collision-detection.md compares it with the toolkit's.
 
     conservative_rescaling, in (0, 1]: with less than 1 each pair keeps the fraction 1 - conservative_rescaling
     of its distance above min_distance at the start, at most max_gap > 0, up to the time of impact.

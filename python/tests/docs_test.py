@@ -8,12 +8,12 @@ from conftest import ROOT
 
 @pytest.mark.parametrize("page, printed", [("README.md", "vertex 2"), ("python/README.md", "free for 0.250"), ("docs/python.md", "vertex 2"),
                                            ("docs/in-ten-minutes.md", "free for 0.250"),
-                                           ("docs/from-ipc-toolkit.md", "theirs 0.0"),
-                                           ("docs/many-machines.md", "rank 0: ")])
+                                           ("docs/collision-detection.md", "theirs 0.0"),
+                                           ("docs/program.md", "rank 0: ")])
 def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
-    if page == "docs/from-ipc-toolkit.md":
+    if page == "docs/collision-detection.md":
         pytest.importorskip("ipctk", reason="ipctk is not installed (pip install ipctk)")
-    if page == "docs/many-machines.md":
+    if page == "docs/program.md":
         pytest.importorskip("errbound.mpi", reason="no mpi4py, or an errbound without MPI", exc_type=ImportError)
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)

@@ -38,7 +38,7 @@ Position first_parameter(bool (Interface::*)(Position, Rest...) const);
 
 }  // namespace detail
 
-/// An exact ipc::NarrowPhaseCCD; docs/from-ipc-toolkit.md compares it with the toolkit's.
+/// An exact ipc::NarrowPhaseCCD; docs/collision-detection.md compares it with the toolkit's.
 ///
 /// With conservative_rescaling 1, the default:
 ///

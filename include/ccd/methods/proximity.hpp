@@ -1,7 +1,7 @@
 // Proximity of a moving vertex and a moving edge: certainly never within reach, or perhaps.
 //
 // After the vertex/edge and vertex/vertex tests of SafeCCD (Wang 2014), with thresholds for any
-// reach: docs/methods.md, "Proximity of a vertex and an edge", derives them.
+// reach: proofs/README.md, "Proximity of a vertex and an edge", derives them.
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 //   decide_safeccd<safe>    `safeccd`: tolerances from one uniform bound on all coordinates
 //   decide_safeccd<tight>   `safeccd-tight`: tolerances from each variable's own bound
 //
-// Why no contact is lost, and what was changed against the published method: docs/methods.md,
+// Why no contact is lost, and what was changed against the published method: proofs/README.md,
 // "SafeCCD". Sources: Wang 2014, Defending continuous collision detection against errors; Wang,
 // Tang, Manocha, Tong 2015, Section 6 (SafeCCD with TightBound).
 #pragma once
@@ -166,7 +166,8 @@ class solver {
         return at_root(at(f, root), slack, root);
     }
 
-    /// Step 3 of docs/methods.md: reports the root, or leaves it to the proximity tests.
+    /// Step 3 of proofs/README.md, "SafeCCD": reports the root, or leaves it to the proximity
+    /// tests.
     constexpr verdict at_root(const scalar& f, T slack, T root) {
         const auto now = forms_at(forms_, scalar(T(1)), scalar(root));
         const std::array<scalar, 3> n{now.n.x[0], now.n.y[0], now.n.z[0]};

@@ -1,4 +1,4 @@
-// What SafeCCD counts as too close to tell: docs/methods.md, "SafeCCD", says what each serves for.
+// What SafeCCD counts as too close to tell: proofs/README.md, "SafeCCD", says what each serves for.
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,7 @@ prints it beside what it counts.
 import math
 
 # Of `./run bench --mpi` and `./run bench --sections growth` on cloth of triangles of about the same
-# size, two-core AMD EPYC: docs/many-machines.md.
+# size, two-core AMD EPYC: docs/program.md.
 HALO = 20.0           # elements that a box shares with others: HALO * sqrt(its own); 6 for flat cloth, 20 for crumpled
 VERTICES = 0.52       # a face, of cloth in large parts
 BYTES_FACE, BYTES_VERTEX = 24, 56       # sent
