@@ -24,9 +24,8 @@ PROGRAMS = {
     "docs/simulation.md": ["examples/simulation/own_solver.cpp"],
     "docs/many-machines.md": ["examples/mpi/distributed_step.cpp"],
     "docs/in-ten-minutes.md": ["examples/in_ten_minutes.cpp"],
-    "docs/elementary-functions.md": ["examples/functions/great_circle.cpp"],
     "docs/how-wrong.md": ["examples/explain/variance.cpp"],
-    "docs/research-on-bounds.md": ["examples/research/rules_compared.cpp"],
+    "docs/bound-rules.md": ["examples/functions/great_circle.cpp", "examples/research/rules_compared.cpp"],
     "docs/one-query.md": ["examples/proofs/one_query.cpp", "include/ccd/methods/forms.hpp", "ccd/exact/stages.cpp",
                           "ccd/exact/static_filter/subdivision.hpp"],
 }
