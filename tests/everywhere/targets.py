@@ -48,7 +48,7 @@ def zig(name, zig, triple, **more):
 
 # Of what C++17 removed, Boost 1.74 takes a class.
 LIBCXX_FLAGS = "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION"
-# x86-64 runs i386's programs itself; qemu 7.2 does not come to an end (docs/platforms.md).
+# x86-64 runs i386's programs itself; qemu 7.2 does not come to an end (docs/guarantees.md).
 I386_LOADER = ("/usr/i686-linux-gnu/lib/ld-linux.so.2", "--library-path", "/usr/i686-linux-gnu/lib")
 
 TARGETS = [

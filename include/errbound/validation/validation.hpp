@@ -5,7 +5,7 @@
 // stored collision queries, and number formats so small that every case can be tried. In all of
 // them a rule is held to two promises: |value − exact value| <= error(), and every certain sign is
 // the exact one. A fourth is of what tracked elementary functions assume of the system's.
-// docs/validation.md tells more.
+// docs/measured.md tells more.
 #pragma once
 
 #include <ccd/query.hpp>

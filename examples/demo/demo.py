@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Decides one step of a bundled scene by four methods: a table of reported pairs, and a picture of those of exact.
 
-    python3 examples/demo.py CCD OUT
+    python3 examples/demo/demo.py CCD OUT
 
 CCD is the program `ccd`. OUT receives each method's pairs (.csv) and statistics (.json), and contacts.png.
 """
@@ -10,8 +10,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-EXAMPLES = Path(__file__).resolve().parent
-FRAMES = [EXAMPLES / "scenes/cloth-over-ball" / name for name in ("frame0.ply", "frame1.ply")]
+HERE = Path(__file__).resolve().parent
+FRAMES = [HERE.parent / "scenes/cloth-over-ball" / name for name in ("frame0.ply", "frame1.ply")]
 METHODS = ["float", "safe", "tight", "exact"]
 ROW = "{:<8}{:>10}{:>10}{:>10}{:>10}{:>12}{:>10}{:>12}"
 
@@ -38,7 +38,7 @@ def main(ccd, out):
             method, candidates["vertex_face"], collisions["vertex_face"], candidates["edge_edge"],
             collisions["edge_edge"], len(pairs - exact), len(exact - pairs), f"{1000 * found['seconds']['narrow']:.1f}"))
     picture = out / "contacts.png"
-    subprocess.run([sys.executable, EXAMPLES / "draw_pairs.py", *FRAMES, out / "exact.csv", picture], check=True)
+    subprocess.run([sys.executable, HERE / "draw_pairs.py", *FRAMES, out / "exact.csv", picture], check=True)
     print("\nvf: vertex against face, ee: edge against edge; false positives and missed pairs by comparison with exact.")
     print("Uncertain pairs are reported. exact runs in SIMD batches, the others pair by pair.")
     print(f"pairs:   {(out / 'exact.csv').resolve()}\npicture: {picture.resolve()}")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the colliding pairs of one step on the mesh, as a PNG.
 
-    python3 examples/draw_pairs.py FRAME0.ply FRAME1.ply PAIRS.csv OUT.png
+    python3 examples/demo/draw_pairs.py FRAME0.ply FRAME1.ply PAIRS.csv OUT.png
 
 PAIRS.csv is what `ccd step --pairs` writes: lines `vf,v,f0,f1,f2` and `ee,a0,a1,b0,b1`. The mesh is
 shown at the end of the step, whole and enlarged where contacts are densest; each pair has a mark
