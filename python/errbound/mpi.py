@@ -1,7 +1,7 @@
 """Steps of meshes that are spread over the ranks of MPI, by mpi4py's communicators.
 
-Imported by its name alone, since it needs mpi4py, and an errbound that was built where MPI is:
-pip install --no-binary errbound --config-settings cmake.define.ERRBOUND_WITH_MPI=ON errbound. Both must be of the same MPI.
+Import it by name: it needs mpi4py, and an errbound built with the same MPI. Wheels are built without. In the source tree:
+pip install --config-settings cmake.define.ERRBOUND_WITH_MPI=ON . mpi4py.
 
 Each rank gives what it has: the numbers of its vertices in the whole mesh, (n,), any whole numbers from 0
 that differ, positions (n, 3) before and after, faces (m, 3) and edges (k, 2) by row of these. A vertex may be
