@@ -40,7 +40,8 @@ void claim_checker::check(const tiny_claim& r, const exact_range& exact, const t
         return;
     }
     // Exact, or infinite.
-    if (!(r.value - r.error <= exact.low && exact.high <= r.value + r.error))
+    if (!std::isnan(r.error) &&
+        !(r.value - r.error <= exact.low && exact.high <= r.value + r.error))
         add(r, "the bound is too small", how);
     check_sign(r, exact.low, exact.high, how);
 }
@@ -71,7 +72,9 @@ void claim_checker::check_product(const tiny_claim& r, const exact_range& a, con
         for (const double y : {b.low, b.high}) {
             low = std::min(low, x * y);
             high = std::max(high, x * y);
-            if (compare_product(x, y, least) >= 0 && compare_product(x, y, most) <= 0) continue;
+            if (std::isnan(r.error) ||
+                (compare_product(x, y, least) >= 0 && compare_product(x, y, most) <= 0))
+                continue;
             add(r, "the bound is too small", how);
             return;
         }
@@ -88,8 +91,8 @@ void claim_checker::check_quotient(const tiny_claim& r, const exact_range& n, co
     const double least = r.value - r.error, most = r.value + r.error;
     const exact_range dividends = d.low > 0 ? n : exact_range{-n.high, -n.low};
     for (const double divisor : {std::abs(d.low), std::abs(d.high)})
-        if (!(compare_product(least, divisor, dividends.low) <= 0 &&
-              compare_product(most, divisor, dividends.high) >= 0)) {
+        if (!std::isnan(r.error) && !(compare_product(least, divisor, dividends.low) <= 0 &&
+                                      compare_product(most, divisor, dividends.high) >= 0)) {
             add(r, "the bound is too small", how);
             return;
         }
@@ -103,8 +106,8 @@ void claim_checker::check_root(const tiny_claim& r, const exact_range& x, const 
     }
     ++found_.values;
     const double least = r.value - r.error, most = r.value + r.error;  // exact, or infinite
-    if (!((least <= 0 || compare_product(least, least, x.low) <= 0) &&
-          compare_product(most, most, x.high) >= 0))
+    if (!std::isnan(r.error) && !((least <= 0 || compare_product(least, least, x.low) <= 0) &&
+                                  compare_product(most, most, x.high) >= 0))
         add(r, "the bound is too small", how);
     check_sign(r, x.low, x.high, how);
 }
@@ -126,8 +129,8 @@ void claim_checker::check_fused(const tiny_claim& r, std::span<const fused_value
         const int sign = compare_product(left, right, -addend);
         low = std::min(low, sign);
         high = std::max(high, sign);
-        if (compare_product(left, right, least - addend) >= 0 &&
-            compare_product(left, right, most - addend) <= 0)
+        if (std::isnan(r.error) || (compare_product(left, right, least - addend) >= 0 &&
+                                    compare_product(left, right, most - addend) <= 0))
             continue;
         add(r, "the bound is too small", how);
         return;
