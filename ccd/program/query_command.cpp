@@ -78,12 +78,12 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
         "--round", round_,
         "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
         "them (decimals always mean the nearest double)");
-    line_.add_option("--first", range_.first, "Skip so many queries of each file")
+    line_.add_option("--first", range_.first, "Skip the first N queries of each file")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48))
         ->capture_default_str();
     line_
         .add_option("--count", range_.count,
-                    "Decide at most so many queries of each file, else all")
+                    "Decide at most N queries of each file; all by default")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48));
     line_
         .add_option("--verdicts", verdicts_,

@@ -89,17 +89,16 @@ validate_options::validate_options(CLI::App& program)
 void validate_options::add_expressions() {
     line_
         .add_option("--expressions", arguments_.options.expressions,
-                    "Random expressions, at least so many per rule and number type")
+                    "Random expressions, at least N per rule and number type")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
         ->capture_default_str();
     line_.add_option("--seed", arguments_.options.seed, "Same seed, same expressions")
         ->check(support::checked_seed)
         ->capture_default_str();
     line_
-        .add_option(
-            "--first", arguments_.options.first,
-            "Skip so many expressions of the seed's sequence. Runs with first 0, N, 2N, ... "
-            "and N\nexpressions each partition one long run")
+        .add_option("--first", arguments_.options.first,
+                    "Skip the first N expressions of the seed's sequence. Runs with --first 0, M, "
+                    "2M, ... and\nM expressions each partition one long run")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40))
         ->capture_default_str();
     line_

@@ -4,7 +4,7 @@
 #include <errbound/printing.hpp>
 #include <iostream>
 
-/// Of a C library that promises no more (docs/bound-rules.md).
+/// The assumed error of a C library that promises no more (docs/bound-rules.md).
 template <>
 inline constexpr double errbound::function_error<errbound::elementary_function::cos, double> = 2;
 

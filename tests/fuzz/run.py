@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAVED = ROOT / "tests/fuzz/corpus"
 FOUND = ROOT / "out/fuzz"
-# Of each fuzzer in the tree. What runs find beyond stays in out/fuzz/NAME/corpus.
+# The number of inputs kept in the tree for each fuzzer. Others stay in out/fuzz/NAME/corpus.
 SEEDS = 15
 
 
@@ -65,7 +65,7 @@ def run(build, name, minutes):
 
 
 def features(build, name):
-    """The inputs, old and new, each with the edges it covers."""
+    """The inputs, old and new, each with the features (edges) that it covers."""
     folder = FOUND / name
     control = folder / "control"
     control.unlink(missing_ok=True)

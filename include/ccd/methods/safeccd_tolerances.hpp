@@ -1,4 +1,4 @@
-// What SafeCCD counts as too close to tell: proofs/README.md, "SafeCCD", says what each serves for.
+// The tolerances of SafeCCD. proofs/README.md, "SafeCCD", gives the purpose of each.
 #pragma once
 
 #include <algorithm>

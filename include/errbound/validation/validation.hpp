@@ -102,8 +102,8 @@ report examine(const evidence& what, int threads, const progress& show = {});
 struct expression_options {
     std::uint64_t expressions = 10'000'000;  ///< at least so many per rule and number type
     std::uint64_t seed = 1;
-    /// Skips so many expressions of the seed's sequence. Ranges that follow one another partition
-    /// it.
+    /// The number of skipped expressions of the seed's sequence. Ranges that follow one another
+    /// partition it.
     std::uint64_t first = 0;
     int operations = 16;  ///< at most, in one expression; 1 to 48
     int threads = 0;      ///< 0: one per core

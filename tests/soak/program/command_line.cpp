@@ -217,9 +217,10 @@ command_line::command_line() {
     add_parts(app_, chosen_);
     app_.add_option("--seed", seed_, "Same seed, same questions; 1 by default")
         ->check(errbound::support::checked_seed);
-    app_.add_option("--first", first_,
-                    "Skip so many questions of the seed's sequence. Runs with first 0, N, 2N, ...\n"
-                    "and N questions each partition one long run")
+    app_.add_option(
+            "--first", first_,
+            "Skip the first N questions of the seed's sequence. Runs with --first 0, M, 2M, ...\n"
+            "and M questions each partition one long run")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
     app_.add_flag("--resume", resume_, "Go on where the last run stopped");
     app_.add_flag("--anew", anew_, "Forget the last run")->excludes("--resume");
