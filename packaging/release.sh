@@ -1,7 +1,12 @@
-# shellcheck shell=bash disable=SC2154  # run's variables
-# ./run release: everything that is published, made of the last commit and tested as its users would have
-# it. Sourced by run, whose functions it uses; everything goes into out/release, and into
-# out/release-work meanwhile.
+#!/usr/bin/env bash
+# shellcheck disable=SC2154  # variables of cmake/packages.sh
+# ./run release: makes everything that is published from the last commit, and tests it as its users would get
+# it. Results go to out/release, intermediate files to out/release-work.
+set -euo pipefail
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+cd -- "$root"
+# shellcheck source=cmake/packages.sh
+source cmake/packages.sh
 release_work=$root/out/release-work
 export_of_head=$release_work/errbound # a clean tree
 wheel_tools=$release_work/tools
@@ -240,3 +245,5 @@ release() {
     printf 'release %s of %s in %d s: out/release\n' "$(project_version)" "$released" "$SECONDS"
     rm -rf -- "$release_work"
 }
+
+release

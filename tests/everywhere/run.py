@@ -19,6 +19,8 @@ import zig
 from targets import TARGETS
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "cmake"))
+import run_tests  # noqa: E402
 OUT = ROOT / "out" / "everywhere"
 HEADERS = OUT / "headers"
 ROW = "{:<18}{:<40}{:>10}{:>8}{:>8}  {}"
@@ -204,11 +206,9 @@ class Build:
 
     def make_all(self, label):
         """The programs, and the tests with that label."""
-        self.make("build", *PROGRAMS, *(self.test_targets(chosen_by(label)) if label else []))
-
-    def test_targets(self, chosen):
-        helper = [sys.executable, ROOT / "cmake" / "test_targets.py", self.folder / "build", *chosen]
-        return self.run(*helper, why="its tests cannot be listed")[1].split()
+        build = self.folder / "build"
+        tests = run_tests.chosen(build, chosen_by(label)) if label else []
+        self.make("build", *PROGRAMS, *run_tests.targets_of(build, tests))
 
     def tests(self, label):
         """How many of the tests with that label passed, as text, and whether all did."""
@@ -229,10 +229,15 @@ def chosen_by(label):
 
 
 def source_of(package):
-    """The distribution's, which ./run everywhere fetches."""
-    source = next((OUT / package / "source").glob(f"{package}-*/"), None)
+    """The distribution's, fetched if it is not there."""
+    folder = OUT / package
+    if not any((folder / "source").glob(f"{package}-*/")):
+        folder.mkdir(parents=True, exist_ok=True)
+        with open(folder / "log", "w") as log:
+            subprocess.run([ROOT / "tests/everywhere/fetch_source.sh", package, folder], stdout=log, stderr=log)
+    source = next((folder / "source").glob(f"{package}-*/"), None)
     if source is None:
-        raise Failed(f"no source of {package} here: ./run everywhere fetches it")
+        raise Failed(f"the source of {package} cannot be fetched: {(folder / 'log').relative_to(ROOT)}")
     return source
 
 
@@ -334,10 +339,8 @@ def main():
                         help="how many compilers or tests at a time (%(default)s)")
     parser.add_argument("--instructions", action="store_true",
                         help=f"instead of rows, instructions per query of the kernels of {' and '.join(COUNTED)}")
-    needs = parser.add_mutually_exclusive_group()
-    needs.add_argument("--packages", action="store_true",
-                       help="only prints what it installs for these targets, beside the packages of a build")
-    needs.add_argument("--sources", action="store_true", help="only prints of which packages it takes the source")
+    parser.add_argument("--packages", action="store_true",
+                        help="instead of rows, the packages that these targets need, except those of every build")
     arguments = parser.parse_args()
     known = {t.name for t in TARGETS}
     unknown = set(arguments.targets) - known
@@ -351,10 +354,6 @@ def main():
     chosen = [t for t in TARGETS if t.name in named or not named]
     if arguments.packages:
         print(*sorted({p for t in chosen for p in t.packages}), sep="\n")
-        return 0
-    if arguments.sources:
-        if not all(t.refused for t in chosen):
-            print("onetbb", *["gmp"] * bool(arguments.tests and not arguments.instructions))
         return 0
     link_headers()
     if arguments.instructions:

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# The Python package in an environment of its own, out/python/env, of the distribution's Python.
+# package.sh            builds the sdist and the wheel, installs it, runs mypy and the tests; with
+#                       ERRBOUND_VIEWERS=1 also tests with a browser, VTK, polyscope and ipctk (1.2 GB)
+# package.sh --bench    the same, but measures the cost of calls next to C++ instead of the tests
+# package.sh --site     builds the site, out/docs/site, with both references, and checks its links
+set -euo pipefail
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
+# shellcheck source=cmake/packages.sh
+source cmake/packages.sh
+out=$PWD/out/python
+env=$out/env/bin/python
+pip() { "$env" -m pip "$1" -q --disable-pip-version-check "${@:2}"; }
+
+# Returns 1 if pip's index cannot be reached.
+make_package() {
+    local with_mpi=OFF
+    [[ -x $env ]] || "$python" -m venv "$out/env"
+    pip install build mypy numpy pytest || return 1
+    if command -v mpirun >/dev/null && pip install mpi4py; then with_mpi=ON; fi
+    rm -rf -- "$out/dist"
+    {
+        "$env" -m build --sdist -o "$out/dist" . &&
+            pip wheel --no-deps -w "$out/dist" --config-settings cmake.define.ERRBOUND_WITH_MPI="$with_mpi" \
+                "$out"/dist/*.tar.gz
+    } >"$out/log" 2>&1 || fail_with_log out/python/log 'the Python package cannot be built'
+    pip install --force-reinstall --no-deps "$out"/dist/*.whl
+    du -h "$out"/dist/*
+}
+
+make_package_or_skip() {
+    make_package || {
+        printf 'skipped: the package index of pip cannot be reached\n'
+        exit 0
+    }
+}
+
+install_viewers() {
+    if [[ -n $(apt-cache madison chromium-headless-shell 2>/dev/null) ]]; then
+        need chromium-headless-shell
+    fi
+    pip install h5py pillow playwright polyscope vtk ipctk
+}
+
+need "${build_packages[@]}" "${python_packages[@]}"
+case ${1:-} in
+    --site)
+        need doxygen
+        wheel=$(find "$out/dist" -name '*.whl' 2>/dev/null || true)
+        if [[ -z $wheel || -n $(find python/errbound python/src -type f ! -name '*.pyc' -newer "$wheel" -print -quit) ]]
+        then make_package_or_skip; fi
+        pip install mkdocs-material pdoc
+        "$env" docs/site/build.py
+        ;;
+    --bench)
+        make_package_or_skip
+        cmake --preset bench -DERRBOUND_BUILD_TESTS=OFF >/dev/null
+        cmake --build --preset bench --target errbound_python_peer
+        "$env" python/bench/compare.py build/rooms/python/errbound_python_peer
+        ;;
+    '')
+        make_package_or_skip
+        if [[ ${ERRBOUND_VIEWERS:-0} == 1 ]]; then
+            (install_viewers) || printf 'run: viewers could not be installed; tests of them are skipped\n'
+        fi
+        "$env" -m mypy -p errbound
+        "$env" -m pytest -q -rs
+        ;;
+    *) fail "python is given $*; expected nothing, --bench or --site" ;;
+esac

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# ./run bench --native: the same benchmarks by a portable build and by one for this processor only, alternately,
+# so that what disturbs the machine disturbs both. Arguments: options of errbound_bench.
+set -euo pipefail
+cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.."
+cmake --preset native >/dev/null
+cmake --build build --target errbound_bench
+cmake --build build-native --target errbound_bench
+out=out/bench
+mkdir -p "$out"
+for round in 1 2 3; do
+    printf 'round %d of 3\n' "$round"
+    for build in build build-native; do
+        "$build/tests/bench/errbound_bench" --sections methods,steps "$@" --json "$out/$build-$round.json" >/dev/null
+    done
+done
+/usr/bin/python3 tests/bench/compare.py "$out"/build-[123].json "$out"/build-native-[123].json
