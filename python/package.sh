@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The Python package in an environment of its own, out/python/env, of the distribution's Python.
-# package.sh            builds the sdist and the wheel, installs it, runs mypy and the tests; with
-#                       ERRBOUND_VIEWERS=1 also tests with a browser, VTK, polyscope and ipctk (1.2 GB)
-# package.sh --bench    the same, but measures the cost of calls next to C++ instead of the tests
+# Builds the Python package and installs it in the virtual environment out/python/env.
+# package.sh            then runs mypy and the tests; with ERRBOUND_VIEWERS=1 also those with a
+#                       browser, VTK, polyscope and ipctk (1.2 GB)
+# package.sh --bench    then measures the cost of calls next to C++
 # package.sh --site     builds the site, out/docs/site, with both references, and checks its links
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
@@ -61,7 +61,7 @@ case ${1:-} in
     '')
         make_package_or_skip
         if [[ ${ERRBOUND_VIEWERS:-0} == 1 ]]; then
-            (install_viewers) || printf 'run: viewers could not be installed; tests of them are skipped\n'
+            (install_viewers) || printf 'run: viewers cannot be installed; their tests are skipped\n'
         fi
         "$env" -m mypy -p errbound
         "$env" -m pytest -q -rs

@@ -1,7 +1,7 @@
-"""The package's calls beside the same of C++, in turns: a step of a mesh, and its edge/edge candidates by index.
+"""Compares calls of the package with C++: a step of a mesh, and its edge/edge candidates by index.
 
-Arguments: the program errbound_python_peer; optionally two frames, else the public cloth-ball step where
-it is stored (ERRBOUND_SHARED_DATA), else the bundled scene.
+Arguments: the program errbound_python_peer; optionally two frames. The default is the public cloth-ball step, if it
+is stored (ERRBOUND_SHARED_DATA), or the bundled scene.
 """
 import os
 import statistics
@@ -33,7 +33,7 @@ def main():
     calls = {"step": lambda: len(steps.run(*positions).pairs),
              "decide": lambda: len(ccd.decide(pairs, "edge_edge", positions=positions).outcome)}
     peer = subprocess.Popen([sys.argv[1], *frames], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    print(f"{frames[0]}: milliseconds, medians of {ROUNDS} calls in turns; the ratio's median")
+    print(f"{frames[0]}: milliseconds, medians of {ROUNDS} alternating calls; the ratio's median")
     for name, call in calls.items():
         of_python, of_cpp = [], []
         for _ in range(ROUNDS):

@@ -1,9 +1,9 @@
-"""Steps by ipc-toolkit's own functions, by these over our broad phase, and by ours: sizes and times.
+"""Compares step sizes and times: ipc-toolkit's functions, these with our broad phase, and our functions.
 
 usage: ipctk_peer.py SCENE...   (folders with two frames of a mesh, in them or in their folder frames)
 
-All threads; the least time of three; what takes longer than a minute is ended. The last column of each: pairs in contact
-on the way to before + step * (after - before), by exact; but for those that touch at the start.
+All threads; least of three times, at most a minute each. The last column counts pairs in contact in the motion to
+before + step * (after - before), decided by exact, except those that touch at the start.
 """
 import multiprocessing
 import pathlib
@@ -17,11 +17,11 @@ import numpy as np
 from errbound import ccd, io
 from errbound import ipctk as exact
 
-REPEATS, LIMIT = 3, 60  # seconds of one
+REPEATS, LIMIT = 3, 60  # LIMIT: seconds of one call
 
 
 def ways(mesh, before, after):
-    """By name: what answers with a step size."""
+    """Returns functions that compute a step size, by name."""
     return {
         "ipctk": lambda: ipctk.compute_collision_free_stepsize(mesh, before, after),
         "ipctk, our broad phase": lambda: ipctk.compute_collision_free_stepsize(
@@ -31,7 +31,7 @@ def ways(mesh, before, after):
 
 
 def answer(results, name, before, after, faces):
-    ipctk.set_logger_level(ipctk.LoggerLevel.error)  # it warns of each pair that is near
+    ipctk.set_logger_level(ipctk.LoggerLevel.error)  # it warns for each pair that is near
     mesh = ipctk.CollisionMesh(np.asfortranarray(before), ipctk.edges(faces), faces)
     for _ in range(REPEATS):
         start = time.perf_counter()
@@ -39,10 +39,10 @@ def answer(results, name, before, after, faces):
         results.put((step, time.perf_counter() - start))
 
 
-def timed(*asked):
-    """Step size and seconds, or nothing if it takes too long."""
+def timed(*arguments):
+    """Returns step size and seconds, or None after LIMIT seconds."""
     results = multiprocessing.Queue()
-    process = multiprocessing.Process(target=answer, args=(results, *asked))
+    process = multiprocessing.Process(target=answer, args=(results, *arguments))
     process.start()
     try:
         found = [results.get(timeout=LIMIT) for _ in range(REPEATS)]

@@ -1,6 +1,5 @@
-// The C++ side of compare.py: times one call for each line that it reads.
-//
-// Arguments: two frames. A line "step" or "decide" is answered by the seconds that the call took.
+// The C++ side of compare.py. Arguments: two frames. Reads lines "step" or "decide", runs this call
+// and prints its seconds.
 #include <ccd/batch.hpp>
 #include <ccd/io/mesh_file.hpp>
 #include <ccd/step.hpp>
@@ -15,10 +14,10 @@ int main(int, char** arguments) {
     const ccd::vertex_rows positions(before, after);
     ccd::mesh_steps steps(before);
     const auto pairs = steps.candidates(positions).edge_edge;
-    for (std::string asked; std::getline(std::cin, asked);) {
+    for (std::string call; std::getline(std::cin, call);) {
         const auto start = std::chrono::steady_clock::now();
         std::size_t found = 0;
-        if (asked == "step")
+        if (call == "step")
             found = number_of(steps.run(positions).pairs);
         else
             found = ccd::decide_batch(positions, pairs).answers.size();

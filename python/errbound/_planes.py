@@ -1,4 +1,4 @@
-"""Moving vertices against fixed planes: first times, exactly, by rational numbers."""
+"""First contact times of moving vertices and fixed planes, computed exactly with rational numbers."""
 from __future__ import annotations
 
 import math
@@ -12,24 +12,26 @@ from numpy.typing import ArrayLike
 
 from ._arrays import Doubles
 
-_ROUNDING, _LEAST = 2.0**-50, 2.0**-1070  # bounds of what four products and their sum are off by
+_ROUNDING, _LEAST = 2.0**-50, 2.0**-1070  # relative and absolute error bounds of a sum of four products
 
 
 def _approximate_root(square: Fraction) -> Fraction:
-    """The square root of a positive number, off by less than 2^-70 of it."""
+    """Returns the square root of a positive number with a relative error below 2^-70."""
     shift = max(0, 140 - square.numerator.bit_length() + square.denominator.bit_length()) // 2 + 1
     return Fraction(math.isqrt((square.numerator << 2 * shift) // square.denominator), 1 << shift)
 
 
 def _double(bits: int) -> float:
-    """The non-negative double of these bits, which are ordered as the doubles are."""
+    """Returns the non-negative double with these bits. The order of bits is the order of doubles."""
     value: float = struct.unpack("<d", struct.pack("<q", bits))[0]
     return value
 
 
 def _last_true(holds: Callable[[float], bool], near: float) -> float:
-    """The largest double in [0, 1] up to which holds is true. It is true of 0, and `near` is near the end;
-    cost: twice the logarithm of the number of doubles between."""
+    """Returns the largest double in [0, 1] up to which holds is true.
+
+    Precondition: holds(0). Cost: twice the logarithm of the number of doubles between `near` and the result.
+    """
     bits, one = struct.unpack("<q", struct.pack("<d", near))[0], struct.unpack("<q", struct.pack("<d", 1.0))[0]
     stride, low, high = 1, 0, one + 1
     if holds(near):
@@ -56,7 +58,7 @@ def _last_true(holds: Callable[[float], bool], near: float) -> float:
 
 
 class _Motion:
-    """The plane's linear form along one vertex's way, f(t) = f0 + (f1 - f0) t with f0 >= 0."""
+    """The plane's linear form along the path of one vertex, f(t) = f0 + (f1 - f0) t with f0 >= 0."""
 
     def __init__(self, plane: Plane, start: Any, end: Any) -> None:
         f0, f1 = plane.exact_form(start), plane.exact_form(end)
@@ -64,8 +66,7 @@ class _Motion:
         self.square = plane.square
 
     def first(self, distance: Fraction) -> float:
-        """The largest double that is not after the first t in [0, 1] within that distance of the plane;
-        infinite if there is none."""
+        """Returns the largest double <= the first t in [0, 1] within this distance of the plane, or infinity."""
         limit = distance * distance * self.square
         if self.f0 * self.f0 <= limit:
             return 0.0
@@ -81,7 +82,7 @@ class _Motion:
 
 
 class Plane:
-    """All x with normal . x + offset = 0; the normal may be of any length."""
+    """All x with normal . x + offset = 0. The normal may have any length."""
 
     def __init__(self, index: int, normal: ArrayLike, offset: float) -> None:
         self.normal, self.offset = np.array(normal, float), float(offset)
@@ -95,17 +96,20 @@ class Plane:
                    Fraction(self.offset))
 
     def form(self, positions: Doubles) -> tuple[Any, Any]:
-        """The linear form at each position in doubles, and a bound of its error."""
+        """Returns the linear form at each position in doubles, and a bound of its error."""
         size = np.abs(positions) @ np.abs(self.normal) + abs(self.offset)
         return positions @ self.normal + self.offset, _ROUNDING * size + _LEAST
 
     def length(self) -> float:
-        """At least that of the normal, by less than 2^-49 of it."""
+        """Returns an upper bound of the normal's length, with a relative error below 2^-49."""
         return math.hypot(*self.normal.tolist()) * (1 + _ROUNDING) + _LEAST
 
     def possible(self, start: Doubles, end: Doubles, distance: Any) -> Iterator[tuple[float, int]]:
-        """Vertices that may come within a distance, (n,) or one of all, and a time before which each
-        does not; by these times. Of vertices on equal ways across the plane, one."""
+        """Yields (time, vertex) for vertices that may come within a distance, in order of time.
+
+        The distance is (n,) or one number. A vertex is farther away before its time. Vertices with equal motions
+        across the plane are yielded once.
+        """
         with np.errstate(over="ignore", invalid="ignore"):
             (f0, e0), (f1, e1) = self.form(start), self.form(end)
             width = np.asarray(distance) * self.length() * (1 + _ROUNDING) + _LEAST
@@ -127,14 +131,14 @@ class Plane:
 
 
 class Planes:
-    """Planes that vertices keep a distance from, on ways from `start`, (n, 3)."""
+    """Planes from which vertices that move from `start`, (n, 3), keep a distance."""
 
     def __init__(self, planes: Sequence[Any], start: Doubles, distance: float) -> None:
         self._planes = [Plane(i, p.normal(), p.offset()) for i, p in enumerate(planes)]
         self._start, self._distance = start, distance
 
     def first(self, end: Doubles) -> float:
-        """The largest double that is not after the first time of any vertex; infinite if there is none."""
+        """Returns the largest double <= the first contact time of all vertices, or infinity."""
         distance, least = Fraction(self._distance), math.inf
         for plane in self._planes:
             for before, v in plane.possible(self._start, end, self._distance):
@@ -144,8 +148,10 @@ class Planes:
         return least
 
     def first_with_gap(self, end: Doubles, rescaling: float, max_gap: float) -> float:
-        """As first, and each vertex keeps the fraction 1 - rescaling of its gap at the start, at most
-        max_gap. If rounding leaves no gap, the time is multiplied by rescaling."""
+        """Same as first, but each vertex keeps the fraction 1 - rescaling of its gap at the start, at most max_gap.
+
+        If rounding leaves no gap, the time is multiplied by rescaling.
+        """
         distance, least = Fraction(self._distance), math.inf
         for plane in self._planes:
             form, _ = plane.form(self._start)

@@ -1,4 +1,4 @@
-"""What errbound.ccd returns: small classes of named arrays."""
+"""Results of errbound.ccd: small classes of named arrays."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -19,14 +19,14 @@ Times = dict[str, dict[str, Doubles]]
 
 
 class Outcome(IntEnum):
-    """Of a query. UNCERTAIN: a method other than "exact" could not tell; count it as contact."""
+    """Outcome of a query. UNCERTAIN: a method other than "exact" could not decide; count it as a contact."""
     SEPARATE = 0
     COLLIDES = 1
     UNCERTAIN = 2
 
 
 class Features(IntEnum):
-    """Which features meet; VERTEX_FACE and EDGE_EDGE: inside both."""
+    """The features that meet. VERTEX_FACE and EDGE_EDGE: in the interior of both."""
     VERTEX_FACE = 0
     EDGE_EDGE = 1
     VERTEX_EDGE = 2
@@ -34,7 +34,7 @@ class Features(IntEnum):
 
 
 class NormalSource(IntEnum):
-    """What a normal is: docs/collision-detection.md#contact-data."""
+    """The source of a normal (docs/collision-detection.md#contact-data)."""
     CROSS_PRODUCT = 0
     NEAREST_POINTS = 1
     RELATIVE_VELOCITY = 2
@@ -43,7 +43,7 @@ class NormalSource(IntEnum):
 
 @dataclass(frozen=True)
 class Stage:
-    """What a stage of "exact" did: numbers of queries, and seconds of all threads together."""
+    """Counts of queries in one stage of "exact", and its seconds summed over threads."""
     name: str
     entered: int
     left_out: int
@@ -54,7 +54,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class Method:
-    """A method by name, what it promises, and its source."""
+    """The name, guarantee and source of a method."""
     name: str
     may_lose_collisions: bool
     may_report_false_collisions: bool
@@ -68,7 +68,7 @@ def _first(time: tuple[float, float] | None) -> str:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Decisions:
-    """One outcome a query, uint8 (n,), as Outcome numbers them; stages if they were asked for."""
+    """One outcome per query: uint8 (n,), values of Outcome. stages: with stages=True, else None."""
     outcome: Codes
     stages: list[Stage] | None = None
 
@@ -79,21 +79,21 @@ class Decisions:
 
     @property
     def collides(self) -> Flags:
-        """Which certainly collide, (n,)."""
+        """True for queries that certainly collide, (n,)."""
         return np.asarray(self.outcome == Outcome.COLLIDES)
 
     @property
     def may_collide(self) -> Flags:
-        """Which are not certainly separate, (n,): the same, if the method is "exact"."""
+        """True for queries that are not certainly separate, (n,). Equals collides if the method is "exact"."""
         return np.asarray(self.outcome != Outcome.SEPARATE)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FirstTimes:
-    """The k queries that collide, ascending, with their first times in [0, t_max].
+    """The first contact times in [0, t_max] of the k queries that collide, in order of rows.
 
-    query: uint64 (k,), their rows. low, high: float64 (k,): the first time is strictly between these
-    neighbouring doubles, or is both. Arrays may be views with a stride.
+    query: uint64 (k,), rows. low, high: float64 (k,). The first time is strictly between these adjacent doubles,
+    or equals both. Arrays may be strided views.
     """
     query: NDArray[np.uint64]
     low: Doubles
@@ -108,19 +108,19 @@ class FirstTimes:
 
     @property
     def at_start(self) -> Flags:
-        """Which hold at t = 0 already, (k,)."""
+        """True for queries in contact at t = 0, (k,)."""
         return np.asarray(self.high == 0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FirstContacts(FirstTimes):
-    """The same, and how they meet (docs/collision-detection.md#contact-data), k rows each:
+    """First times with contact data (docs/collision-detection.md#contact-data), k rows each; p: points of a query.
 
-    features: uint8, as Features numbers them. points: uint8 (k, p), p the number of points of the query: the indices
-    of those that meet, as many as features says, then 0. weights: (k, p), one for each point of the query, each off
-    by at most weight_error. normal: (k, 3), of unit length from the second feature to the first, off by at most
-    normal_error; normal_from, uint8, as NormalSource numbers it; sided, bool: whether it points to where
-    the first feature was. normal_velocity: lengths a step, negative if they approach.
+    features: uint8, values of Features. points: uint8 (k, p), the indices of the points of these features, then 0.
+    weights: (k, p), each with an error of at most weight_error. normal: (k, 3), a unit vector from the second
+    feature to the first, with an error of at most normal_error. normal_from: uint8, values of NormalSource.
+    sided: True if the normal points to the side from which the first feature came.
+    normal_velocity: lengths per step, negative on approach.
     """
     features: Codes
     points: Codes
@@ -136,8 +136,10 @@ class FirstContacts(FirstTimes):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Pairs:
-    """Pairs of vertex indices, uint32, each list sorted: vertex_face (k, 4): v f0 f1 f2; edge_edge (k, 4):
-    a0 a1 b0 b1; vertex_edge (k, 3): v e0 e1; vertex_vertex (k, 2)."""
+    """Pairs by kind, as sorted rows of uint32 vertex indices.
+
+    vertex_face (k, 4): v f0 f1 f2; edge_edge (k, 4): a0 a1 b0 b1; vertex_edge (k, 3): v e0 e1; vertex_vertex (k, 2).
+    """
     vertex_face: Indices
     edge_edge: Indices
     vertex_edge: Indices
@@ -151,7 +153,7 @@ class Pairs:
 
 
 def _listed(pairs: Any) -> str:
-    """The numbers of pairs, of those kinds that there are."""
+    """Returns the numbers of pairs by kind, as text."""
     kinds = {kind: len(getattr(pairs, kind))
              for kind in ("vertex_face", "edge_edge", "vertex_edge", "vertex_vertex")}
     counts = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
@@ -160,11 +162,11 @@ def _listed(pairs: Any) -> str:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StepResult:
-    """The pairs of a step that are not certainly separate; what else was asked for, else None or empty.
+    """The pairs of a step that are not certainly separate. Members without their option are None or empty.
 
-    times: by kind, dictionaries of low and high, float64 (k,) as FirstTimes has them, in the order of
-    pairs. first_contact: (low, high) of the earliest pair that does not touch at the start, or None; option
-    times asks for it, too. touching_at_start: those that do, by the options initial_contact, first_contact, times.
+    times: by kind, dictionaries of low and high, float64 (k,), as in FirstTimes, in the order of pairs.
+    first_contact (options first_contact, times): (low, high) of the earliest pair that does not touch at t = 0.
+    touching_at_start (options initial_contact, first_contact, times): pairs that touch at t = 0.
     candidates: counts by kind. seconds: by phase.
     """
     pairs: Pairs
@@ -177,22 +179,22 @@ class StepResult:
     stages: list[Stage] | None
 
     def __repr__(self) -> str:
-        told = f"; {_first(self.first_contact)}" if self.times is not None or self.first_contact else ""
-        return f"<ccd.StepResult, {_listed(self.pairs)}{told}; {self.seconds['total']:.3g} s>"
+        contact = f"; {_first(self.first_contact)}" if self.times is not None or self.first_contact else ""
+        return f"<ccd.StepResult, {_listed(self.pairs)}{contact}; {self.seconds['total']:.3g} s>"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedStepResult(StepResult):
-    """The result of a step with times=True: a StepResult whose times is not None."""
+    """A StepResult with times=True: its times is not None."""
     times: Times
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AdvanceResult:
-    """Positions, float64 and of the shape of before, to which the step is certainly free, except for the pairs listed.
+    """The positions up to which the step is certainly free of contact, except for the listed pairs.
 
-    fraction: the least of fractions, (n,), those of the way that each vertex goes. first_contact: (low,
-    high) of the earliest contact on the whole way, or None.
+    positions: float64, with the shape of before. fractions: (n,), the fraction of its path that each vertex moves;
+    fraction: the least. first_contact: (low, high) of the earliest contact in the whole step, or None.
     """
     positions: Doubles
     fraction: float

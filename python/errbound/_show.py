@@ -1,4 +1,4 @@
-"""Looking at a step: a window of polyscope's, or a page for a browser."""
+"""Display of a step in polyscope or on an HTML page."""
 from __future__ import annotations
 
 import os
@@ -19,22 +19,20 @@ FACE, EDGE, POINT, MESH = (0.79, 0.15, 0.10), (0.04, 0.31, 0.77), (0.79, 0.15, 0
 
 def show(before: Mesh, after: Mesh, result: StepResult, path: str | os.PathLike[str] | None = None,
          *, browser: bool = False) -> Path | None:
-    """Shows a step: the mesh at every time of it, and its pairs; `ccd.step(..., times=True)` adds times.
+    """Shows the mesh at every time of a step, and its pairs. `ccd.step(..., times=True)` adds times.
 
-    In a window of polyscope's where that is installed (pip install polyscope), until it is closed. Else,
-    or if a path or the browser is asked for, as a page of HTML, which fetches nothing: written to path,
-    which ends in .html (else into a new file of the folder for temporary files), opened if browser. Returns
-    where the page is, or None.
-
-    Raises as io.write_view.
+    If polyscope is installed and neither path nor browser is given, its window opens and the call waits for it.
+    Otherwise the step is written as a self-contained HTML page to path (NAME.html; default: a temporary file), and
+    opened if browser is True. Returns the page's path, or None.
+    Throws: as io.write_view.
     """
     if path is None and not browser and find_spec("polyscope") is not None:
         _window(before, after, result)
         return None
     page = _temporary_file() if path is None else Path(path)
     if page.suffix != ".html":
-        raise ValueError(f"path: found {os.fspath(page)!r}, expected a name that ends in .html "
-                         "(io.write_view writes others)")
+        raise ValueError(f"path is {os.fspath(page)!r}; expected a name that ends in .html "
+                         "(io.write_view writes other formats)")
     write_view(page, before, after, result)
     if browser:
         import webbrowser
@@ -52,7 +50,7 @@ def _temporary_file() -> Path:
 
 
 class _Moving:
-    """What polyscope shows, and how it follows the time."""
+    """The interpolated positions, and the polyscope structures to update when the time changes."""
 
     def __init__(self, before: NDArray[Any], after: NDArray[Any]) -> None:
         self.before, self.after = before, after

@@ -1,12 +1,12 @@
 """Exact continuous collision detection: which features of moving meshes touch, when first, and where.
 
-Points move linearly over a step, t from 0 to 1. Touching counts, t = 0 and t = 1 count; "exact" answers
-every finite input right, with no tolerance. Queries are of four kinds: vertex_face (v f0 f1 f2),
-edge_edge (a0 a1 b0 b1), vertex_edge (v e0 e1), vertex_vertex (v w).
+Points move linearly over a step, t from 0 to 1. Touching counts as contact, also at t = 0 and t = 1. The method
+"exact" decides every finite input correctly, with no tolerance. The kinds of queries are vertex_face (v f0 f1 f2),
+edge_edge (a0 a1 b0 b1), vertex_edge (v e0 e1) and vertex_vertex (v w).
 
-Queries are given as floats (n, 2k, 3), the k points at t = 0, then at t = 1 (copied once); or, with
-positions=(before, after), (m, 3) each, as vertex indices (n, k), which are read where they are. Lengths
-are in the unit of the positions. threads: at most; 0: one per core. Answers do not depend on it.
+Queries are floats (n, 2k, 3), the k points at t = 0, then at t = 1 (copied once). With positions=(before, after),
+(m, 3) each, they are vertex indices (n, k), which are not copied. Lengths have the unit of the positions.
+threads: maximum number, 0 for one per core. Results do not depend on it.
 """
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ POINTS: dict[Kind, int] = {"vertex_face": 4, "edge_edge": 4, "vertex_edge": 3, "
 Positions = tuple[ArrayLike, ArrayLike]
 
 
-class _Questions:
-    """Checked queries, and who is to blame if the library refuses them."""
+class _Queries:
+    """Checked queries. Errors of the library are reported with the argument and row that cause them."""
 
     def __init__(self, queries: ArrayLike, kind: Kind, positions: Positions | None) -> None:
         if kind not in POINTS:
@@ -69,15 +69,15 @@ class _Questions:
         if self.pairs is not None:
             check_range("queries", self.pairs, self.vertices)
 
-    def call(self, ask: Callable[[Any], Any]) -> Any:
+    def call(self, run: Callable[[Any], Any]) -> Any:
         try:
-            return ask(self.native)
+            return run(self.native)
         except ValueError as error:
             self.check_indices()
             raise restated(error) from None
 
     def require_certain(self, outcome: Any) -> None:
-        """"exact" is uncertain where a coordinate is not finite, and only there."""
+        """Throws: ValueError if an outcome is uncertain; with "exact", only non-finite coordinates cause this."""
         if outcome.max(initial=0) < Outcome.UNCERTAIN:
             return
         row = int(np.argmax(outcome == Outcome.UNCERTAIN))
@@ -88,7 +88,7 @@ class _Questions:
             check_finite("queries", self.stored)
         else:
             for name, frame in zip(("before", "after"), self.frames):
-                check_finite(f"query {row}: {name}", frame)
+                check_finite(name, frame, f"query {row}: ")
 
     def thickness(self, values: ArrayLike | None) -> Any:
         if values is not None and self.frames is None:
@@ -98,104 +98,104 @@ class _Questions:
 
 
 def methods() -> list[Method]:
-    """All methods, with what each promises."""
+    """Returns all methods with their guarantees."""
     return [Method(*row) for row in _native.methods()]
 
 
 def instruction_sets() -> list[str]:
-    """What batches and steps have kernels for and this machine runs, the fastest last: that one is used."""
+    """Returns the instruction sets that have kernels and run on this machine. The last is the fastest and is used."""
     return list(_native.instruction_sets())
 
 
 def decide(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
            method: MethodName = "exact", distance: float = 0, thickness: ArrayLike | None = None,
            threads: int = 0, stages: bool = False) -> Decisions:
-    """Which queries collide, or come within a distance, at some t in [0, 1].
+    """Decides which queries collide, or come within a distance, at some t in [0, 1].
 
-    distance, of all; or thickness (m,), one a vertex: the distance of a pair is then the sum of its two
-    elements' thicknesses, each that of its thickest vertex. Both by "exact" alone. stages asks for what
-    the stages of "exact" decided. Other methods decide vertex_face and edge_edge one by one, on one thread.
+    distance applies to all queries. Alternatively thickness (m,) holds one number per vertex: the distance of a pair
+    is the sum of its elements' thicknesses, and an element is as thick as its thickest vertex. Both require "exact".
+    stages adds counts by stage of "exact". Other methods decide vertex_face and edge_edge, on one thread.
 
-    Raises IndexError for indices out of range, ValueError for coordinates that are not finite.
+    Throws: IndexError for indices out of range, ValueError for coordinates that are not finite.
     """
     threads, distance = option("threads", threads, int), distance_option(distance)
     name, stages = option("method", method, str), option("stages", stages, bool)
-    asked = _Questions(queries, kind, positions)
-    near = asked.thickness(thickness)
+    checked = _Queries(queries, kind, positions)
+    near = checked.thickness(thickness)
     if name != "exact":
         if distance or near is not None:
             raise ValueError(f"method is {name!r}; expected 'exact' with distance= or thickness=")
-        asked.check_indices()
-        return Decisions(asked.call(lambda q: q.decide_by(name)))
+        checked.check_indices()
+        return Decisions(checked.call(lambda q: q.decide_by(name)))
     if distance or near is not None:
         if stages:
-            raise ValueError("stages: found True, expected False where a distance is asked for")
-        outcome, report = asked.call(lambda q: q.decide_within(distance, near, threads)), None
+            raise ValueError("stages is True; expected False with distance= or thickness=")
+        outcome, report = checked.call(lambda q: q.decide_within(distance, near, threads)), None
     else:
-        outcome, report = asked.call(lambda q: q.decide(threads, stages, False))
-    asked.require_certain(outcome)
+        outcome, report = checked.call(lambda q: q.decide(threads, stages, False))
+    checked.require_certain(outcome)
     return Decisions(outcome, _stages(report))
 
 
 def touches_at_start(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
                      threads: int = 0) -> Decisions:
-    """Which queries touch already at t = 0. Raises as decide."""
+    """Decides which queries touch at t = 0. Throws: as decide."""
     threads = option("threads", threads, int)
-    asked = _Questions(queries, kind, positions)
-    outcome, _ = asked.call(lambda q: q.decide(threads, False, True))
-    asked.require_certain(outcome)
+    checked = _Queries(queries, kind, positions)
+    outcome, _ = checked.call(lambda q: q.decide(threads, False, True))
+    checked.require_certain(outcome)
     return Decisions(outcome)
 
 
 def first_time(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
                t_max: float = 1, distance: float = 0, thickness: ArrayLike | None = None,
                threads: int = 0) -> FirstTimes:
-    """Of the queries that touch, or come within a distance, in [0, t_max]: when first. Raises as decide."""
+    """Computes the first times in [0, t_max] at which queries touch, or come within a distance. Throws: as decide."""
     threads, distance = option("threads", threads, int), distance_option(distance)
     t_max = end_time(t_max)
-    asked = _Questions(queries, kind, positions)
-    near = asked.thickness(thickness)
-    found = asked.call(lambda q: q.first_times(t_max, distance, near, threads))
-    _require_certain_times(asked, found)
+    checked = _Queries(queries, kind, positions)
+    near = checked.thickness(thickness)
+    found = checked.call(lambda q: q.first_times(t_max, distance, near, threads))
+    _require_certain_times(checked, found)
     return FirstTimes(**found)
 
 
 def first_contact(queries: ArrayLike, kind: Kind, *, positions: Positions | None = None,
                   t_max: float = 1, threads: int = 0) -> FirstContacts:
-    """Of the queries that touch in [0, t_max]: when first, which features, where, along which normal.
+    """Computes time, features, position and normal of the first contact in [0, t_max] of each query that touches.
 
-    Cost: decide, and about a microsecond a contact. Raises as decide.
+    Cost: decide, plus about a microsecond per contact. Throws: as decide.
     """
     threads, t_max = option("threads", threads, int), end_time(t_max)
-    asked = _Questions(queries, kind, positions)
-    found = asked.call(lambda q: q.first_contacts(t_max, threads))
-    _require_certain_times(asked, found)
+    checked = _Queries(queries, kind, positions)
+    found = checked.call(lambda q: q.first_contacts(t_max, threads))
+    _require_certain_times(checked, found)
     for name in "points", "weights":
         found[name] = found[name][:, :POINTS[kind]]
     return FirstContacts(**found)
 
 
-def _require_certain_times(asked: _Questions, found: dict[str, Any]) -> None:
+def _require_certain_times(checked: _Queries, found: dict[str, Any]) -> None:
     uncertain = found.pop("outcome") == Outcome.UNCERTAIN
     if uncertain.any():
-        asked.refuse_coordinates(int(found["query"][np.argmax(uncertain)]))
+        checked.refuse_coordinates(int(found["query"][np.argmax(uncertain)]))
 
 
 _stages = stages
 
 
 class SearchOptions(TypedDict, total=False):
-    """Which pairs are looked at.
+    """The pairs that are tested.
 
-    threads: at most; 0, the default: one per core.
-    distance: of all pairs: those that come within it are meant, instead of those that touch.
-    thickness: (n,), one a vertex, instead of distance: as decide.
-    groups: whole numbers (n,): only pairs between different groups are looked at.
-    between_groups: False: only those within groups.
-    pinned: flags (n,), one a vertex: pairs of which all vertices are pinned are left out.
-    skip_unused: True: vertices on no face and no edge are in no pair; by default they are points.
-    can_collide: asked of two vertices, one of each element; a pair is left out if it is False for all. Slow;
-    called from several threads in turn.
+    threads: maximum number; 0, the default: one per core.
+    distance: finds pairs that come within it, instead of pairs that touch.
+    thickness: (n,), one per vertex, instead of distance: as decide.
+    groups: integers (n,): tests only pairs between different groups.
+    between_groups: False: only pairs within a group.
+    pinned: flags (n,), one per vertex: skips pairs whose vertices are all pinned.
+    skip_unused: True: skips vertices without faces and edges; by default they are points.
+    can_collide: called with two vertices, one of each element. A pair is skipped if all calls return False. Slow;
+    several threads call it, one at a time.
     """
     threads: int
     distance: float
@@ -210,10 +210,10 @@ class SearchOptions(TypedDict, total=False):
 class UntimedOptions(SearchOptions, total=False):
     """The options of a step except times.
 
-    method: by name, one of methods(); "exact" by default, which alone has times, distances and t_max.
-    first_contact: fills first_contact, and touching_at_start.
-    initial_contact: fills touching_at_start: pairs that touch at t = 0 already.
-    t_max: the end of the times that are asked about, 1 by default.
+    method: the name of one of methods(). Only "exact", the default, supports times, distances and t_max.
+    first_contact: fills first_contact and touching_at_start.
+    initial_contact: fills touching_at_start, the pairs that touch at t = 0.
+    t_max: the step is tested in [0, t_max]; 1 by default.
     stages, count_candidates: fill stages, candidates.
     """
     method: MethodName
@@ -225,18 +225,18 @@ class UntimedOptions(SearchOptions, total=False):
 
 
 class RunOptions(UntimedOptions, total=False):
-    """All options of a step: SearchOptions, UntimedOptions and
+    """All options of a step: SearchOptions, UntimedOptions, and times.
 
-    times: fills times and first_contact of the result, and touching_at_start.
+    times: fills times, first_contact and touching_at_start of the result.
     """
     times: bool
 
 
 class AdvanceOptions(SearchOptions, total=False):
-    """Which pairs to keep apart (SearchOptions), and what goes by one fraction.
+    """The pairs to keep apart (SearchOptions), and the vertices that share a fraction.
 
-    islands: whole numbers (n,): vertices of one island go by one fraction, and so do islands that meet. By
-    default all are one. Not groups, by which pairs are left out.
+    islands: integers (n,): the vertices of an island share one fraction, and so do islands that meet. By default
+    all vertices are one island. Islands skip no pairs; groups do.
     """
     islands: ArrayLike | None
 
@@ -249,7 +249,7 @@ _OF_ADVANCE = {**_OF_SEARCH, "islands": np.ndarray}
 
 
 def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
-    """An option's value as the extension takes it. Of type ndarray are options with one number for each vertex."""
+    """Returns a checked option for the extension. Options of kind ndarray have one number per vertex."""
     if name == "t_max":
         return end_time(value)
     if name == "distance":
@@ -260,28 +260,27 @@ def _checked_option(name: str, value: Any, kind: Any, vertices: int) -> Any:
         return pinned_option(value, vertices)
     if kind is Callable:
         if value is not None and not callable(value):
-            raise TypeError(f"{name}: found {value!r}, expected a function of two vertices")
+            raise TypeError(f"{name} is {value!r}; expected a function of two vertices")
         return value
     return group_option(name, value, vertices) if kind is np.ndarray else option(name, value, kind)
 
 
-def _question(vertices: int, known: dict[str, Any], options: Mapping[str, Any]) -> Any:
-    asked = _native.StepQuestion()
+def _request(vertices: int, known: dict[str, Any], options: Mapping[str, Any]) -> Any:
+    request = _native.StepQuestion()
     for name, value in options.items():
         if name not in known:
-            raise TypeError(f"found option {name!r}, expected one of {', '.join(sorted(known))}")
-        setattr(asked, name, _checked_option(name, value, known[name], vertices))
+            raise TypeError(f"option is {name!r}; expected one of {', '.join(sorted(known))}")
+        setattr(request, name, _checked_option(name, value, known[name], vertices))
     if not options.get("between_groups", True) and options.get("groups") is None:
-        raise ValueError("between_groups: found False without groups, expected both or neither")
-    return asked
+        raise ValueError("between_groups is False without groups; expected both or neither")
+    return request
 
 
 class Steps:
-    """Steps of one mesh: keeps faces and edges, their order and its memory from step to step.
+    """Steps of one mesh. Keeps faces, edges, their order and its memory from step to step.
 
-    faces: (m, 3); edges: (k, 2), those beside the faces' own; vertices: their number. Vertices on no edge
-    are points. One call at a time: RuntimeError from a second thread. Memory: about ten times that of
-    the two frames.
+    faces: (m, 3); edges: (k, 2), in addition to those of faces; vertices: their number. Vertices without edges are
+    points. A call from a second thread throws RuntimeError. Memory: about ten times that of the two frames.
     """
 
     def __init__(self, faces: ArrayLike, edges: ArrayLike = (), *, vertices: int) -> None:
@@ -292,7 +291,7 @@ class Steps:
 
     @classmethod
     def in_plane(cls, edges: ArrayLike, *, vertices: int) -> Steps:
-        """Of edges and points in the plane: positions are (n, 2), copied once."""
+        """Returns Steps of edges and points in the plane. Positions are (n, 2), copied once."""
         made = cls.__new__(cls)
         made.vertices, made._columns = option("vertices", vertices, int, 2**32), 2
         made._steps = _native.Steps.in_plane(checked_indices("edges", edges, 2, made.vertices), made.vertices)
@@ -310,11 +309,11 @@ class Steps:
 
     def _call(self, call: Callable[[Doubles, Doubles, Any], Any], before: ArrayLike, after: ArrayLike,
               known: dict[str, Any], options: Mapping[str, Any]) -> Any:
-        """One of the extension's, whose refusals are told by argument and row."""
+        """Calls the extension. Errors name the argument and the row."""
         frames = self._frames(before, after)
-        asked = _question(self.vertices, known, options)
+        request = _request(self.vertices, known, options)
         try:
-            return call(*frames, asked)
+            return call(*frames, request)
         except ValueError as error:
             for name, frame in zip(("before", "after"), frames):
                 check_finite(name, frame[:, :self._columns])
@@ -328,10 +327,10 @@ class Steps:
     def run(self, before: ArrayLike, after: ArrayLike, **options: Unpack[RunOptions]) -> StepResult: ...
 
     def run(self, before: ArrayLike, after: ArrayLike, **options: Unpack[RunOptions]) -> StepResult:
-        """The pairs of the step from before to after, (n, 3) each, that are not certainly separate.
+        """Finds the pairs that are not certainly separate in the step from before to after, (n, 3) each.
 
-        Options, by name: RunOptions. A TimedStepResult with times=True. Raises ValueError that names frame and row of
-        a coordinate that is not finite.
+        Options: RunOptions. Returns a TimedStepResult if times=True.
+        Throws: ValueError with frame and row of a coordinate that is not finite.
         """
         found = self._call(self._steps.run, before, after, _OF_RUN, options)
         for name in "pairs", "touching_at_start":
@@ -340,15 +339,15 @@ class Steps:
         return StepResult(**found) if found["times"] is None else TimedStepResult(**found)
 
     def candidates(self, before: ArrayLike, after: ArrayLike, **options: Unpack[SearchOptions]) -> Pairs:
-        """All pairs whose swept boxes touch, for a narrow phase of one's own. Options: SearchOptions."""
+        """Returns all pairs whose swept boxes touch, for a custom narrow phase. Options: SearchOptions."""
         found = self._call(self._steps.candidates, before, after, _OF_SEARCH, options)
         return Pairs(**found)
 
     def advance(self, before: ArrayLike, after: ArrayLike, **options: Unpack[AdvanceOptions]) -> AdvanceResult:
-        """The longest step found to be free from before towards after, with positions rounded already.
+        """Computes the longest step found to be free from before towards after, to rounded positions.
 
-        Options, by name: AdvanceOptions, SearchOptions. Pairs that groups, pinned or can_collide leave out are
-        not kept from passing through each other.
+        Options: AdvanceOptions, SearchOptions. Pairs skipped by groups, pinned or can_collide may pass through
+        each other.
         """
         found = self._call(self._steps.advance, before, after, _OF_ADVANCE, options)
         for name in "touching_at_start", "near_at_start":
@@ -374,27 +373,26 @@ def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike
 
 def step(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
          **options: Unpack[RunOptions]) -> StepResult:
-    """The pairs of one step from before to after, (n, 3) each, that are not certainly separate.
+    """Finds the pairs that are not certainly separate in one step from before to after, (n, 3) each.
 
-    faces: (m, 3); edges: (k, 2), those beside the faces' own. Options, by name: RunOptions (method, times,
-    first_contact, initial_contact, t_max, stages, count_candidates) and SearchOptions (threads, distance,
-    thickness, groups, between_groups, pinned, can_collide). As Steps.run, of a mesh of many steps.
+    faces: (m, 3); edges: (k, 2), in addition to those of faces. Options: RunOptions (method, times, first_contact,
+    initial_contact, t_max, stages, count_candidates) and SearchOptions (threads, distance, thickness, groups,
+    between_groups, pinned, skip_unused, can_collide). For many steps of one mesh, use Steps.run.
     """
     return _steps_of(before, faces, edges).run(before, after, **options)
 
 
 def candidates(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
                **options: Unpack[SearchOptions]) -> Pairs:
-    """The candidates of one step alone, as Steps.candidates."""
+    """Same as Steps.candidates, for one step."""
     return _steps_of(before, faces, edges).candidates(before, after, **options)
 
 
 def advance(before: ArrayLike, after: ArrayLike, faces: ArrayLike, edges: ArrayLike = (),
             **options: Unpack[AdvanceOptions]) -> AdvanceResult:
-    """How far one step is free, as Steps.advance: positions, and the fraction of the way.
+    """Same as Steps.advance, for one step: returns free positions and their fraction of the step.
 
-    Options, by name: AdvanceOptions (islands: vertices that go by one fraction) and SearchOptions (threads,
-    distance, thickness; groups, between_groups, pinned, can_collide leave out pairs, which then may pass through
-    each other).
+    Options: AdvanceOptions (islands: vertices that share a fraction) and SearchOptions (threads, distance, thickness;
+    pairs skipped by groups, between_groups, pinned, skip_unused or can_collide may pass through each other).
     """
     return _steps_of(before, faces, edges).advance(before, after, **options)

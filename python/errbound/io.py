@@ -1,7 +1,6 @@
-"""Files of meshes (PLY, OBJ), of stored queries (CSV) and of steps to look at (HTML, VTP, PVD),
-coordinates bit for bit.
+"""Files of meshes (PLY, OBJ), of queries (CSV, HDF5) and for viewers (HTML, VTP, PVD). Coordinates are exact.
 
-FileError, a ValueError, names file, line or element, found and expected. Files are written whole or
+FileError, a ValueError, reports file, line or element, the value and the expected one. Files are written whole or
 not at all.
 """
 from __future__ import annotations
@@ -29,21 +28,20 @@ StoredKind = Literal["vertex_face", "edge_edge"]
 def _name(path: str | os.PathLike[str]) -> str:
     name = os.fsdecode(path)
     if "\0" in name or any("\ud800" <= c <= "\udfff" for c in name):
-        raise FileError(f"{path!r}: found a null character or one that is not of UTF-8, expected none")
+        raise FileError(f"path is {path!r}; expected a name without null characters, in UTF-8")
     return name
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mesh:
-    """One frame: vertices (n, 3) float64; faces (m, 3) and edges beside the faces' (k, 2), uint32."""
+    """One frame: vertices (n, 3) float64; faces (m, 3) and additional edges (k, 2), uint32."""
     vertices: Doubles
     faces: Indices
     edges: Indices = field(default_factory=lambda: np.empty((0, 2), np.uint32))
 
     @property
     def unused_vertices(self) -> NDArray[np.intp]:
-        """The vertices that no face and no edge has, ascending. A step takes them as points, or skips them
-        with skip_unused."""
+        """The vertices without faces and edges, ascending. A step treats them as points; skip_unused skips them."""
         used = np.zeros(len(self.vertices), np.bool_)
         used[self.faces], used[self.edges] = True, True
         return np.flatnonzero(~used)
@@ -67,20 +65,20 @@ class Queries:
 
 
 def read_mesh(path: str | os.PathLike[str], *, triangulate: bool = False) -> Mesh:
-    """A PLY (ascii or binary) or OBJ file of triangles, edges and points.
+    """Reads a PLY (ascii or binary) or OBJ file of triangles, edges and points.
 
-    With triangulate, a face with more than three corners is split into the triangles (c0, c1, c2),
-    (c0, c2, c3), ...; otherwise it is a FileError.
+    With triangulate, a face with more than three corners is split into the triangles (c0, c1, c2), (c0, c2, c3), ...
+    Throws: FileError, also for such a face without triangulate.
     """
     return Mesh(*_native.read_mesh(_name(path), option("triangulate", triangulate, bool)))
 
 
 def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike,
                edges: ArrayLike = ()) -> None:
-    """A binary PLY file in double precision, NAME.ply. Indices out of range are an IndexError."""
+    """Writes a binary PLY file, NAME.ply, in double precision. Throws: IndexError for indices out of range."""
     name = _name(path)
     if not name.lower().endswith(".ply"):
-        raise ValueError(f"path: found {name!r}, expected a name that ends in .ply")
+        raise ValueError(f"path is {name!r}; expected a name that ends in .ply")
     points = doubles("vertices", vertices, (None, 3))
     check_finite("vertices", points)
     of_faces = checked_indices("faces", faces, 3, len(points))
@@ -90,18 +88,19 @@ def write_mesh(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLi
 
 def read_queries(path: str | os.PathLike[str], kind: StoredKind | None = None, *,
                  round: bool = False) -> Queries:
-    """Vertex/face or edge/edge queries, eight rows each: four points at t = 0, then at t = 1.
+    """Reads vertex/face or edge/edge queries, eight rows each: four points at t = 0, then at t = 1.
 
-    Rows are rationals, decimal or hexadecimal floats (docs/program.md); truth is their last column, or
-    in the JSON file beside them. Stores, as `ccd convert` makes them, are read by h5py, if it is installed. kind, "vertex_face" or "edge_edge", is told from the path if None. With
-    round, numbers that no double equals are rounded instead of refused.
+    Rows are rationals, decimal or hexadecimal floats (docs/program.md). truth is their last column, or is read from
+    the JSON file next to the CSV file. HDF5 stores, written by `ccd convert`, require h5py.
+    kind: "vertex_face" or "edge_edge"; None: derived from the path.
+    round: rounds numbers that no double equals; they are errors otherwise.
     """
     name = _name(path)
     if _is_store(name):
         return _read_store(name, kind)
     short = None if kind is None else {"vertex_face": "vf", "edge_edge": "ee"}.get(kind)
     if kind is not None and short is None:
-        raise ValueError(f"kind: found {kind!r}, expected 'vertex_face' or 'edge_edge'")
+        raise ValueError(f"kind is {kind!r}; expected 'vertex_face' or 'edge_edge'")
     found, rows, truth = _native.read_queries(name, short, round)
     queries = rows.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3)
     return Queries(queries, found, None if truth is None else truth.view(np.bool_))
@@ -114,21 +113,22 @@ def _is_store(name: str) -> bool:
         with open(name, "rb") as file:
             return file.read(8) == b"\x89HDF\r\n\x1a\n"
     except OSError:
-        return False  # told by who reads it
+        return False  # the reader reports the error
 
 
 def _read_store(name: str, kind: StoredKind | None) -> Queries:
-    """A store of queries, whose layout docs/program.md has."""
+    """Reads an HDF5 store of queries. Its layout is described in docs/program.md."""
     try:
         h5py: Any = import_module("h5py")
     except ImportError:
-        raise FileError(f"{name}: found an HDF5 file, expected CSV, or h5py installed (pip install h5py)") from None
+        raise FileError(f"{name} is an HDF5 file; expected CSV, or h5py installed (pip install h5py)") from None
+
     def dataset(of: str) -> Any:
-        """One of the file itself, in chunks that fit in memory. A link is not followed."""
+        """Returns a dataset of the file, in chunks that fit in memory. Links are not followed."""
         if file.id.links.get_info(of.encode()).type != h5py.h5l.TYPE_HARD:
-            raise ValueError(f"dataset {of}: found a link to another place, expected it in this file")
+            raise ValueError(f"dataset {of} is a link; expected data in this file")
         if file[of].chunks is None or math.prod(file[of].chunks) * file[of].dtype.itemsize > 2**26:
-            raise ValueError(f"dataset {of}: found no chunks or larger ones, expected chunks of at most 64 MiB")
+            raise ValueError(f"dataset {of} has no chunks or larger ones; expected chunks of at most 64 MiB")
         return file[of]
 
     try:
@@ -138,44 +138,44 @@ def _read_store(name: str, kind: StoredKind | None) -> Queries:
             rows = {of: dataset(of) for of in ("points", "queries", "first_point", "checksums")}
             chunks = [_chunk(rows, c, truth) for c in range(len(rows["checksums"]))]
     except (OSError, KeyError, IndexError, RuntimeError, TypeError, ValueError) as error:
-        raise FileError(f"{name}: found no whole store of queries ({error})") from None
+        raise FileError(f"{name} is not a complete store of queries ({error})") from None
     if stored not in ("vertex_face", "edge_edge"):
-        raise FileError(f"{name}: attribute kind: found {stored!r}, expected 'vertex_face' or 'edge_edge'")
+        raise FileError(f"{name}: attribute kind is {stored!r}; expected 'vertex_face' or 'edge_edge'")
     if kind not in (None, stored):
-        raise FileError(f"{name}: found queries of kind {stored}, expected {kind}")
+        raise FileError(f"{name}: kind of queries is {stored}; expected {kind}")
     points = np.concatenate(chunks)
     queries = points.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3)
     return Queries(queries, cast(StoredKind, stored), None if truth is None else truth.astype(bool))
 
 
 def _chunk(file: dict[str, Any], c: int, truth: NDArray[Any] | None) -> NDArray[Any]:
-    """A chunk's points by query. HDF5's own checksums do not see all damage (docs/program.md)."""
+    """Returns a chunk's points by query. Its checksum detects damage that HDF5's own miss (docs/program.md)."""
     begin, end = map(int, file["first_point"][c:c + 2])
     points, of_chunk = file["points"][begin:end], slice(65536 * c, 65536 * (c + 1))
     indices = file["queries"][of_chunk]
     stored = points.tobytes() + indices.tobytes() + (b"" if truth is None else truth[of_chunk].tobytes())
     if zlib.crc32(stored) != file["checksums"][c]:
-        raise ValueError(f"queries from {65536 * c} on: found another checksum, expected what was written")
+        raise ValueError(f"checksum of queries from {65536 * c} on differs; expected the one that was written")
     return np.asarray(points[indices])
 
 
 def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
                   truth: ArrayLike | None = None) -> None:
-    """Queries (n, 8, 3) as rows of hexadecimal floats, exactly; truth (n,) as a fourth column.
+    """Writes queries (n, 8, 3) as CSV rows of hexadecimal floats, exactly; truth (n,) is a fourth column.
 
-    In CSV: `ccd convert` makes a store (.h5, .hdf5) of it; such a path is refused.
+    `ccd convert` writes HDF5 stores. Throws: ValueError for a path that ends in .h5 or .hdf5.
     """
     if _name(path).lower().endswith((".h5", ".hdf5")):
         raise ValueError(f"path is {_name(path)!r}; expected the name of a CSV file (`ccd convert` writes HDF5)")
     array = doubles("queries", queries, (None, 8, 3))
     check_finite("queries", array)
     if len(array) == 0:
-        raise ValueError("queries: found none, expected one or more (an empty file is refused when it is read)")
+        raise ValueError("number of queries is 0; expected one or more (empty files cannot be read)")
     known = None if truth is None else as_array("truth", truth)
     if known is not None and known.size and (known.dtype.kind not in "biu" or (known != known.astype(bool)).any()):
         raise TypeError(f"truth is an array of {known.dtype}; expected booleans, or 0 and 1")
     if known is not None and known.shape != array.shape[:1]:
-        raise ValueError(f"truth: found shape {known.shape}, expected ({len(array)},)")
+        raise ValueError(f"shape of truth is {known.shape}; expected ({len(array)},)")
     lines = []
     for i, query in enumerate(array.tolist()):
         end = "" if known is None else f",{int(known[i])}"
@@ -184,10 +184,10 @@ def write_queries(path: str | os.PathLike[str], queries: ArrayLike,
 
 
 def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices, Indices]:
-    """Both frames' positions, and their faces and edges."""
+    """Returns positions of both frames, faces and edges."""
     for name, mesh in ("before", before), ("after", after):
         if not isinstance(mesh, Mesh):
-            raise TypeError(f"{name}: found {type(mesh).__name__}, expected an io.Mesh")
+            raise TypeError(f"{name} is {type(mesh).__name__}; expected an io.Mesh")
     at_start, at_end = frames(before.vertices, after.vertices)
     check_finite("before", at_start)
     check_finite("after", at_end)
@@ -195,14 +195,14 @@ def _checked_mesh(before: Mesh, after: Mesh) -> tuple[Doubles, Doubles, Indices,
     edges = checked_indices("edges", before.edges, 2, len(at_start))
     for name, found, others in ("faces", faces, after.faces), ("edges", edges, after.edges):
         if not np.array_equal(found, checked_indices(name, others, found.shape[1], len(at_start))):
-            raise ValueError(f"after: found other {name}, expected those of before")
+            raise ValueError(f"{name} of after differ; expected those of before")
     return at_start, at_end, faces, edges
 
 
 def _checked_result(result: StepResult, vertices: int) -> tuple[dict[Kind, Indices], dict[Kind, Doubles]]:
-    """Pairs by kind; times, rows of low and high, where there are any."""
+    """Returns pairs by kind, and rows (low, high) of times by kind if result has them."""
     if not isinstance(result, StepResult):
-        raise TypeError(f"result: found {type(result).__name__}, expected what ccd.step returns")
+        raise TypeError(f"result is {type(result).__name__}; expected a ccd.StepResult")
     pairs, times = {}, {}
     for kind, points in POINTS.items():
         pairs[kind] = checked_indices(f"result.pairs.{kind}", getattr(result.pairs, kind), points, vertices)
@@ -212,12 +212,11 @@ def _checked_result(result: StepResult, vertices: int) -> tuple[dict[Kind, Indic
 
 
 def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: StepResult) -> None:
-    """A step to look at, with times if result has them; the name's end says how.
+    """Writes a step for a viewer, with times if result has them. The name's extension selects the format.
 
-    NAME.html: a page for a browser, whole in itself. For ParaView: NAME.vtp, the frame before, with each
-    vertex's displacement; NAME.pvd, both frames, in NAME-0.vtp and NAME-1.vtp. What the arrays in them
-    mean: docs/program.md. Faces and edges are the same in both frames, else ValueError; indices out of
-    range are an IndexError.
+    NAME.html: a self-contained page for a browser. For ParaView: NAME.vtp, the frame before with displacements, or
+    NAME.pvd, both frames in NAME-0.vtp and NAME-1.vtp. Their arrays are described in docs/program.md.
+    Throws: ValueError if faces or edges of the frames differ; IndexError for indices out of range.
     """
     at_start, at_end, faces, edges = _checked_mesh(before, after)
     pairs, times = _checked_result(result, len(at_start))
@@ -225,13 +224,13 @@ def write_view(path: str | os.PathLike[str], before: Mesh, after: Mesh, result: 
 
 
 def write_pvd(path: str | os.PathLike[str], times: ArrayLike, files: Sequence[str | os.PathLike[str]]) -> None:
-    """A series for ParaView: of files, as write_view's NAME.vtp, and the time of each.
+    """Writes a series for ParaView: files such as write_view's NAME.vtp, with a time each.
 
-    It holds the way to them from its own folder: move them together.
+    Paths are relative to the folder of the series. Move all of them together.
     """
     moments = doubles("times", times, (None,))
     if len(moments) != len(files):
-        raise ValueError(f"files: found {len(files)}, expected {len(moments)}, one a time")
+        raise ValueError(f"number of files is {len(files)}; expected {len(moments)}, one per time")
     check_finite("times", moments)
     folder = os.path.dirname(os.path.abspath(path))
     _native.write_pvd(_name(path), moments.tolist(), [os.path.relpath(file, folder) for file in files])

@@ -3,7 +3,7 @@
     import errbound.ipctk
 
     broad_phase = errbound.ipctk.BroadPhase()
-    ipctk.compute_collision_free_stepsize(mesh, before, after, 0, broad_phase)  # the toolkit decides few pairs
+    ipctk.compute_collision_free_stepsize(mesh, before, after, 0, broad_phase)  # exact broad phase only
     errbound.ipctk.compute_collision_free_stepsize(mesh, before, after)         # every pair, exactly
 """
 from __future__ import annotations
@@ -40,12 +40,12 @@ def _steps(vertices: int, columns: int, edges: Any, faces: Any) -> ccd.Steps:
 
 
 def _in_space(positions: Doubles) -> Doubles:
-    """Positions of two columns at z = 0."""
+    """Appends z = 0 to positions in the plane."""
     return np.pad(positions, ((0, 0), (0, 3 - positions.shape[1])))
 
 
 def _may_collide(kind: ccd.Kind, rows: Indices, can_collide: _CanCollide) -> NDArray[np.bool_]:
-    """True for each pair of which some vertex of one element may collide with some vertex of the other."""
+    """True for each pair with a vertex of one element that may collide with a vertex of the other."""
     first, allowed = _FIRST_VERTICES[kind], np.zeros(len(rows), bool)
     for columns in product(range(first), range(first, rows.shape[1])):
         rest = np.flatnonzero(~allowed)
@@ -56,7 +56,7 @@ def _may_collide(kind: ccd.Kind, rows: Indices, can_collide: _CanCollide) -> NDA
 
 
 class _Lookup:
-    """Indices of elements by their sorted vertices; all of them if elements repeat."""
+    """Finds all elements with given vertices, in any order of these."""
 
     def __init__(self, elements: Any, vertices: int) -> None:
         self._vertices = vertices
@@ -70,15 +70,15 @@ class _Lookup:
         return high * self._vertices + low
 
     def _keys(self, rows: Any) -> Any:
-        """One number for each row; -1 for rows whose first two vertices no element has."""
+        """Returns one number per row; -1 if no element has the row's first two vertices."""
         joined = self._joined(rows[:, 0], rows[:, 1])
-        places = np.searchsorted(self._firsts, joined)
-        known = self._firsts[np.minimum(places, len(self._firsts) - 1)] == joined
-        keys = self._joined(places, rows[:, 2]) if rows.shape[1] == 3 else places
+        positions = np.searchsorted(self._firsts, joined)
+        known = self._firsts[np.minimum(positions, len(self._firsts) - 1)] == joined
+        keys = self._joined(positions, rows[:, 2]) if rows.shape[1] == 3 else positions
         return np.where(known, keys, -1)
 
     def __call__(self, rows: Any) -> tuple[Any, Any]:
-        """Two arrays: positions in `rows`, and the index of an element with these vertices."""
+        """Returns two arrays: positions in `rows`, and the index of an element with these vertices."""
         if not len(rows) or not len(self._sorted):
             return np.empty(0, np.int64), np.empty(0, np.int64)
         keys = self._keys(np.sort(rows, axis=1).astype(np.int64))
@@ -90,7 +90,7 @@ class _Lookup:
 
 
 def _ids(candidates: Any, *names: str) -> list[Any]:
-    """One array for each attribute of the toolkit's candidates."""
+    """Returns one array for each attribute of the toolkit's candidates."""
     return [np.fromiter(map(attrgetter(name), candidates), np.int64, len(candidates)) for name in names]
 
 
@@ -99,12 +99,11 @@ def _as_tuples(*columns: Any) -> list[tuple[int, ...]]:
 
 
 class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
-    """Passes on only pairs that come within twice the inflation radius of each other, exactly.
+    """Returns only pairs that come within twice the inflation radius of each other, decided exactly.
 
-    Boxes inflated by a radius meet where their elements come within twice the radius, and in many
-    other places; those pairs are skipped. Candidates of faces and edges, and of two faces, with which the
-    toolkit finds intersections, are those of its default broad phase. Elements with a common vertex are
-    no pair. Memory and search structures are kept for the next step of the same mesh.
+    Other pairs whose inflated boxes meet are skipped. Edge/face and face/face candidates, which the toolkit uses to
+    find intersections, come from its default broad phase. Elements with a common vertex are not a pair.
+    Memory and search structures are kept for the next step of the same mesh.
     """
 
     def __init__(self) -> None:
@@ -117,9 +116,11 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return "errbound"
 
     def build(self, *arguments: Any) -> None:
-        """(vertices, edges, faces, inflation_radius), or (vertices_t0, vertices_t1, edges, faces,
-        inflation_radius). Arguments are copied: the toolkit passes views of arrays that it frees."""
-        super().build(*arguments)  # stores the dimension, and clears
+        """Arguments: vertices (or vertices_t0, vertices_t1), edges, faces, inflation_radius.
+
+        They are copied, since the toolkit passes views of arrays that it frees.
+        """
+        super().build(*arguments)  # stores the dimension and clears
         moving = np.ndim(arguments[2]) == 2 and len(arguments) >= 4 and np.ndim(arguments[3]) == 2
         edges, faces, *radius = arguments[2 if moving else 1:]
         self._before, self._after = (np.array(arguments[i], float, order="C") for i in (0, int(moving)))
@@ -142,7 +143,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         self._edge_index, self._face_index = _Lookup(edges, shape[0]), _Lookup(faces, shape[0])
 
     def _pairs(self, kind: ccd.Kind) -> Indices:
-        """The pairs of the whole mesh, found once, that the filter lets through."""
+        """Returns the pairs of the whole mesh, found once, that pass the filter."""
         if not self._pairs_of:
             found = self._steps.run(self._before, self._after, distance=2 * self._radius).pairs
             self._pairs_of = {each: getattr(found, each) for each in _FIRST_VERTICES}
@@ -150,7 +151,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return rows[_may_collide(kind, rows, self.can_vertices_collide)]
 
     def _default(self) -> Any:
-        """The toolkit's default broad phase, without a filter: it would call one from its threads."""
+        """Returns the toolkit's default broad phase, without a filter, since it would call it from its threads."""
         if self._theirs is None:
             self._theirs = ipctk.LBVH() if hasattr(ipctk, "LBVH") else ipctk.BVH()
             arrays = [np.asfortranarray(a) for a in (self._before, self._after, self._edges, self._faces)]
@@ -158,7 +159,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return self._theirs
 
     def _decided(self, kind: ccd.Kind, rows: Any) -> NDArray[np.bool_]:
-        """True for those of the default's pairs that come near enough and that the filter lets through."""
+        """True for pairs of the default broad phase that come near enough and pass the filter."""
         positions = _in_space(self._before), _in_space(self._after)
         near = np.array(ccd.decide(rows, kind, positions=positions, distance=2 * self._radius).collides)
         near[near] = _may_collide(kind, rows[near], self.can_vertices_collide)
@@ -167,8 +168,8 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
     def detect_edge_edge_candidates(self) -> list[tuple[int, ...]]:
         rows = self._pairs("edge_edge")
         of_row, first = self._edge_index(rows[:, :2])
-        place, second = self._edge_index(rows[of_row, 2:])
-        return _as_tuples(first[place], second)
+        position, second = self._edge_index(rows[of_row, 2:])
+        return _as_tuples(first[position], second)
 
     def detect_face_vertex_candidates(self) -> list[tuple[int, ...]]:
         rows = self._pairs("vertex_face")
@@ -186,7 +187,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
         return _as_tuples(first[near], second[near])
 
     def _of_default(self, found: Any, first: str, second: str) -> list[tuple[int, ...]]:
-        """The default's candidates of two elements, one a face, that the filter lets through."""
+        """Returns the default's candidates of two elements, one of them a face, that pass the filter."""
         one, other = _ids(found, first, second)
         elements = self._edges if first == "edge_id" else self._faces
         allowed = [any(self.can_vertices_collide(v, w) for v, w in product(a, b))
@@ -201,7 +202,7 @@ class BroadPhase(ipctk.BroadPhase):  # type: ignore[misc, unused-ignore]
 
 
 class _Pairs:
-    """Pairs on ways from `start`, and which of them may collide."""
+    """Pairs that move from `start`, with a filter."""
 
     def __init__(self, start: Doubles, distance: float, rows: _Rows, can_collide: _CanCollide | None = None) -> None:
         self._start, self._distance, self._can_collide = start, distance, can_collide
@@ -216,7 +217,7 @@ class _Pairs:
         return any(self._allows(kind, row) for kind, rows in self._rows.items() for row in range(len(rows)))
 
     def least(self, lows: Iterable[tuple[ccd.Kind, Any, Any]]) -> float:
-        """The least of the times, each with its pair's row by kind, of pairs that may collide."""
+        """Returns the least time of pairs that may collide. `lows`: kind, rows of pairs, and their times."""
         named = [(kind, rows, times) for kind, rows, times in lows if len(rows)]
         if not named:
             return math.inf
@@ -228,13 +229,13 @@ class _Pairs:
         return math.inf
 
     def first(self, end: Doubles) -> float:
-        """The largest double not after the first contact on the way to `end`; infinite if there is none."""
+        """Returns the largest double <= the first contact time of the motion to `end`, or infinity."""
         found = {kind: ccd.first_time(rows, kind, positions=(self._start, end), distance=self._distance)
                  for kind, rows in self._rows.items()}
         return self.least((kind, times.query, times.low) for kind, times in found.items())
 
     def meet(self, end: Doubles) -> bool:
-        """True if some pair collides on the way to `end`."""
+        """True if some pair collides in the motion to `end`."""
         for kind, rows in self._rows.items():
             near = ccd.decide(rows, kind, positions=(self._start, end), distance=self._distance).collides
             if any(self._allows(kind, row) for row in np.flatnonzero(near).tolist()):
@@ -242,7 +243,7 @@ class _Pairs:
         return False
 
     def first_with_gap(self, end: Doubles, rescaling: float, max_gap: float, t_max: float) -> float:
-        """The narrow phase's least time in [0, t_max]; infinite if there is none."""
+        """Returns the narrow phase's least time in [0, t_max], or infinity."""
         least = math.inf
         for kind, rows in self._rows.items():
             queries = _native.Questions(kind, None, np.require(rows, np.uint32, ["C", "A"]), self._start, end)
@@ -252,13 +253,13 @@ class _Pairs:
 
 
 class _Mesh:
-    """All pairs of a mesh that it lets collide, on ways from `start`."""
+    """All pairs of a mesh that may collide, in motions from `start`."""
 
     def __init__(self, mesh: Any, start: Doubles, distance: float) -> None:
         self._start, self._distance, self._can_collide = start, distance, mesh.can_collide
         self._columns = int(mesh.dim)
         self._steps = _steps(len(start), self._columns, mesh.edges, mesh.faces)
-        self._near = self._pairs({})  # those of the last step
+        self._near = self._pairs({})  # pairs of the last step
 
     def _pairs(self, found: Any) -> _Pairs:
         rows = {kind: getattr(found, kind) for kind in _FIRST_VERTICES} if found else {}
@@ -275,35 +276,34 @@ class _Mesh:
         return self._near.least((kind, np.arange(len(low)), low) for kind, low in lows)
 
     def meet(self, end: Doubles) -> bool:
-        """True if some pair collides on the way to `end`. Few are tested if the last step's do."""
+        """True if some pair collides in the motion to `end`. Tests the pairs of the last step first."""
         if self._near.meet(end):
             return True
         self._near = self._pairs(self._steps.run(*self._frames(end), distance=self._distance).pairs)
         return self._near.any()
 
     def first_with_gap(self, end: Doubles, rescaling: float, max_gap: float, t_max: float) -> float:
-        """The narrow phase's least time in [0, t_max], of pairs whose boxes meet until then; infinite if
-        there is none."""
+        """Returns the narrow phase's least time in [0, t_max] of pairs whose swept boxes meet, or infinity."""
         distance = self._distance + (max_gap if max_gap < math.inf else 0.0)
         if t_max < 1:  # the end is rounded
-            end_of_part = self._start + t_max * (end - self._start)
+            shorter_end = self._start + t_max * (end - self._start)
             largest = max(np.abs(self._start).max(initial=0), np.abs(end).max(initial=0))
             distance = (distance + 2.0**-46 * float(largest) + 2.0**-1070) * (1 + 2.0**-50)
         else:
-            end_of_part = end
-        found = self._steps.candidates(*self._frames(end_of_part), distance=distance)
+            shorter_end = end
+        found = self._steps.candidates(*self._frames(shorter_end), distance=distance)
         return self._pairs(found).first_with_gap(end, rescaling, max_gap, t_max)
 
 
 class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignore]
-    """The exact narrow phase: docs/collision-detection.md compares it with the toolkit's.
+    """The exact narrow phase. docs/collision-detection.md compares it with the toolkit's.
 
-    conservative_rescaling, in (0, 1]: with less than 1 each pair keeps the fraction 1 - conservative_rescaling
-    of its distance above min_distance at the start, at most max_gap > 0, up to the time of impact.
+    conservative_rescaling, in (0, 1]: if less than 1, each pair keeps a gap up to the time of impact. The gap is the
+    fraction 1 - conservative_rescaling of its distance above min_distance at the start, at most max_gap > 0.
 
-    Use it as narrow_phase_ccd= of this module's functions, for one pair, or for the candidates of a broad
-    phase by the two methods below. The toolkit's own functions call a narrow phase of Python's from their threads
-    while they hold the interpreter's lock: call ipctk.set_num_threads(1) first, or they wait forever.
+    Pass it as narrow_phase_ccd= to this module's functions, or call it for one pair or for candidates.
+    Before passing it to the toolkit's own functions, call ipctk.set_num_threads(1): they call it from their threads
+    while they hold the interpreter's lock, and otherwise deadlock.
     """
 
     def __init__(self, conservative_rescaling: float = 1.0, max_gap: float = math.inf) -> None:
@@ -315,7 +315,7 @@ class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignor
             if not 0 < value <= end:
                 raise ValueError(f"{name} is {value}; expected a number > 0 and <= {end}")
 
-    def _answer(self, kind: ccd.Kind, start: Any, end: Any, min_distance: float, tmax: float) -> tuple[bool, float]:
+    def _result(self, kind: ccd.Kind, start: Any, end: Any, min_distance: float, tmax: float) -> tuple[bool, float]:
         points = np.zeros((len(start), 2, 3))
         points[:, 0, :len(start[0])], points[:, 1, :len(end[0])] = start, end
         time = _native.Questions(kind, points.reshape(1, -1), None, None, None).least_time(
@@ -324,37 +324,37 @@ class ExactNarrowPhase(ipctk.NarrowPhaseCCD):  # type: ignore[misc, unused-ignor
 
     def point_point_ccd(self, p0_t0: ArrayLike, p1_t0: ArrayLike, p0_t1: ArrayLike, p1_t1: ArrayLike,
                         min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
-        return self._answer("vertex_vertex", (p0_t0, p1_t0), (p0_t1, p1_t1), min_distance, tmax)
+        return self._result("vertex_vertex", (p0_t0, p1_t0), (p0_t1, p1_t1), min_distance, tmax)
 
     def point_edge_ccd(self, p_t0: ArrayLike, e0_t0: ArrayLike, e1_t0: ArrayLike, p_t1: ArrayLike, e0_t1: ArrayLike,
                        e1_t1: ArrayLike, min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
-        return self._answer("vertex_edge", (p_t0, e0_t0, e1_t0), (p_t1, e0_t1, e1_t1), min_distance, tmax)
+        return self._result("vertex_edge", (p_t0, e0_t0, e1_t0), (p_t1, e0_t1, e1_t1), min_distance, tmax)
 
     def point_triangle_ccd(self, p_t0: ArrayLike, t0_t0: ArrayLike, t1_t0: ArrayLike, t2_t0: ArrayLike,
                            p_t1: ArrayLike, t0_t1: ArrayLike, t1_t1: ArrayLike, t2_t1: ArrayLike,
                            min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
-        return self._answer("vertex_face", (p_t0, t0_t0, t1_t0, t2_t0), (p_t1, t0_t1, t1_t1, t2_t1),
+        return self._result("vertex_face", (p_t0, t0_t0, t1_t0, t2_t0), (p_t1, t0_t1, t1_t1, t2_t1),
                             min_distance, tmax)
 
     def edge_edge_ccd(self, ea0_t0: ArrayLike, ea1_t0: ArrayLike, eb0_t0: ArrayLike, eb1_t0: ArrayLike,
                       ea0_t1: ArrayLike, ea1_t1: ArrayLike, eb0_t1: ArrayLike, eb1_t1: ArrayLike,
                       min_distance: float = 0.0, tmax: float = 1.0) -> tuple[bool, float]:
-        return self._answer("edge_edge", (ea0_t0, ea1_t0, eb0_t0, eb1_t0), (ea0_t1, ea1_t1, eb0_t1, eb1_t1),
+        return self._result("edge_edge", (ea0_t0, ea1_t0, eb0_t0, eb1_t0), (ea0_t1, ea1_t1, eb0_t1, eb1_t1),
                             min_distance, tmax)
 
     def is_step_collision_free(self, candidates: Any, mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike,
                                min_distance: float = 0.0) -> bool:
-        """As candidates.is_step_collision_free: of these candidates, and of all vertices and planes."""
+        """Same as candidates.is_step_collision_free. Tests the candidates, and all vertices against planes."""
         return _Step(mesh, vertices_t0, vertices_t1, min_distance, self, candidates).is_free()
 
     def compute_collision_free_stepsize(self, candidates: Any, mesh: Any, vertices_t0: ArrayLike,
                                         vertices_t1: ArrayLike, min_distance: float = 0.0) -> float:
-        """As candidates.compute_collision_free_stepsize: of these candidates, and of all vertices and planes."""
+        """Same as candidates.compute_collision_free_stepsize, for the candidates and for vertices against planes."""
         return _Step(mesh, vertices_t0, vertices_t1, min_distance, self, candidates).size()
 
 
 def _listed_rows(candidates: Any, edges: Any, faces: Any) -> _Rows:
-    """The vertices of the toolkit's candidates."""
+    """Returns the vertices of the toolkit's candidates."""
     vertex, edge = (_ids(candidates.ev_candidates, name)[0] for name in ("vertex_id", "edge_id"))
     first, second = _ids(candidates.ee_candidates, "edge0_id", "edge1_id")
     of_face, face = _ids(candidates.fv_candidates, "vertex_id", "face_id")
@@ -366,7 +366,7 @@ def _listed_rows(candidates: Any, edges: Any, faces: Any) -> _Rows:
 
 
 class _Step:
-    """One step of a toolkit's mesh: of all its pairs or of candidates, and of its planes."""
+    """One step of a toolkit's mesh, with its planes: all pairs, or candidates."""
 
     def __init__(self, mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float,
                  narrow: ExactNarrowPhase, candidates: Any = None) -> None:
@@ -400,7 +400,7 @@ class _Step:
         size = self._first()
         if size == math.inf:
             return 1.0
-        # The end of a step to the contact itself is rounded, and may be one: a little less then.
+        # The rounded end of a step to the contact may itself be in contact. Then the step is shortened.
         less = 2.0**-52
         while size > 0:
             if not self._meets(self._start + size * (self._end - self._start)):
@@ -422,39 +422,40 @@ def _exact_step(mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: fl
 
 def _theirs(function: Any, mesh: Any, before: ArrayLike, after: ArrayLike, min_distance: float, broad_phase: Any,
             narrow: Any) -> Any:
-    """The toolkit's function, by its own narrow phase and our broad phase if there is no other."""
+    """Calls the toolkit's function with its narrow phase. The default broad phase is BroadPhase()."""
     return function(mesh, np.asfortranarray(before), np.asfortranarray(after), min_distance,
                     BroadPhase() if broad_phase is None else broad_phase, narrow)
 
 
 def is_step_collision_free(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike, min_distance: float = 0.0,
                            broad_phase: Any = None, narrow_phase_ccd: Any = None) -> bool:
-    """True if no two elements touch, or come within min_distance, on the straight way from vertices_t0
-    to vertices_t1, and no vertex touches a plane of the mesh: no tolerance, no false alarm.
+    """True if no two elements touch, or come within min_distance, in the linear motion from vertices_t0 to vertices_t1,
+    and no vertex touches a plane of the mesh. There is no tolerance and no false positive.
 
-    broad_phase: the toolkit's; its candidates are then decided instead of all pairs. narrow_phase_ccd: an
-    ExactNarrowPhase, the default; with another one this is the toolkit's function over our broad phase.
+    broad_phase: one of the toolkit's; then only its candidates are tested, instead of all pairs.
+    narrow_phase_ccd: ExactNarrowPhase() by default; with another type, calls the toolkit's function with BroadPhase().
     """
     narrow = ExactNarrowPhase() if narrow_phase_ccd is None else narrow_phase_ccd
-    question = mesh, vertices_t0, vertices_t1, min_distance, broad_phase, narrow
+    arguments = mesh, vertices_t0, vertices_t1, min_distance, broad_phase, narrow
     if not isinstance(narrow, ExactNarrowPhase):
-        return bool(_theirs(ipctk.is_step_collision_free, *question))
-    return _exact_step(*question).is_free()
+        return bool(_theirs(ipctk.is_step_collision_free, *arguments))
+    return _exact_step(*arguments).is_free()
 
 
 def compute_collision_free_stepsize(mesh: Any, vertices_t0: ArrayLike, vertices_t1: ArrayLike,
                                     min_distance: float = 0.0, broad_phase: Any = None,
                                     narrow_phase_ccd: Any = None) -> float:
-    """The largest step size found to be free, from 0 to 1. On the way from vertices_t0 to
-    vertices_t0 + step * (vertices_t1 - vertices_t0), in exactly this form as NumPy rounds it, no two elements
-    touch or come within min_distance, and no vertex a plane of the mesh. 0 if some do so at the start.
+    """Returns the largest step size in [0, 1] found to be free; 0 if there is contact at the start.
 
-    Arguments: as is_step_collision_free. With ExactNarrowPhase(0.8, 1e-4) a gap is kept as well: with a
-    finite max_gap by all pairs, else by those whose swept boxes meet until the first contact.
-    Cost: two steps of ccd.Steps; with a gap that of the candidates, too.
+    In the motion from vertices_t0 to vertices_t0 + step * (vertices_t1 - vertices_t0), as NumPy rounds this expression,
+    no two elements touch or come within min_distance, and no vertex touches a plane of the mesh.
+
+    Arguments: as is_step_collision_free. ExactNarrowPhase(0.8, 1e-4) keeps a gap as well. With a finite max_gap all
+    pairs keep it, otherwise only pairs whose swept boxes meet before the first contact.
+    Cost: two steps of ccd.Steps; a gap adds the cost of the candidates.
     """
     narrow = ExactNarrowPhase() if narrow_phase_ccd is None else narrow_phase_ccd
-    question = mesh, vertices_t0, vertices_t1, min_distance, broad_phase, narrow
+    arguments = mesh, vertices_t0, vertices_t1, min_distance, broad_phase, narrow
     if not isinstance(narrow, ExactNarrowPhase):
-        return float(_theirs(ipctk.compute_collision_free_stepsize, *question))
-    return _exact_step(*question).size()
+        return float(_theirs(ipctk.compute_collision_free_stepsize, *arguments))
+    return _exact_step(*arguments).size()

@@ -1,13 +1,12 @@
-"""Steps of meshes that are spread over the ranks of MPI, by mpi4py's communicators.
+"""Steps of meshes that are distributed over MPI ranks, with mpi4py's communicators.
 
-Import it by name: it needs mpi4py, and an errbound built with the same MPI. Wheels are built without. In the source tree:
+Wheels are built without MPI. Build errbound in the source tree, with the MPI of mpi4py:
 pip install --config-settings cmake.define.ERRBOUND_WITH_MPI=ON . mpi4py.
 
-Each rank gives what it has: the numbers of its vertices in the whole mesh, (n,), any whole numbers from 0
-that differ, positions (n, 3) before and after, faces (m, 3) and edges (k, 2) by row of these. A vertex may be
-on several ranks, with the same positions; a face or an edge, too, and counts once. Results are those of
-errbound.ccd of the whole mesh, whatever the number of ranks and who has what. All calls are collective; what
-is wrong on one rank is raised on all.
+Each rank passes the numbers of its vertices in the whole mesh, (n,), distinct integers >= 0; their positions (n, 3)
+before and after; faces (m, 3) and edges (k, 2), by row of these. Several ranks may pass a vertex, with equal
+positions. Several ranks may pass a face or an edge; duplicates count once. Results equal those of errbound.ccd for
+the whole mesh, for every distribution. All calls are collective. An error on one rank is raised on all.
 """
 from __future__ import annotations
 
@@ -22,23 +21,23 @@ from numpy.typing import ArrayLike, NDArray
 try:
     from mpi4py import MPI
 except ImportError:
-    raise ImportError("errbound.mpi: found no mpi4py, expected it to be installed") from None
+    raise ImportError("errbound.mpi needs the package mpi4py: pip install mpi4py") from None
 try:
     _mpi: Any = import_module("errbound._mpi")
 except ImportError as missing:
-    raise ImportError("errbound.mpi: found an errbound that was built without MPI, or not the MPI that it was "
-                      "built with; build it where MPI is: pip install --no-binary errbound "
+    raise ImportError("errbound is built without MPI, or its MPI is missing; expected a build with the installed MPI: "
+                      "pip install --no-binary errbound "
                       f"--config-settings cmake.define.ERRBOUND_WITH_MPI=ON errbound ({missing})") from None
 
 from ._arrays import as_array, checked_indices, frames, option
 from ._results import _listed
-from .ccd import _OF_ADVANCE, _OF_RUN, _question
+from .ccd import _OF_ADVANCE, _OF_RUN, _request
 
 __all__ = ["AdvanceResult", "Pairs", "StepResult", "Work", "advance", "step"]
 
 if _mpi.library_version() != MPI.Get_library_version().rstrip("\0"):
-    raise ImportError(f"errbound.mpi: found mpi4py of {MPI.Get_library_version()!r}, expected that of "
-                      f"{_mpi.library_version()!r}, which errbound was built with")
+    raise ImportError(f"MPI of mpi4py is {MPI.Get_library_version()!r}; expected the one that errbound is built with, "
+                      f"{_mpi.library_version()!r}")
 
 Numbers = NDArray[np.uint64]
 _OF_STEP = {name: kind for name, kind in _OF_RUN.items() if name not in ("can_collide", "stages")}
@@ -47,7 +46,7 @@ _OF_FREE_STEP = {name: kind for name, kind in _OF_ADVANCE.items() if name != "ca
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Pairs:
-    """Pairs of the vertices' numbers, uint64, each list sorted, as errbound.ccd.Pairs."""
+    """Same as errbound.ccd.Pairs, with uint64 numbers of vertices in the whole mesh."""
     vertex_face: Numbers
     edge_edge: Numbers
     vertex_edge: Numbers
@@ -62,7 +61,7 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Work:
-    """What a call took of this rank: elements it gave, and those that it held; bytes to other ranks."""
+    """The work of this rank: elements passed by it, elements stored on it, bytes sent to other ranks, seconds."""
     elements_given: int
     elements_held: int
     bytes_sent: int
@@ -71,7 +70,7 @@ class Work:
 
 @dataclass(frozen=True, eq=False)
 class StepResult:
-    """This rank's pairs (with gather: all on rank 0); first_contact and candidates of the whole step."""
+    """The pairs of this rank (with gather: all on rank 0); first_contact and candidates of the whole step."""
     pairs: Pairs
     touching_at_start: Pairs
     times: dict[str, dict[str, NDArray[np.float64]]] | None
@@ -82,7 +81,7 @@ class StepResult:
 
 @dataclass(frozen=True, eq=False)
 class AdvanceResult:
-    """Positions (n, 3) and fractions (n,) of this rank's vertices; the rest is of the whole mesh."""
+    """Positions (n, 3) and fractions (n,) of this rank's vertices; other members describe the whole mesh."""
     positions: NDArray[np.float64]
     fraction: float
     fractions: NDArray[np.float64]
@@ -93,7 +92,7 @@ class AdvanceResult:
 
 
 def _agreed(comm: MPI.Comm, make: Callable[[], Any]) -> Any:
-    """make() on every rank; what it raises on one is raised on all, so that none waits for another."""
+    """Returns make(). An exception on one rank is raised on all, so that none waits for another."""
     failure: Exception | None = None
     made = None
     try:
@@ -106,26 +105,26 @@ def _agreed(comm: MPI.Comm, make: Callable[[], Any]) -> Any:
     return made
 
 
-def _asked(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLike, faces: ArrayLike,
-           edges: ArrayLike, known: dict[str, Any], options: dict[str, Any]) -> tuple[Any, Any]:
+def _checked(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLike, faces: ArrayLike,
+             edges: ArrayLike, known: dict[str, Any], options: dict[str, Any]) -> tuple[Any, Any]:
     if not isinstance(comm, MPI.Comm):
-        raise TypeError(f"comm: found {comm!r}, expected a communicator of mpi4py")
+        raise TypeError(f"comm is {comm!r}; expected a communicator of mpi4py")
 
     def make() -> tuple[Any, Any]:
         at_start, at_end = frames(before, after)
         vertices = len(at_start)
         of_vertices = as_array("numbers", numbers)
         if of_vertices.size and of_vertices.dtype.kind not in "iu":
-            raise TypeError(f"numbers: found {of_vertices.dtype}, expected whole numbers")
+            raise TypeError(f"numbers is an array of {of_vertices.dtype}; expected integers")
         if of_vertices.shape != (vertices,):
-            raise ValueError(f"numbers: found shape {of_vertices.shape}, expected ({vertices},) as before has rows")
+            raise ValueError(f"shape of numbers is {of_vertices.shape}; expected ({vertices},), one per row of before")
         if of_vertices.size and of_vertices.min() < 0:
-            raise ValueError(f"numbers: found {of_vertices.min()}, expected 0 or more")
+            raise ValueError(f"minimum of numbers is {of_vertices.min()}; expected numbers >= 0")
         of_faces = checked_indices("faces", faces, 3, vertices)
         of_edges = checked_indices("edges", edges, 2, vertices)
         mesh = _mpi.Mesh(comm.py2f(), np.require(of_vertices, np.uint64, ["C", "A"]), at_start, at_end, of_faces,
                          of_edges)
-        return mesh, _question(vertices, known, options)
+        return mesh, _request(vertices, known, options)
 
     found: tuple[Any, Any] = _agreed(comm, make)
     return found
@@ -133,14 +132,14 @@ def _asked(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLi
 
 def step(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLike, faces: ArrayLike,
          edges: ArrayLike = (), *, gather: bool = False, **options: Any) -> StepResult:
-    """The pairs of one step of the whole mesh that are not certainly separate.
+    """Finds the pairs of one step of the whole mesh that are not certainly separate.
 
     Each pair is returned on the lowest rank that has its first element; with gather, all on rank 0.
-    Options: as errbound.ccd.Steps.run, but for can_collide and stages; groups, pinned and thickness are one
-    a vertex of this rank. The same options on all ranks.
+    Options: as errbound.ccd.Steps.run, except can_collide and stages, and equal on all ranks. groups, pinned and
+    thickness have one item per vertex of this rank.
     """
     gather = option("gather", gather, bool)
-    found = _mpi.step(*_asked(comm, numbers, before, after, faces, edges, _OF_STEP, options), gather)
+    found = _mpi.step(*_checked(comm, numbers, before, after, faces, edges, _OF_STEP, options), gather)
     for name in "pairs", "touching_at_start":
         found[name] = Pairs(**found[name])
     return StepResult(**{**found, "work": Work(**found["work"])})
@@ -148,12 +147,11 @@ def step(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLike
 
 def advance(comm: MPI.Comm, numbers: ArrayLike, before: ArrayLike, after: ArrayLike, faces: ArrayLike,
             edges: ArrayLike = (), **options: Any) -> AdvanceResult:
-    """The longest step of the whole mesh found to be free, bit for bit that of errbound.ccd.advance.
+    """Computes the longest step of the whole mesh found to be free, bit for bit that of errbound.ccd.advance.
 
-    Options: as errbound.ccd.Steps.advance, but for can_collide; islands of the same number are one on all
-    ranks.
+    Options: as errbound.ccd.Steps.advance, except can_collide. Island numbers are common to all ranks.
     """
-    found = _mpi.advance(*_asked(comm, numbers, before, after, faces, edges, _OF_FREE_STEP, options))
+    found = _mpi.advance(*_checked(comm, numbers, before, after, faces, edges, _OF_FREE_STEP, options))
     for name in "touching_at_start", "near_at_start":
         found[name] = Pairs(**found[name])
     return AdvanceResult(**{**found, "work": Work(**found["work"])})

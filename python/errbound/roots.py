@@ -1,12 +1,10 @@
-"""Real roots of polynomials, exactly: counted, isolated, compared. No tolerance anywhere.
+"""Real roots of polynomials: counted, isolated and compared exactly, without a tolerance.
 
-Coefficients ascend, as in numpy.polynomial: [-2, 0, 1] is x^2 - 2. Floats are the exact numbers that
-they are; whole numbers and fractions.Fraction may have any size. Intervals [a, b] are closed; their
-ends are floats, infinite ones included.
+Coefficients ascend, as in numpy.polynomial: [-2, 0, 1] is x^2 - 2. Floats are exact numbers. Integers and
+fractions.Fraction may have any size. Intervals [a, b] are closed; their ends are floats and may be infinite.
 
-Calls release the interpreter's lock, and Ctrl-C ends them. max_operations and max_bytes limit the search of
-roots, as errbound::root_limits in C++: operations on words of 64 bits, about a nanosecond each, and memory of the
-rows of numbers held at a time, estimated. A search that would go beyond them raises LimitError.
+max_operations and max_bytes limit the search, as errbound::root_limits does in C++: operations on 64-bit words,
+about a nanosecond each, and estimated memory. A search that would exceed them throws LimitError.
 """
 from __future__ import annotations
 
@@ -26,17 +24,17 @@ from ._arrays import Doubles, check_finite, check_shape, doubles, option
 LimitError = _native.LimitError
 
 INFINITELY_MANY = -1
-"""The number of roots of the polynomial that is zero."""
+"""The number of roots of the zero polynomial."""
 
 Coefficients = Sequence[Any] | NDArray[Any]
 
 
 def _coefficients(name: str, p: Coefficients) -> Doubles | list[str]:
-    """Doubles, or a positive multiple in whole numbers, in hexadecimal digits."""
+    """Returns doubles, or the hexadecimal digits of a positive multiple with integer coefficients."""
     if not isinstance(p, (Sequence, np.ndarray)) or isinstance(p, (str, bytes)):
-        raise TypeError(f"{name}: found {p!r}, expected a sequence of coefficients")
+        raise TypeError(f"{name} is {p!r}; expected a sequence of coefficients")
     if len(p) == 0:
-        raise ValueError(f"{name}: found no coefficients, expected at least one")
+        raise ValueError(f"{name} is empty; expected at least one coefficient")
     if isinstance(p, np.ndarray) and p.dtype.kind in "iuO":
         check_shape(name, p, (None,))
         p = p.tolist()
@@ -45,9 +43,9 @@ def _coefficients(name: str, p: Coefficients) -> Doubles | list[str]:
         check_finite(name, array)
         return array
     if not all(isinstance(c, (Rational, float, np.integer)) and not isinstance(c, bool) for c in p):
-        raise TypeError(f"{name}: found {p!r}, expected floats, whole numbers or fractions")
+        raise TypeError(f"{name} is {p!r}; expected floats, integers or fractions")
     if not all(math.isfinite(c) for c in p if isinstance(c, (float, np.floating))):
-        raise ValueError(f"{name}: found {p!r}, expected finite numbers")
+        raise ValueError(f"{name} is {p!r}; expected finite numbers")
     exact = [Fraction(int(c) if isinstance(c, np.integer) else c) for c in p]
     unit = math.lcm(*(c.denominator for c in exact))
     return [f"{int(c * unit):x}" for c in exact]
@@ -56,7 +54,7 @@ def _coefficients(name: str, p: Coefficients) -> Doubles | list[str]:
 def _interval(a: float, b: float) -> tuple[float, float]:
     a, b = option("a", a, float), option("b", b, float)
     if not (a <= b and a < math.inf and b > -math.inf):
-        raise ValueError(f"a, b: found [{a}, {b}], expected a <= b, with numbers between")
+        raise ValueError(f"interval is [{a}, {b}]; expected a <= b, and a finite number in it")
     return a, b
 
 
@@ -66,12 +64,11 @@ def _limits(max_operations: int | None, max_bytes: int | None) -> list[int | Non
 
 
 class Roots:
-    """The distinct real roots of p in [a, b], ascending, each in an interval of its own.
+    """The distinct real roots of p in [a, b], ascending, each in a separate interval.
 
-    low, high: float64 (k,): the neighbouring doubles between which each root lies, or twice the double
-    that it is (is_double, bool (k,)); computed when first read. multiplicity: int64 (k,). everywhere: p is zero, and no
-    root is listed. For one call at a time: a second thread's raises RuntimeError. Cost: microseconds at low degree
-    (docs/polynomials.md).
+    low, high: float64 (k,), the adjacent doubles around each root, or twice the root if it is a double (is_double,
+    bool (k,)); computed when first read. multiplicity: int64 (k,). everywhere: True if p is zero; then no root is
+    listed. A call from a second thread throws RuntimeError. Cost: microseconds at low degree (docs/polynomials.md).
     """
 
     def __init__(self, p: Coefficients, a: float = -math.inf, b: float = math.inf, *,
@@ -112,11 +109,11 @@ class Roots:
         k = operator.index(k)
         if not 0 <= k < len(self):
             raise IndexError(f"k is {k}; expected 0 to {len(self) - 1}" if len(self) else
-                             f"k is {k}; expected none, as there are no roots")
+                             f"k is {k}; expected no index, since there are no roots")
         return k
 
     def interval(self, k: int, width: float | None = None) -> tuple[Fraction, Fraction]:
-        """An interval of at most that width, if given: root k is strictly inside, or is both ends."""
+        """Returns an interval with root k strictly inside, or equal to both ends; no wider than `width` if given."""
         k = self._check(k)
         if width is not None:
             width = option("width", width, float)
@@ -126,25 +123,25 @@ class Roots:
         return low, high
 
     def sign_at(self, g: Coefficients) -> NDArray[np.int8]:
-        """The signs, (k,), of another polynomial at each root."""
+        """Returns the signs, (k,), of another polynomial at each root."""
         return np.asarray(self._roots.signs_at(_coefficients("g", g)))
 
     def signs_taken(self) -> tuple[bool, bool, bool]:
-        """Whether p is negative, zero, positive somewhere in [a, b]."""
+        """Returns three flags: p is negative, zero, positive somewhere in [a, b]."""
         return self._roots.occurring_signs()
 
 
 def isolate(p: Coefficients, a: float = -math.inf, b: float = math.inf, *, max_operations: int | None = None,
             max_bytes: int | None = None) -> Roots:
-    """The real roots of p in [a, b]."""
+    """Returns the real roots of p in [a, b]."""
     return Roots(p, a, b, max_operations=max_operations, max_bytes=max_bytes)
 
 
 def count(p: ArrayLike, a: float = -math.inf, b: float = math.inf, *, max_operations: int | None = None,
           max_bytes: int | None = None) -> int | NDArray[np.int64]:
-    """The number of distinct real roots in [a, b]; INFINITELY_MANY if p is zero.
+    """Returns the number of distinct real roots in [a, b]; INFINITELY_MANY if p is zero.
 
-    Of a float array (n, degree + 1), of each row: int64 (n,); limits are those of a row.
+    For a float array (n, degree + 1), returns int64 (n,), one number per row. Limits apply to each row.
     """
     a, b = _interval(a, b)
     limits = _limits(max_operations, max_bytes)
@@ -156,5 +153,5 @@ def count(p: ArrayLike, a: float = -math.inf, b: float = math.inf, *, max_operat
 
 
 def common_factor(p: Coefficients, q: Coefficients) -> list[int]:
-    """The greatest common divisor of both, primitive over the integers; coefficients ascend."""
+    """Returns the greatest common divisor, primitive over the integers. Coefficients ascend."""
     return [int(c, 16) for c in _native.common_factor(_coefficients("p", p), _coefficients("q", q))]

@@ -4,11 +4,9 @@
     y.value, y.error, y.sign
     tracked.exp(-x**2).sum(), x @ y
 
-The number that exact arithmetic would have given is within error of value, under every rule except "none".
+The result of exact arithmetic is within error of value, under every rule except "none".
 Rules: none, safe, tight (the default), sharp, interval, residual, affine, relative (docs/bound-rules.md).
-Operations release the interpreter's lock, and Ctrl-C ends them.
-
-explain returns the parts of an error of an array(..., explained=True), by operation and scope (docs/how-wrong.md).
+explain splits the error of an array(..., explained=True) by operation and scope (docs/how-wrong.md).
 """
 from __future__ import annotations
 
@@ -25,16 +23,16 @@ from . import _native
 from ._arrays import as_array, is_real, nearest_double, option
 
 UNCERTAIN = 2
-"""What sign says where the bound does not exclude zero, nor the value is known to be zero."""
+"""The sign of a number that may be zero and is not certainly zero."""
 
 
 class Array:
-    """Operators + - * / ** @ and abs on arrays of one rule and dtype, or with plain numbers, broadcast as NumPy's.
+    """An array with + - * / ** @ and abs. The other operand has the same rule and dtype, or is plain numbers.
 
-    Plain numbers that dtype does not hold are within the rounding error of their conversion. Division by a rule that
-    has none (safe) is a ValueError. Indexing, slices and reshape copy. NumPy's functions do not take these arrays;
-    this module has functions of their own. Pickled arrays keep value and error, as array() makes them, but not what
-    the rule knows beyond these.
+    Shapes broadcast as in NumPy. Plain numbers that dtype does not represent get the error of their rounding.
+    Division throws ValueError if the rule has none (safe). Indexing, slices and reshape copy. NumPy's functions do
+    not accept these arrays; use those of this module. Pickled arrays keep value and error, but no other data of
+    the rule.
     """
     __array_ufunc__ = None  # NumPy's arrays leave operators to this class
 
@@ -60,12 +58,12 @@ class Array:
 
     @property
     def value(self) -> NDArray[Any]:
-        """What plain arithmetic would have computed."""
+        """The results of plain floating-point arithmetic."""
         return self._row.values().reshape(self.shape)  # type: ignore[no-any-return]
 
     @property
     def error(self) -> NDArray[Any]:
-        """Upper bounds of |value - exact value|; infinite where nothing is known, never NaN."""
+        """Upper bounds of |value - exact value|. They may be infinite, but are never NaN."""
         return self._row.errors().reshape(self.shape)  # type: ignore[no-any-return]
 
     @property
@@ -80,22 +78,22 @@ class Array:
         with np.printoptions(threshold=20):
             return f"tracked.array(value={self.value!r}, error={self.error!r}, rule={self.rule!r})"
 
-    def _taken(self, places: NDArray[np.int64]) -> Array:
-        row = self._row.taken(np.ascontiguousarray(places, np.int64).reshape(-1))
-        return self._made(row, places.shape)
+    def _taken(self, positions: NDArray[np.int64]) -> Array:
+        row = self._row.taken(np.ascontiguousarray(positions, np.int64).reshape(-1))
+        return self._made(row, positions.shape)
 
-    def _places(self) -> NDArray[np.int64]:
+    def _positions(self) -> NDArray[np.int64]:
         return np.arange(len(self._row), dtype=np.int64).reshape(self.shape)
 
     def __getitem__(self, key: Any) -> Array:
-        return self._taken(np.asarray(self._places()[key]))
+        return self._taken(np.asarray(self._positions()[key]))
 
     def reshape(self, *shape: int) -> Array:
-        """A copy of that shape, as NumPy's reshape has it."""
-        return self._taken(self._places().reshape(*shape))
+        """Returns a copy with this shape, as NumPy's reshape."""
+        return self._taken(self._positions().reshape(*shape))
 
     def scale(self, exponent: int) -> Array:
-        """Times 2^exponent: exact unless it underflows, which the bound then covers."""
+        """Multiplies by 2^exponent: exact unless it underflows; the bound covers underflow."""
         return self._made(self._row.scaled(exponent))
 
     @property
@@ -109,16 +107,16 @@ class Array:
     @property
     def T(self) -> Array:
         """A copy with the axes reversed."""
-        return self._taken(self._places().T)
+        return self._taken(self._positions().T)
 
     def sum(self, axis: int | None = None, *, out: None = None) -> Array:
-        """The sum of all numbers, or along an axis, from the first to the last; 0 of none. out: for np.sum; None."""
+        """Returns the sum of all numbers, or along an axis, from first to last. out: for np.sum; must be None."""
         if out is not None:
             raise TypeError("out is given; expected none")
-        places = self._places().reshape(-1) if axis is None else np.moveaxis(self._places(), axis, -1)
-        if places.shape[-1] == 0:
-            return self._like(np.zeros(places.shape[:-1], self.dtype))
-        return self._made(self._taken(places)._row.sums(places.shape[-1]), places.shape[:-1])
+        positions = self._positions().reshape(-1) if axis is None else np.moveaxis(self._positions(), axis, -1)
+        if positions.shape[-1] == 0:
+            return self._like(np.zeros(positions.shape[:-1], self.dtype))
+        return self._made(self._taken(positions)._row.sums(positions.shape[-1]), positions.shape[:-1])
 
     def __matmul__(self, other: Any) -> Array:
         return dot(self, other)
@@ -137,7 +135,7 @@ class Array:
                                                             explained=self.explained)
 
     def _broadcast(self, shape: tuple[int, ...]) -> Array:
-        return self if self.shape == shape else self._taken(np.broadcast_to(self._places(), shape))
+        return self if self.shape == shape else self._taken(np.broadcast_to(self._positions(), shape))
 
     def _with(self, other: Any, operation: str, swapped: bool = False) -> Array:
         other = self._like(other)
@@ -216,7 +214,7 @@ def _first_array(name: str, *operands: Any) -> Array:
     for operand in operands:
         if isinstance(operand, Array):
             return operand
-    raise TypeError(f"{name}: found no tracked array, expected at least one")
+    raise TypeError(f"arguments of {name} are plain numbers; expected at least one tracked array")
 
 
 def _of_each(name: str, x: Array) -> Array:
@@ -234,7 +232,7 @@ def sqrt(x: Array) -> Array:
 
 
 def cbrt(x: Array) -> Array:
-    """Cube roots, also of negative numbers."""
+    """Cube roots. Arguments may be negative."""
     return _of_each("cbrt", x)
 
 
@@ -344,7 +342,7 @@ def hypot(x: Any, y: Any) -> Array:
 
 
 def pow(x: Any, y: Any) -> Array:
-    """x^y: by products of the rule for an integer y, and by the system's function otherwise.
+    """x^y: products under the rule for an integer y, otherwise the system's pow.
 
     The error is infinite where x may be zero or negative and y is not an integer.
     """
@@ -365,10 +363,10 @@ def maximum(x: Any, y: Any) -> Array:
 
 
 def dot(x: Any, y: Any) -> Array:
-    """Dot products and products of matrices, of one or two axes each, as x @ y.
+    """Dot products and matrix products, as x @ y. Operands have one or two axes.
 
-    Values are those of sums from the first term to the last. The bound is the rule's for a whole product where it has
-    one (tight, sharp, relative: the running error bound; residual: the compensated dot product).
+    Terms are summed from first to last. Some rules bound a whole product: tight, sharp and relative by the running
+    error bound, residual by the compensated dot product.
     """
     first = _first_array("dot", x, y)
     a, b = first._like(x), first._like(y)
@@ -391,10 +389,10 @@ def fma(x: Any, y: Any, z: Any) -> Array:
 
 @dataclass(frozen=True)
 class Contribution:
-    """A part of an error: amount, at least 0; known, its part that is known with its sign; operation; scopes.
+    """A term of an error. amount: at least 0; known: the amount that is known with its sign.
 
-    operation: + - * / scale, the name of a function, input (a number within an error), or the rest (parts too small
-    to be kept). scopes: name, file and line of each scope, the outermost first.
+    operation: + - * / scale, the name of a function, input (the error of an input), or the rest (terms too small to
+    keep). scopes: name, file and line of each scope, outermost first.
     """
     amount: float
     known: float
@@ -404,7 +402,7 @@ class Contribution:
 
 @dataclass(frozen=True)
 class Explanation:
-    """The parts of the error of one number, the largest first; printed as a table (docs/how-wrong.md)."""
+    """The terms of the error of one number, largest first. str() is a table (docs/how-wrong.md)."""
     name: str
     rule: str
     value: float
@@ -417,7 +415,7 @@ class Explanation:
 
 
 def explain(x: Array, name: str = "result") -> Explanation:
-    """Where the error of x comes from: an explained array of one number, whose name is for the table."""
+    """Returns the sources of the error of x, an explained array with one number. name: printed in the table."""
     x, name = _first_array("explain", x), option("name", name, str)
     if x.size != 1:
         raise ValueError(f"shape of x is {x.shape}; expected one number, such as x[0]")
@@ -428,9 +426,9 @@ def explain(x: Array, name: str = "result") -> Explanation:
 
 
 class scope:
-    """A part of the program that explanations name: `with tracked.scope("mean"): ...`.
+    """A named region of the program for explanations: `with tracked.scope("mean"): ...`.
 
-    Operations in it are apart from those outside. Scopes nest; each thread has its own.
+    Explanations list its operations separately. Scopes nest. Each thread has its own scopes.
     """
 
     def __init__(self, name: str) -> None:
@@ -446,10 +444,10 @@ class scope:
 
 
 def _with_conversion(name: str, values: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Values as an array of numbers, and bounds of the errors of their conversion to float64, if they needed one.
+    """Returns values as an array, and bounds of the errors of their conversion to float64.
 
-    Integers of any size and fractions are converted. NumPy rounds integers among floats, so sequences are converted
-    item by item.
+    Integers of any size and fractions are converted. Sequences are converted item by item, since NumPy would round
+    integers among floats.
     """
     array = as_array(name, values)
     given = array
@@ -457,7 +455,7 @@ def _with_conversion(name: str, values: ArrayLike) -> tuple[NDArray[Any], NDArra
         given = np.asarray(values, object)
     if given.dtype.kind != "O":
         if array.dtype.kind not in "fiu":
-            raise TypeError(f"{name}: found {array.dtype}, expected numbers")
+            raise TypeError(f"{name} is an array of {array.dtype}; expected numbers")
         return array, np.zeros(array.shape)
     items = given.reshape(-1).tolist()
     wrong = [x for x in items if not is_real(x)]
@@ -469,7 +467,7 @@ def _with_conversion(name: str, values: ArrayLike) -> tuple[NDArray[Any], NDArra
 
 
 def _rounded_to(number: np.dtype[Any], values: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Values in that type, and bounds of the errors of their conversion."""
+    """Returns values converted to this type, and bounds of the errors of the conversion."""
     with np.errstate(over="ignore", invalid="ignore"):
         rounded = values.astype(number)
         exact = (rounded == values) | np.isnan(rounded)
@@ -482,17 +480,17 @@ def _rounded_to(number: np.dtype[Any], values: NDArray[Any]) -> tuple[NDArray[An
 
 def array(value: ArrayLike, error: ArrayLike = 0, *, rule: str = "tight", dtype: Any = None,
           explained: bool = False) -> Array:
-    """Numbers known to lie within error of value (0: exactly; infinity or NaN: anywhere), of any shape.
+    """Returns an array of numbers within error of value (0: exact; infinity or NaN: unknown), of any shape.
 
-    dtype: float64 or float32, that of value by default. A value that it does not hold is rounded, and its error grows
-    by a unit in the last place. explained: for explain; float64 by the rules tight and residual only. Operations then
-    take some hundred times as long.
+    dtype: float64 or float32; by default that of value. A value that dtype does not represent is rounded, and its
+    error grows by a unit in the last place. explained: enables explain, for float64 and the rules tight and residual;
+    operations then take about a hundred times as long.
     """
     (values, given), rule = _with_conversion("value", value), option("rule", rule, str)
     explained = option("explained", explained, bool)
     number = np.dtype(dtype or (np.float32 if values.dtype == np.float32 else np.float64))
     if number not in (np.float32, np.float64):
-        raise TypeError(f"dtype: found {number}, expected float64 or float32")
+        raise TypeError(f"dtype is {number}; expected float64 or float32")
     errors, given_error = (np.broadcast_to(x, values.shape) for x in _with_conversion("error", error))
     if (errors < 0).any():
         raise ValueError(f"error is {errors.min()}; expected numbers >= 0")

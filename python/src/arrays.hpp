@@ -1,4 +1,4 @@
-// Arrays of NumPy's, as the library wants them and as it makes them.
+// Conversion between NumPy's arrays and spans or vectors.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -14,7 +14,7 @@ namespace errbound::python {
 
 namespace nb = nanobind;
 
-/// Arguments: read where they are. errbound/_arrays.py makes them contiguous.
+/// An argument, which is not copied. errbound/_arrays.py makes it contiguous.
 template <class T, nb::ssize_t... Shape>
 using input = nb::ndarray<const T, nb::shape<Shape...>, nb::c_contig, nb::device::cpu>;
 
@@ -25,7 +25,7 @@ std::span<const Item> items_of(const Array& array) {
             array.size() * sizeof(*array.data()) / sizeof(Item)};
 }
 
-/// A vector that arrays look into: it lives as long as the last of them.
+/// A vector that arrays refer to. It lives as long as the last of them.
 template <class Item>
 class shared_items {
   public:
@@ -33,17 +33,17 @@ class shared_items {
         : items_(new std::vector<Item>(std::move(items))),
           owner_(items_, [](void* p) noexcept { delete static_cast<std::vector<Item>*>(p); }) {}
 
-    /// One number of each item: a view with the items' stride.
+    /// Returns one number of each item, as a strided view.
     template <class Number>
     nb::object column(const Number& of_first) const {
         return view(&of_first, {items_->size()}, {stride<Number>()});
     }
-    /// Several numbers of each item that lie side by side.
+    /// Returns `count` adjacent numbers of each item.
     template <class Number>
     nb::object columns(const Number* of_first, std::size_t count) const {
         return view(of_first, {items_->size(), count}, {stride<Number>(), 1});
     }
-    /// The first item; where there is none, one by which columns can be named.
+    /// Returns the first item, or a default one, whose members select columns.
     const Item& first() const {
         static const Item none{};
         return items_->empty() ? none : items_->front();
@@ -66,7 +66,7 @@ class shared_items {
     nb::capsule owner_;
 };
 
-/// Rows of `columns` numbers each: all that the items are.
+/// Returns one row per item, with all its numbers.
 template <class Number, class Item>
 nb::object rows_of(std::vector<Item>&& items) {
     static_assert(sizeof(Item) % sizeof(Number) == 0);
@@ -74,7 +74,7 @@ nb::object rows_of(std::vector<Item>&& items) {
     return shared.columns(reinterpret_cast<const Number*>(&shared.first()),
                           sizeof(Item) / sizeof(Number));
 }
-/// A number an item.
+/// Returns one number per item.
 template <class Number, class Item>
 nb::object numbers_of(std::vector<Item>&& items) {
     static_assert(sizeof(Item) == sizeof(Number));

@@ -1,4 +1,4 @@
-// What each file adds to the module.
+// Functions that add the bindings of each file to the module.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -41,7 +41,7 @@ void write_text(const std::string& path, const std::string& text) {
     support::write_whole(path, text);
 }
 
-/// Kind, queries as the library has them, and truth where there is any.
+/// Returns the kind, queries in the library's layout, and truth or None.
 nb::tuple read_queries(const std::string& path, const std::optional<std::string>& kind,
                        bool round) {
     std::optional<ccd::kind> wanted;

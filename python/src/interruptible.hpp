@@ -1,4 +1,4 @@
-// Long calls: without the interpreter's lock, and ended by signals whose handlers raise.
+// Long calls without the interpreter's lock. Signals whose handlers raise end them.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -13,8 +13,8 @@ namespace errbound::python {
 
 namespace nb = nanobind;
 
-/// A ccd::stop_query: runs the handlers of pending signals, now and then, on the calling thread;
-/// Python runs them on its main thread alone. True if one raised, as that of Ctrl-C does.
+/// A ccd::stop_query that periodically runs handlers of pending signals on the calling thread
+/// (Python runs them only on its main thread). True if one raised, for example for Ctrl-C.
 class pending_signals {
   public:
     bool operator()() {
@@ -33,8 +33,8 @@ class pending_signals {
     clock::time_point next_ = clock::now() + pause;
 };
 
-/// Returns call(stop) and throws what it throws; what a signal's handler raised if that stopped it,
-/// KeyboardInterrupt if that was in another process.
+/// Returns call(stop). If a signal stopped it, throws the exception of the signal's handler, or
+/// KeyboardInterrupt if the handler ran in another process.
 template <class Call>
 auto without_gil(const Call& call) {
     try {
@@ -46,7 +46,7 @@ auto without_gil(const Call& call) {
     }
 }
 
-/// Calls visit(first, count) for parts of so many, and looks for signals between them.
+/// Calls visit(first, count) for chunks of `size` items, and tests for signals before each.
 template <class Visit>
 void in_parts(std::size_t count, std::size_t size, const Visit& visit) {
     without_gil([&](const ccd::stop_query& stop) {

@@ -6,10 +6,10 @@
 
 NB_MODULE(_native, m) {
     namespace nb = nanobind;
-    m.doc() = "What errbound's modules call: arguments are as errbound._arrays makes them.";
+    m.doc() = "Functions for errbound's modules. Arguments are made by errbound._arrays.";
     nb::exception<errbound::support::file_error>(m, "FileError", PyExc_ValueError).attr("__doc__") =
-        "What is wrong with a file: its name, the line or element, found, expected.";
-    // NumPy keeps a reference to an operand whose reduction, as by numpy.prod, raises (2.4).
+        "An invalid file: its name, the line or element, the value and the expected one.";
+    // NumPy 2.4 leaks a reference to an operand if its reduction (numpy.prod) raises.
     nb::set_leak_warnings(false);
     errbound::python::bind_queries(m);
     errbound::python::bind_steps(m);

@@ -1,5 +1,5 @@
-// The extension module errbound._mpi: steps and advances of meshes that are spread over ranks.
-// Apart, so that whoever does without MPI need not have it.
+// The extension module errbound._mpi: steps and advances of distributed meshes. It is a separate
+// module so that errbound._native does not require MPI.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
@@ -16,7 +16,7 @@
 namespace errbound::python {
 namespace {
 
-/// What a rank has of a mesh, and the communicator as Fortran's handle.
+/// A rank's elements of a mesh, and the communicator as Fortran's handle.
 struct distributed_mesh {
     int comm;
     numbered vertices;
@@ -83,7 +83,7 @@ std::string library_version() {
     char text[MPI_MAX_LIBRARY_VERSION_STRING];
     int length = 0;
     MPI_Get_library_version(text, &length);
-    return text;  // the length may count the end
+    return text;  // length may include the terminating null
 }
 
 }  // namespace
@@ -91,8 +91,8 @@ std::string library_version() {
 
 NB_MODULE(_mpi, m) {
     using namespace errbound::python;
-    m.doc() = "What errbound.mpi calls: arguments are as errbound._arrays makes them.";
-    nb::module_::import_("errbound._native");  // has the type of questions
+    m.doc() = "Functions for errbound.mpi. Arguments are made by errbound._arrays.";
+    nb::module_::import_("errbound._native");  // defines step_question
     m.def("library_version", &library_version);
     nb::class_<distributed_mesh>(m, "Mesh").def(
         nb::init<int, numbered, positions, positions, input<std::uint32_t, -1, 3>,

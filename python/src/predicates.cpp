@@ -28,14 +28,14 @@ std::span<const std::array<double, Dimension>> points_of(const points_array& arr
     return items_of<std::array<double, Dimension>>(array);
 }
 
-/// Binds a predicate of so many arrays as one of a list of them. Signs are -1, 0, 1, and 2 where a
-/// coordinate is not finite.
+/// Binds a predicate as a function of a list of arrays. Signs are -1, 0, 1, and 2 for a coordinate
+/// that is not finite.
 template <class Predicate, std::size_t... I>
 void bind(nb::module_& m, const char* name, const Predicate& predicate, std::index_sequence<I...>) {
     m.def(name, [predicate](const nb::list& arrays) {
         if (arrays.size() != sizeof...(I))
-            throw std::invalid_argument("predicates: found " + std::to_string(arrays.size()) +
-                                        " arrays, expected " + std::to_string(sizeof...(I)));
+            throw std::invalid_argument("number of arrays is " + std::to_string(arrays.size()) +
+                                        "; expected " + std::to_string(sizeof...(I)));
         const std::array held{nb::cast<points_array>(arrays[I], false)...};
         const std::size_t count = held[0].shape(0);
         const std::tuple points{points_of<Predicate::shape::dimensions[I]>(held[I], count)...};

@@ -1,4 +1,4 @@
-// Many queries at once, stored or by index: decisions, first times, first contacts.
+// Batches of queries, stored or by index: decisions, first times, first contacts.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
@@ -57,7 +57,7 @@ class questions {
         ccd::for_each_kind([&]<ccd::kind K>() {
             if (wanted == ccd::kind_traits<K>::name) found = K;
         });
-        if (!found) throw std::invalid_argument("kind: found '" + wanted + "'");
+        if (!found) throw std::invalid_argument("kind is '" + wanted + "'; expected a kind");
         return *found;
     }
 
@@ -149,7 +149,7 @@ nb::dict first_times(const questions& asked, double t_max, double distance,
     return times_among(timed(asked, t_max, distance, thickness, threads));
 }
 
-/// The data of each contact, from its query and time.
+/// Computes the contact data of each query at its first time.
 std::vector<ccd::first_contact> contacts_at(const questions& asked,
                                             const std::vector<ccd::timed_contact>& contacts,
                                             int threads) {
@@ -201,9 +201,8 @@ bool is_counted(const nb::object& counts, std::size_t query) {
     return nb::cast<bool>(counts(query));
 }
 
-/// The least time of a narrow phase that keeps a gap, of those queries for which counts(query) is
-/// true; infinite if there is none in [0, t_max]. counts is called only for queries with an earlier
-/// time than those before.
+/// Returns the least time in [0, t_max] of a narrow phase that keeps a gap, over queries with
+/// counts(query), or infinity. counts is called only for queries with an earlier time than before.
 double least_time(const questions& asked, double min_distance, double rescaling, double max_gap,
                   double t_max, const nb::object& counts) {
     const ccd::adapters::detail::kept_gap kept{rescaling, max_gap};

@@ -1,4 +1,4 @@
-// What calls return to errbound/ccd: dictionaries of arrays.
+// Results for errbound/ccd.py: dictionaries of arrays.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -43,7 +43,7 @@ inline ccd::method method_of(const std::string& name) {
     std::string expected;
     for (const auto& m : ccd::methods())
         expected += (expected.empty() ? "" : ", ") + std::string(m.name);
-    throw std::invalid_argument("method: found '" + name + "', expected one of " + expected);
+    throw std::invalid_argument("method is '" + name + "'; expected one of " + expected);
 }
 
 }  // namespace errbound::python

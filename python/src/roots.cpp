@@ -1,4 +1,4 @@
-// Real roots of polynomials, exactly.
+// Exact real roots of polynomials.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -26,13 +26,13 @@
 namespace errbound::python {
 namespace {
 
-/// Coefficients that ascend: doubles, or whole numbers in hexadecimal digits.
+/// Ascending coefficients: doubles, or integers in hexadecimal digits.
 using coefficients = std::variant<input<double, -1>, std::vector<std::string>>;
 using roots_type = real_roots<integer>;
 using staged_type = roots::staged_polynomial<integer>;
 using limit = std::optional<std::uint64_t>;
 
-/// Work went beyond the limits.
+/// The search exceeds its limits.
 struct limit_error : std::runtime_error {
     limit_error()
         : std::runtime_error("search of roots is beyond its limits; expected less work") {}
@@ -58,7 +58,7 @@ staged_type staged_of(const coefficients& c) {
     return std::visit([](const auto& x) { return roots::staged<integer>(polynomial_of(x)); }, c);
 }
 
-/// Returns call(limits) without the interpreter's lock. Signals end it, and so do limits.
+/// Returns call(limits) without the interpreter's lock. Signals and limits end it.
 template <class Call>
 auto limited(const Call& call, limit operations = {}, limit bytes = {}) {
     return without_gil([&](const ccd::stop_query& stop) {
@@ -86,12 +86,12 @@ std::size_t count_of(const coefficients& p, double a, double b, limit operations
         },
         operations, bytes);
 }
-/// -1 for a polynomial that is zero.
+/// Returns -1 for the zero polynomial.
 std::int64_t number_of(std::size_t count) {
     return count == infinitely_many ? -1 : static_cast<std::int64_t>(count);
 }
 
-/// One row of coefficients a polynomial.
+/// Counts roots of one polynomial per row.
 nb::object count_of_rows(const input<double, -1, -1>& rows, double a, double b, limit operations,
                          limit bytes) {
     std::vector<std::int64_t> counts(rows.shape(0));
@@ -109,7 +109,7 @@ nb::object count_of_rows(const input<double, -1, -1>& rows, double a, double b, 
     return numbers_of<std::int64_t>(std::move(counts));
 }
 
-/// Numerator in hexadecimal digits, and exponent of two.
+/// A numerator in hexadecimal digits, and an exponent of two.
 using exact_point = std::pair<std::string, int>;
 exact_point exact_of(const roots_type::point& x) {
     return {text_of(x.numerator()), x.exponent()};
@@ -125,7 +125,7 @@ std::vector<std::string> common_factor_of(const coefficients& p, const coefficie
     return texts;
 }
 
-/// Roots for one call at a time: calls narrow the intervals.
+/// Roots for one call at a time, since calls narrow the intervals.
 class kept_roots {
     template <class Call>
     auto alone(const Call& call) {
@@ -202,7 +202,7 @@ class kept_roots {
   private:
     double a_, b_;
     std::mutex mutex_;
-    const std::function<bool()>* stop_ = nullptr;  ///< of the call under way
+    const std::function<bool()>* stop_ = nullptr;  ///< of the running call
     std::optional<roots_type> roots_;
 };
 
@@ -210,7 +210,7 @@ class kept_roots {
 
 void bind_roots(nb::module_& m) {
     nb::exception<limit_error>(m, "LimitError", PyExc_RuntimeError).attr("__doc__") =
-        "The search of roots was given up: it would go beyond max_operations or max_bytes.";
+        "The search of roots was given up, since it would exceed max_operations or max_bytes.";
     nb::class_<kept_roots>(m, "Roots")
         .def(nb::init<const coefficients&, double, double, limit, limit>(), nb::arg("p"),
              nb::arg("a"), nb::arg("b"), nb::arg("operations").none(), nb::arg("bytes").none())

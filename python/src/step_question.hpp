@@ -1,4 +1,4 @@
-// What Python asks of steps, and what is common to what it gets.
+// Options of steps, and conversions that steps and distributed steps share.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -20,19 +20,19 @@ using positions = input<double, -1, 3>;
 using numbers = input<double, -1>;
 using group_numbers = input<std::int32_t, -1>;
 using flags = input<std::uint8_t, -1>;
-using numbered = input<std::uint64_t, -1>;  // vertices by 64 bits
+using numbered = input<std::uint64_t, -1>;  // 64-bit vertex numbers
 
-/// Of a callback's result: bool or NumPy's. A function that returns nothing is a mistake.
+/// Converts a callback's result, a bool or NumPy's. None is an error: a return statement is
+/// missing.
 inline bool truth_of(const nb::object& result) {
     if (result.is_none())
-        throw nb::type_error(
-            "can_collide: found a function that returns None, expected True or False");
+        throw nb::type_error("result of can_collide is None; expected True or False");
     const int truth = PyObject_IsTrue(result.ptr());
     if (truth < 0) throw nb::python_error();
     return truth > 0;
 }
 
-/// What Python sets by name; arrays are kept for as long as spans of them are used.
+/// Options that Python sets by name. They keep the arrays to which their spans refer.
 struct step_question {
     std::string method = "exact";
     int threads = 0;
@@ -85,9 +85,9 @@ struct step_question {
 
 inline ccd::vertex_rows rows(const positions& before, const positions& after) {
     if (before.shape(0) != after.shape(0))
-        throw std::invalid_argument("after: found " + std::to_string(after.shape(0)) +
-                                    " vertices, expected " + std::to_string(before.shape(0)) +
-                                    " as before has");
+        throw std::invalid_argument("number of vertices in after is " +
+                                    std::to_string(after.shape(0)) + "; expected " +
+                                    std::to_string(before.shape(0)) + ", as in before");
     return {before.data(), after.data(), before.shape(0)};
 }
 

@@ -40,12 +40,12 @@ nb::dict result_of(ccd::step_result&& result, const step_question& asked) {
 }
 
 class steps {
-    /// One call at a time: a second thread, or a callback, would wait for itself.
+    /// Throws if a call is running: a callback that waited for its own call would deadlock.
     template <class Call>
     auto alone(const Call& call) {
         const std::unique_lock held(mutex_, std::try_to_lock);
         if (!held)
-            throw std::runtime_error("Steps: found another call under way, expected one at a time");
+            throw std::runtime_error("Steps: another call is under way; expected one at a time");
         return without_gil(call);
     }
 

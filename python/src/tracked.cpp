@@ -1,4 +1,4 @@
-// Arrays of tracked numbers: of float or double, under each bound rule.
+// Arrays of tracked numbers, float or double, under each bound rule.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
@@ -29,7 +29,7 @@
 namespace errbound::python {
 namespace {
 
-/// Numbers in a row. Operations take another of the same type, rule and length.
+/// A one-dimensional array. Operands of operations have the same type, rule and length.
 class tracked_row {
   public:
     virtual ~tracked_row() = default;
@@ -45,9 +45,9 @@ class tracked_row {
     virtual std::unique_ptr<tracked_row> power(int exponent) const = 0;
     virtual std::unique_ptr<tracked_row> scaled(int exponent) const = 0;
     virtual std::unique_ptr<tracked_row> taken(const input<std::int64_t, -1>& places) const = 0;
-    /// The sums of each `length` numbers, one after the other.
+    /// Returns sums of consecutive groups of `length` numbers.
     virtual std::unique_ptr<tracked_row> sums(std::size_t length) const = 0;
-    /// The dot products of each `length` numbers of this row with each of the other.
+    /// Returns dot products of each group of `length` numbers with each group of the other row.
     virtual std::unique_ptr<tracked_row> dots(const tracked_row& other,
                                               std::size_t length) const = 0;
     virtual explanation explained_at(std::size_t i, const std::string& name) const = 0;
@@ -195,7 +195,7 @@ class row_of final : public tracked_row {
     const row_of& of_same_length(const tracked_row& other) const {
         const row_of& row = alike(other);
         if (row.size() != size())
-            throw std::invalid_argument("tracked: found rows of different lengths");
+            throw std::invalid_argument("lengths of rows differ; expected equal lengths");
         return row;
     }
     std::span<const number> block(std::size_t i, std::size_t length) const {
@@ -208,7 +208,7 @@ class row_of final : public tracked_row {
         for (const number& x : all_) found.push_back(convert(x));
         return numbers_of<Number>(std::move(found));
     }
-    /// Numbers number(0), number(1), ..., without the interpreter's lock.
+    /// Returns number(0), number(1), ..., computed without the interpreter's lock.
     template <class At>
     static row_pointer made(std::size_t count, const At& at) {
         std::vector<number> all;
@@ -235,7 +235,7 @@ template <class T>
 row_pointer row_by(const input<T, -1>& values, const input<T, -1>& errors,
                    const std::string& rule) {
     if (values.size() != errors.size())
-        throw std::invalid_argument("tracked: found values and errors of different lengths");
+        throw std::invalid_argument("lengths of values and errors differ; expected equal lengths");
     if (rule == "none") return row_within<T, none>(values, errors);
     if (rule == "safe") return row_within<T, safe>(values, errors);
     if (rule == "tight") return row_within<T, tight>(values, errors);
@@ -257,7 +257,7 @@ row_pointer explained_row(const input<double, -1>& values, const input<double, -
                                 "'; expected tight or residual for an explained array");
 }
 
-/// Name, rule, value, error, table, and rows of amount, known part, operation and scopes.
+/// Returns name, rule, value, error, table, and rows of amount, known amount, operation and scopes.
 nb::tuple explained_at(const tracked_row& row, std::size_t i, const std::string& name) {
     const explanation e = row.explained_at(i, name);
     nb::list contributions;
@@ -269,7 +269,7 @@ nb::tuple explained_at(const tracked_row& row, std::size_t i, const std::string&
     return nb::make_tuple(e.name, e.rule, e.value, e.error, text_of(e), contributions);
 }
 
-/// A scope from `enter` to `leave`, which are called in pairs on one thread.
+/// A scope from `enter` to `leave`. They are called in pairs on one thread.
 class kept_scope {
   public:
     kept_scope(std::string name, std::string file, std::uint32_t line)

@@ -1,4 +1,4 @@
-// Steps to look at: pages, and files for ParaView.
+// HTML pages and files for ParaView.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using positions = input<double, -1, 3>;
 
-/// Of dictionaries by kind: arrays of vertices, and of rows low, high, or nothing.
+/// Converts dictionaries by kind: arrays of vertices, and optional rows (low, high) of times.
 struct listed_pairs {
     ccd::pair_lists pairs;
     ccd::time_lists times;

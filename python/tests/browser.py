@@ -1,4 +1,4 @@
-"""A headless browser for pages, with WebGL by software, and pictures of them as arrays."""
+"""A headless browser with software WebGL, and screenshots as arrays."""
 import io
 import os
 import shutil
@@ -10,7 +10,7 @@ NAMES = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chro
 
 
 def find():
-    """The browser's path, ERRBOUND_BROWSER or one of those on PATH, or None."""
+    """Returns the path of ERRBOUND_BROWSER or of a browser on PATH, or None."""
     return os.environ.get("ERRBOUND_BROWSER") or next(filter(None, map(shutil.which, NAMES)), None)
 
 
@@ -26,12 +26,12 @@ def headless(path):
 
 
 def settle(page):
-    """Until what was asked for is drawn."""
+    """Waits until the page has drawn."""
     page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def picture(page):
-    """The pixels above the controls, (height, width, 3)."""
+    """Returns the pixels above the controls, (height, width, 3)."""
     from PIL import Image
 
     settle(page)

@@ -1,4 +1,4 @@
-"""Decisions, times and contacts of queries against what is known, each other, and other ways of asking."""
+"""Decisions, times and contacts of queries, compared with known ones, with each other, and between call variants."""
 import platform
 import re
 import threading
@@ -10,14 +10,14 @@ import pytest
 
 from errbound import ccd
 
-# A vertex that falls through a triangle: at t = 1/2, at (1/4, 1/4, 0).
+# A vertex that falls through a triangle: contact at t = 1/2 in (1/4, 1/4, 0).
 FALLING = np.array([[[.25, .25, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0],
                      [.25, .25, -1], [0, 0, 0], [1, 0, 0], [0, 1, 0]]])
 RANDOM = np.random.default_rng(1)
 
 
 def random_queries(count, points):
-    """Small whole coordinates, so that many touch in degenerate ways."""
+    """Returns queries with small integer coordinates: many are degenerate contacts."""
     return RANDOM.integers(-3, 4, (count, 2 * points, 3)).astype(float)
 
 
@@ -29,7 +29,7 @@ def as_pairs(queries):
 
 
 @pytest.mark.parametrize("kind", ccd.POINTS)
-def test_ways_of_asking_agree(kind):
+def test_call_variants_agree(kind):
     queries = random_queries(3000, ccd.POINTS[kind])
     expected = ccd.decide(queries, kind).outcome
     assert 0 < (expected == 1).sum() < len(queries)
@@ -71,7 +71,7 @@ def test_contact_by_hand():
 
 @pytest.mark.parametrize("kind, points", ccd.POINTS.items())
 def test_weights_are_as_wide_as_the_pairs(kind, points):
-    """They had four columns for all kinds, and so did not broadcast with pairs."""
+    """Regression: they had four columns for all kinds and did not broadcast with pairs."""
     queries = random_queries(300, points)
     positions, pairs = as_pairs(queries)
     found = ccd.first_contact(pairs, kind, positions=positions)
@@ -87,7 +87,7 @@ def test_names_of_types_are_those_of_the_library():
 
 
 def test_instruction_sets():
-    """A compiler that does not tell what the processor has would leave the slowest kernels alone."""
+    """If processor detection failed at compile time, only the slowest kernels would run."""
     about = Path("/proc/cpuinfo")
     if platform.machine() != "x86_64" or not about.exists():
         pytest.skip("not Linux on x86-64")
@@ -123,20 +123,20 @@ def with_nan():
     return wrong
 
 
-@pytest.mark.parametrize("call, error, said", [
+@pytest.mark.parametrize("call, error, message", [
     (lambda: ccd.decide(FALLING, "vf"), ValueError, "kind is 'vf'; expected one of vertex_face"),
     (lambda: ccd.decide(FALLING[:, :6], "vertex_face"), ValueError,
-     r"queries: found shape \(1, 6, 3\), expected \(n, 8, 3\)"),
+     r"shape of queries is \(1, 6, 3\); expected \(n, 8, 3\)"),
     (lambda: ccd.decide(FALLING.astype(complex), "vertex_face"), TypeError, "queries has items of type complex128; expected real numbers"),
-    (lambda: ccd.decide(with_nan(), "vertex_face"), ValueError, "queries: row 2: found .*nan"),
-    (lambda: ccd.first_time(with_nan(), "vertex_face"), ValueError, "queries: row 2: found .*nan"),
+    (lambda: ccd.decide(with_nan(), "vertex_face"), ValueError, "row 2 of queries is .*nan"),
+    (lambda: ccd.first_time(with_nan(), "vertex_face"), ValueError, "row 2 of queries is .*nan"),
     (lambda: ccd.decide(FALLING, "vertex_face", method="best"), ValueError,
-     "method: found 'best', expected one of float"),
+     "method is 'best'; expected one of float"),
     (lambda: ccd.decide(FALLING, "vertex_face", distance=-1), ValueError, "-1"),
     (lambda: ccd.first_time(FALLING, "vertex_face", t_max=np.inf), ValueError, "t_max"),
 ])
-def test_what_is_wrong_is_said(call, error, said):
-    with pytest.raises(error, match=said):
+def test_errors_name_the_argument(call, error, message):
+    with pytest.raises(error, match=message):
         call()
 
 
@@ -147,7 +147,7 @@ def test_indices_out_of_range(dtype, index, method):
     positions, pairs = as_pairs(np.repeat(FALLING, 3, axis=0))
     pairs = pairs.astype(dtype)
     pairs[1, 2] = index
-    with pytest.raises(IndexError, match=f"queries: row 1: found vertex {index}, expected 0 to"):
+    with pytest.raises(IndexError, match=f"vertex index in row 1 of queries is {index}; expected 0 to"):
         ccd.decide(pairs, "vertex_face", positions=positions, method=method)
 
 
@@ -156,10 +156,10 @@ def test_threads_of_python_run_side_by_side():
     expected = ccd.decide(queries, "vertex_face").outcome
     found = [None] * 4
 
-    def ask(i):
+    def decide(i):
         found[i] = ccd.decide(queries, "vertex_face", threads=1).outcome
 
-    threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
+    threads = [threading.Thread(target=decide, args=(i,)) for i in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:

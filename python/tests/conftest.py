@@ -1,4 +1,4 @@
-"""Where the bundled scene, the program ccd and stored data are."""
+"""Fixtures: the bundled scene, the program ccd and stored data."""
 import os
 from pathlib import Path
 
@@ -17,7 +17,7 @@ def scene():
 
 @pytest.fixture(scope="session")
 def program():
-    """The program ccd: ERRBOUND_CCD, else of the release build."""
+    """The program ccd: ERRBOUND_CCD, or the release build's."""
     path = Path(os.environ.get("ERRBOUND_CCD", ROOT / "build" / "ccd"))
     if not path.exists():
         pytest.skip(f"no program at {path}: ./run build makes it, ERRBOUND_CCD names another")
@@ -26,7 +26,7 @@ def program():
 
 @pytest.fixture(scope="session")
 def shared_data():
-    """Stored scenes and queries: ERRBOUND_SHARED_DATA, else where the C++ tests look."""
+    """The folder of stored scenes and queries: ERRBOUND_SHARED_DATA, or the default of the C++ tests."""
     path = Path(os.environ.get("ERRBOUND_SHARED_DATA", ROOT / ".." / "shared" / "data"))
     if not path.exists():
         pytest.skip(f"no stored data at {path}: ERRBOUND_SHARED_DATA names another place")

@@ -1,4 +1,4 @@
-"""The Python of documents runs, block after block, in a folder that has the repository's examples."""
+"""Runs the Python blocks of each page, in order, in a folder with the repository's examples."""
 import importlib.resources
 import re
 
@@ -28,7 +28,7 @@ def test_blocks_run(page, printed, monkeypatch, tmp_path, capsys):
 
 @pytest.mark.parametrize("page", ["README.md", "python/README.md"])
 def test_blocks_have_types(page, tmp_path):
-    """README's example failed: times of a step with times=True were Optional."""
+    """Regression: README's example failed, since times of a step with times=True were Optional."""
     api = pytest.importorskip("mypy.api", reason="mypy is not installed (pip install mypy)")
     blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / page).read_text(), re.MULTILINE | re.DOTALL)
     (tmp_path / "example.py").write_text("\n".join(blocks))

@@ -1,4 +1,4 @@
-"""Draws the picture of docs/program.md: the page of the bundled scene's step, with a pair chosen.
+"""Draws docs/page.png: the page of the bundled scene's step, with a selected pair.
 
     out/python/env/bin/python python/tests/draw_page.py docs/page.png
 """

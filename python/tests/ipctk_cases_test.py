@@ -1,7 +1,7 @@
-"""The cases by which ipc-toolkit tests its own narrow phases, restated, by the exact narrow phase.
+"""ipc-toolkit's cases for its narrow phases, restated, for the exact narrow phase.
 
-An expectation of the toolkit holds for real numbers. Where the doubles of the case are other numbers, the
-exact answer differs, and a rational witness shows that there is no contact until the expected time.
+The toolkit's expectations hold for real numbers. If the doubles of a case differ from these, the exact result may
+differ; then a rational witness shows that there is no contact until the expected time.
 """
 import math
 import random
@@ -23,13 +23,13 @@ def moved(points, motions):
 
 
 def at(start, end, t):
-    """The points at time t, as rational numbers."""
+    """Returns the points at time t, as rational numbers."""
     t = Fraction(t)
     return [[Fraction(x) + t * (Fraction(y) - Fraction(x)) for x, y in zip(*both)] for both in zip(start, end)]
 
 
 def an_axis_separates(kind, frames):
-    """One axis on which all points of one feature are less than all of the other, in all frames."""
+    """True if on one axis, in all frames, all points of one feature are less than all of the other."""
     for axis, sign in product(range(len(frames[0][0])), (1, -1)):
         if all(max(sign * p[axis] for p in frame[:FIRST[kind]]) < min(sign * p[axis] for p in frame[FIRST[kind]:])
                for frame in frames):
@@ -38,14 +38,14 @@ def an_axis_separates(kind, frames):
 
 
 def the_line_is_not_reached(start, end, t):
-    """In the plane: the cross product of point and edge, a quadratic polynomial, has one sign until t."""
+    """True if the cross product of point and edge in the plane, a quadratic polynomial, keeps its sign until t."""
     def cross(s):
         p, a, b = at(start, end, s)
         return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 
     t = Fraction(t)
     f0, f1, f2 = cross(0), cross(t / 2), cross(t)
-    curvature, slope = 2 * (f0 - 2 * f1 + f2), -3 * f0 + 4 * f1 - f2  # of f0 + slope s + curvature s^2, s = 2 x / 2
+    curvature, slope = 2 * (f0 - 2 * f1 + f2), -3 * f0 + 4 * f1 - f2  # f0 + slope s + curvature s^2, s = 2 x / 2
     lowest = [f0, f2]
     if curvature and 0 < -slope / (2 * curvature) < 1:
         lowest.append(f0 - slope * slope / (4 * curvature))
@@ -53,8 +53,10 @@ def the_line_is_not_reached(start, end, t):
 
 
 def certainly_apart(kind, start, end, t):
-    """A rational witness that there is no contact in [0, t]: features that move on lines are separated by
-    an axis all the while if they are at both ends."""
+    """True if a rational witness shows that there is no contact in [0, t].
+
+    Features with linear motions are separated by an axis throughout if they are at both ends.
+    """
     return an_axis_separates(kind, [at(start, end, 0), at(start, end, t)]) or (
         kind == "ve" and the_line_is_not_reached(start, end, t))
 
@@ -67,7 +69,7 @@ def perpendicular_points():
 
 
 def random_points(count):
-    """Rigid edges, and a point that reaches a random one of the edge's points at a random time."""
+    """Yields rigid edges with a point that reaches a random point of the edge at a random time."""
     source = random.Random(1608)
 
     def vector():
@@ -80,7 +82,7 @@ def random_points(count):
 
 
 def point_edge_cases():
-    """Start, end, and the expected time."""
+    """Returns start, end and expected time."""
     fixed = [
         ([[0, 1], [-1, 0], [1, 0]], [[0, -1], [3, 0], [-3, 0]], 0.5),  # the edge is a point at 1/4
         ([[0, 1], [-1, 0], [1, 0]], [[0, -1], [0.5, 0], [-0.5, 0]], 0.5),
@@ -151,7 +153,7 @@ def test_differences_are_explained_by_rational_numbers():
         if expected and not collides:
             assert certainly_apart(kind, start, end, 1), (kind, start, end)
             missed += 1
-        if time is not None and toi > time:  # infinite if it is no contact
+        if time is not None and toi > time:  # infinite: no contact
             in_plane = [[p[:2] for p in frame] for frame in (start, end)]
             assert certainly_apart(kind, *in_plane, time), (start, end, time)
             earlier += 1
@@ -164,7 +166,7 @@ def test_differences_are_explained_by_rational_numbers():
 
 
 def test_with_the_toolkits_gap_every_expected_contact_is_reported():
-    """With 0.8, at most 1e-4 of gap, pairs that come that near are reported, as by the toolkit."""
+    """With a rescaling of 0.8 and max_gap 1e-4, pairs that come within the gap are reported, as by the toolkit."""
     narrow = exact.ExactNarrowPhase(0.8, 1e-4)
     for kind, start, end, expected, time in cases():
         collides, toi = answer(narrow, kind, start, end)

@@ -1,4 +1,4 @@
-"""With the real ipctk: step sizes that are free and no shorter, and a broad phase that loses nothing."""
+"""Tests with the real ipctk: step sizes are free and not too short, and the broad phase loses no pair."""
 import gc
 import math
 import os
@@ -18,7 +18,7 @@ if ipctk:
 
 
 def sheet_over_ball(cells=12):
-    """A sheet that falls onto a sphere, which it would pass through."""
+    """Returns a sheet whose step passes through a sphere."""
     grid = np.linspace(-1, 1, cells + 1)
     x, y = (a.ravel() for a in np.meshgrid(grid, grid))
     sheet = np.column_stack([x, y, np.full_like(x, 0.71)])
@@ -39,7 +39,7 @@ def sheet_over_ball(cells=12):
 
 
 def crossing_strips():
-    """Two strips that turn through each other."""
+    """Returns two strips that rotate through each other."""
     line = np.linspace(-1, 1, 9)
     strip = np.vstack([np.column_stack([line, np.full(9, -0.1), np.zeros(9)]),
                        np.column_stack([line, np.full(9, 0.1), np.zeros(9)])])
@@ -69,7 +69,7 @@ def test_step_sizes(scene, distance):
     mesh = mesh_of(before, faces)
     ours = exact.compute_collision_free_stepsize(mesh, before, after, distance)
     assert 0 < ours < 1
-    if distance == 0:  # else the peer takes half a minute
+    if distance == 0:  # the toolkit takes half a minute otherwise
         assert ours >= ipctk.compute_collision_free_stepsize(mesh, before, after)
     assert pairs_on_the_way(before, before + ours * (after - before), faces, distance) == 0
     assert pairs_on_the_way(before, before + min(1, ours * 1.0001) * (after - before), faces, distance) > 0
@@ -85,7 +85,7 @@ def test_the_toolkit_by_our_broad_phase(scene):
     mesh = mesh_of(before, faces)
     theirs = ipctk.compute_collision_free_stepsize(mesh, before, after)
     by_ours = ipctk.compute_collision_free_stepsize(mesh, before, after, 0, exact.BroadPhase())
-    # A pair that does not meet may have made theirs shorter.
+    # The toolkit's step may be shorter, because of a pair that does not meet.
     assert theirs <= by_ours <= exact.compute_collision_free_stepsize(mesh, before, after)
     assert ipctk.is_step_collision_free(mesh, before, before, 0, exact.BroadPhase())
     assert not ipctk.is_step_collision_free(mesh, before, after, 0, exact.BroadPhase())
@@ -137,7 +137,7 @@ def test_contact_at_the_start_and_pairs_that_may_not_collide():
 
 
 def falling_point():
-    """A point falls from z = 3 to 0.5; another, at z = 1, is in its way: contact at t = 0.8."""
+    """A point falls from z = 3 to 0.5 and meets another at z = 1: contact at t = 0.8."""
     before = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, 1], [0.2, 0.2, 3]])
     after = before.copy()
     after[4, 2] = 0.5
@@ -145,8 +145,8 @@ def falling_point():
 
 
 def test_points_that_the_toolkit_passes_in_temporaries():
-    """The toolkit builds the broad phase a second time, for points on no edge, from arrays that it
-    frees before it calls for candidates. A broad phase that kept views of them gave 1."""
+    """Regression: a broad phase with views gave 1. The toolkit builds it again, for points without edges, from arrays
+    that it frees before it requests candidates."""
     before, after, faces = falling_point()
     mesh = mesh_of(before, faces)
     alone = ipctk.compute_collision_free_stepsize(mesh, before, after)
@@ -169,7 +169,7 @@ for before, after, faces in [falling_point(), MADE[0]]:
 
 
 def test_freed_memory_is_not_read():
-    """The C library overwrites what is freed, by MALLOC_PERTURB_; step sizes stay as they are."""
+    """Step sizes do not change if the C library overwrites freed memory (MALLOC_PERTURB_)."""
     answers = {subprocess.run([sys.executable, "-c", FREED, os.path.dirname(__file__)], check=True, text=True,
                               capture_output=True, env={**os.environ, "MALLOC_PERTURB_": byte}).stdout
                for byte in ("0", "170")}
@@ -201,7 +201,7 @@ def test_one_broad_phase_for_meshes_in_turn():
 
 
 class _Plane:
-    """As ipctk.Hyperplane, whose normals the toolkit takes to be of length 1."""
+    """Same as ipctk.Hyperplane. The toolkit assumes normals of length 1."""
 
     def __init__(self, normal, offset):
         self.normal, self.offset = lambda: np.array(normal), lambda: offset
@@ -221,7 +221,7 @@ def falling_triangle():
 
 
 def test_a_plane_stops_a_triangle():
-    """From z = 1 to -1 over the plane z = 0: contact at 0.5, for the toolkit at 0.4 with its gap."""
+    """Moves from z = 1 to -1 through the plane z = 0: contact at 0.5; 0.4 with the toolkit's gap."""
     before, after, faces = falling_triangle()
     mesh = with_planes(mesh_of(before, faces), GROUND)
     assert ipctk.compute_collision_free_stepsize(mesh, before, after) == 0.4
@@ -261,7 +261,7 @@ def test_planes_that_vertices_touch_or_leave():
 
 
 def within(plane, way, distance, until):
-    """True if a vertex is within the distance of the plane at some time in [0, until], exactly."""
+    """True, exactly, if a vertex comes within the distance of the plane in [0, until]."""
     def form(x):
         return sum((Fraction(n) * Fraction(c) for n, c in zip(plane.normal().tolist(), x)), Fraction(plane.offset()))
 
@@ -272,7 +272,7 @@ def within(plane, way, distance, until):
 
 
 def test_times_at_planes_are_exact():
-    """Random, degenerate and extreme ways; times are compared with rational numbers."""
+    """Random, degenerate and extreme motions. Times are compared with rational numbers."""
     source, contacts = random.Random(48), 0
     numbers = (lambda: float(source.randint(-3, 3)), lambda: source.uniform(-1, 1),
                lambda: source.uniform(-1, 1) * 2.0**source.randint(-300, 300),
@@ -333,7 +333,7 @@ def test_keyword_arguments_of_the_toolkit(scene):
 
 
 def test_a_capped_gap_is_kept_by_all_pairs():
-    """Up to the step's end no pair comes nearer than the cap, or than a fifth of its first distance."""
+    """Until the step's end each pair keeps the cap or a fifth of its first distance."""
     before, after, faces = crossing_strips()
     mesh, cap = mesh_of(before, faces), 1e-3
     size = exact.compute_collision_free_stepsize(mesh, before, after,
@@ -355,7 +355,7 @@ def test_candidates_by_the_exact_narrow_phase():
     assert not narrow.is_step_collision_free(candidates, mesh, start, end)
     assert narrow.is_step_collision_free(candidates, mesh, start, before + size * (after - before))
     threads = ipctk.get_num_threads()
-    ipctk.set_num_threads(1)  # the toolkit keeps the interpreter's lock while its threads would call
+    ipctk.set_num_threads(1)  # the toolkit holds the interpreter's lock while its threads call
     try:
         at_contact = candidates.compute_collision_free_stepsize(mesh, start, end, 0, narrow)
         assert size <= at_contact <= size + 1e-12

@@ -1,4 +1,4 @@
-"""Meshes spread over ranks, by mpi4py, against errbound.ccd of the whole mesh: this file, run by mpirun."""
+"""Compares distributed meshes with errbound.ccd on the whole mesh. mpirun runs this file, with mpi4py."""
 import os
 import shutil
 import subprocess
@@ -11,7 +11,7 @@ RANKS = (1, 2, 3)
 
 
 def scene():
-    """Two wavy sheets, one above the other, that meet; and rods and a point between."""
+    """Returns two wavy sheets that meet, with rods and a point between them."""
     n = 14
     x, y = np.meshgrid(np.arange(n) / n, np.arange(n) / n)
     sheets = [np.stack([x, y, level + 0.05 * np.sin(9 * x + level) * np.cos(7 * y)], -1).reshape(-1, 3)
@@ -31,7 +31,7 @@ def scene():
 
 
 def share(comm, before, after, faces, edges):
-    """Every size-th face and edge, with their vertices; the point on the last rank."""
+    """Returns every size-th face and edge, with their vertices. The last rank has the point."""
     own_faces, own_edges = faces[comm.rank::comm.size], edges[comm.rank::comm.size]
     point = [len(before) - 1] if comm.rank == comm.size - 1 else []
     vertices = np.unique(np.concatenate([own_faces.ravel(), own_edges.ravel(), np.array(point, int)]))
@@ -94,17 +94,17 @@ def refuse(comm):
     bad = after.copy()
     bad[0, 0] = np.nan
     for expected, error, arguments, options in (
-            (last + "faces: row 0: found vertex 1000000", IndexError,
+            (last + "vertex index in row 0 of faces is 1000000", IndexError,
              (vertices, before, after, np.array([[0, 1, 1000000]]) if is_last else faces, edges), {}),
-            (last + "numbers: found float64", TypeError,
+            (last + "numbers is an array of float64", TypeError,
              (vertices * 1.0 if is_last else vertices, before, after, faces, edges), {}),
-            ("rank 0: found option 'can_collide'", TypeError,
+            ("rank 0: option is 'can_collide'", TypeError,
              (vertices, before, after, faces, edges), {"can_collide": lambda v, w: True}),
             (last, ValueError, (vertices, before, bad if is_last else after, faces, edges), {})):
         with pytest.raises(error) as raised:
             mpi.step(comm, *arguments, **options)
         assert str(raised.value).startswith(expected), raised.value
-    with pytest.raises(TypeError, match="comm: found 3"):
+    with pytest.raises(TypeError, match="comm is 3"):
         mpi.step(3, vertices, before, after, faces, edges)
 
 

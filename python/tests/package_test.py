@@ -1,4 +1,4 @@
-"""The package as a whole: its version, what it imports, and that arrays and objects do not share memory."""
+"""The whole package: version, imports, and memory that arrays and objects do not share."""
 import gc
 import re
 import subprocess
@@ -24,7 +24,7 @@ def test_import_takes_no_other_package():
 
 
 def made_from(arrays):
-    """One object of each kind that is kept, from arrays that are overwritten and freed before it is used."""
+    """Returns an object of each type that outlives its arguments. Their arrays are overwritten and freed before use."""
     steps = ccd.Steps(arrays["faces"], arrays["edges"], vertices=6)
     flat = ccd.Steps.in_plane(arrays["edges"], vertices=6)
     numbers = tracked.array(arrays["numbers"])

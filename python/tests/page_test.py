@@ -1,4 +1,4 @@
-"""The page in a real browser: what it shows, and what mouse, fingers and keys do."""
+"""The page in a real browser: contents, mouse, touch and keys."""
 import re
 
 import browser as of_browser
@@ -12,7 +12,7 @@ from errbound import ccd, io, show
 pytest.importorskip("playwright", reason="no playwright: pip install playwright")
 pytest.importorskip("PIL", reason="no pillow: pip install pillow")
 
-# A rod, a point that falls past it, and another on its way: ve, ve, vv.
+# A rod, a point that falls past it, and another in its path: ve, ve, vv.
 RODS = ([[0, 0, 0], [1, 0, 0], [.5, 0, 1], [.5, 0, 2]], [[0, 0, 0], [1, 0, 0], [.5, 0, -1], [.5, 0, -4]])
 
 
@@ -38,33 +38,33 @@ def file(scene, step, tmp_path_factory):
 
 @pytest.fixture
 def opened(browser):
-    """Opens pages; in the end none may have said anything, or asked for more than itself."""
-    said, context = [], browser.new_context(viewport={"width": 1000, "height": 600}, has_touch=True)
+    """Opens pages. At the end, no page may have logged a message or requested another file."""
+    message, context = [], browser.new_context(viewport={"width": 1000, "height": 600}, has_touch=True)
 
     def open_page(path):
         page, url = context.new_page(), path.resolve().as_uri()
-        page.on("console", lambda message: said.append(message.text))
-        page.on("pageerror", lambda error: said.append(str(error)))
-        page.on("request", lambda r: said.append(r.url) if r.url not in (url, "data:,") else None)
+        page.on("console", lambda message: message.append(message.text))
+        page.on("pageerror", lambda error: message.append(str(error)))
+        page.on("request", lambda r: message.append(r.url) if r.url not in (url, "data:,") else None)
         page.goto(url)
         settle(page)
         return page
 
     yield open_page
     context.close()
-    assert said == []
+    assert message == []
 
 
 @pytest.fixture
 def page(opened, file):
-    """The step's, its pairs in their order."""
+    """The page of the step, with pairs in their order."""
     page = opened(file)
     page.select_option("#order", "listed")
     return page
 
 
 def listed(page):
-    """Kind, vertices and time of the rows in sight."""
+    """Returns kind, vertices and time of the visible rows."""
     return [row.split("\n") for row in page.locator(".row").all_inner_texts()]
 
 
@@ -132,11 +132,11 @@ def test_a_row_is_looked_at_and_is_a_query(page, scene, step, program, tmp_path)
     page.click("#whole")
     page.uncheck("#cut")
     page.fill("#time", "1")
-    # The orange of the chosen pair stays.
+    # The selected pair stays orange.
     assert np.mean(picture(page) != whole) < 0.05
 
 
-def test_what_hides_the_chosen_pair_is_cut_off(page):
+def test_faces_in_front_of_the_selected_pair_are_cut(page):
     def orange():
         red, green, blue = picture(page).reshape(-1, 3).astype(int).T
         return ((red > 230) & (green > 110) & (green < 160) & (blue < 60)).sum()
@@ -147,7 +147,7 @@ def test_what_hides_the_chosen_pair_is_cut_off(page):
     cut = picture(page)
     page.uncheck("#cut")
     assert np.mean(picture(page) != cut) > 0.1
-    assert orange() > 100  # seen through what is in front
+    assert orange() > 100  # visible through faces in front
 
 
 def test_orders_and_vertices(opened, file, step):
@@ -218,7 +218,7 @@ def test_fingers(page):
         touch(session, "touchEnd")
         assert np.mean(picture(page) != before) > 0.01
         distances.append(page.evaluate("camera.distance"))
-    assert distances[1] == pytest.approx(distances[0] / 2, rel=0.1)  # fingers went twice as far apart
+    assert distances[1] == pytest.approx(distances[0] / 2, rel=0.1)  # the distance of the fingers doubled
 
 
 def test_a_click_on_a_mark_chooses_its_pair(page, step):

@@ -1,4 +1,4 @@
-"""Steps of the bundled scene against the program ccd, candidates, and advances."""
+"""Steps of the bundled scene, compared with the program ccd; candidates and advances."""
 import json
 import signal
 import subprocess
@@ -89,7 +89,7 @@ def test_plane():
 
 
 def test_advance_in_the_plane_returns_rows_of_two():
-    """It returned rows of three, which the next call refused."""
+    """Regression: it returned rows of three, which the next call rejected."""
     steps = ccd.Steps.in_plane([[0, 1]], vertices=3)
     before = np.array([[-1.0, 0], [1, 0], [0, 1]])
     free = steps.advance(before, before - [[0, 0], [0, 0], [0, 2]])
@@ -98,17 +98,17 @@ def test_advance_in_the_plane_returns_rows_of_two():
     assert steps.advance(free.positions, free.positions + [[0, 0], [0, 0], [0, 1]]).fraction == 1
 
 
-@pytest.mark.parametrize("call, error, said", [
-    (lambda s, x: ccd.step(x, x[:-1], s), ValueError, "after: found 8 vertices, expected 9"),
-    (lambda s, x: ccd.step(x, x, [[0, 1, 9]]), IndexError, "faces: row 0: found vertex 9, expected 0 to 8"),
-    (lambda s, x: ccd.step(x, x * np.nan, s), ValueError, "after: row 0: found"),
+@pytest.mark.parametrize("call, error, message", [
+    (lambda s, x: ccd.step(x, x[:-1], s), ValueError, "number of vertices in after is 8; expected 9"),
+    (lambda s, x: ccd.step(x, x, [[0, 1, 9]]), IndexError, "vertex index in row 0 of faces is 9; expected 0 to 8"),
+    (lambda s, x: ccd.step(x, x * np.nan, s), ValueError, "row 0 of after is"),
     (lambda s, x: ccd.step(x, x, s, colour=1), TypeError, "'colour'"),
-    (lambda s, x: ccd.step(x, x, s, pinned=[1]), ValueError, r"pinned: found shape \(1,\), expected \(9,\)"),
-    (lambda s, x: ccd.step(x, x, s, method="x"), ValueError, "method: found 'x'"),
+    (lambda s, x: ccd.step(x, x, s, pinned=[1]), ValueError, r"shape of pinned is \(1,\); expected \(9,\)"),
+    (lambda s, x: ccd.step(x, x, s, method="x"), ValueError, "method is 'x'"),
 ])
-def test_what_is_wrong_is_said(call, error, said):
+def test_errors_name_the_argument(call, error, message):
     positions = np.arange(27.0).reshape(9, 3)
-    with pytest.raises(error, match=said):
+    with pytest.raises(error, match=message):
         call(np.arange(9).reshape(3, 3), positions)
 
 
@@ -169,7 +169,7 @@ def test_files(scene, shared_data, program, tmp_path):
 
 
 def test_unused_vertices_and_polygons(tmp_path):
-    """A quad, a vertex that falls through it, and that vertex skipped or on an element."""
+    """A vertex falls through a quad, and is skipped if it is unused."""
     square = [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]]
     path = tmp_path / "quad.obj"
     path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in [*square, [.5, 1.5, 1]]) + "f 1 2 3 4\n")

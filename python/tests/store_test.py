@@ -1,4 +1,4 @@
-"""Stores of queries, as `ccd convert` makes them, by h5py: alone, and by io.read_queries."""
+"""Reads stores of queries, written by `ccd convert`, with h5py and with io.read_queries."""
 import os
 import subprocess
 
@@ -12,7 +12,7 @@ h5py = pytest.importorskip("h5py", reason="no h5py: pip install h5py")
 
 @pytest.fixture(scope="module")
 def files(program, tmp_path_factory):
-    """CSV, and the same as a store, of more than a chunk."""
+    """CSV files and equal stores, of more than one chunk."""
     folder = tmp_path_factory.mktemp("stores")
     random = np.random.default_rng(5)
     points = random.standard_normal((5000, 2, 3)) * 2.0 ** random.integers(-1000, 1000, (5000, 2, 3))
@@ -50,33 +50,33 @@ def test_a_store_is_read_by_h5py_alone(files):
     np.testing.assert_array_equal(points.reshape(-1, 4, 2, 3).swapaxes(1, 2).reshape(-1, 8, 3), expected)
 
 
-def test_what_is_no_store_is_told(files, tmp_path):
-    with pytest.raises(FileError, match="found queries of kind edge_edge, expected vertex_face"):
+def test_other_files_are_reported(files, tmp_path):
+    with pytest.raises(FileError, match="kind of queries is edge_edge; expected vertex_face"):
         io.read_queries(files[1], "vertex_face")
     torn = tmp_path / "torn.h5"
     torn.write_bytes(files[1].read_bytes()[:5000])
-    with pytest.raises(FileError, match="torn.h5: found no whole store of queries"):
+    with pytest.raises(FileError, match="torn.h5 is not a complete store of queries"):
         io.read_queries(torn)
 
 
-def test_what_hdf5_does_not_see_is_told(files, tmp_path):
+def test_damage_that_hdf5_misses_is_reported(files, tmp_path):
     with h5py.File(files[1]) as file:
         chunk = file["queries"].id.get_chunk_info(0)
         assert not file["queries"].compression
     stored = bytearray(files[1].read_bytes())
     at = stored.find(b"\0\0", chunk.byte_offset, chunk.byte_offset + chunk.size)
-    at += (at - chunk.byte_offset) % 2  # an index of 0 begins at an even place
+    at += (at - chunk.byte_offset) % 2  # an index of 0 begins at an even offset
     assert stored[at:at + 2] == b"\0\0"
     stored[at:at + 2] = b"\xff\xff"
     (tmp_path / "seen.h5").write_bytes(stored)
     with h5py.File(tmp_path / "seen.h5") as file:
-        assert file["queries"][0:1].shape == (1, 4)  # without a word
-    with pytest.raises(FileError, match="seen.h5: found no whole store of queries .*another checksum"):
+        assert file["queries"][0:1].shape == (1, 4)  # without an error
+    with pytest.raises(FileError, match="seen.h5 is not a complete store of queries .*checksum of queries from .* differs"):
         io.read_queries(tmp_path / "seen.h5")
 
 
 def test_a_link_is_not_followed_and_chunks_are_bounded(files, tmp_path):
-    """A link to a pipe that nobody writes to would block; a chunk is read whole, whatever the rows' width."""
+    """A link to a pipe without a writer would block. Chunks are read whole, however wide the rows are."""
     def forged(change):
         path = tmp_path / "forged.h5"
         path.write_bytes(files[1].read_bytes())
@@ -93,6 +93,6 @@ def test_a_link_is_not_followed_and_chunks_are_bounded(files, tmp_path):
         file.create_dataset("points", (40, 6), "f8", chunks=(2**20, 100), maxshape=(None, None))
 
     os.mkfifo(tmp_path / "pipe")
-    for change, message in (link, "dataset truth: found a link"), (wide, "dataset points: .* at most 64 MiB"):
+    for change, message in (link, "dataset truth is a link"), (wide, "dataset points has .* at most 64 MiB"):
         with pytest.raises(FileError, match=message):
             io.read_queries(forged(change))

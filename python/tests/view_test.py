@@ -1,4 +1,4 @@
-"""Steps in polyscope and in files for ParaView, which VTK's own reader reads."""
+"""Steps in polyscope, and files for ParaView, which VTK's reader reads."""
 import webbrowser
 import xml.etree.ElementTree as xml
 
@@ -15,7 +15,7 @@ def step(scene):
 
 
 def read(path):
-    """Points, polygons, numbers of other cells, and arrays by name."""
+    """Returns points, polygons, numbers of other cells, and arrays by name."""
     reader = pytest.importorskip("vtkmodules.vtkIOXML", reason="no vtk: pip install vtk").vtkXMLPolyDataReader()
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -24,9 +24,9 @@ def read(path):
     assert reader.GetErrorCode() == 0
     data = reader.GetOutput()
     arrays = {}
-    for of_what in data.GetPointData(), data.GetCellData(), data.GetFieldData():
-        for i in range(of_what.GetNumberOfArrays()):
-            arrays[of_what.GetArrayName(i)] = vtk_to_numpy(of_what.GetArray(i))
+    for fields in data.GetPointData(), data.GetCellData(), data.GetFieldData():
+        for i in range(fields.GetNumberOfArrays()):
+            arrays[fields.GetArrayName(i)] = vtk_to_numpy(fields.GetArray(i))
     polygons = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     return vtk_to_numpy(data.GetPoints().GetData()), polygons, data.GetNumberOfVerts(), arrays
 
@@ -74,21 +74,21 @@ def test_a_page_without_a_path(scene, step, monkeypatch, tmp_path):
     assert opened == [page.as_uri()]
 
 
-@pytest.mark.parametrize("call, error, said", [
-    (lambda b, a, s: show(b, a, s, "step.vtp"), ValueError, "path: found 'step.vtp', expected .* .html"),
+@pytest.mark.parametrize("call, error, message", [
+    (lambda b, a, s: show(b, a, s, "step.vtp"), ValueError, "path is 'step.vtp'; expected .* .html"),
     (lambda b, a, s: io.write_view("step.obj", b, a, s), ValueError, "path: found 'step.obj', expected .* .pvd"),
-    (lambda b, a, s: show(b, io.Mesh(a.vertices, a.faces[1:]), s, "x.html"), ValueError, "after: found other faces"),
-    (lambda b, a, s: show(b, io.Mesh(a.vertices[1:], a.faces), s, "x.html"), ValueError, "after: found 2401 vertices"),
-    (lambda b, a, s: show(b, io.Mesh(a.vertices * np.nan, a.faces), s, "x.html"), ValueError, "after: row 0: found"),
+    (lambda b, a, s: show(b, io.Mesh(a.vertices, a.faces[1:]), s, "x.html"), ValueError, "faces of after differ"),
+    (lambda b, a, s: show(b, io.Mesh(a.vertices[1:], a.faces), s, "x.html"), ValueError, "number of vertices in after is 2401"),
+    (lambda b, a, s: show(b, io.Mesh(a.vertices * np.nan, a.faces), s, "x.html"), ValueError, "row 0 of after is"),
     (lambda b, a, s: show(*[io.Mesh(m.vertices[:9], m.faces[:0]) for m in (b, a)], s, "x.html"), IndexError,
-     r"result.pairs.vertex_face: row 0: found vertex \d+, expected 0 to 8"),
+     r"vertex index in row 0 of result.pairs.vertex_face is \d+; expected 0 to 8"),
     (lambda b, a, s: show(b, a, s, "nowhere/x.html"), io.FileError, "nowhere/x.html: cannot be written"),
-    (lambda b, a, s: io.write_pvd("x.pvd", [0, 1], ["a"]), ValueError, "files: found 1, expected 2"),
-    (lambda b, a, s: io.write_pvd("x.pvd", [np.inf], ["a"]), ValueError, "times: row 0: found inf"),
+    (lambda b, a, s: io.write_pvd("x.pvd", [0, 1], ["a"]), ValueError, "number of files is 1; expected 2"),
+    (lambda b, a, s: io.write_pvd("x.pvd", [np.inf], ["a"]), ValueError, "row 0 of times is inf"),
 ])
-def test_what_is_wrong_is_said(scene, step, monkeypatch, tmp_path, call, error, said):
+def test_errors_name_the_argument(scene, step, monkeypatch, tmp_path, call, error, message):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(error, match=said):
+    with pytest.raises(error, match=message):
         call(*scene, step)
     assert list(tmp_path.iterdir()) == []
 
@@ -113,7 +113,7 @@ def test_polyscope(scene, step, monkeypatch):
         original = getattr(type(structure), update)
         monkeypatch.setattr(type(structure), update,
                             lambda self, x, original=original: (moved.append(x), original(self, x)))
-    assert show(*scene, step) is None  # the same names again
+    assert show(*scene, step) is None  # replaces structures with the same names
     at_quarter = 0.75 * scene[0].vertices + 0.25 * scene[1].vertices
     for found, expected in zip(moved, (at_quarter, at_quarter[own_edges], at_quarter[own_vertices])):
         np.testing.assert_array_equal(found, expected)
