@@ -1,4 +1,4 @@
-// What a command of the program is: its options, and what it does once they are read.
+// The base class of the program's commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,8 +9,7 @@ namespace ccd::program {
 
 enum exit_status { done = 0, bad_input = 1, broken_promise = 1, stopped = 3 };
 
-/// A command, registered with the program's command line. What it asks for lies in members, which
-/// the line is read into.
+/// A command of the program's command line. Its options are parsed into members.
 class command {
   public:
     command(CLI::App& program, const std::string& name, const std::string& description)
@@ -21,8 +20,8 @@ class command {
 
     bool was_given() const { return line_.parsed(); }
 
-    /// Prints to standard output and writes files. Throws errbound::support::usage_error (options
-    /// that make no sense together), errbound::support::file_error, device_error.
+    /// Prints to standard output and writes files.
+    /// Throws usage_error (contradictory options), file_error, device_error.
     virtual exit_status run() = 0;
 
   protected:

@@ -1,4 +1,4 @@
-// `ccd convert`: stored queries from CSV to a store and back.
+// `ccd convert`: converts queries between CSV and HDF5 stores.
 #include <array>
 #include <atomic>
 #include <boost/crc.hpp>
@@ -32,14 +32,14 @@ namespace {
 using errbound::support::file_error;
 using errbound::support::usage_error;
 
-/// A file's size, and what it took to read its queries.
+/// The size of a file, and the time to read its queries.
 struct read_file {
     std::string name;
     std::uint64_t queries = 0, bytes = 0;
     double seconds = 0;
 };
 
-/// How many queries, and a checksum of their bits and truth, in order.
+/// The number of queries, and a checksum of their bits and truth, in order.
 class query_content {
   public:
     void add(const io::query_file& queries) {
@@ -61,11 +61,11 @@ class query_content {
 
   private:
     std::uint64_t size_ = 0;
-    // CRC-64 of ECMA-182: of two lists that differ by chance, one in 2^64 have the same.
+    // CRC-64 of ECMA-182: two different random lists have equal sums with probability 2^-64.
     boost::crc_optimal<64, 0x42f0e1eba9ea3693, 0, 0, false, false> sum_;
 };
 
-/// Rows of hexadecimal floats, and of truth where it is known.
+/// Returns rows of hexadecimal floats, with truth if it is known.
 std::string rows_of(const io::query_file& queries) {
     std::string text;
     std::visit(
@@ -79,7 +79,7 @@ std::string rows_of(const io::query_file& queries) {
     return text;
 }
 
-/// The output, made in a temporary file as queries come in.
+/// The output, written to a temporary file query by query.
 class converted {
   public:
     explicit converted(bool to_store) : to_store_(to_store) {}
@@ -94,12 +94,12 @@ class converted {
                 rows_.emplace();
         }
         if (queries.kind() != *kind_)
-            throw file_error(file + ": found queries of kind " + std::string(name(queries.kind())) +
-                             ", expected " + std::string(name(*kind_)) + " as in the first file");
+            throw file_error(file + ": kind of queries is " + std::string(name(queries.kind())) +
+                             "; expected " + std::string(name(*kind_)) + ", as in the first file");
         if (queries.truth.has_value() != has_truth_)
-            throw file_error(file + ": found queries " + (has_truth_ ? "without" : "with") +
-                             " truth, expected " + (has_truth_ ? "it" : "none") +
-                             " as in the first file");
+            throw file_error(file + ": truth is " + (has_truth_ ? "missing" : "given") +
+                             "; expected " + (has_truth_ ? "truth" : "none") +
+                             ", as in the first file");
         content_.add(queries);
         if (to_store_)
             packer_->add(queries);
@@ -121,22 +121,23 @@ class converted {
 class convert final : public command {
   public:
     explicit convert(CLI::App& program)
-        : command(program, "convert", "Stored queries from CSV to HDF5, and back") {
+        : command(program, "convert", "Convert stored queries from CSV to HDF5, and back") {
         line_
             .add_option(
                 "FILE", files_,
-                "Files of queries in the forms that `ccd query` reads, then the output: OUT.h5 or "
-                "OUT.hdf5, a\n"
-                "store of queries, or OUT.csv, rows of hexadecimal floats")
+                "Files of queries in the formats of `ccd query`, then the output: OUT.h5 or "
+                "OUT.hdf5, an\n"
+                "HDF5 store, or OUT.csv, rows of hexadecimal floats")
             ->required()
             ->expected(2, -1);
         line_
             .add_option("--kind", kind_,
-                        "Kind of query; else the path says (vertex-face or vf, edge-edge or ee)")
+                        "Kind of query; by default taken from the path (vertex-face or vf, "
+                        "edge-edge or ee)")
             ->check(CLI::IsMember(io::kind_names()));
         line_.add_flag("--round", round_,
-                       "Round rationals and hexadecimal floats that no double equals, instead of\n"
-                       "refusing them");
+                       "Round rationals and hexadecimal floats that no double equals; by default\n"
+                       "they are errors");
         line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
             ->type_name("OUT");
     }
@@ -147,15 +148,15 @@ class convert final : public command {
         const std::string ending = out.extension().string();
         const bool to_store = ending == ".h5" || ending == ".hdf5";
         if (!to_store && ending != ".csv")
-            throw usage_error("FILE: found the output '" + out.string() +
-                              "', expected a name that ends in .h5, .hdf5 or .csv");
+            throw usage_error("output is '" + out.string() +
+                              "'; expected a name that ends in .h5, .hdf5 or .csv");
         if (to_store && !io::has_query_stores())
-            throw usage_error("FILE: found '" + out.string() +
-                              "', expected a .csv: this was built without HDF5");
+            throw usage_error("output is '" + out.string() +
+                              "'; expected .csv, since this was built without HDF5");
         errbound::support::require_good_outputs({out, json_}, files_);
         int ended_by = 0;
         {
-            // Temporary files do not stay where they are.
+            // Signals and failing pipes must not leave temporary files behind.
             const errbound::support::awaited_signals signals;
             const errbound::support::system::failing_pipes pipes;
             stop_ = &signals.arrived();
@@ -171,7 +172,7 @@ class convert final : public command {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
-    /// Returns whether it got to the end.
+    /// False if a signal stopped it.
     bool make(const std::filesystem::path& out, bool to_store) const {
         converted all(to_store);
         std::vector<read_file> table;
@@ -183,13 +184,14 @@ class convert final : public command {
             table.push_back(*read);
         }
         const std::filesystem::path made = all.finish();
-        query_content content;  // what was made has to be what was read
+        query_content content;  // the output must read back as the input
         const auto read =
             for_each_range(made, out.string(), all.kind_of_all(), false,
                            [&](const io::query_file& queries) { content.add(queries); });
         if (!read) return false;
         if (!(content == all.content()))
-            throw std::runtime_error(out.string() + ": what was made reads back as something else");
+            throw std::runtime_error(out.string() +
+                                     ": queries read back differ; expected those of the input");
         table.push_back(*read);
         std::vector<errbound::support::output> outputs{{.path = out, .from = made}};
         if (json_) outputs.push_back({*json_, json_of(table)});
@@ -198,7 +200,7 @@ class convert final : public command {
         return true;
     }
 
-    /// Reads a file, called `name`, in ranges; nothing where it was ended before.
+    /// Reads a file in ranges; `name` is for messages. Returns nothing if a signal stopped it.
     template <class Take>
     std::optional<read_file> for_each_range(const std::filesystem::path& file, std::string name,
                                             std::optional<kind> kind, bool round,

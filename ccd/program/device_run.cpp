@@ -43,14 +43,14 @@ step_result step_on_device(const mesh& before, const mesh& after, const step_opt
 
 void require_device() {
     throw errbound::support::usage_error(
-        "--device: found cuda, expected cpu: this build has no CUDA (it needs nvcc 12 or later)");
+        "--device is cuda; expected cpu, since this build has no CUDA (it needs nvcc 12 or later)");
 }
 
 std::vector<method> methods_on_device() {
     return {};
 }
 
-// Never reached: require_device() comes first.
+// Never reached, since require_device() throws before.
 template <class Query>
 void decide_on_device(std::span<const Query>, std::span<outcome>, method, cuda::precision) {
     require_device();

@@ -1,4 +1,4 @@
-// The program's way to CUDA devices, in builds with CUDA and without.
+// CUDA devices for the program, in builds with and without CUDA.
 #pragma once
 
 #include <ccd/contact.hpp>
@@ -11,13 +11,12 @@
 
 namespace ccd::program {
 
-/// Where a command decides.
 struct device_choice {
-    bool cuda = false;  ///< else on this machine's processor
+    bool cuda = false;  ///< false: the CPU
     cuda::precision precision = cuda::precision::float64;
 };
 
-/// The device failed, or there is none.
+/// The device failed or is missing.
 struct device_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -25,10 +24,9 @@ struct device_error : std::runtime_error {
 /// Throws usage_error if this build has no CUDA, device_error if this machine has no device.
 void require_device();
 
-/// The methods that devices run.
 std::vector<method> methods_on_device();
 
-/// Of the stored kinds, as the functions of ccd::cuda; throw device_error.
+/// Same as the functions of ccd::cuda, for the stored kinds. Throw device_error.
 template <class Query>
 void decide_on_device(std::span<const Query> queries, std::span<outcome> answers, method m,
                       cuda::precision precision);

@@ -1,6 +1,5 @@
-// The program `ccd`: reads the command line. Exit status 0 done, 1 bad input (or a method that
-// broke its promise, in `ccd stress` and `ccd report`, or a CUDA device that is missing or failed),
-// 2 bad usage.
+// The program `ccd`. Exit status: 0 done; 1 bad input, a missing or failed CUDA device, or a broken
+// guarantee of a method (`ccd stress`, `ccd report`); 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <string>
 
@@ -19,23 +18,23 @@ exit_status run(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
     for (const auto& c : commands)
         if (c->was_given()) return c->run();
-    throw errbound::support::usage_error("found no command, ccd --help lists them");
+    throw errbound::support::usage_error("command is missing; ccd --help lists the commands");
 }
 
 int run_command_line(int argc, char** argv) {
     CLI::App app{
         "Exact continuous collision detection.\n"
-        "Exit status: 0 done, 1 bad input, 2 bad usage; of stress and report also 1: a promise was "
-        "broken.",
+        "Exit status: 0 done, 1 bad input, 2 bad usage; stress and report also return 1 if a "
+        "method breaks its guarantee.",
         "ccd"};
-    app.require_subcommand(0, 1);            // none is told from an unknown one, which is named
+    app.require_subcommand(0, 1);            // CLI11 then reports an unknown command by name
     app.allow_windows_style_options(false);  // a path may begin with a slash
     app.set_version_flag("--version", std::string("ccd ") + ERRBOUND_VERSION);
     try {
         return run(app, argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
-        app.exit(error);  // prints what --help and --version ask for
+        app.exit(error);  // prints the text of --help or --version
         return done;
     }
 }

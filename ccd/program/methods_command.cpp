@@ -1,4 +1,4 @@
-// `ccd methods`: what methods there are.
+// `ccd methods`: lists all methods.
 #include <ccd/method.hpp>
 #include <iostream>
 
@@ -11,7 +11,7 @@ namespace {
 class methods final : public command {
   public:
     explicit methods(CLI::App& program)
-        : command(program, "methods", "What methods there are and what each promises") {}
+        : command(program, "methods", "List all methods with their guarantees") {}
 
     exit_status run() override {
         errbound::support::table rows = {{"method", "promise", "source"}};

@@ -16,9 +16,8 @@ ccd::method method_named(const std::string& name) {
 }
 
 methods_option::methods_option(CLI::App& line)
-    : option_(
-          line.add_option("--method", list_, "Methods M[,M...], else all")->type_name("M[,M...]")) {
-}
+    : option_(line.add_option("--method", list_, "Methods M[,M...]; all by default")
+                  ->type_name("M[,M...]")) {}
 
 std::vector<ccd::method> methods_option::methods() const {
     if (was_given()) return errbound::support::all_named("--method", list_, method_named);
@@ -28,19 +27,19 @@ std::vector<ccd::method> methods_option::methods() const {
 }
 
 device_options::device_options(CLI::App& line) {
-    line.add_option("--device", device_, "Where to decide: cpu, else cuda")
+    line.add_option("--device", device_, "Device to use: cpu or cuda")
         ->check(CLI::IsMember({"cpu", "cuda"}))
         ->capture_default_str();
     line.add_option("--precision", precision_,
-                    "With --device cuda: what methods compute in first, float64 (the default)\n"
-                    "or float32; what floats cannot decide is decided in doubles")
+                    "With --device cuda: the arithmetic of the first stage, float64 (the default)\n"
+                    "or float32; queries that float32 cannot decide are decided in float64")
         ->check(CLI::IsMember({"float64", "float32"}));
 }
 
 device_choice device_options::chosen() const {
     if (device_ == "cpu") {
         if (!precision_.empty())
-            throw usage_error("--precision: found --device cpu, expected --device cuda");
+            throw usage_error("--device is cpu; expected cuda with --precision");
         return {};
     }
     require_device();
@@ -51,7 +50,7 @@ void require_on_device(ccd::method m) {
     const std::vector<ccd::method> possible = methods_on_device();
     if (std::ranges::find(possible, m) != possible.end()) return;
     const auto name = [](ccd::method known) { return std::string(info(known).name); };
-    throw usage_error("--method: found '" + name(m) + "' with --device cuda, expected one of " +
+    throw usage_error("--method is '" + name(m) + "' with --device cuda; expected one of " +
                       errbound::support::listed(possible, name));
 }
 
@@ -59,21 +58,21 @@ number_option::number_option(CLI::App& line, const std::string& name,
                              const std::string& description)
     : name_(name), option_(line.add_option(name, text_, description)->type_name("NUMBER")) {}
 
-double number_option::value(double otherwise, double most) const {
+double number_option::value(double otherwise, double max) const {
     if (!was_given()) return otherwise;
     const io::number number = io::parse_double(text_, false);
     if (number.status != io::number_status::ok)
         throw usage_error(name_ + ": " + io::describe(number.status, text_));
-    if (number.value >= 0 && number.value <= most) return number.value;
-    throw usage_error(name_ + ": found " + io::excerpt(text_) + ", expected a number from 0" +
-                      (most == 1 ? " to 1" : ""));
+    if (number.value >= 0 && number.value <= max) return number.value;
+    throw usage_error(name_ + " is " + io::excerpt(text_) + "; expected a number " +
+                      (max == 1 ? "from 0 to 1" : ">= 0"));
 }
 
 unused_vertices_option::unused_vertices_option(CLI::App& line) {
     line.add_option(
             "--unused-vertices", choice_,
-            "Vertices on no face and no edge: skip them (the default if the file has faces\n"
-            "or edges), or take them as points (the default if it has none)")
+            "Vertices without faces and edges: skip them (default if the file has faces or\n"
+            "edges), or treat them as points (default if it has none)")
         ->check(CLI::IsMember({"skip", "points"}));
 }
 

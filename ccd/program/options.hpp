@@ -1,4 +1,4 @@
-// Options that several commands take.
+// Options of several commands.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,10 +12,10 @@
 
 namespace ccd::program {
 
-/// The method of that name. Throws usage_error.
+/// Returns the method with this name. Throws usage_error.
 ccd::method method_named(const std::string& name);
 
-/// --method M[,M...], else all.
+/// --method M[,M...]; all methods by default.
 class methods_option {
   public:
     explicit methods_option(CLI::App& line);
@@ -42,39 +42,38 @@ class device_options {
 /// Throws usage_error unless the method runs on devices.
 void require_on_device(ccd::method m);
 
-/// An option whose value is a number, which is taken exactly: the double nearest to a decimal
-/// number, or equal to a hexadecimal float.
+/// An option with a number: the double nearest to a decimal, or equal to a hexadecimal float.
 class number_option {
   public:
     number_option(CLI::App& line, const std::string& name, const std::string& description);
     bool was_given() const { return option_->count() > 0; }
-    /// `otherwise` where it was not given. Throws usage_error unless it is from 0 to `most`, which
-    /// is 1 or the largest double.
-    double value(double otherwise, double most) const;
+    /// Returns `otherwise` if the option is not given. Throws usage_error unless the value is in
+    /// [0, max]; max is 1 or the largest double.
+    double value(double otherwise, double max) const;
 
   private:
     std::string name_, text_;
     CLI::Option* option_;
 };
 
-/// --unused-vertices: how the vertices of a file that no face and no edge has are taken.
+/// --unused-vertices: the treatment of vertices without faces and edges.
 class unused_vertices_option {
   public:
     explicit unused_vertices_option(CLI::App& line);
-    /// True if they are skipped. By default they are points if the file has no other element.
+    /// True if they are skipped. By default they are points only if the file has no other element.
     bool skips(std::size_t unused, std::size_t vertices) const;
 
   private:
     std::string choice_;
 };
 
-/// One line on them; none if there are none.
+/// Returns one line about unused vertices; empty if there are none.
 std::string text_of_unused(std::size_t unused, std::size_t vertices, bool skipped);
 
-/// A first time as two fields of a line, `low,high`, hexadecimal floats; `-` where there is none.
+/// Returns `low,high` as hexadecimal floats, or `-` if there is no contact.
 std::string text_of_time(const first_time& time);
 
-/// --threads, from 0, which is one per core.
+/// --threads, from 0 (one per core).
 void add_threads_option(CLI::App& line, int& threads, const std::string& description);
 
 }  // namespace ccd::program

@@ -1,4 +1,4 @@
-// Pairs as lines of text: vf,v,f0,f1,f2 and so on, with their times if those are wanted.
+// Pairs as lines of text: vf,v,f0,f1,f2 and so on, optionally with times.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace ccd::program {
 
-/// The vertices' numbers of a pair that is a list of them.
+/// Returns the vertices of a pair that is an array of numbers.
 template <class Number, std::size_t N>
 const std::array<Number, N>& vertices_of(const std::array<Number, N>& numbers) {
     return numbers;
 }
 
-/// Lists: of pairs by kind. Times: those of all pairs, or none.
+/// Returns one line per pair. `pairs`: lists by kind; `times`: one per pair, or null.
 template <class Lists>
 std::string lines_of_pairs(const Lists& pairs, const time_lists* times = nullptr) {
     std::string lines;

@@ -1,4 +1,4 @@
-// `ccd query`: decides stored queries with some methods, compares with the truth, times them.
+// `ccd query`: decides stored queries with chosen methods, compares with the truth, takes times.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -33,20 +33,20 @@ class query final : public command {
     struct request {
         std::vector<ccd::method> methods;
         device_choice device;
-        time_question question;
+        time_request times;
     };
     /// Throws usage_error, device_error.
     request checked_options() const;
-    time_question time_asked() const;
+    time_request checked_times() const;
     std::vector<ccd::method> methods_on(const device_choice& device) const;
-    std::vector<query_result> decide_files(const request& asked) const;
+    std::vector<query_result> decide_files(const request& checked) const;
     /// Prints and writes one result for each file and method.
     void write(const std::vector<query_result>& results) const;
     std::vector<std::optional<std::filesystem::path>> outputs() const {
         return {verdicts_, toi_, json_};
     }
     /// True if an option is given that only `exact` supports.
-    bool asks_exact_alone() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
+    bool requires_exact() const { return toi_ || t_max_.was_given() || separation_.was_given(); }
 
     std::vector<std::filesystem::path> files_;
     std::string kind_;  ///< empty: from each path
@@ -54,8 +54,8 @@ class query final : public command {
     io::file_range range_;
     std::optional<std::filesystem::path> verdicts_, toi_, json_;
     number_option separation_{line_, "--separation",
-                              "Ask for a distance of at most that, in place of contact"};
-    number_option t_max_{line_, "--t-max", "Ask about times from 0 to that, in place of 1"};
+                              "Test for a distance of at most NUMBER instead of contact"};
+    number_option t_max_{line_, "--t-max", "Test times from 0 to NUMBER instead of 1"};
     methods_option methods_{line_};
     device_options device_{line_};
 };
@@ -67,17 +67,18 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
             "CSV, 8 rows per query: v f0 f1 f2 (or a0 a1 b0 b1) at t = 0, then at t = 1; a row "
             "is\n"
             "xnum,xden,ynum,yden,znum,zden or x,y,z, then optionally the truth, 0 or 1;\n"
-            "or a store of queries, as ccd convert makes it; -: standard input")
+            "or an HDF5 store of ccd convert; -: standard input")
         ->required()
         ->transform(errbound::support::input_named);
     line_
         .add_option("--kind", kind_,
-                    "Kind of query; else the path says (vertex-face or vf, edge-edge or ee)")
+                    "Kind of query; by default taken from the path (vertex-face or vf, edge-edge "
+                    "or ee)")
         ->check(CLI::IsMember(io::kind_names()));
     line_.add_flag(
         "--round", round_,
-        "Round rationals and hexadecimal floats that no double equals, instead of refusing\n"
-        "them (decimals always mean the nearest double)");
+        "Round rationals and hexadecimal floats that no double equals; by default they are\n"
+        "errors (decimals are always rounded to the nearest double)");
     line_.add_option("--first", range_.first, "Skip the first N queries of each file")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 48))
         ->capture_default_str();
@@ -91,34 +92,34 @@ query::query(CLI::App& program) : command(program, "query", "Decide stored queri
         ->type_name("OUT");
     line_
         .add_option("--toi", toi_,
-                    "Write low,high per query, between which the first contact is (hexadecimal\n"
-                    "floats; both 0 at the start, equal where the time is a double), or - where\n"
-                    "there is none (method exact, one file); -: standard output")
+                    "Write low,high per query: the first contact is between these adjacent\n"
+                    "hexadecimal floats (0,0 at the start; equal if the time is a double); a line\n"
+                    "- means no contact (method exact, one file); -: standard output")
         ->type_name("OUT");
     line_.add_option("--json", json_, "Write the table as JSON; -: standard output")
         ->type_name("OUT");
 }
 
 exit_status query::run() {
-    const request asked = checked_options();
+    const request checked = checked_options();
     errbound::support::require_good_outputs(outputs(), files_);
-    // Nothing is printed or written unless all files are good.
-    write(decide_files(asked));
+    // All files are read before anything is printed or written.
+    write(decide_files(checked));
     return done;
 }
 
 query::request query::checked_options() const {
     errbound::support::require_one_standard_input("FILE", files_);
-    request asked;
-    asked.device = device_.chosen();
-    asked.question = time_asked();
-    asked.methods = methods_on(asked.device);
+    request checked;
+    checked.device = device_.chosen();
+    checked.times = checked_times();
+    checked.methods = methods_on(checked.device);
     for (const auto& [option, output] : {std::pair("--verdicts", &verdicts_), {"--toi", &toi_}})
-        if (*output && (files_.size() != 1 || asked.methods.size() != 1))
-            throw usage_error(std::string(option) + ": found " + std::to_string(files_.size()) +
-                              " files and " + std::to_string(asked.methods.size()) +
-                              " methods, expected one FILE and one --method");
-    return asked;
+        if (*output && (files_.size() != 1 || checked.methods.size() != 1))
+            throw usage_error(std::string(option) + " has " + std::to_string(files_.size()) +
+                              " files and " + std::to_string(checked.methods.size()) +
+                              " methods; expected one FILE and one --method");
+    return checked;
 }
 
 void query::write(const std::vector<query_result>& results) const {
@@ -134,23 +135,23 @@ void query::write(const std::vector<query_result>& results) const {
     errbound::support::stream_for_people(outputs()) << text_of_results(results);
 }
 
-time_question query::time_asked() const {
-    constexpr double most = std::numeric_limits<double>::max();
-    time_question asked{
+time_request query::checked_times() const {
+    constexpr double max = std::numeric_limits<double>::max();
+    time_request times{
         .verdicts = verdicts_.has_value(), .times = toi_.has_value(), .t_max = t_max_.value(1, 1)};
-    if (separation_.was_given()) asked.distance = separation_.value(0, most);
-    return asked;
+    if (separation_.was_given()) times.distance = separation_.value(0, max);
+    return times;
 }
 
 std::vector<ccd::method> query::methods_on(const device_choice& device) const {
-    if (asks_exact_alone()) {
+    if (requires_exact()) {
         const bool exact_given =
             !methods_.was_given() || methods_.methods() == std::vector{method::exact};
         if (!exact_given)
             throw usage_error(
-                "--toi, --separation and --t-max: found another --method, expected exact");
+                "--method is not exact; expected exact with --toi, --separation or --t-max");
         if (device.cuda && separation_.was_given())
-            throw usage_error("--separation: found --device cuda, expected --device cpu");
+            throw usage_error("--device is cuda; expected cpu with --separation");
         return {method::exact};
     }
     if (device.cuda && !methods_.was_given()) return methods_on_device();
@@ -160,7 +161,7 @@ std::vector<ccd::method> query::methods_on(const device_choice& device) const {
     return methods;
 }
 
-std::vector<query_result> query::decide_files(const request& asked) const {
+std::vector<query_result> query::decide_files(const request& checked) const {
     std::vector<query_result> results;
     constexpr double seconds = 0.02;
     errbound::support::progress_line progress;
@@ -169,9 +170,9 @@ std::vector<query_result> query::decide_files(const request& asked) const {
         progress.show(i, files_.size(), file);
         const io::query_file queries =
             io::read_queries(files_[i], find_kind(kind_), round_, range_);
-        for (const ccd::method m : asked.methods)
+        for (const ccd::method m : checked.methods)
             results.push_back(
-                decide_queries(queries, file, m, asked.device, asked.question, seconds));
+                decide_queries(queries, file, m, checked.device, checked.times, seconds));
     }
     return results;
 }

@@ -1,4 +1,3 @@
-// Stored queries decided with some methods, and what that is told as.
 #include "ccd/program/query_results.hpp"
 
 #include <algorithm>
@@ -25,54 +24,54 @@ double seconds_since(steady_clock::time_point start) {
 }
 
 template <class Query>
-outcome decide_one(const Query& query, ccd::method method, const time_question& asked) {
-    if (asked.t_max < 1)
-        return asked.distance ? time_within(query, {*asked.distance, 0}, asked.t_max).outcome
-                              : time_of_impact(query, asked.t_max).outcome;
-    return asked.distance ? decide_within(query, {*asked.distance, 0}).outcome
-                          : decide(method, query).outcome;
+outcome decide_one(const Query& query, ccd::method method, const time_request& request) {
+    if (request.t_max < 1)
+        return request.distance ? time_within(query, {*request.distance, 0}, request.t_max).outcome
+                                : time_of_impact(query, request.t_max).outcome;
+    return request.distance ? decide_within(query, {*request.distance, 0}).outcome
+                            : decide(method, query).outcome;
 }
 
 template <class Query>
 std::vector<first_time> find_times(const std::vector<Query>& queries, const device_choice& device,
-                                   const time_question& asked) {
+                                   const time_request& request) {
     if (!device.cuda)
         return first_times(queries,
-                           {.t_max = asked.t_max, .distances = {asked.distance.value_or(0)}});
+                           {.t_max = request.t_max, .distances = {request.distance.value_or(0)}});
     std::vector<first_time> times(queries.size());
-    find_times_on_device<Query>(queries, times, asked.t_max);
+    find_times_on_device<Query>(queries, times, request.t_max);
     return times;
 }
 
 template <class Query>
 void answer_on_device(const std::vector<Query>& queries, const device_choice& device, method m,
-                      const time_question& asked, std::vector<outcome>& outcomes) {
-    if (asked.t_max < 1)
-        std::ranges::transform(find_times(queries, device, asked), outcomes.begin(),
+                      const time_request& request, std::vector<outcome>& outcomes) {
+    if (request.t_max < 1)
+        std::ranges::transform(find_times(queries, device, request), outcomes.begin(),
                                &first_time::outcome);
     else
         decide_on_device<Query>(queries, outcomes, m, device.precision);
 }
 
-/// Decides all, as often as takes the time that is given for it; that noted is the fastest pass's.
+/// Decides all queries repeatedly until `seconds` have passed. Stores the time of the fastest pass.
 template <class Query>
 std::vector<outcome> decide_all(const std::vector<Query>& queries, const device_choice& device,
-                                const time_question& asked, double seconds, query_result& out) {
+                                const time_request& request, double seconds, query_result& out) {
     std::vector<outcome> outcomes(queries.size());
     double fastest = std::numeric_limits<double>::infinity();
     const steady_clock::time_point start = steady_clock::now();
     do {
         const steady_clock::time_point pass = steady_clock::now();
         if (device.cuda)
-            answer_on_device(queries, device, out.method, asked, outcomes);
+            answer_on_device(queries, device, out.method, request, outcomes);
         else
             for (std::size_t i = 0; i < queries.size(); ++i)
-                outcomes[i] = decide_one(queries[i], out.method, asked);
+                outcomes[i] = decide_one(queries[i], out.method, request);
         fastest = std::min(fastest, seconds_since(pass));
     } while (seconds_since(start) < seconds);
     out.ns_per_query = fastest * 1e9 / static_cast<double>(queries.size());
-    if (asked.times)
-        for (const first_time& time : find_times(queries, device, asked))
+    if (request.times)
+        for (const first_time& time : find_times(queries, device, request))
             out.times += text_of_time(time) + '\n';
     return outcomes;
 }
@@ -96,20 +95,20 @@ nlohmann::ordered_json json_of(const query_result& r) {
 
 query_result decide_queries(const io::query_file& queries, const std::string& file,
                             ccd::method method, const device_choice& device,
-                            const time_question& asked, double seconds) {
+                            const time_request& request, double seconds) {
     query_result out;
     out.file = file;
     out.kind = queries.kind();
     out.method = method;
     out.queries = queries.size();
     const auto outcomes =
-        std::visit([&](const auto& all) { return decide_all(all, device, asked, seconds, out); },
+        std::visit([&](const auto& all) { return decide_all(all, device, request, seconds, out); },
                    queries.queries);
-    if (queries.truth && !asked.is_another()) out.false_positives = out.false_negatives = 0;
+    if (queries.truth && !request.ignores_truth()) out.false_positives = out.false_negatives = 0;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         const bool verdict = outcomes[i] != outcome::separate;
         out.collisions += verdict;
-        if (asked.verdicts) out.verdicts += verdict ? '1' : '0';
+        if (request.verdicts) out.verdicts += verdict ? '1' : '0';
         if (!out.false_positives) continue;
         *out.false_positives += verdict && !(*queries.truth)[i];
         *out.false_negatives += !verdict && (*queries.truth)[i];
@@ -135,7 +134,7 @@ std::string text_of_results(const std::vector<query_result>& results) {
 std::string json_of_results(const std::vector<query_result>& results) {
     auto array = nlohmann::ordered_json::array();
     for (const query_result& r : results) array.push_back(json_of(r));
-    // A path need not be UTF-8; the default would throw on such a one.
+    // By default, a path that is not UTF-8 would throw.
     return array.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

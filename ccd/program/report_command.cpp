@@ -1,4 +1,4 @@
-// `ccd report`: error against run time, into a folder.
+// `ccd report`: writes error against run time into a folder.
 #include <algorithm>
 #include <iostream>
 #include <system_error>
@@ -18,7 +18,7 @@ using errbound::support::text_of;
 
 namespace fs = std::filesystem;
 
-/// Where the bundled scenes are: beside an installed program, else in the source tree.
+/// Returns the folder of bundled scenes: next to an installed program, or in the source tree.
 fs::path bundled_scenes() {
     std::error_code error;
     const fs::path installed =
@@ -47,31 +47,31 @@ class report_run final : public command {
   public:
     explicit report_run(CLI::App& program)
         : command(program, "report",
-                  "Error against run time: tables and pictures of all methods and bound rules.\n"
-                  "A stopped report goes on where it was") {
+                  "Measure error against run time: tables and pictures of all methods and bound\n"
+                  "rules. A report that was stopped continues") {
         settings_.out = "out/report";
         settings_.commit = report::configured_commit();
         line_.add_option(
             "DATA", settings_.data,
-            "Folders with stored queries (CSV; kind from the path) and scenes (folders of two\n"
-            "meshes), looked through with all they hold; else the bundled scene and queries that\n"
-            "the program makes itself");
-        line_.add_option("--out", settings_.out, "The report's folder, else out/report")
+            "Folders that are searched for stored queries (CSV; kind from the path) and scenes\n"
+            "(folders of two meshes); by default the bundled scene and generated queries");
+        line_.add_option("--out", settings_.out, "The report's folder; out/report by default")
             ->type_name("DIR");
-        line_.add_flag("--quick", settings_.quick, "Fewer queries are timed");
+        line_.add_flag("--quick", settings_.quick, "Time fewer queries");
         line_
-            .add_option("--sections", settings_.sections,
-                        "Only these: methods, times, contacts, bounds, tightness (needs a build\n"
-                        "with MPFR), stress")
+            .add_option(
+                "--sections", settings_.sections,
+                "Only these sections: methods, times, contacts, bounds, tightness (needs a\n"
+                "build with MPFR), stress")
             ->type_name("S[,S...]")
             ->delimiter(',')
             ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::section_names),
                                                            std::end(report::section_names))));
         add_threads_option(line_, settings_.threads,
-                           "Threads that count errors; 0: one per core (times are taken on one)");
+                           "Threads that count errors; 0: one per core (one thread takes times)");
         line_
             .add_option("--commit", settings_.commit,
-                        "To be named in the report, else that of the configured build")
+                        "Commit for the report; by default that of the configured build")
             ->type_name("TEXT");
     }
 

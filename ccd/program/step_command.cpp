@@ -1,4 +1,4 @@
-// `ccd step`: one step of a mesh, from files to colliding pairs.
+// `ccd step`: finds the colliding pairs of one step of a mesh.
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <ccd/io/mesh_file.hpp>
@@ -28,8 +28,8 @@ using errbound::support::text_of;
 using errbound::support::usage_error;
 using errbound::support::write_whole;
 
-/// What is asked of a step.
-struct step_question {
+/// The checked options.
+struct step_request {
     std::filesystem::path before, after;
     ccd::method method = ccd::method::exact;
     device_choice device;
@@ -39,14 +39,14 @@ struct step_question {
     bool times = false, advance = false;
     double distance = 0, t_max = 1;
     io::mesh_options reading;
-    std::size_t unused = 0;  ///< vertices on no face and no edge
+    std::size_t unused = 0;  ///< vertices without faces and edges
     bool skip_unused = false;
 
     step_options options() const {
         return {.method = method,
                 .threads = threads,
                 .set = set,
-                .count_candidates = method != ccd::method::exact,  // which asks them all anyway
+                .count_candidates = method != ccd::method::exact,  // others test all of them anyway
                 .explain = explain,
                 .first_contact = times || advance,
                 .times = times,
@@ -56,7 +56,7 @@ struct step_question {
     }
 };
 
-/// What came out: of the step, and of the one that is free, if asked for.
+/// The results of the step, and of --advance.
 struct step_outcome {
     step_result result;
     std::optional<advance_result> advance;
@@ -64,14 +64,14 @@ struct step_outcome {
     std::size_t memory = 0;
 };
 
-/// Vertex/edge and vertex/vertex pairs are reported where there are any.
+/// Vertex/edge and vertex/vertex rows are shown only if there are any.
 template <kind K>
 bool is_shown(const step_result& result) {
     return K == kind::vertex_face || K == kind::edge_edge || !result.pairs.of<K>().empty() ||
            (result.candidates && result.candidates->of<K>() > 0);
 }
 
-/// The earliest contact; what stops a free step, if there is one.
+/// Returns the earliest contact: the one that stops the free step, with --advance.
 const first_time& first_contact_of(const step_outcome& found) {
     return found.advance ? found.advance->first_contact : found.result.first_contact;
 }
@@ -80,12 +80,12 @@ std::uint64_t left_open(const stage_report::entry& entry) {
     return entry.entered - entry.separate - entry.collides;
 }
 
-void add_contacts(const step_question& asked, const step_outcome& found,
+void add_contacts(const step_request& request, const step_outcome& found,
                   nlohmann::ordered_json& document) {
-    if (!asked.times && !asked.advance) return;
+    if (!request.times && !request.advance) return;
     const first_time& first = first_contact_of(found);
     document["touching_at_start"] = number_of(found.result.touching_at_start);
-    if (found.advance && asked.distance != 0)
+    if (found.advance && request.distance != 0)
         document["near_at_start"] = number_of(found.advance->near_at_start);
     document["first_contact"] = nullptr;
     if (first.outcome == outcome::collides) document["first_contact"] = {first.low, first.high};
@@ -96,18 +96,18 @@ struct possible_pairs {
     double vertex_face, edge_edge;
 };
 
-/// How many pairs a mesh has of elements, unique ones; doubles, which hold any number of them.
-possible_pairs pairs_of_mesh(const step_question& asked, const mesh& mesh) {
-    const std::size_t skipped = asked.skip_unused ? asked.unused : 0;
+/// Counts all pairs of distinct elements of a mesh, in doubles, which do not overflow.
+possible_pairs pairs_of_mesh(const step_request& request, const mesh& mesh) {
+    const std::size_t skipped = request.skip_unused ? request.unused : 0;
     const auto vertices = static_cast<double>(mesh.vertices.size() - skipped),
                faces = static_cast<double>(unique_faces(mesh.faces).size()),
                edges = static_cast<double>(unique_edges(mesh.faces, mesh.edges).size());
     return {vertices * faces, edges * (edges - 1) / 2};
 }
 
-std::string json_of(const step_question& asked, const mesh& before, const step_outcome& found) {
+std::string json_of(const step_request& request, const mesh& before, const step_outcome& found) {
     const step_result& result = found.result;
-    nlohmann::ordered_json document = {{"method", info(asked.method).name},
+    nlohmann::ordered_json document = {{"method", info(request.method).name},
                                        {"candidates", nullptr},
                                        {"collisions", nlohmann::ordered_json::object()},
                                        {"seconds",
@@ -125,11 +125,11 @@ std::string json_of(const step_question& asked, const mesh& before, const step_o
             document["candidates"][std::string(name(K))] = result.candidates->of<K>();
         document["collisions"][std::string(name(K))] = result.pairs.of<K>().size();
     });
-    if (asked.unused > 0)
-        document["unused_vertices"] = {{"count", asked.unused}, {"skipped", asked.skip_unused}};
-    add_contacts(asked, found, document);
-    if (asked.explain) {
-        const auto [vertex_face, edge_edge] = pairs_of_mesh(asked, before);
+    if (request.unused > 0)
+        document["unused_vertices"] = {{"count", request.unused}, {"skipped", request.skip_unused}};
+    add_contacts(request, found, document);
+    if (request.explain) {
+        const auto [vertex_face, edge_edge] = pairs_of_mesh(request, before);
         document["pairs_of_mesh"] = {{name(kind::vertex_face), vertex_face},
                                      {name(kind::edge_edge), edge_edge}};
         document["stages"] = nlohmann::ordered_json::array();
@@ -153,15 +153,15 @@ std::string fixed(double value, const char* format) {
     return text;
 }
 
-/// What the boxes left out, and what it cost to see it.
-std::string text_of_boxes(const step_question& asked, const mesh& before,
+/// Returns a table of the pairs that the broad phase discards, and its cost.
+std::string text_of_boxes(const step_request& request, const mesh& before,
                           const step_result& result) {
     const auto row = [](const char* kind, double possible, std::size_t candidates) {
         return std::vector<std::string>{kind, fixed(possible, "%.0f"),
                                         fixed(possible - static_cast<double>(candidates), "%.0f"),
                                         std::to_string(candidates)};
     };
-    const auto [vertex_face, edge_edge] = pairs_of_mesh(asked, before);
+    const auto [vertex_face, edge_edge] = pairs_of_mesh(request, before);
     const table rows = {{"pairs", "of the mesh", "apart", "candidates"},
                         row("vertex-face", vertex_face, result.candidates->vertex_face),
                         row("edge-edge", edge_edge, result.candidates->edge_edge)};
@@ -169,7 +169,7 @@ std::string text_of_boxes(const step_question& asked, const mesh& before,
            fixed(1e3 * result.broad_phase_seconds, "%.2f ms") + " by a tree of boxes\n";
 }
 
-/// What each stage decided, at what cost, and why some queries passed it by.
+/// Returns a table of the queries that each stage decides or skips, and its cost.
 std::string text_of_stages(const step_result& result) {
     table rows = {{"stage", "queries", "skipped", "separate", "collide", "left open", "thread ms",
                    "ns/query"}};
@@ -199,15 +199,16 @@ std::string text_of_stages(const step_result& result) {
            notes;
 }
 
-/// What touches when, and how far a free step goes.
-std::string text_of_contacts(const step_question& asked, const step_outcome& found) {
-    if (!asked.times && !asked.advance) return "";
+/// Returns a table of first contact and free step.
+std::string text_of_contacts(const step_request& request, const step_outcome& found) {
+    if (!request.times && !request.advance) return "";
     const first_time& first = first_contact_of(found);
-    table rows = {{asked.distance != 0 ? "within at start" : "touching at start", "first contact"},
-                  {std::to_string(number_of(found.result.touching_at_start)),
-                   first.outcome == outcome::collides
-                       ? fixed(first.low, "%.17g") + " to " + fixed(first.high, "%.17g")
-                       : "-"}};
+    table rows = {
+        {request.distance != 0 ? "within at start" : "touching at start", "first contact"},
+        {std::to_string(number_of(found.result.touching_at_start)),
+         first.outcome == outcome::collides
+             ? fixed(first.low, "%.17g") + " to " + fixed(first.high, "%.17g")
+             : "-"}};
     if (found.advance) {
         rows[0].push_back("free to");
         rows[1].push_back(fixed(found.advance->fraction, "%.17g"));
@@ -215,10 +216,10 @@ std::string text_of_contacts(const step_question& asked, const step_outcome& fou
     return '\n' + text_of(rows, 0);
 }
 
-std::string text_of_step(const step_question& asked, const mesh& before,
+std::string text_of_step(const step_request& request, const mesh& before,
                          const step_outcome& found) {
     const step_result& result = found.result;
-    table pairs = {{std::string(info(asked.method).name), "collisions"}};
+    table pairs = {{std::string(info(request.method).name), "collisions"}};
     if (result.candidates) pairs[0].insert(pairs[0].begin() + 1, "candidates");
     for_each_kind([&]<kind K>() {
         if (!is_shown<K>(result)) return;
@@ -233,35 +234,36 @@ std::string text_of_step(const step_question& asked, const mesh& before,
          fixed(1e3 * result.narrow_phase_seconds, "%.1f ms"),
          fixed(1e3 * result.sort_seconds, "%.1f ms"), std::to_string(result.threads),
          fixed(static_cast<double>(found.memory) / (1 << 20), "%.1f MiB")}};
-    return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(asked, found) +
-           (asked.explain
-                ? '\n' + text_of_boxes(asked, before, result) + '\n' + text_of_stages(result)
+    return text_of(pairs, 1) + '\n' + text_of(costs, 0) + text_of_contacts(request, found) +
+           (request.explain
+                ? '\n' + text_of_boxes(request, before, result) + '\n' + text_of_stages(result)
                 : "");
 }
 
 class step final : public command {
   public:
     explicit step(CLI::App& program)
-        : command(program, "step", "One step of a mesh: the colliding pairs") {
-        line_.add_option("FRAME0", asked_.before, "PLY or OBJ; -: standard input")
+        : command(program, "step", "Find the colliding pairs of one step of a mesh") {
+        line_.add_option("FRAME0", request_.before, "PLY or OBJ; -: standard input")
             ->required()
             ->transform(errbound::support::input_named);
-        line_.add_option("FRAME1", asked_.after, "PLY or OBJ, same topology; -: standard input")
+        line_.add_option("FRAME1", request_.after, "PLY or OBJ, same topology; -: standard input")
             ->required()
             ->transform(errbound::support::input_named);
-        line_.add_option("--method", method_, "The method, else exact")->type_name("M");
+        line_.add_option("--method", method_, "The method; exact by default")->type_name("M");
         add_outputs();
-        add_threads_option(line_, asked_.threads, "Threads; 0: one per core");
+        add_threads_option(line_, request_.threads, "Threads; 0: one per core");
         line_
-            .add_option("--instruction-set", set_,
-                        "For exact: baseline, avx2 or avx512, else the strongest that runs here")
+            .add_option(
+                "--instruction-set", set_,
+                "For exact: baseline, avx2 or avx512; by default the fastest that runs here")
             ->type_name("SET");
-        line_.add_flag("--explain", asked_.explain,
-                       "Say what each stage of exact decided, at what cost, and what was left out; "
-                       "counts candidates");
+        line_.add_flag("--explain", request_.explain,
+                       "Print decided and skipped queries and cost of each stage of exact; counts "
+                       "candidates");
         line_.add_option("--json", json_, "Write counts and seconds as JSON; -: standard output")
             ->type_name("OUT");
-        line_.add_flag("--triangulate", asked_.reading.triangulate,
+        line_.add_flag("--triangulate", request_.reading.triangulate,
                        "Split faces of more than three vertices into triangles (fans, in the order "
                        "of their vertices)");
     }
@@ -269,26 +271,26 @@ class step final : public command {
     exit_status run() override {
         check_options();
         const auto start = std::chrono::steady_clock::now();
-        const mesh before = io::read_mesh(asked_.before, asked_.reading);
-        const mesh after = io::read_mesh(asked_.after, asked_.reading);
-        io::require_same_topology(before, asked_.before.string(), after, asked_.after.string());
+        const mesh before = io::read_mesh(request_.before, request_.reading);
+        const mesh after = io::read_mesh(request_.after, request_.reading);
+        io::require_same_topology(before, request_.before.string(), after, request_.after.string());
         step_outcome found;
         found.read_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         report_unused(before);
 
-        found.result = asked_.device.cuda ? step_on_device(before, after, asked_.options(),
-                                                           asked_.device.precision)
-                                          : ccd::step(before, after, asked_.options());
+        found.result = request_.device.cuda ? step_on_device(before, after, request_.options(),
+                                                             request_.device.precision)
+                                            : ccd::step(before, after, request_.options());
         if (advance_)
             found.advance = ccd::advance(before, after,
-                                         {.distances = {asked_.distance},
-                                          .threads = asked_.threads,
-                                          .set = asked_.set,
-                                          .filter = {.skip_unused = asked_.skip_unused}});
+                                         {.distances = {request_.distance},
+                                          .threads = request_.threads,
+                                          .set = request_.set,
+                                          .filter = {.skip_unused = request_.skip_unused}});
         found.memory = errbound::support::system::peak_memory_bytes();
         write(before, after, found);
-        stream_for_people() << text_of_step(asked_, before, found);
+        stream_for_people() << text_of_step(request_, before, found);
         return done;
     }
 
@@ -297,12 +299,12 @@ class step final : public command {
         return errbound::support::stream_for_people({pairs_, toi_, advance_, json_, view_});
     }
 
-    /// Before the step: points at one place may need much time and memory.
+    /// Prints before the step, since coincident points may need much time and memory.
     void report_unused(const mesh& before) {
         const std::size_t vertices = before.vertices.size();
-        asked_.unused = unused_vertices(before.faces, before.edges, vertices).size();
-        asked_.skip_unused = unused_.skips(asked_.unused, vertices);
-        stream_for_people() << text_of_unused(asked_.unused, vertices, asked_.skip_unused)
+        request_.unused = unused_vertices(before.faces, before.edges, vertices).size();
+        request_.skip_unused = unused_.skips(request_.unused, vertices);
+        stream_for_people() << text_of_unused(request_.unused, vertices, request_.skip_unused)
                             << std::flush;
     }
 
@@ -310,32 +312,34 @@ class step final : public command {
         line_
             .add_option(
                 "--pairs", pairs_,
-                "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 where the\n"
-                "mesh has rods or points), vertex indices; -: standard output")
+                "Write lines vf,v,f0,f1,f2 and ee,a0,a1,b0,b1 (ve,v,a0,a1 and vv,v0,v1 if the\n"
+                "mesh has rods or points) of vertex indices; -: standard output")
             ->type_name("OUT");
         line_
-            .add_option("--toi", toi_,
-                        "Write the lines of --pairs, each followed by ,low,high: between these\n"
-                        "times is the first contact (see ccd query --help); -: standard output")
+            .add_option(
+                "--toi", toi_,
+                "Write the lines of --pairs, each followed by ,low,high: the first contact\n"
+                "is between these times (see ccd query --help); -: standard output")
             ->type_name("OUT");
         line_
             .add_option(
                 "--advance", advance_,
-                "Write a frame (PLY, in doubles), as far on the way to FRAME1 as is free: a\n"
-                "step to it has no pairs but those that touch, or are within --separation,\n"
-                "at the start; of the latter contact alone is avoided")
+                "Write a frame (PLY, in doubles) as close to FRAME1 as is free: a step to it\n"
+                "has only pairs that touch, or are within --separation, at the start; for the\n"
+                "latter only contact is avoided")
             ->type_name("OUT.ply")
             ->check([](const std::string& path) {
                 return path == "-" || path.ends_with(".ply")
                            ? std::string()
-                           : "found '" + path + "', expected a name that ends in .ply, or -";
+                           : "path is '" + path + "'; expected a name that ends in .ply, or -";
             });
         line_
             .add_option(
                 "--view", view_,
-                "Write the step to look at, with times if --toi is given. OUT.html, or -: a page\n"
-                "for a browser; for ParaView, OUT.vtp: FRAME0 with its way, OUT.pvd: both frames,\n"
-                "in OUT-0.vtp and OUT-1.vtp")
+                "Write the step for a viewer, with times if --toi is given. OUT.html, or -: a "
+                "page\n"
+                "for a browser; for ParaView, OUT.vtp: FRAME0 with displacements, OUT.pvd: both\n"
+                "frames, in OUT-0.vtp and OUT-1.vtp")
             ->type_name("OUT")
             ->check([](const std::string& path) {
                 try {
@@ -355,7 +359,7 @@ class step final : public command {
         if (advance_)
             outputs.push_back({*advance_, io::ply_of({std::move(found.advance->positions),
                                                       before.faces, before.edges})});
-        if (json_) outputs.push_back({*json_, json_of(asked_, before, found)});
+        if (json_) outputs.push_back({*json_, json_of(request_, before, found)});
         if (view_)
             for (auto& file :
                  io::view_files(*view_, {vertex_rows(before, after), before.faces, before.edges,
@@ -365,58 +369,60 @@ class step final : public command {
     }
 
     void check_times() {
-        asked_.times = toi_.has_value();
-        asked_.advance = advance_.has_value();
-        asked_.distance = separation_.value(0, std::numeric_limits<double>::max());
-        asked_.t_max = t_max_.value(1, 1);
-        if (!asked_.times && !asked_.advance && !separation_.was_given() && !t_max_.was_given())
+        request_.times = toi_.has_value();
+        request_.advance = advance_.has_value();
+        request_.distance = separation_.value(0, std::numeric_limits<double>::max());
+        request_.t_max = t_max_.value(1, 1);
+        if (!request_.times && !request_.advance && !separation_.was_given() && !t_max_.was_given())
             return;
-        if (asked_.method != method::exact)
-            throw usage_error("--toi, --separation, --t-max and --advance: found --method " +
-                              method_ + ", expected exact");
-        if (asked_.device.cuda && (asked_.advance || separation_.was_given() || t_max_.was_given()))
+        if (request_.method != method::exact)
+            throw usage_error("--method is " + method_ +
+                              "; expected exact with --toi, --separation, --t-max or --advance");
+        if (request_.device.cuda &&
+            (request_.advance || separation_.was_given() || t_max_.was_given()))
             throw usage_error(
-                "--separation, --t-max and --advance: found --device cuda, expected --device cpu");
-        if (asked_.advance && t_max_.was_given())
-            throw usage_error("--advance: found --t-max, expected the whole step");
-        if (asked_.explain && asked_.distance != 0)
+                "--device is cuda; expected cpu with --separation, --t-max or --advance");
+        if (request_.advance && t_max_.was_given())
+            throw usage_error("--t-max is given with --advance; expected the whole step");
+        if (request_.explain && request_.distance != 0)
             throw usage_error(
-                "--explain: found --separation, expected contact, which alone has stages");
+                "--separation is given with --explain; expected contact, since only contact has "
+                "stages");
     }
 
     void check_options() {
-        asked_.method = method_named(method_);
+        request_.method = method_named(method_);
         if (line_.count("--instruction-set") > 0)
-            asked_.set = entry_named(
+            request_.set = entry_named(
                 "--instruction-set", set_, instruction_sets(),
                 [](instruction_set known) { return std::string(name(known)); },
-                " (what this build holds and this machine runs)");
-        if (asked_.method != method::exact && (asked_.explain || asked_.set))
-            throw usage_error("--explain and --instruction-set: found --method " + method_ +
-                              ", expected exact, which alone has stages");
-        asked_.device = device_.chosen();
-        if (asked_.device.cuda) {
-            require_on_device(asked_.method);
-            if (asked_.explain || asked_.set || line_.count("--threads") > 0)
+                " (kernels of this build that run on this machine)");
+        if (request_.method != method::exact && (request_.explain || request_.set))
+            throw usage_error("--method is " + method_ +
+                              "; expected exact with --explain or --instruction-set");
+        request_.device = device_.chosen();
+        if (request_.device.cuda) {
+            require_on_device(request_.method);
+            if (request_.explain || request_.set || line_.count("--threads") > 0)
                 throw usage_error(
-                    "--explain, --instruction-set and --threads: found --device cuda, expected "
-                    "--device cpu");
+                    "--device is cuda; expected cpu with --explain, --instruction-set or "
+                    "--threads");
         }
         check_times();
         std::vector<std::optional<std::filesystem::path>> outputs = {pairs_, toi_, advance_, json_};
         if (view_)
             for (auto& path : io::view_paths(*view_)) outputs.push_back(std::move(path));
-        errbound::support::require_good_outputs(outputs, {asked_.before, asked_.after});
+        errbound::support::require_good_outputs(outputs, {request_.before, request_.after});
         errbound::support::require_one_standard_input("FRAME0 and FRAME1",
-                                                      {asked_.before, asked_.after});
+                                                      {request_.before, request_.after});
     }
 
-    step_question asked_;
+    step_request request_;
     std::string method_ = "exact", set_;
     std::optional<std::filesystem::path> pairs_, toi_, advance_, json_, view_;
     number_option separation_{line_, "--separation",
-                              "Report pairs that come within that distance, in place of contacts"};
-    number_option t_max_{line_, "--t-max", "Report pairs up to that part of the step, from 0 to 1"};
+                              "Report pairs that come within NUMBER instead of contacts"};
+    number_option t_max_{line_, "--t-max", "Report pairs up to time NUMBER, from 0 to 1"};
     device_options device_{line_};
     unused_vertices_option unused_{line_};
 };

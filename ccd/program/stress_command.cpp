@@ -1,4 +1,4 @@
-// `ccd stress`: every method on stiff and extreme queries, beside the exact answer.
+// `ccd stress`: compares every method with exact results on stiff and extreme queries.
 #include <CLI/CLI.hpp>
 #include <ccd/method.hpp>
 #include <cstddef>
@@ -41,24 +41,26 @@ class stress_run final : public command {
 
 stress_run::stress_run(CLI::App& program)
     : command(program, "stress",
-              "Every method on stiff and extreme queries, family by family, each with a knob "
-              "that is\n"
-              "swept over its whole range; truth by unbounded integers") {
+              "Run every method on stiff and extreme queries. Each family of queries has a knob, "
+              "which\n"
+              "is swept over its whole range; unbounded integers compute the truth") {
     line_.add_flag("--quick", quick_, "About a minute instead of ten");
     line_
         .add_option("--family", families_,
-                    "Families F[,F...], else all. A family's queries do not depend on\nthe others")
+                    "Families F[,F...]; all by default. A family's queries do not depend on\n"
+                    "other families")
         ->type_name("F[,F...]");
     line_
-        .add_option("--queries", queries_,
-                    "So many of each family, kind and value of the knob; fewer where the truth\n"
-                    "takes tenths of a second")
+        .add_option(
+            "--queries", queries_,
+            "Queries for each family, kind and value of the knob; fewer if the truth takes\n"
+            "tenths of a second")
         ->check(CLI::Range(1, 1000000));
     line_.add_option("--seed", plan_.seed, "Same seed, same queries")
         ->check(errbound::support::checked_seed)
         ->capture_default_str();
     add_threads_option(line_, plan_.threads,
-                       "Threads that find the truth; 0: one per core. Methods are timed on one");
+                       "Threads that compute the truth; 0: one per core. One thread times methods");
     line_
         .add_option("--out", out_.folder,
                     "Write DIR/stress.csv, a row per cell, and DIR/stress.md, the table")

@@ -1,5 +1,4 @@
-// What the programs' command lines share beyond CLI11: lists of names, standard input and output,
-// and outputs that nothing is lost to.
+// Command lines beyond CLI11: lists of names, standard input and output, safe outputs.
 #pragma once
 
 #include <algorithm>
@@ -20,13 +19,12 @@
 
 namespace errbound::support {
 
-/// A command line that CLI11 lets through but that makes no sense.
+/// A command line that CLI11 accepts, but with contradictory or invalid values.
 struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What `named` makes of the names of an option's list N[,N...]. Throws usage_error where one is
-/// there twice.
+/// Returns named(name) for each name of an option's list N[,N...]. Throws usage_error for repeats.
 template <class Named>
 auto all_named(const std::string& option, const std::string& list, const Named& named) {
     std::vector<decltype(named(list))> result;
@@ -36,14 +34,14 @@ auto all_named(const std::string& option, const std::string& list, const Named& 
         comma = list.find(',', begin);
         const std::string name = list.substr(begin, comma - begin);
         if (!names.insert(name).second)
-            throw usage_error(option + ": found '" + name + "' twice in '" + list +
-                              "', expected each once");
+            throw usage_error(option + " is '" + list + "', with '" + name +
+                              "' twice; expected each name once");
         result.push_back(named(name));
     }
     return result;
 }
 
-/// The names of the entries, for "expected one of ...".
+/// Returns the names of the entries, for "expected one of ...".
 template <class Entries, class Name>
 std::string listed(const Entries& entries, const Name& name) {
     std::string list;
@@ -52,39 +50,39 @@ std::string listed(const Entries& entries, const Name& name) {
     return list;
 }
 
-/// The entry of that name, a reference into `entries`. Throws usage_error, which names the option.
+/// Returns a reference to the entry with this name. Throws usage_error with the option's name;
 /// `remark` ends its message.
 template <class Entries, class Name>
 const auto& entry_named(const std::string& option, const std::string& wanted,
                         const Entries& entries, const Name& name, const std::string& remark = "") {
     for (const auto& entry : entries)
         if (std::invoke(name, entry) == wanted) return entry;
-    throw usage_error(option + ": found '" + wanted + "', expected one of " +
-                      listed(entries, name) + remark);
+    throw usage_error(option + " is '" + wanted + "'; expected one of " + listed(entries, name) +
+                      remark);
 }
 
-/// The path of an input on the command line: `-` is standard input.
+/// Returns the path of an input on the command line. `-` is standard input.
 inline std::string input_named(const std::string& name) {
     return name == "-" ? "/dev/stdin" : name;
 }
 
-/// Throws usage_error where standard input is among the inputs twice.
+/// Throws usage_error if standard input is among the inputs twice.
 inline void require_one_standard_input(const std::string& option,
                                        const std::vector<std::filesystem::path>& inputs) {
     if (std::ranges::count(inputs, std::filesystem::path(input_named("-"))) > 1)
-        throw usage_error(option + ": found standard input twice, expected once");
+        throw usage_error(option + ": standard input is given twice; expected at most once");
 }
 
-/// For CLI11's checks: what is wrong if that is no whole number of 64 bits, as CLI11 itself would
-/// make one of others.
+/// A check for CLI11, which itself would convert other texts: returns an error unless the text is a
+/// 64-bit unsigned integer.
 inline std::string checked_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
     if (error == std::errc() && end == text.data() + text.size()) return {};
-    return "found '" + text + "', expected a whole number up to 2^64 - 1";
+    return "seed is '" + text + "'; expected an integer from 0 to 2^64 - 1";
 }
 
-/// Where tables for people go: standard output, or standard error where an output is the former.
+/// Returns the stream for tables: standard output, or standard error if an output is written there.
 inline std::ostream& stream_for_people(
     const std::vector<std::optional<std::filesystem::path>>& outputs) {
     for (const auto& output : outputs)
@@ -92,7 +90,7 @@ inline std::ostream& stream_for_people(
     return std::cout;
 }
 
-/// Whether two names are of one file, which need not be there yet.
+/// True if two names refer to one file, which need not exist.
 inline bool are_of_one_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) return true;
@@ -105,8 +103,8 @@ inline bool are_of_one_file(const std::filesystem::path& a, const std::filesyste
     return system::are_one_name(without_links(a), without_links(b));
 }
 
-/// An output must be neither an input nor another output, so that nothing is lost, and writable,
-/// so that no work is.
+/// Throws usage_error if an output is also an input or another output, which would lose data.
+/// Throws file_error if it is not writable, before the work is done.
 inline void require_good_outputs(const std::vector<std::optional<std::filesystem::path>>& outputs,
                                  std::vector<std::filesystem::path> taken) {
     for (const auto& output : outputs) {
@@ -118,8 +116,8 @@ inline void require_good_outputs(const std::vector<std::optional<std::filesystem
             if (same_stream || (are_of_one_file(*output, other) &&
                                 std::filesystem::status(*output, ignored).type() !=
                                     std::filesystem::file_type::character))
-                throw usage_error("found the output '" + output->string() +
-                                  "' among the inputs or twice, expected a file of its own");
+                throw usage_error("output '" + output->string() +
+                                  "' is also an input or another output; expected a separate file");
         }
         require_writable(*output);
         taken.push_back(*output);

@@ -1,4 +1,4 @@
-// Floating-point numbers from decimals, of any locale's process.
+// Conversion of decimals to floating-point numbers, independent of the locale.
 #pragma once
 
 #include <string_view>
@@ -13,8 +13,8 @@ struct decimal {
     decimal_status status;
 };
 
-/// The float or double nearest to what std::from_chars takes, all of it: an optional minus, digits
-/// with an optional point and exponent; infinities and NaN, too. What underflows is rounded.
+/// Returns the float or double nearest to the whole text, in the format of std::from_chars:
+/// decimals with optional minus, point and exponent, infinities and NaN. Underflow is rounded.
 template <class T>
 decimal<T> parse_decimal(std::string_view text);
 

@@ -1,4 +1,3 @@
-// Writing goes on where the system took a part, or a signal came between.
 #include "errbound/support/descriptor.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Threads that end with their scope: std::jthread, which libc++ has from version 20 on, without a
-// token.
+// Threads that are joined at the end of the scope, since libc++ before 20 has no std::jthread.
 #pragma once
 
 #include <thread>
@@ -17,7 +16,7 @@ class joined_threads {
         for (std::thread& t : threads_) t.join();
     }
 
-    /// One more, which calls `work`; throws std::system_error where the system has no more.
+    /// Starts a thread that calls `work`. Throws std::system_error.
     template <class Work>
     void start(Work work) {
         threads_.emplace_back(std::move(work));

@@ -1,4 +1,4 @@
-// What every main does.
+// The frame of every main function.
 #pragma once
 
 #include <functional>
@@ -6,10 +6,9 @@
 
 namespace errbound::support {
 
-/// The status that `body` returns; or, with a message that begins with the program's `name` on
-/// standard error, 2 if it throws usage_error, 1 if it throws anything else or if standard output
-/// cannot be written. Standard descriptors that are closed are opened first, so that no file takes
-/// their numbers and gets what is printed.
+/// Returns the status of `body`; 2 if it throws usage_error; 1 if it throws another exception or
+/// standard output cannot be written. Errors are printed to standard error after `name`. Closed
+/// standard descriptors are opened first, so that no file gets their numbers and the output.
 int run_program(const std::string& name, const std::function<int()>& body);
 
 }  // namespace errbound::support

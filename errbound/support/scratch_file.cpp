@@ -1,4 +1,3 @@
-// Temporary files: made, appended to, read, taken away.
 #include "errbound/support/scratch_file.hpp"
 
 #include <cerrno>

@@ -1,4 +1,4 @@
-// Handlers of signals. Some systems take a handler away when it is called.
+// Some systems remove a handler when they call it.
 #include "errbound/support/signals.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace errbound::support {
 namespace {
 
 constexpr std::array signals{SIGINT, SIGTERM};
-// Of an int: on RISC-V atomic bytes are not always lock-free before g++ 13.
+// An int, since atomic bytes are not always lock-free on RISC-V before g++ 13.
 std::atomic<int> caught = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "set by a signal handler");
 

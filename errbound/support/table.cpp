@@ -1,4 +1,3 @@
-// Tables for people.
 #include "errbound/support/table.hpp"
 
 #include <algorithm>

@@ -32,7 +32,8 @@ exit_status run_command_line(int argc, char** argv, int rank) {
     const std::unique_ptr<command> step = distributed_step_command(app);
     try {
         app.parse(argc, argv);
-        if (!step->was_given()) throw usage_error("found no command, ccd_mpi --help lists them");
+        if (!step->was_given())
+            throw usage_error("command is missing; ccd_mpi --help lists the commands");
         return step->run();
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw usage_error(error.what());

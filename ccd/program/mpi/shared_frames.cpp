@@ -21,19 +21,19 @@ struct frames {
     bool has(vertex_index v) const { return first() <= v && v < last(); }
 };
 
-/// A file's size, and a checksum of its first and last bytes.
+/// The size of a file, and a checksum of its first and last bytes.
 struct file_mark {
     std::uint64_t bytes = 0;
     std::uint32_t checksum = 0;
     bool operator==(const file_mark&) const = default;
 };
 file_mark mark_of(const std::filesystem::path& path) {
-    constexpr std::uint64_t looked_at = 1 << 16;
+    constexpr std::uint64_t max_bytes = 1 << 16;
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     if (!in) return {};
     file_mark mark{static_cast<std::uint64_t>(in.tellg())};
     boost::crc_32_type sum;
-    std::string text(std::min(looked_at, mark.bytes), '\0');
+    std::string text(std::min(max_bytes, mark.bytes), '\0');
     for (const std::uint64_t from : {std::uint64_t{0}, mark.bytes - text.size()}) {
         in.seekg(static_cast<std::streamoff>(from));
         in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -43,15 +43,15 @@ file_mark mark_of(const std::filesystem::path& path) {
     return mark;
 }
 
-/// One name may stand for other files on other machines.
+/// Throws if the file differs from that of rank 0: machines may have different files with one name.
 void require_same_file(mpi::detail::exchanger& ranks, const std::filesystem::path& path) {
     const file_mark own = mark_of(path);
     const file_mark first = ranks.gather(std::vector{own}).items.front();
     ranks.agree([&] {
         if (own != first)
             throw errbound::support::file_error(
-                path.string() + ": rank " + std::to_string(ranks.rank()) +
-                " found another file there than rank 0, expected the same on all ranks");
+                path.string() + ": file on rank " + std::to_string(ranks.rank()) +
+                " differs from that on rank 0; expected the same file on all ranks");
     });
 }
 
@@ -73,7 +73,7 @@ void for_each_corner(const mesh& elements, const Visit& visit) {
     for (const edge& e : elements.edges) std::ranges::for_each(e, visit);
 }
 
-/// The vertices of this rank's elements that others read, each at whom.
+/// Returns the vertices of this rank's elements that other ranks read, by rank.
 std::vector<std::vector<vertex_index>> read_elsewhere(mpi::detail::exchanger& ranks,
                                                       const frames& own) {
     const auto lasts = ranks.gather(std::vector{own.last()}).items;
@@ -98,12 +98,12 @@ shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::files
     ranks.agree([&] { own = read_frames(before, after, ranks.rank(), ranks.size()); });
     for (const auto& path : {before, after}) require_same_file(ranks, path);
     const auto wanted = read_elsewhere(ranks, own);
-    const auto asked = ranks.all_to_all(wanted);
+    const auto requested = ranks.all_to_all(wanted);
     std::vector<std::vector<sent_positions>> answers(ranks.size());
     std::vector<bool> has_element(own.before.elements.vertices.size());  // here or elsewhere
     for (std::size_t r = 0; r < ranks.size(); ++r)
-        for (std::size_t i = asked.starts[r]; i < asked.starts[r + 1]; ++i) {
-            const std::size_t v = asked.items[i] - own.first();
+        for (std::size_t i = requested.starts[r]; i < requested.starts[r + 1]; ++i) {
+            const std::size_t v = requested.items[i] - own.first();
             has_element[v] = true;
             answers[r].push_back({own.before.elements.vertices[v], own.after.elements.vertices[v]});
         }
@@ -124,7 +124,7 @@ shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::files
     for_each_corner(own.before.elements, [&](vertex_index v) {
         if (own.has(v)) is_used_here[v - own.first()] = true;
     });
-    // A vertex on no rank's elements is given by its reader.
+    // A vertex without elements stays on the rank that reads it.
     std::size_t unused = 0;
     for (std::size_t v = 0; v < has_element.size(); ++v) {
         unused += !is_used_here[v] && !has_element[v];

@@ -1,4 +1,4 @@
-// Two frames of a mesh in files that all ranks can read, each rank a share of them.
+// Two frames of a mesh, in files of which each rank reads a share.
 #pragma once
 
 #include <ccd/mpi.hpp>
@@ -10,20 +10,19 @@
 
 namespace ccd::program {
 
-/// A rank's part of a mesh, numbered by the vertices' indices in the files.
+/// A rank's elements of a mesh. Vertices have their indices in the files as numbers.
 struct shared_frames {
     std::vector<mpi::vertex_number> numbers;
     std::vector<point<double>> before, after;
     std::vector<face> faces;
     std::vector<edge> edges;
-    std::size_t vertices = 0, unused = 0;  ///< of the whole mesh; those on no face and no edge
+    std::size_t vertices = 0, unused = 0;  ///< of the whole mesh; without faces and edges
 
     mpi::mesh_part part() const { return {numbers, {before, after}, faces, edges}; }
 };
 
-/// Each rank reads as many elements as another, and asks those that read the vertices of its faces
-/// and edges for their positions. Collective; throws on all ranks what read_mesh_share and
-/// require_same_topology throw on one.
+/// Reads an equal share of elements on each rank, and exchanges positions of their vertices.
+/// Collective. Errors of read_mesh_share and require_same_topology are thrown on all ranks.
 shared_frames read_shared_frames(mpi::detail::exchanger& ranks, const std::filesystem::path& before,
                                  const std::filesystem::path& after);
 

@@ -1,5 +1,5 @@
-// `ccd_mpi step`: one step of a mesh, from files of which each rank reads a share to one sorted
-// list of colliding pairs.
+// `ccd_mpi step`: one step of a mesh. Each rank reads a share of the files; rank 0 writes all
+// pairs.
 #include "ccd/program/mpi/step_command.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 using errbound::support::grouped;
 using errbound::support::usage_error;
 
-/// What a rank did, for the table.
+/// The work of a rank, for the table.
 struct rank_report {
     mpi::rank_work work;
     std::uint64_t decided = 0, vertices = 0;
@@ -38,22 +38,23 @@ struct rank_report {
 class distributed_step final : public command {
   public:
     explicit distributed_step(CLI::App& program)
-        : command(program, "step", "One step of a mesh: the colliding pairs") {
-        line_.add_option("FRAME0", before_, "PLY or OBJ, which all ranks can read")->required();
+        : command(program, "step", "Find the colliding pairs of one step of a mesh") {
+        line_.add_option("FRAME0", before_, "PLY or OBJ, readable on all ranks")->required();
         line_.add_option("FRAME1", after_, "PLY or OBJ, same topology")->required();
-        line_.add_option("--method", method_, "The method, else exact")->type_name("M");
+        line_.add_option("--method", method_, "The method; exact by default")->type_name("M");
         line_
             .add_option("--pairs", pairs_,
                         "Write the lines of ccd step --pairs, sorted; -: standard output")
             ->type_name("OUT");
         line_
             .add_option("--toi", toi_,
-                        "Write these lines, each followed by ,low,high: between these times is\n"
-                        "the first contact; -: standard output")
+                        "Write the same lines, each followed by ,low,high: the first contact is\n"
+                        "between these times; -: standard output")
             ->type_name("OUT");
         add_threads_option(line_, threads_, "Threads of each rank; 0: one per core");
-        line_.add_flag("--candidates", candidates_, "Count candidates, of each rank, too");
-        line_.add_option("--json", json_, "Write counts, seconds and what each rank did as JSON")
+        line_.add_flag("--candidates", candidates_, "Count candidates, in total and by rank");
+        line_
+            .add_option("--json", json_, "Write counts, seconds and the work of each rank as JSON")
             ->type_name("OUT");
     }
 
@@ -88,7 +89,7 @@ class distributed_step final : public command {
     step_options checked_options() const {
         const ccd::method method = method_named(method_);
         if (toi_ && method != method::exact)
-            throw usage_error("--toi: found --method " + method_ + ", expected exact");
+            throw usage_error("--method is " + method_ + "; expected exact with --toi");
         return {.method = method,
                 .threads = threads_,
                 .count_candidates = candidates_ || method != method::exact,
@@ -143,7 +144,7 @@ class distributed_step final : public command {
         return document;
     }
 
-    /// Vertex/edge and vertex/vertex pairs are told of where there are any.
+    /// Vertex/edge and vertex/vertex rows are shown only if there are any.
     template <kind K>
     static bool is_shown(const mpi::step_result& found) {
         return K == kind::vertex_face || K == kind::edge_edge || !found.pairs.of<K>().empty() ||

@@ -1,4 +1,3 @@
-// As POSIX has it.
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/file.h>
@@ -20,7 +19,7 @@
 namespace errbound::support::system {
 namespace {
 
-/// Opened to read only: writing to what was closed still fails, and is told.
+/// Opens closed descriptors for reading only, so that writing to them still fails.
 void open_standard_descriptors() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) ::open("/dev/null", O_RDONLY);
@@ -34,8 +33,8 @@ constexpr std::size_t stack_size = 1 << 20;
     for (std::size_t end = stack_size; end > 0; end -= page) stack[end - 1] = std::byte{};
 }
 
-/// The first thread's stack grows as it is used, and where no address space is left, that ends the
-/// program by a signal: so it grows now, where what is missing can still be told.
+/// Grows the first thread's stack now. If address space runs out later, a signal would end the
+/// program without a message.
 void grow_stack() {
     rlimit limit{};
     if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur < 2 * stack_size) return;

@@ -1,4 +1,4 @@
-# `ccd convert`: stored queries from CSV to HDF5 and back, and what is refused.
+# `ccd convert`: conversion of queries from CSV to HDF5 and back, and its errors.
 import json
 import os
 import pathlib
@@ -47,7 +47,7 @@ class ConvertTest(ProgramTest):
         self.assertRegex(out, r"two\.h5 +vf +exact +4 +2 +0 +0")
 
     def test_nothing_is_left_behind(self):
-        # Large enough to be met by a signal: 40,000 queries, read in parts.
+        # 40,000 queries take long enough for a signal to arrive.
         many = self.write("many-vf.csv", with_truth(HIT, 1) * 40000)
         temporary = self.folder / "temporary"
         temporary.mkdir()
@@ -104,10 +104,10 @@ class ConvertTest(ProgramTest):
         plain = self.write("plain-vf.csv", HIT)
         edges = self.write("ee.csv", with_truth(HIT, 1))
         self.bad(2, "expected a name that ends in .h5, .hdf5 or .csv", "convert", vf, self.folder / "out.txt")
-        self.bad(1, "plain-vf.csv: found queries without truth, expected it as in the first file",
+        self.bad(1, "plain-vf.csv: truth is missing; expected truth, as in the first file",
                  "convert", vf, plain, out)
-        self.bad(1, "ee.csv: found queries of kind edge_edge, expected vertex_face", "convert", vf, edges, out)
-        self.bad(2, "among the inputs or twice", "convert", vf, vf)
+        self.bad(1, "ee.csv: kind of queries is edge_edge; expected vertex_face", "convert", vf, edges, out)
+        self.bad(2, "is also an input or another output", "convert", vf, vf)
         self.bad(1, "none.csv: found no such file", "convert", self.folder / "none.csv", out)
         self.assertFalse(out.exists())
         self.good("convert", vf, out)

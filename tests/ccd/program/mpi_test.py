@@ -1,6 +1,5 @@
-# The program `ccd_mpi` against `ccd step`, on several ranks. MPIEXEC and MPIEXEC_NUMPROC_FLAG say how
-# programs are run over ranks, CCD_MPI_PROGRAM which; ERRBOUND_SHARED_DATA names the folder of the
-# stored scenes, which need not be there.
+# Compares the program CCD_MPI_PROGRAM on several ranks with `ccd step`. MPIEXEC and MPIEXEC_NUMPROC_FLAG
+# run it. ERRBOUND_SHARED_DATA is the folder of stored scenes (optional).
 import json
 import os
 import pathlib
@@ -16,7 +15,7 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROO
 
 
 def run_over(ranks, *command):
-    """Exit status, output and errors of a program over ranks."""
+    """Returns exit status, output and errors of a program on several ranks."""
     done = subprocess.run([os.environ["MPIEXEC"], os.environ["MPIEXEC_NUMPROC_FLAG"], str(ranks), *map(str, command)],
                           capture_output=True, text=True, env=ENVIRONMENT, timeout=300)
     return done.returncode, done.stdout, done.stderr
@@ -69,15 +68,15 @@ class DistributedStep(ProgramTest):
                 ("c.ply: found no such file", 1, (a, self.directory / "c.ply")),
                 ("found 5 vertices, expected 6", 1, (a, self.write("d.ply", ply(AFTER[:5], [(0, 1, 2)])))),
                 ("--method: found 'none'", 2, (a, a, "--method", "none")),
-                ("--toi: found --method tight", 2, (a, a, "--method", "tight", "--toi", "-")),
-                ("found the output", 1, (a, a, "--pairs", a))):
+                ("--method is tight; expected exact with --toi", 2, (a, a, "--method", "tight", "--toi", "-")),
+                ("is also an input or another output", 1, (a, a, "--pairs", a))):
             for ranks in (1, 3):
                 found, _, err = self.over_ranks(ranks, "step", *arguments)
                 self.assertEqual(found, status, err)
                 self.assertEqual(err.count(message), 1, err)
 
     def apart(self, *arguments_of_ranks):
-        """Status and errors of ranks each with a folder and arguments of its own."""
+        """Returns status and errors of ranks with different folders and arguments."""
         command = []
         for folder, *arguments in arguments_of_ranks:
             line = " ".join(map(str, (os.environ["CCD_MPI_PROGRAM"], *arguments)))
@@ -94,7 +93,7 @@ class DistributedStep(ProgramTest):
             (folders[1] / "a.ply").write_text(other)
             found, err = self.apart(*((folder, "step", "a.ply", "a.ply") for folder in folders))
             self.assertEqual(found, 1, err)
-            self.assertEqual(err.count("a.ply: rank 1 found another file there than rank 0"), 1, err)
+            self.assertEqual(err.count("a.ply: file on rank 1 differs from that on rank 0"), 1, err)
 
     def test_other_command_lines(self):
         a = self.write("a.ply", ply(BEFORE, FACES))

@@ -1,5 +1,5 @@
-# Where the program `ccd` reads from and writes to: standard input and output, pipes, full disks,
-# limits, missing rights, signals. Each output file is whole or as it was.
+# Input and output of the program `ccd`: standard streams, pipes, full disks, limits, missing
+# permissions, signals. Each output file is whole or unchanged.
 import contextlib
 import os
 import resource
@@ -33,7 +33,7 @@ class Outputs(ProgramTest):
         self.before = self.files()
 
     def files(self):
-        """All that is there, with its content."""
+        """Returns all files with their contents."""
         return {p.name: p.read_bytes() for p in self.directory.rglob("*") if p.is_file()}
 
     def run_with(self, *arguments, **options):
@@ -41,7 +41,7 @@ class Outputs(ProgramTest):
         return subprocess.run([PROGRAM, *map(str, arguments)], text=True, timeout=120, **streams)
 
     def refused(self, message, *arguments, **options):
-        """Status 1 and the message, and every file is as it was."""
+        """Expects status 1, the message, and unchanged files."""
         done = self.run_with(*arguments, **options)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn(message, done.stderr)
@@ -54,7 +54,7 @@ class Streams(Outputs):
         for name in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
             done = self.run_with("step", *self.frames, "--pairs", name, cwd=self.directory)
             self.assertEqual((done.returncode, done.stdout), (0, self.expected), name)
-            self.assertIn("vertex-face", done.stderr)  # the table makes way
+            self.assertIn("vertex-face", done.stderr)  # the table moves to standard error
         self.assertEqual(self.files(), self.before)
         query = self.write("vf.csv", HIT + MISS)
         done = self.run_with("query", query, "--method", "exact", "--verdicts", "-")
@@ -69,7 +69,7 @@ class Streams(Outputs):
 
     def test_standard_output_twice(self):
         for second in ("-", "/dev/stdout"):
-            self.assertIn("expected a file of its own",
+            self.assertIn("expected a separate file",
                           self.bad_usage("step", *self.frames, "--pairs", "-", "--json", second))
 
     def test_frames_from_pipes_were_refused_for_their_extension(self):
@@ -83,7 +83,7 @@ class Streams(Outputs):
             self.assertEqual((done.returncode, done.stdout), (0, self.expected), done.stderr)
         done = self.run_with("step", "-", "-", input=ply(BEFORE, FACES))
         self.assertEqual(done.returncode, 2)
-        self.assertIn("found standard input twice", done.stderr)
+        self.assertIn("standard input is given twice", done.stderr)
 
     def test_queries_from_a_pipe(self):
         done = self.run_with("query", "-", "--kind", "vf", "--method", "exact", "--verdicts", "-",
@@ -97,7 +97,7 @@ class Streams(Outputs):
                          "step", *self.frames, "--pairs", "-", stdout=full)
         closed = {"stdout": None, "preexec_fn": lambda: os.close(1)}
         self.refused("standard output cannot be written", "step", *self.frames, **closed)
-        # No file takes the number of standard output and gets the table.
+        # The table must not go to a file that got the descriptor of standard output.
         out = self.directory / "out"
         done = self.run_with("step", *self.frames, "--pairs", out, **closed)
         self.assertEqual((done.returncode, out.read_text()), (1, self.expected))
@@ -123,7 +123,7 @@ class Refusals(Outputs):
                              "--pairs", out, preexec_fn=limit(resource.RLIMIT_FSIZE, size))
 
     def test_an_output_that_fails_beside_another(self):
-        """Status 1 and the file's name; the other output is whole, and nothing else is left."""
+        """Expects status 1 and the file's name; the other output is whole, and no other file is left."""
         for bad, why in (("/dev/full", "No space left on device"), (self.directory, "found a directory"),
                          (self.directory / "none" / "out", "No such file")):
             other = self.directory / "other"
@@ -182,13 +182,13 @@ class Refusals(Outputs):
 
     @unittest.skipIf(os.environ.get("CCD_SANITIZERS"), "sanitizers need address space")
     def test_little_memory(self):
-        """With more and more of it: one line, then done; never an exception that nobody caught, nor
-        a stack that could not grow."""
+        """With growing memory limits, runs end with one line of error or succeed. They never end by an uncaught
+        exception or a stack that cannot grow."""
         statuses = []
         for kilobytes in range(10 << 10, 120 << 10, 128):
             little = limit(resource.RLIMIT_AS, kilobytes << 10)
             if not statuses and self.run_with("--version", preexec_fn=little).returncode != 0:
-                continue  # not even loaded
+                continue  # the program was not loaded
             done = self.run_with("step", *SCENE, "--threads", 1, "--pairs", self.directory / "out",
                                  preexec_fn=little)
             statuses.append(done.returncode)
@@ -211,7 +211,7 @@ class Signals(Outputs):
             process.wait()
 
     def test_at_any_time(self):
-        """Each file is whole or as it was."""
+        """Expects each file whole or unchanged."""
         out, json = self.directory / "out", self.directory / "json"
         began = time.monotonic()
         self.good("step", *SCENE, "--threads", 2, "--pairs", out, "--json", json)

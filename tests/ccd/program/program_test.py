@@ -1,5 +1,4 @@
-# Tests of the program `ccd` as a user runs it: exit statuses, messages, files it writes.
-# The path to the program is in the environment variable CCD_PROGRAM.
+# The program CCD_PROGRAM as users run it: exit statuses, messages, output files.
 import csv
 import json
 import os
@@ -32,7 +31,7 @@ def ply(vertices, faces, vertex_count=None, face_count=None):
     return "\n".join(lines) + "\n"
 
 
-# Two triangles, the second falling through the first.
+# Two triangles; the second falls through the first.
 BASE = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
 TOP = [(0.2, 0.2, 1), (0.4, 0.2, 1.125), (0.2, 0.4, 1.25)]
 FACES = [(5, 4, 3), (0, 1, 2)]
@@ -63,7 +62,7 @@ class ProgramTest(unittest.TestCase):
         return done.stdout
 
     def bad_input(self, message, *arguments):
-        """Exit status 1, the message, nothing printed, no output file left."""
+        """Expects status 1, the message, no output and no output file."""
         before = sorted(self.directory.rglob("*"))
         out = self.directory / "bad.out"
         outputs = ["--json", out]
@@ -220,14 +219,14 @@ class Query(ProgramTest):
         file = self.write("vf.csv", HIT)
         self.bad_usage()
         self.assertIn("decide", self.bad_usage("decide"))
-        self.assertIn("standard input twice", self.bad_usage("step", "-", "-"))
+        self.assertIn("standard input is given twice", self.bad_usage("step", "-", "-"))
         self.bad_usage("query")
         self.bad_usage("query", file, "--kind", "vertex")
         self.bad_usage("query", file, "--no-such-option")
-        self.assertIn("found 'magic', expected one of",
+        self.assertIn("is 'magic'; expected one of",
                       self.bad_usage("query", file, "--method", "exact,magic"))
         self.bad_usage("query", file, "--method", "exact,")
-        self.assertIn("standard input twice", self.bad_usage("query", "-", "-", "--kind", "vf"))
+        self.assertIn("standard input is given twice", self.bad_usage("query", "-", "-", "--kind", "vf"))
         out = self.directory / "out"
         self.bad_usage("query", file, "--verdicts", out)
         self.bad_usage("query", file, "--method", "exact,float", "--verdicts", out)
@@ -245,7 +244,7 @@ class Step(ProgramTest):
         for kind in ("vf", "ee"):
             of_kind = [tuple(map(int, line[1:])) for line in lines if line[0] == kind]
             self.assertEqual(of_kind, sorted(set(of_kind)))
-        # Each vertex of the falling triangle goes through the other; faces in ascending form.
+        # Each vertex of the falling triangle passes through the other. Indices of faces ascend.
         self.assertEqual([line for line in lines if line[0] == "vf"],
                          [["vf", str(v), "0", "1", "2"] for v in (3, 4, 5)])
         for kind, *indices in lines:
@@ -281,7 +280,7 @@ class Step(ProgramTest):
             self.assertEqual(pairs.read_text(), expected)
 
     def test_rods_and_points(self):
-        """A rod falls through a face and across another rod, a point falls onto that rod's middle."""
+        """A rod falls through a face and another rod. A point falls onto the middle of that rod."""
         def frame(z):
             vertices = BASE + [(0.25, 0.25, z), (2, 0, z), (1, -1, 0), (1, 1, 0), (1, -0.5, z)]
             return "".join("v %r %r %r\n" % v for v in vertices) + "f 1 2 3\nl 4 5\nl 6 7\np 8\n"
@@ -299,7 +298,7 @@ class Step(ProgramTest):
             self.assertEqual(table["vertex-edge"][-1], "1")
 
     def test_unused_vertices_stopped_steps(self):
-        """Leftovers of an editor, which fell through a triangle, and of which two were at one place."""
+        """Unused vertices fall through a triangle; two of them coincide."""
         def frame(z, elements):
             return "".join("v %r %r %r\n" % v for v in BASE + [(0.25, 0.25, z)] * 2) + elements
         def step(elements, *options):
@@ -402,7 +401,7 @@ class Step(ProgramTest):
                              [str(s[k]) for k in ("entered", "left_out", "separate", "collides")])
             self.assertEqual(s["left_open"], s["entered"] - s["separate"] - s["collides"])
         self.assertEqual(result["pairs_of_mesh"], {"vertex_face": 12, "edge_edge": 15})
-        # Six vertices and two faces, six edges: what the boxes left out.
+        # Six vertices, two faces and six edges: pairs that the boxes discard.
         self.assertIn("of the mesh  apart  candidates", text)
         of_boxes = [row.split() for row in text.splitlines() if row.startswith("edge-edge")][1]
         self.assertEqual(of_boxes[1:], ["15", str(15 - result["candidates"]["edge_edge"]),
@@ -415,7 +414,7 @@ class Step(ProgramTest):
         before = frame.read_bytes()
         for outputs in (["--pairs", frame], ["--json", frame],
                         ["--pairs", self.directory / "o", "--json", self.directory / "o"]):
-            self.assertIn("expected a file of its own",
+            self.assertIn("expected a separate file",
                           self.bad_usage("step", frame, frame, *outputs))
         self.assertEqual(frame.read_bytes(), before)
         self.assertFalse((self.directory / "o").exists())
@@ -471,10 +470,10 @@ class Step(ProgramTest):
 
 
 class Quoted(ProgramTest):
-    """docs/measured.md quotes what the program says of the bundled scene (all but times)."""
+    """docs/measured.md quotes the program's output for the bundled scene, except times."""
 
     def pairs(self, method):
-        """(candidates by kind, reported pairs) of the scene's step."""
+        """Returns candidates by kind and reported pairs of the scene's step."""
         frames = [SOURCE / "examples/scenes/cloth-over-ball" / f"frame{i}.ply" for i in (0, 1)]
         out, lines = self.directory / "step.json", self.directory / "pairs.csv"
         counted = ["--explain"] if method == "exact" else []
@@ -497,10 +496,10 @@ class Quoted(ProgramTest):
 
 
 class Device(ProgramTest):
-    """What holds with CUDA and a device, without the device, and in builds without CUDA."""
+    """Runs with CUDA and a device, without a device, and in builds without CUDA."""
 
     def device(self):
-        """The exit status of every run on a device, or None where that is 0."""
+        """Returns the exit status of every run on a device, or None if it is 0."""
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
         pairs = self.directory / "pairs"
         done = self.run_program("step", *frames, "--device", "cuda", "--pairs", pairs)
@@ -540,7 +539,7 @@ class Device(ProgramTest):
         file = self.write("vf.csv", HIT)
         self.bad_usage("query", file, "--device", "abacus")
         self.bad_usage("query", file, "--device", "cuda", "--precision", "float16")
-        self.assertIn("expected --device cuda",
+        self.assertIn("expected cuda with",
                       self.bad_usage("query", file, "--precision", "float32"))
         frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
         if self.device() is None:
@@ -549,7 +548,7 @@ class Device(ProgramTest):
             self.bad_usage("step", *frames, "--device", "cuda", "--explain")
             self.bad_usage("step", *frames, "--device", "cuda", "--threads", "2")
             for distance in (["step", *frames], ["query", file, "--kind", "vf"]):
-                self.assertIn("expected --device cpu",
+                self.assertIn("expected cpu with",
                               self.bad_usage(*distance, "--device", "cuda", "--separation", "1"))
 
 
@@ -597,12 +596,12 @@ class Stress(ProgramTest):
         self.assertNotEqual(counts(), counts("--seed", 2))
 
     def test_bad_input_and_usage(self):
-        self.assertIn("found 'none', expected one of scale,",
+        self.assertIn("is 'none'; expected one of scale,",
                       self.bad_usage("stress", "--family", "scale,none"))
         self.bad_usage("stress", "--method", "magic")
         self.bad_usage("stress", "--queries", 0)
         for seed in -1, 2**64, "1e3":
-            self.assertIn("expected a whole number", self.bad_usage("stress", "--seed", seed))
+            self.assertIn("expected an integer", self.bad_usage("stress", "--seed", seed))
         self.bad_usage("stress", "--threads", -1)
         self.bad_usage("stress", "--out", self.directory / "o", "--json",
                        self.directory / "o" / "stress.csv")

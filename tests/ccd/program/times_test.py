@@ -1,5 +1,5 @@
-# Times, distances and free steps as a user of the program `ccd` gets them.
-# ERRBOUND_SHARED_DATA names the folder of the stored scenes, which need not be there.
+# Times, distances and free steps of the program `ccd`.
+# ERRBOUND_SHARED_DATA is the folder of stored scenes (optional).
 import json
 import os
 import pathlib
@@ -51,16 +51,16 @@ class QueryTimes(ProgramTest):
     def test_bad_usage(self):
         file, out = self.write("vf.csv", HIT), self.directory / "out"
         for options, message in [
-                (["--toi", out, "--method", "tight"], "found another --method, expected exact"),
-                (["--separation", 1, "--method", "exact,tight"], "found another --method, expected exact"),
-                (["--t-max", 1, "--method", "float"], "found another --method, expected exact"),
+                (["--toi", out, "--method", "tight"], "--method is not exact; expected exact"),
+                (["--separation", 1, "--method", "exact,tight"], "--method is not exact; expected exact"),
+                (["--t-max", 1, "--method", "float"], "--method is not exact; expected exact"),
                 (["--toi", out, file], "expected one FILE"),
-                (["--separation", "-1"], "expected a number from 0"),
+                (["--separation", "-1"], "expected a number >= 0"),
                 (["--separation", "nan"], "expected a finite number"),
                 (["--separation", "0.1m"], "expected a number"),
                 (["--t-max", 1.5], "expected a number from 0 to 1"),
                 (["--t-max", "0x1.00000000000001p-1"], "which no double equals"),
-                (["--toi", out, "--verdicts", out], "expected a file of its own")]:
+                (["--toi", out, "--verdicts", out], "expected a separate file")]:
             with self.subTest(options=options):
                 self.assertIn(message, self.bad_usage("query", file, *options))
         self.assertFalse(out.exists())
@@ -72,7 +72,7 @@ class StepTest(ProgramTest):
         self.frames = [self.write("0.ply", ply(BEFORE, FACES)), self.write("1.ply", ply(AFTER, FACES))]
 
     def step(self, *arguments):
-        """(lines of pairs, lines of times, JSON) of a step."""
+        """Returns lines of pairs, lines of times, and JSON of a step."""
         pairs, times, out = (self.directory / name for name in ("pairs", "times", "json"))
         text = self.good("step", *arguments, "--pairs", pairs, "--toi", times, "--json", out)
         result = json.loads(out.read_text())
@@ -118,7 +118,7 @@ class StepTimes(StepTest):
         self.assertEqual(self.step(self.frames[0], self.frames[0], "--separation", 0.9)[0], [])
 
     def test_until_a_time(self):
-        # The lowest vertex is at the floor at half of the step.
+        # The lowest vertex reaches the floor at t = 1/2.
         self.assertIn("vf,3,0,1,2", self.step(*self.frames, "--t-max", 0.5)[0])
         before = self.step(*self.frames, "--t-max", "0x1.fp-2")
         self.assertNotIn("vf,3,0,1,2", before[0])
@@ -128,17 +128,17 @@ class StepTimes(StepTest):
     def test_bad_usage(self):
         out = self.directory / "out"
         for options, message in [
-                (["--toi", out, "--method", "tight"], "found --method tight, expected exact"),
-                (["--advance", "-", "--method", "tight"], "found --method tight, expected exact"),
-                (["--separation", 1, "--method", "float"], "found --method float, expected exact"),
+                (["--toi", out, "--method", "tight"], "--method is tight; expected exact"),
+                (["--advance", "-", "--method", "tight"], "--method is tight; expected exact"),
+                (["--separation", 1, "--method", "float"], "--method is float; expected exact"),
                 (["--advance", out], "expected a name that ends in .ply"),
-                (["--separation", 1, "--explain"], "expected contact"),
+                (["--separation", 1, "--explain"], "expected contact, since"),
                 (["--t-max", 2], "expected a number from 0 to 1"),
-                (["--t-max", 1, "--method", "float"], "found --method float, expected exact"),
+                (["--t-max", 1, "--method", "float"], "--method is float; expected exact"),
                 (["--t-max", 0.5, "--advance", "-"], "expected the whole step"),
                 (["--separation", "inf"], "expected a finite number"),
-                (["--advance", self.frames[0]], "expected a file of its own"),
-                (["--advance", "-", "--toi", "-"], "expected a file of its own")]:
+                (["--advance", self.frames[0]], "expected a separate file"),
+                (["--advance", "-", "--toi", "-"], "expected a separate file")]:
             with self.subTest(options=options):
                 self.assertIn(message, self.bad_usage("step", *self.frames, *options))
         self.assertFalse(out.exists())
@@ -146,7 +146,7 @@ class StepTimes(StepTest):
 
 class Advance(StepTest):
     def advance(self, before, after, *options):
-        """The JSON of a free step, and the pairs of a step to where it leads."""
+        """Returns the JSON of a free step, and the pairs of a step to its positions."""
         out, result = self.directory / "free.ply", self.directory / "free.json"
         self.good("step", before, after, "--advance", out, "--json", result, *options)
         pairs, _, again = self.step(before, out, *options)

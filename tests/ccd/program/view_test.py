@@ -1,5 +1,5 @@
-# What `ccd step --view` writes: pages, and files for ParaView, read back and compared with the frames
-# and with --toi. How a page behaves in a browser: python/tests/page_test.py.
+# Files of `ccd step --view`, pages and files for ParaView, compared with the frames and with --toi.
+# python/tests/page_test.py tests pages in a browser.
 import base64
 import math
 import re
@@ -13,7 +13,7 @@ SCENE = [SOURCE / f"examples/scenes/cloth-over-ball/frame{i}.ply" for i in (0, 1
 KINDS = {"vf": ("vertex_face", 4), "ee": ("edge_edge", 4), "ve": ("vertex_edge", 3), "vv": ("vertex_vertex", 2)}
 CODES = {"Float64": "d", "Int64": "q", "UInt32": "I", "Int8": "b"}
 
-# A rod above a point that falls past it, beside a face, and a point that meets the first.
+# A rod above a point that falls past it, next to a face, and a point that meets the first.
 ROD = """ply
 format ascii 1.0
 element vertex 7
@@ -43,7 +43,7 @@ def rows(numbers, columns):
 
 
 class Page:
-    """The arrays of a page, as its script reads them."""
+    """Returns the arrays of a page, as its script reads them."""
 
     def __init__(self, text):
         self.arrays = {}
@@ -55,7 +55,7 @@ class Page:
         return rows([n for n, in struct.iter_unpack("<" + code, data)], columns)
 
     def lines(self, with_times):
-        """As --pairs or --toi writes them."""
+        """Returns lines as --pairs or --toi writes them."""
         found = []
         for short, (name, columns) in KINDS.items():
             pairs = self.numbers(name, "I", columns)
@@ -65,7 +65,7 @@ class Page:
 
 
 class PolyData:
-    """A file of VTK's, by name of array."""
+    """Returns the arrays of a VTK file by name."""
 
     def __init__(self, path):
         root = xml.parse(path).getroot()
@@ -95,7 +95,7 @@ class PolyData:
 
 class Views(ProgramTest):
     def view(self, name, frames, *options):
-        """The view's path, and the lines of --toi."""
+        """Returns the view's path and the lines of --toi."""
         out, times = self.directory / name, self.directory / "times.csv"
         self.good("step", *frames, "--view", out, "--toi", times, *options)
         return out, times.read_text().split()
@@ -154,7 +154,7 @@ class Pages(Views):
 
 class ForParaView(Views):
     def shares(self, cells, lines):
-        """By definition: of each cell, its pairs and the earliest of their times."""
+        """Computes the pairs of each cell and the earliest of their times from their definition."""
         pairs = []
         for line in lines:
             short, *fields = line.split(",")
@@ -187,7 +187,7 @@ class ForParaView(Views):
         data = PolyData(out)
         self.check(data, ([tuple(map(float, v)) for v in BEFORE], [tuple(map(float, v)) for v in AFTER]), lines)
         self.assertEqual(data.cells[-2:], FACES)
-        # The vertex (0.2, 0.2) falls from 1 to -1: it meets the face in the plane, at t = 1/2.
+        # The vertex (0.2, 0.2) falls from 1 to -1 and meets the face at t = 1/2.
         self.assertEqual(lines[0], "vf,3,0,1,2,0x1p-1,0x1p-1")
         self.assertEqual(data.points[6], (0.2, 0.2, 0.0))
         self.assertEqual(data.point["normal"][6], (0.0, 0.0, 1.0))
@@ -199,7 +199,7 @@ class ForParaView(Views):
         before = data.points[:7]
         after = [(x, y, {5: -1.0, 6: -4.0}.get(i, 0.0)) for i, (x, y, _) in enumerate(before)]
         self.check(data, (before, after), lines)
-        # Each point passes the rod, and the upper one the lower one on its way.
+        # Each point passes the rod, and the upper point passes the lower one.
         self.assertEqual([line.split(",")[0] for line in lines], ["ve", "ve", "vv"])
         self.assertEqual(data.cells[:2], [(5,), (6,)])
         for found, height in zip(data.points[7:], (0, 0, 0.5), strict=True):
@@ -232,14 +232,14 @@ class Refusals(Views):
     def test_other_names(self):
         frames = self.triangles()
         for name in "step.obj", "step", ".html":
-            said = self.bad_usage("step", *frames, "--view", self.directory / name)
-            self.assertIn("expected a name that ends in .html, .vtp or .pvd", said)
+            message = self.bad_usage("step", *frames, "--view", self.directory / name)
+            self.assertIn("expected a name that ends in .html, .vtp or .pvd", message)
         for name in "a\nb.pvd", "a\x1b[31m.pvd":
-            said = self.bad_usage("step", *frames, "--view", self.directory / name)
-            self.assertIn("expected a name without control characters", said)
-            self.assertNotIn("\x1b", said)
-        said = self.bad_usage("step", *frames, "--view", self.directory / "s.pvd", "--pairs", self.directory / "s-1.vtp")
-        self.assertIn("s-1.vtp", said)
+            message = self.bad_usage("step", *frames, "--view", self.directory / name)
+            self.assertIn("expected a name without control characters", message)
+            self.assertNotIn("\x1b", message)
+        message = self.bad_usage("step", *frames, "--view", self.directory / "s.pvd", "--pairs", self.directory / "s-1.vtp")
+        self.assertIn("s-1.vtp", message)
 
     def test_a_file_of_a_series_is_a_folder(self):
         frames = self.triangles()
