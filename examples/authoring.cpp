@@ -1,5 +1,5 @@
-// The predicate that docs/authoring-predicates.md writes: whether a point lies inside a capsule,
-// all that is no further than r from a segment ab; from the formula to tests and timings.
+// The predicate of docs/authoring-predicates.md: true if a point is in a capsule, within a distance
+// r of a segment ab. From the formula to tests and timings.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,12 +18,12 @@
 
 using errbound::sign_of;
 using errbound::sign_type;
-// Without expression templates: their results refer to variables that are gone.
+// Without expression templates, whose results would refer to destroyed variables.
 using rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend,
                                                boost::multiprecision::et_off>;
 using point = std::array<double, 3>;
 
-// The formula. Positive where p is nearer than r to the line ab.
+// The formula is positive if p is nearer than r to the line ab.
 constexpr auto cylinder = [](const auto& a, const auto& b, const auto& p, const auto& r) {
     const auto dx = b[0] - a[0], dy = b[1] - a[1], dz = b[2] - a[2];
     const auto qx = p[0] - a[0], qy = p[1] - a[1], qz = p[2] - a[2];
@@ -32,18 +32,18 @@ constexpr auto cylinder = [](const auto& a, const auto& b, const auto& p, const 
 };
 constexpr auto in_cylinder = errbound::predicate<errbound::points<3, 3, 3, 0>>(cylinder);
 
-// What the compiler derived.
+// These constants are derived by the compiler.
 static_assert(in_cylinder.counts.roundings == 11);
 static_assert(in_cylinder.static_constant<double> < 1.0001 * 11 * 0x1p-53);
 static_assert(in_cylinder.counts.degree == 4 && !in_cylinder.counts.mixed);
 
-// How far p is past `from` in the direction from a to b, times their distance.
+// Returns the distance of p beyond `from` in the direction from a to b, times |ab|.
 constexpr auto along(const auto& a, const auto& b, const auto& from, const auto& p) {
     return (b[0] - a[0]) * (p[0] - from[0]) + (b[1] - a[1]) * (p[1] - from[1]) +
            (b[2] - a[2]) * (p[2] - from[2]);
 }
 
-// The same number in another shape, by Lagrange's identity.
+// An equal expression, by Lagrange's identity.
 constexpr auto lagrange = [](const auto& a, const auto& b, const auto& p, const auto& r) {
     const auto dd = along(a, b, a, b), qq = along(a, p, a, p), dq = along(a, b, a, p);
     return r * r * dd - (dd * qq - dq * dq);
@@ -51,14 +51,14 @@ constexpr auto lagrange = [](const auto& a, const auto& b, const auto& p, const 
 constexpr auto by_lagrange = errbound::predicate<errbound::points<3, 3, 3, 0>>(lagrange);
 static_assert(by_lagrange.counts.roundings == 12);
 
-// With r squared by the caller: terms of degree 4 less one that counts as of degree 3.
+// The caller passes r squared: terms of degree 4 and one that counts as degree 3.
 constexpr auto with_square = [](const auto& a, const auto& b, const auto& p, const auto& square) {
     const auto dd = along(a, b, a, b), qq = along(a, p, a, p), dq = along(a, b, a, p);
     return square * dd - (dd * qq - dq * dq);
 };
 constexpr auto by_square = errbound::predicate<errbound::points<3, 3, 3, 0>>(with_square);
 static_assert(by_square.counts.mixed);
-// Of degree 4, if the square counts as of degree 2.
+// The degree is 4 if the square counts as degree 2.
 struct square_options : errbound::predicate_options {
     static constexpr std::array<int, 10> degrees{1, 1, 1, 1, 1, 1, 1, 1, 1, 2};  // a, b, p, square
 };
@@ -67,7 +67,7 @@ constexpr auto by_square_of_degree_2 =
 static_assert(by_square_of_degree_2(std::array{0., 0., 0.}, std::array{1., 0., 0.},
                                     std::array{0., 1., 0.}, 1.0) == sign_type::zero);
 
-// The capsule: before a, beyond b, or between them.
+// The capsule. p is before a, beyond b, or between them.
 constexpr auto capsule = [](const auto& a, const auto& b, const auto& p, const auto& r) {
     using errbound::forms::squared_distance3d;
     const sign_type past_a = sign_of(along(a, b, a, p)), past_b = sign_of(along(a, b, b, p));
@@ -93,7 +93,7 @@ constexpr auto lagrange_tight =
 constexpr auto cylinder_rationals =
     errbound::predicate<errbound::points<3, 3, 3, 0>, with_rationals>(cylinder);
 
-// The tests: inputs, and rationals that know nothing of the expression.
+// Tests with rationals, which do not use the expression.
 
 struct input {
     point a, b, p;
@@ -108,7 +108,7 @@ input anywhere(generator& random) {
     const auto any = [&] { return point{uniform(random), uniform(random), uniform(random)}; };
     return {any(), any(), any(), uniform(random) / 2};
 }
-/// Around a line, thin and long.
+/// A point near a thin, long cylinder.
 input wire(generator& random) {
     input x = anywhere(random);
     x.r = 1e-8;
@@ -117,7 +117,7 @@ input wire(generator& random) {
         x.p[k] = x.a[k] + t * (x.b[k] - x.a[k]) + 2 * x.r * uniform(random);
     return x;
 }
-/// Exactly on a cylinder: (1, 2, 2) and (2, 1, -2) are 3 long and perpendicular.
+/// A point exactly on a cylinder: (1, 2, 2) and (2, 1, -2) are perpendicular, of length 3.
 input on_surface(generator& random) {
     const auto some = [&] { return static_cast<double>(random() % 2001) - 1000; };
     input x{{some(), some(), some()}, {}, {}, 0};
@@ -137,14 +137,14 @@ input moved(input x, const Move& move) {
     x.r = move(x.r);
     return x;
 }
-/// On it, then rounded, then moved by units in the last place.
+/// A point on the cylinder, rounded and moved by a unit in the last place.
 input near_surface(generator& random) {
     const double scale = 0.1 + std::abs(uniform(random));
     return moved(on_surface(random), [&](double x) {
         return std::nextafter(x * scale, random() % 2 == 0 ? -10000.0 : 10000.0);
     });
 }
-/// Those, at any power of two: underflow and overflow.
+/// Scaled by any power of two: underflow and overflow.
 input at_any_scale(generator& random) {
     const int e = static_cast<int>(random() % 2080) - 1074;
     return moved(random() % 2 == 0 ? on_surface(random) : near_surface(random),
@@ -168,7 +168,7 @@ constexpr family families[] = {{"anywhere", anywhere},         {"wire", wire},
                                {"on surface", on_surface},     {"near surface", near_surface},
                                {"at any scale", at_any_scale}, {"any bits", any_bits}};
 
-/// By the nearest point of the segment, in rationals: nothing of the predicate is used.
+/// Uses the nearest point of the segment, in rationals, and no code of the predicate.
 sign_type capsule_sign(const input& x) {
     rational dd = 0, dq = 0, distance = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -188,7 +188,8 @@ sign_type cylinder_sign(const input& x) {
     return sign_of(in_cylinder.value<rational>(x.a, x.b, x.p, x.r));
 }
 
-/// Signs that differ from exact ones, in all stages, and by each stage alone; prints who decided.
+/// Counts wrong signs, of the predicate and of each stage. Prints the share that each stage
+/// decided.
 template <class Predicate, class Exact>
 int test(const char* name, const Predicate& predicate, const Exact& exact, int inputs) {
     int wrong = 0;
@@ -215,7 +216,7 @@ int test(const char* name, const Predicate& predicate, const Exact& exact, int i
 
 // The timings.
 
-/// ns per input of the fastest of several runs.
+/// Returns ns per input of the fastest of several runs.
 template <class Run>
 double nanoseconds(std::size_t inputs, const Run& run) {
     double best = 1e300;
@@ -249,7 +250,7 @@ void time(const char* name, const Predicate& predicate, const Formula& formula) 
             for (std::size_t i = 0; i < n; ++i) signs[i] = predicate(a[i], b[i], p[i], r[i]);
         });
         const double batch = nanoseconds(n, [&] {
-            // Contiguous points, as many as signs.
+            // One contiguous point per sign.
             errbound::batch_signs(predicate, std::span(batched), a, b, p, r);
         });
         std::printf("%-20s %-13s %8.1f %8.1f %8.1f%s\n", name, f.name, plain, single, batch,

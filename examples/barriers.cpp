@@ -1,5 +1,5 @@
-// Barriers: a bead falls on a face and comes to rest above it, held by a barrier within d_hat; each
-// step keeps a tenth of the gap that there is.
+// Barriers: a bead falls on a face and comes to rest above it, on a barrier within d_hat. Each step
+// keeps a tenth of the gap.
 #include <algorithm>
 #include <ccd/advance.hpp>
 #include <cmath>
@@ -27,7 +27,7 @@ int main() {
     ccd::mesh_steps steps(now);
     for (int iteration = 1; iteration <= 30; ++iteration) {
         const double gap = now.vertices[3].z;
-        // Pairs within d_hat, which have a barrier: those of a step without motion.
+        // Pairs within d_hat have a barrier. A step without motion finds them.
         const ccd::pair_lists near = steps.run({now, now}, {.distances = {d_hat}}).pairs;
 
         ccd::mesh goal = now;

@@ -1,5 +1,5 @@
-// A first contact and its response: a vertex bounces off a face that gives way; then one of two
-// beads falls on an edge in the plane, which one query and a list of pairs tell alike.
+// A first contact and its response: a vertex bounces off a face that gives way. Then one of two
+// beads falls on an edge in the plane; a single query and a list of pairs give the same time.
 #include <array>
 #include <ccd/contact_data.hpp>
 #include <ccd/first_times.hpp>
@@ -10,8 +10,8 @@
 
 namespace {
 
-/// What an impulse along the normal adds to the velocity of each point, if a share `restitution` of
-/// the normal velocity is to come back: up for the first feature's points, down for the others.
+/// Returns the velocity change of each point by an impulse along the normal, which returns a share
+/// `restitution` of the normal velocity. The first feature moves up, the second down.
 std::array<double, 4> changes_of(const ccd::first_contact& contact, std::size_t first_points,
                                  const std::array<double, 4>& masses, double restitution) {
     std::array<double, 4> change{};
@@ -41,7 +41,7 @@ int main() {
     std::printf("along the normal the vertex gains %g, the face's points %g %g %g\n", change[0],
                 change[1], change[2], change[3]);
 
-    // The plane: meshes and batches have its points with z = 0.
+    // In the plane, points of meshes and batches have z = 0.
     const ccd::plane::vertex_edge falling{{{0, 1}, {0, -1}}, {{-1, 0}, {-1, 0}}, {{1, 0}, {1, 0}}};
     const ccd::first_time touch = time_of_impact(falling);
     const std::vector<ccd::point<double>> before{{0, 1, 0}, {5, 1, 0}, {-1, 0, 0}, {1, 0, 0}};

@@ -1,6 +1,6 @@
-// Points on curves in time: a ball's centre on its way under gravity, of degree 2, against a face
-// of which one vertex bulges out, of degree 3; then the same on a spline of two pieces, and what
-// such queries cost.
+// Points that move on polynomial curves: the centre of a ball under gravity, of degree 2, and a
+// face with a vertex that moves on a cubic. Then a spline of two pieces, and the cost of such
+// queries.
 #include <array>
 #include <ccd/curves.hpp>
 #include <chrono>
@@ -13,8 +13,7 @@ namespace {
 
 using control_points = std::vector<ccd::point<double>>;
 
-/// Mean microseconds of first contacts between cubics all over the unit cube, and how many there
-/// are.
+/// Prints the mean time of first contacts of random cubics in the unit cube, and their number.
 void time_random_queries() {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> coordinate(0, 1);
@@ -50,7 +49,7 @@ int main() {
     const ccd::first_time near = ccd::time_within(query, {0.25, 0.125});  // two radii
     std::printf("within 0.375 from t = %.17g\n", near.low);
 
-    // Pieces as a spline has them, with their knots: here the ball waits for a second.
+    // A spline has pieces between knots. Here the ball waits for a second.
     const control_points rest{ball.front()};
     const std::vector<ccd::spline_piece<ccd::vertex_face_curves>> pieces{{0, 1, {rest, f0, f1, f2}},
                                                                          {1, 3, query}};

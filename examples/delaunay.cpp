@@ -1,7 +1,6 @@
-// Delaunay triangulations of nearly degenerate points, by one algorithm over two sets of signs:
-// errbound's predicates, and the same expressions in plain double, which break it. What comes out
-// is checked in unbounded integers that know of neither. Fails unless all of errbound's are valid
-// and none of plain double's.
+// Delaunay triangulations of nearly degenerate points, by one algorithm with errbound's predicates
+// and with the same expressions in plain double, which break it. Unbounded integers check the
+// results. Fails unless all of errbound's are valid and none of plain double's.
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -38,27 +37,27 @@ struct plain_signs {
 /// Corners of a triangle, counterclockwise.
 constexpr std::array<std::size_t, 3> after{1, 2, 0}, before{2, 0, 1};
 
-/// Neighbour i is across from vertex i. Beyond each edge of the convex hull lies a triangle whose
-/// third vertex is at infinity, so that all edges have two sides.
+/// Neighbour i is opposite to vertex i. A triangle with a vertex at infinity is beyond each edge of
+/// the convex hull, so that all edges have two sides.
 struct triangle {
     std::array<std::size_t, 3> vertex, neighbour;
 
-    std::size_t corner_of(std::size_t v) const {  // 3 if it is none
+    std::size_t corner_of(std::size_t v) const {  // 3 if v is no corner
         return static_cast<std::size_t>(std::ranges::find(vertex, v) - vertex.begin());
     }
-    /// The corner across from the edge from a to b; 3 if there is none.
+    /// Returns the corner opposite to the edge from a to b; 3 if there is none.
     std::size_t across(std::size_t a, std::size_t b) const {
         const std::size_t i = corner_of(a);
         return i < 3 && vertex[after[i]] == b ? before[i] : 3;
     }
 };
 
-/// Incremental (Bowyer 1981, Watson 1981): a point is located by a walk; the triangles whose
-/// circles it is in give way to those that join it to their border.
+/// Incremental algorithm (Bowyer 1981, Watson 1981). A walk locates each point. Triangles whose
+/// circles contain it are replaced by triangles that join it to their border.
 template <class Signs>
 class triangulation {
   public:
-    /// Of different points. Throws std::runtime_error where signs contradict each other.
+    /// Precondition: distinct points. Throws std::runtime_error if signs contradict each other.
     explicit triangulation(const std::vector<point>& points)
         : infinity(points.size()), points_(points), first_(points.size() + 1, none) {
         std::size_t c = 2;
@@ -85,7 +84,7 @@ class triangulation {
         return Signs::orient2d(points_[a], points_[b], points_[c]);
     }
 
-    /// The triangle that p lies in, or one at infinity beyond whose edge it lies.
+    /// Returns the triangle that contains p, or one at infinity with p beyond its edge.
     std::size_t locate(std::size_t p) const {
         std::size_t at = triangles.size() - 1;
         const std::size_t ghost = triangles[at].corner_of(infinity);
@@ -104,8 +103,8 @@ class triangulation {
         throw std::runtime_error("a walk does not end");
     }
 
-    /// Whether p is inside a triangle's circle; at infinity this is a half-plane, with the inside
-    /// of the edge.
+    /// True if p is inside the triangle's circle; at infinity the circle is a half-plane with the
+    /// inside of the edge.
     bool encloses(const triangle& t, std::size_t p) const {
         const auto& v = t.vertex;
         const std::size_t ghost = t.corner_of(infinity);
@@ -169,7 +168,7 @@ class triangulation {
 
 using integer = boost::multiprecision::cpp_int;
 
-/// Points in units that all coordinates are whole numbers of.
+/// Returns the points in a unit in which all coordinates are integers.
 std::vector<std::array<integer, 2>> as_integers(const std::vector<point>& points) {
     int unit = 0;
     for (const point& p : points)
@@ -181,7 +180,7 @@ std::vector<std::array<integer, 2>> as_integers(const std::vector<point>& points
     return exact;
 }
 
-/// Looks at a triangulation in integers: what is wrong with it, counted.
+/// Counts the flaws of a triangulation, in integers.
 class examination {
   public:
     examination(const std::vector<point>& points, const std::vector<triangle>& triangles)
@@ -193,9 +192,9 @@ class examination {
         see_hull();
     }
 
-    /// In words: empty if it is the points' Delaunay triangulation. (Or one of them: four points on
-    /// a circle have two.) Where all triangles turn left, edges match and the border runs once
-    /// around a convex polygon, each point inside is covered once. Then Euler counts the vertices.
+    /// Returns the flaws; empty for a Delaunay triangulation of the points (four points on a circle
+    /// have two). Each point inside is covered once if all triangles turn left, edges match and the
+    /// border runs once around a convex polygon. Then Euler's formula counts the vertices.
     std::string flaws() const {
         std::string found;
         const auto add = [&](const char* what, std::size_t count) {
@@ -217,7 +216,8 @@ class examination {
         const auto &p = exact_[a], &q = exact_[b], &r = exact_[c];
         return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
     }
-    /// The sum of the areas that d sees, each times the square of the distance to the third corner.
+    /// Returns the sum of the areas seen from d, each times the squared distance of the third
+    /// corner.
     integer lifted(const triangle& t, std::size_t d) const {
         integer sum = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -246,7 +246,7 @@ class examination {
         }
     }
 
-    /// Closed, no right turn, and once around, as it has one lowest vertex.
+    /// Checks that the hull is closed, has no right turn, and runs around once: one lowest vertex.
     void see_hull() {
         const std::size_t border = triangles_.size() - inner_;
         std::vector<std::size_t> hull;
@@ -283,7 +283,7 @@ double jittered(generator& random, double x) {  // by up to two units in the las
     return x + (static_cast<double>(random() % 5) - 2) * 0x1p-52;
 }
 
-/// A grid, turned and rounded.
+/// A rotated and rounded grid.
 std::vector<point> turned_grid(generator&) {
     std::vector<point> points;
     for (int i = 0; i < 50; ++i)
@@ -292,7 +292,7 @@ std::vector<point> turned_grid(generator&) {
                               (std::sin(0.3) * i + std::cos(0.3) * j) / 50});
     return points;
 }
-/// A grid whose points have moved by units in the last place.
+/// A grid with points moved by units in the last place.
 std::vector<point> jittered_grid(generator& random) {
     std::vector<point> points;
     for (int i = 0; i < 50; ++i)
@@ -300,7 +300,7 @@ std::vector<point> jittered_grid(generator& random) {
             points.push_back({jittered(random, 1 + i / 50.0), jittered(random, 1 + j / 50.0)});
     return points;
 }
-/// On circles around a few centres.
+/// Points on circles.
 std::vector<point> circles(generator& random) {
     std::vector<point> points;
     for (int circle = 0; circle < 3; ++circle) {
@@ -312,7 +312,7 @@ std::vector<point> circles(generator& random) {
     }
     return points;
 }
-/// On one line, and a cluster of neighbouring doubles around another of its points (Kettner,
+/// Points on a line, and a cluster of adjacent doubles around another point of it (Kettner,
 /// Mehlhorn, Pion, Schirra, Yap 2008).
 std::vector<point> line_and_cluster(generator&) {
     std::vector<point> points;

@@ -1,7 +1,7 @@
-// A mesh that moves on the device: its vertices never leave it, and neither do the colliding pairs.
+// A mesh whose vertices and colliding pairs stay on the device.
 //
-// A square cloth falls onto another; each step asks for the pairs that collide. Exit status 77
-// where there is no device.
+// A square cloth falls onto another, and each step finds the colliding pairs. Exit status 77 if
+// there is no device.
 #include <ccd/cuda.hpp>
 #include <cstdio>
 #include <utility>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int side = 64, count = 2 * side * side;
 
-/// Two sheets, the upper one in waves.
+/// Two sheets; the upper one is wavy.
 __global__ void place(double* rows) {
     const int v = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     if (v >= count) return;
@@ -21,7 +21,7 @@ __global__ void place(double* rows) {
     rows[3 * v + 2] = sheet == 0 ? 0.0 : 1.5 + sin(0.4 * i) * cos(0.3 * j);
 }
 
-/// The upper sheet sinks.
+/// Lowers the upper sheet.
 __global__ void move(const double* from, double* to) {
     const int v = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
     if (v >= count) return;

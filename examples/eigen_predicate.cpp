@@ -1,5 +1,5 @@
-// Predicates on points as they are: Eigen's vectors, maps and blocks, and structs of one's own, one
-// by one and in batches, without copying any.
+// Predicates on existing points, without copies: Eigen's vectors, maps and blocks, and custom
+// structs, one by one and in batches.
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -10,13 +10,13 @@
 
 using errbound::sign_type;
 
-// Structs with x and y (and z), as members or member functions, are points by themselves.
+// Structs with members or member functions x and y (and z) are points.
 struct vertex {
     float x, y;
     int id;
 };
 
-// For others one function beside them tells.
+// Other structs need one function in their namespace.
 namespace survey {
 struct station {
     double easting, northing;
@@ -36,7 +36,7 @@ int main() {
     right = right &&
             errbound::orient2d(a, vertex{1, 1, 7}, survey::station{0.5, 0.5}) == sign_type::zero;
 
-    // In batches: which of n points are left of the line ab, on it, right of it?
+    // In batches: n points left of the line ab, on it, or right of it.
     const Eigen::Index n = 10'000;
     Eigen::MatrixX2d by_coordinate(n, 2);  // all x, then all y: the fastest form
     Eigen::Matrix2Xd by_point(2, n);       // x y, x y, ...

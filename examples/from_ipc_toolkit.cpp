@@ -1,13 +1,13 @@
-// A caller of ipc-toolkit's narrow phase, with `exact` behind it: how far a vertex may fall towards
-// a triangle. (The tests build it with a restated interface; with your ipc-toolkit on the include
-// path it is the same.)
+// A caller of ipc-toolkit's narrow phase, implemented by `exact`: the step size of a vertex that
+// falls towards a triangle. The tests build it with a copy of the interface; with ipc-toolkit on
+// the include path it builds without changes.
 #include <ccd/adapters/ipc_toolkit.hpp>  // includes your <ipc/ccd/narrow_phase_ccd.hpp>
 #include <cstdio>
 
 namespace {
 
-/// The part of the way that the vertex may go, as the toolkit's compute_collision_free_stepsize
-/// asks.
+/// Returns the collision-free fraction of the step, with the calls of the toolkit's
+/// compute_collision_free_stepsize.
 double step_size(const ipc::NarrowPhaseCCD& narrow_phase, const Eigen::Vector3d& before,
                  const Eigen::Vector3d& after, double min_distance) {
     const Eigen::Vector3d t0(0, 0, 0), t1(1, 0, 0), t2(0, 1, 0);
@@ -22,7 +22,7 @@ double step_size(const ipc::NarrowPhaseCCD& narrow_phase, const Eigen::Vector3d&
 int main() {
     const ccd::adapters::exact_narrow_phase exact;                 // steps may end in contact
     const ccd::adapters::exact_narrow_phase with_a_gap(0.8);       // keeps a fifth of each distance
-    const ccd::adapters::exact_narrow_phase small_gap(0.8, 1e-4);  // the same, at most 1e-4
+    const ccd::adapters::exact_narrow_phase small_gap(0.8, 1e-4);  // keeps at most 1e-4 of it
 
     const Eigen::Vector3d before(0.25, 0.25, 1), after(0.25, 0.25, -1);
     std::printf("until they touch: %g\n", step_size(exact, before, after, 0));

@@ -1,4 +1,4 @@
-// Calls written for Tight-Inclusion, answered by `exact`.
+// Calls of Tight-Inclusion's interface, implemented by `exact`.
 #include <ccd/adapters/tight_inclusion.hpp>
 #include <cstdio>
 
@@ -16,7 +16,7 @@ int main() {
                              max_itr, output_tolerance))
         std::printf("they touch at %g\n", toi);
 
-    // A box of 0.1 is kept free, and with it the ball around it.
+    // Keeps a box of 0.1 free, and so a ball of radius 0.1.
     if (ticcd::vertexFaceCCD(v_t0, f0, f1, f2, v_t1, f0, f1, f2, err, /*ms=*/0.1, toi, tolerance,
                              t_max, max_itr, output_tolerance))
         std::printf("within sqrt(3) 0.1 of each other at %.3f\n", toi);

@@ -1,7 +1,6 @@
-// Convex hulls in space of nearly degenerate points, by one algorithm over two orientations:
-// errbound's, and the same expression in plain double, which breaks it. What comes out is checked
-// in integers that know of neither. Fails unless all of errbound's are valid and none of plain
-// double's.
+// Convex hulls in space of nearly degenerate points, by one algorithm with errbound's orientation
+// and with the same expression in plain double, which breaks it. Integers check the results. Fails
+// unless all of errbound's are valid and none of plain double's.
 #include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -28,7 +27,7 @@ constexpr auto plain_orient3d = [](const point& a, const point& b, const point& 
 using face = std::array<std::size_t, 3>;
 using edge = std::array<std::size_t, 2>;
 
-/// All edges of faces, sorted: on a closed surface each has one twin, the other way round.
+/// Returns all edges of faces, sorted. On a closed surface each has one opposite edge.
 std::vector<edge> sorted_edges(const std::vector<face>& faces) {
     std::vector<edge> edges;
     for (const auto& [a, b, c] : faces) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
@@ -36,9 +35,10 @@ std::vector<edge> sorted_edges(const std::vector<face>& faces) {
     return edges;
 }
 
-/// Incrementally: faces that see a point give way to those that join it to their border. Facets of
-/// more than three points come in coplanar faces. Empty if all points are in one plane. Throws
-/// std::runtime_error where signs contradict each other. Cost: points times faces.
+/// Incremental algorithm: faces that see a point are replaced by faces that join it to their
+/// border. Facets with more than three points are split into coplanar faces. Empty if all points
+/// are coplanar. Throws std::runtime_error if signs contradict each other. Cost: points times
+/// faces.
 template <class Orient3d>
 std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& orient3d) {
     const auto orient = [&](const face& f, std::size_t p) {
@@ -48,7 +48,7 @@ std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& 
     while (d < points.size() && orient({0, 1, c}, d) == sign_type::zero)
         if (++c == d) c = 2, ++d;
     if (d >= points.size()) return {};
-    // Below its first three points, a tetrahedron's last one is inside.
+    // The last point of a tetrahedron is inside if it is below the first three.
     const bool below = orient({0, 1, c}, d) == sign_type::positive;
     const std::size_t a = below ? 0 : 1, b = 1 - a;
     std::vector<face> faces{{a, b, c}, {b, a, d}, {c, b, d}, {a, c, d}};
@@ -66,7 +66,7 @@ std::vector<face> convex_hull(const std::vector<point>& points, const Orient3d& 
     return faces;
 }
 
-// The check. Coordinates are multiples of 2^-70 below 2^10: see the points below.
+// The check. Coordinates of the points below are multiples of 2^-70, less than 2^10.
 
 using integer = boost::multiprecision::int512_t;
 using vector = std::array<integer, 3>;
@@ -91,9 +91,9 @@ integer dot(const vector& a, const vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// What is wrong with a hull; empty if nothing. All points are on or behind the planes of all
-/// faces, so that these are parts of the hull's boundary; they are closed and look outwards, so
-/// that they cover it, everywhere equally often; and some place is covered once.
+/// Returns the flaws of a hull; empty if it is valid. If all points are on or behind the planes of
+/// all faces, these are parts of the hull's boundary. If they are closed and face outwards, they
+/// cover it everywhere equally often. The last check is that some point is covered once.
 std::string flaws(const std::vector<point>& points, const std::vector<face>& faces) {
     if (faces.empty()) return "no faces";
     std::vector<vector> exact;
@@ -136,14 +136,14 @@ std::string flaws(const std::vector<point>& points, const std::vector<face>& fac
     return found;
 }
 
-// The points, around the origin, in multiples of 2^-60.
+// The points around the origin are multiples of 2^-60.
 
 using generator = std::mt19937_64;
 
 double rounded(double x) {
     return std::ldexp(std::rint(std::ldexp(x, 60)), -60);
 }
-/// By two angles.
+/// Rotates by two angles.
 point turned(const point& p) {
     const double x = std::cos(0.3) * p[0] - std::sin(0.3) * p[1],
                  y = std::sin(0.3) * p[0] + std::cos(0.3) * p[1];
@@ -151,7 +151,7 @@ point turned(const point& p) {
             rounded(std::sin(0.7) * y + std::cos(0.7) * p[2])};
 }
 
-/// A cube's surface: as a grid, each of whose points `move` moves.
+/// A grid on the surface of a cube, with points moved by `move`.
 template <class Move>
 std::vector<point> cube(const Move& move) {
     std::vector<point> points;
@@ -167,14 +167,14 @@ std::vector<point> cube(const Move& move) {
 std::vector<point> turned_cube(generator&) {
     return cube(turned);
 }
-/// By up to two units in the last place of 0.5.
+/// Moves points by up to two units in the last place of 0.5.
 std::vector<point> jittered_cube(generator& random) {
     return cube([&](point p) {
         for (double& x : p) x = rounded(x) + (static_cast<double>(random() % 5) - 2) * 0x1p-53;
         return p;
     });
 }
-/// Circles of equal size above each other, turned.
+/// Equal circles above each other, rotated.
 std::vector<point> cylinder(generator&) {
     std::vector<point> points;
     for (int height = 0; height < 20; ++height)
@@ -184,7 +184,8 @@ std::vector<point> cylinder(generator&) {
         }
     return points;
 }
-/// On one plane, and a cluster of neighbouring doubles around another of its points; and two more.
+/// Points on a plane, a cluster of adjacent doubles around another point of it, and two more
+/// points.
 std::vector<point> plane_and_cluster(generator& random) {
     std::vector<point> points{{0, 0, 1}, {1, 0, 0}};
     for (int i = 0; i < 10; ++i)

@@ -1,4 +1,4 @@
-// The impacts of a step in the order of their times, and the zones that must be solved together.
+// The impacts of a step in order of time, and the zones that must be solved together.
 #include <algorithm>
 #include <ccd/first_contacts.hpp>
 #include <ccd/step.hpp>
@@ -13,7 +13,7 @@ struct impact {
     std::vector<ccd::vertex_index> vertices;
 };
 
-/// Of all reported pairs, the first ones first.
+/// Returns the impacts of all reported pairs, in order of time.
 std::vector<impact> impacts_of(const ccd::step_result& result, const ccd::vertex_rows& positions) {
     std::vector<impact> impacts;
     ccd::for_each_kind([&]<ccd::kind K>() {
@@ -28,7 +28,7 @@ std::vector<impact> impacts_of(const ccd::step_result& result, const ccd::vertex
     return impacts;
 }
 
-/// The zone of each vertex: those that impacts join have one number.
+/// Returns the zone of each vertex. Vertices joined by impacts have equal numbers.
 std::vector<int> zones_of(const std::vector<impact>& impacts, std::size_t vertices) {
     std::vector<ccd::edge> joined;
     for (const impact& i : impacts)
@@ -39,7 +39,7 @@ std::vector<int> zones_of(const std::vector<impact>& impacts, std::size_t vertic
 }  // namespace
 
 int main() {
-    // Two beads fall on a face, a third one on another face; a fourth one falls beside.
+    // Two beads fall on a face, a third one on another face. A fourth one misses.
     const ccd::mesh before{{{0, 0, 0},
                             {1, 0, 0},
                             {0, 1, 0},

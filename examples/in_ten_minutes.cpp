@@ -1,4 +1,4 @@
-// From arrays of a simulation of one's own to a step without collisions, and to its contacts.
+// From arrays of a simulation to a step without collisions, and to its contacts.
 #include <ccd/advance.hpp>
 #include <ccd/first_contacts.hpp>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace {
 
-// As simulations keep them: x y z of each vertex, three vertices of each face.
+// Arrays of a simulation: x y z of each vertex, three vertices of each face.
 using numbers = std::vector<double>;
 
 std::vector<ccd::face> faces_of(const std::vector<int>& triangles) {
@@ -33,7 +33,7 @@ int main() {
     ccd::mesh_steps steps(faces_of(triangles), {}, x.size() / 3);
     const ccd::vertex_rows step{x.data(), wanted.data(), x.size() / 3};
 
-    // What touches, when first, and where.
+    // Contacts: pairs, first times and points.
     const ccd::step_result found = steps.run(step, {.times = true});
     const auto& pairs = found.pairs.vertex_face;
     const auto contacts = ccd::first_contacts(step, pairs, found.times.vertex_face);
@@ -44,7 +44,7 @@ int main() {
                     c.time.low, c.normal.x, c.normal.y, c.normal.z);
     }
 
-    // As far as it is free: positions whose step from x has no contact, exactly.
+    // The free step: exactly, the step from x to these positions has no contact.
     const ccd::advance_result free = ccd::advance(steps, step, {});
     std::printf("free for %.3f of the step\n", free.fraction);
     return pairs.size() == 3 && free.fraction > 0.24 ? 0 : 1;

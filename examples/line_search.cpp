@@ -1,5 +1,5 @@
-// A line search of a minimiser that lets nothing touch: three beads want to get to the other side
-// of a fence, and come as near as they can.
+// A line search of a minimiser without contacts: three beads are attracted to the other side of a
+// fence, and come as near as they can.
 #include <ccd/advance.hpp>
 #include <cstddef>
 #include <cstdio>
@@ -9,13 +9,13 @@ namespace {
 
 using positions = std::vector<ccd::point<double>>;
 
-// Vertices 0 to 3: the fence, two triangles. 4 to 6: beads, and where each wants to be.
+// Vertices 0 to 3 are the fence, two triangles; 4 to 6 are beads, with their targets.
 const std::vector<ccd::face> faces{{0, 1, 2}, {0, 2, 3}};
 const positions start{{0, -1, 0},     {0, 1, 0},   {0, 1, 1},   {0, -1, 1},
                       {-1, 0.3, 0.3}, {-1, 2, .5}, {1, -.2, .6}};
 const positions wanted{start[0], start[1], start[2], start[3], {2, 1, 1}, {2, 2, 0}, {-2, .5, .5}};
 
-// By the mesh's parts: none holds the others back.
+// One group per part of the mesh, so that none stops the others.
 const std::vector<int> bodies = ccd::connected_parts(faces, {}, start.size());
 
 double energy(const positions& x) {
@@ -32,7 +32,7 @@ ccd::point<double> middle(const ccd::point<double>& p, const ccd::point<double>&
     return {0.5 * (p.x + q.x), 0.5 * (p.y + q.y), 0.5 * (p.z + q.z)};
 }
 
-/// From x towards `goal`, as far as is free and lowers the energy.
+/// Returns positions between x and `goal`, as far as the step is free and lowers the energy.
 positions line_search(ccd::mesh_steps& steps, const positions& x, positions goal) {
     for (int halvings = 0; halvings < 50; ++halvings) {
         const ccd::advance_result free = ccd::advance(steps, {x, goal}, {.groups = bodies});
@@ -48,8 +48,8 @@ int main() {
     ccd::mesh_steps steps(faces, {}, start.size());
     positions x = start;
     for (int iteration = 1; iteration <= 3; ++iteration) {
-        const positions next = line_search(steps, x, wanted);  // of this energy, Newton's step
-        if (!steps.run({x, next}).pairs.vertex_face.empty()) return 1;  // it cannot happen
+        const positions next = line_search(steps, x, wanted);  // Newton's step for this energy
+        if (!steps.run({x, next}).pairs.vertex_face.empty()) return 1;  // impossible
         std::printf("iteration %d: energy %.6f\n", iteration, energy(x = next));
     }
     return x[5] == wanted[5] && x[4].x < 0 ? 0 : 1;

@@ -1,19 +1,18 @@
 #!/usr/bin/env python3
 """Makes the bundled scene: one step of a cloth that falls over a ball and onto itself.
 
-Writes frame0.ply and frame1.ply (binary little-endian, double coordinates, one mesh with the same
-faces in both) into the folder given, by default scenes/cloth-over-ball beside this file:
+Writes frame0.ply and frame1.ply (binary little-endian, double coordinates, the same faces in both)
+into a folder, by default scenes/cloth-over-ball next to this file:
 
     python3 examples/make_scene.py [FOLDER]
 
-The cloth, folded once, is simulated with position-based dynamics (Mueller et al. 2007) until the
-folded flap lands. The last step is long and has no collision response, so the cloth passes through
-the ball and through itself: those passages are what collision detection has to find. Beside the
-ball lie plates in, or within rounding of, contact, which move rigidly: the hard case for methods
-that only bound their rounding error.
+The folded cloth is simulated with position-based dynamics (Mueller et al. 2007) until its flap lands.
+The last step is long and has no collision response, so that the cloth passes through the ball and
+itself: collision detection must find these contacts. Rigidly moving plates next to the ball are in
+contact, or within rounding of it: a hard case for methods that only bound their rounding error.
 
-Standard library alone, and no function but + - * / and sqrt, which IEEE 754 rounds correctly: the
-files come out the same on every machine.
+Uses only the standard library, and + - * / and sqrt, which IEEE 754 rounds correctly: all machines
+write equal files.
 """
 
 import math
@@ -26,23 +25,23 @@ SPACING = 0.06
 BALL_RADIUS = 0.5
 BALL_SUBDIVISIONS = 3
 BALL_MARGIN = 0.025  # more than the sag of the flat faces below the sphere
-SELF_DISTANCE = 0.05  # less than SPACING, or neighbours would push each other apart
+SELF_DISTANCE = 0.05  # less than SPACING, so that neighbours do not push each other apart
 GRAVITY = 9.81
 TIME_STEP = 1 / 120
 STEPS = 54
 ITERATIONS = 12
 LAST_TIME_STEP = 1 / 40
-# The whole scene drifts over the last step, so that nothing in it is exactly at rest.
+# The whole scene drifts in the last step, so that nothing is exactly at rest.
 DRIFT = (0.03, 0.02, 0.0)
 
 
 def make_ball():
-    """An icosphere around (0, 0, BALL_RADIUS)."""
+    """Returns an icosphere around (0, 0, BALL_RADIUS)."""
     golden = (1 + math.sqrt(5)) / 2
     points = []
     for a, b in ((1, golden), (-1, golden), (1, -golden), (-1, -golden)):
         points += [(0.0, a, b), (a, b, 0.0), (b, 0.0, a)]
-    # A face of the icosahedron is three points at pairwise distance 2.
+    # The points of a face of the icosahedron have pairwise distance 2.
     def near(i, j):
         return abs(sum((x - y) ** 2 for x, y in zip(points[i], points[j])) - 4) < 1e-9
 
@@ -87,7 +86,7 @@ def normalized(p):
 
 
 def make_cloth():
-    """A square sheet above the ball, one third of it folded back over the rest."""
+    """Returns a square sheet above the ball, with one third folded back over the rest."""
     n = CLOTH_POINTS
     flat = 24  # columns before the fold
     fold_columns = 6  # columns that make the half turn
@@ -97,7 +96,7 @@ def make_cloth():
         if i < flat:
             x, z = (i - 13) * SPACING, 0.0
         elif i < flat + fold_columns:
-            # A half turn as a parabola: sideways out and back while it climbs.
+            # A half turn as a parabola: out and back while it climbs.
             u = (i - flat + 1) / (fold_columns + 1)
             x = (flat - 1 - 13) * SPACING + 0.6 * u * (1 - u)
             z = fold_radius_height * u
@@ -119,7 +118,7 @@ def make_cloth():
 
 
 def cloth_constraints():
-    """(i, j, rest length, stiffness): stretch and shear at full stiffness, bending much softer."""
+    """Returns (i, j, rest length, stiffness): stretch and shear at full stiffness, bending much softer."""
     n = CLOTH_POINTS
     diagonal = SPACING * math.sqrt(2)
     constraints = []
@@ -167,13 +166,13 @@ def push_out_of_ball_and_floor(points, previous):
         if p[2] < BALL_MARGIN:
             p[2] = BALL_MARGIN
             touching = True
-        if touching:  # friction: lose part of the motion of this step
+        if touching:  # friction removes part of the motion of this step
             for axis in range(3):
                 p[axis] += 0.1 * (before[axis] - p[axis])
 
 
 def push_layers_apart(points):
-    """Keeps points of different layers SELF_DISTANCE apart (points as small balls, on a grid)."""
+    """Keeps points of different layers SELF_DISTANCE apart, as small balls on a grid."""
     cells = {}
     for i, p in enumerate(points):
         key = tuple(math.floor(c / SELF_DISTANCE) for c in p)
@@ -199,7 +198,7 @@ def push_layers_apart(points):
 
 
 def simulate_cloth(points):
-    """The cloth's points before and after the last, unchecked step."""
+    """Returns the cloth's points before and after the last, unchecked step."""
     constraints = cloth_constraints()
     velocity = [[0.0, 0.0, -1.0] for _ in points]
     for _ in range(STEPS):
@@ -227,7 +226,7 @@ def simulate_cloth(points):
 
 
 def make_plates():
-    """Layers of separate square plates in tilted planes, each layer a little above the last.
+    """Returns layers of separate square plates in tilted planes, each slightly above the last.
 
     Every plate moves by the same drift, so nothing comes nearer to anything. But the plates of a
     layer are coplanar up to rounding, and layers are a few ulps to a micrometre apart: whether two

@@ -1,13 +1,13 @@
-// A bound rule of one's own in a page of code: `running`, Wilkinson's running error analysis
-// (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. 2002, Section 3.3), valid under
-// rounding to nearest. Prints its bound beside those of the other rules.
+// A custom bound rule: Wilkinson's running error analysis (Higham, Accuracy and Stability of
+// Numerical Algorithms, 2nd ed. 2002, Section 3.3), valid for rounding to nearest. Prints its bound
+// next to those of other rules.
 #include <cstdio>
 #include <errbound/tracked.hpp>
 
-// What a rule must provide is listed in errbound/rules/rule.hpp. This one keeps its bound in
-// units of the unit roundoff u, |value − true value| <= u·units: a sum or product rounded to v adds
-// |v| units to those inherited. Proof sketch of the rest: every count of units is multiplied by 1 +
-// 8ε, which exceeds its own at most seven roundings; products add 4η/u for their underflow.
+// errbound/rules/rule.hpp lists the members of a rule. This rule keeps its bound in units of the
+// unit roundoff u, |value − true value| <= u·units: a sum or product rounded to v adds |v| units to
+// those inherited. Proof sketch of the rest: every count of units is multiplied by 1 + 8ε, which
+// covers its at most seven roundings; products add 4η/u for underflow.
 struct running {
     static constexpr const char* name = "running";
 
@@ -52,7 +52,7 @@ struct running {
     }
     template <class T>
     static bound<T> scale(const T& v, operand<T> a, int e) {
-        // Exact but for underflow, as for `tight`.
+        // Exact except for underflow, as for `tight`.
         const errbound::tight::bound<T> same{error(a.value, a.bound)};
         return within(v, errbound::tight::scale<T>(v, {a.value, same}, e).error);
     }
@@ -64,7 +64,7 @@ struct running {
     }
 };
 
-// Any generic code takes the new rule at once.
+// Generic code works with the new rule.
 template <class Rule>
 void show() {
     using number = errbound::tracked<double, Rule>;

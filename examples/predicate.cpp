@@ -1,9 +1,9 @@
-// For predicate authors: an expression written once, whose sign is never a guess.
+// A predicate from an expression that is written once. Its sign is always correct.
 #include <cstdio>
 #include <errbound/tracked.hpp>
 #include <initializer_list>
 
-// Twice the signed area of the triangle a b c, for any scalar.
+// Twice the signed area of the triangle a b c, for any number type.
 template <class S>
 S orient2d(S ax, S ay, S bx, S by, S cx, S cy) {
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);

@@ -1,5 +1,4 @@
-// A simulation's loop: a cloth, a thread and two beads in one mesh, which is stepped again and
-// again.
+// A simulation's loop: repeated steps of one mesh with a cloth, a thread and two beads.
 #include <ccd/step.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -25,20 +24,20 @@ void print(const ccd::step_result& result) {
 }  // namespace
 
 int main() {
-    // Vertices 0 to 3: a cloth of two triangles. 4 and 5: a thread above it, an edge of its own.
-    // 6 and 7: beads, vertices on no edge, one above the thread and one above the other.
+    // Vertices 0 to 3: a cloth of two triangles. 4 and 5: a thread above it, a separate edge.
+    // 6 and 7: beads, vertices without edges, one above the thread and one above the other.
     const std::vector<ccd::face> faces{{0, 1, 2}, {0, 2, 3}};
     const std::vector<ccd::edge> edges{{4, 5}};
     positions now{{0, 0, 0},      {4, 0, 0},      {4, 4, 0},   {0, 4, 0},
                   {1, 1.5, 0.75}, {3, 1.5, 0.75}, {2, 1.5, 2}, {2, 1.5, 3}};
 
-    // Of pairs that all lie in the cloth, a solver of its own takes care; its corners are pinned.
+    // A separate solver handles pairs within the cloth. Its corners are pinned.
     const std::vector<int> bodies{0, 0, 0, 0, 1, 1, 2, 3};
     const std::vector<std::uint8_t> pinned{1, 1, 1, 1, 0, 0, 0, 0};
     const ccd::step_options options{.initial_contact = true,
                                     .filter = {.groups = bodies, .pinned = pinned}};
 
-    ccd::mesh_steps steps(faces, edges, now.size());  // keeps what steps have in common
+    ccd::mesh_steps steps(faces, edges, now.size());  // keeps data that steps share
     std::size_t found = 0;
     for (int step = 1; step <= 3; ++step) {
         positions next = now;

@@ -1,5 +1,4 @@
-// The README's three uses as one program: a predicate, a step of a mesh, a number that knows its
-// error.
+// The README's three uses in one program: a predicate, a step of a mesh, a number with its error.
 #include <ccd/step.hpp>
 #include <cstdio>
 #include <errbound/predicate.hpp>

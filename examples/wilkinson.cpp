@@ -1,8 +1,6 @@
-// For people who decide on algebraic numbers: the real roots of a polynomial that is known for
-// fooling floating point, isolated exactly.
-//
-// Wilkinson's: (x − 1)(x − 2)···(x − 20) with the coefficient −210 of x^19 less by 2^-23. Ten of
-// the twenty roots are then complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
+// Exact real roots of Wilkinson's polynomial, which floating point gets wrong: (x − 1)(x − 2)···(x
+// − 20) with the coefficient −210 of x^19 reduced by 2^-23. Ten of the twenty roots are then
+// complex. (J. H. Wilkinson, The perfidious polynomial, 1984.)
 #include <cstddef>
 #include <cstdio>
 #include <errbound/polynomial.hpp>
@@ -12,8 +10,8 @@
 
 using errbound::integer;
 
-// Sign changes between neighbours on [0, 25] in steps of 1e-5, each value by Horner's rule in
-// double: what one would try first. Near roots the signs are those of rounding errors.
+// The obvious attempt: counts sign changes on [0, 25] in steps of 1e-5, by Horner's rule in double.
+// Near roots the signs are those of rounding errors.
 int sign_changes_in_double(const std::vector<integer>& p) {
     std::vector<double> c;
     for (const integer& x : p) c.push_back(static_cast<double>(x));
@@ -34,7 +32,7 @@ int main() {
         c.insert(c.begin(), 0);
         for (std::size_t i = 0; i + 1 < c.size(); ++i) c[i] -= k * c[i + 1];
     }
-    for (integer& x : c) x <<= 23;  // a multiple, so that all coefficients are whole
+    for (integer& x : c) x <<= 23;  // a multiple with integer coefficients
     c[19] -= 1;
 
     std::printf("Values in double change sign %d times\n", sign_changes_in_double(c));
@@ -48,7 +46,7 @@ int main() {
         std::printf("%14.10f\n", roots[k].low.to_double());
     }
 
-    // One root to 30 digits: its interval's lower end, n·2^e, in units of 10^-30.
+    // One root to 30 digits: the lower end n·2^e of its interval, in units of 10^-30.
     const std::size_t last = roots.size() - 1;
     roots.refine(last, 1e-31);
     const auto& low = roots[last].low;
@@ -58,9 +56,10 @@ int main() {
     std::string text = to_string(digits);
     std::printf("The largest: %s\n", text.insert(text.size() - 30, ".").c_str());
 
-    // Another polynomial's sign there; and whether it vanishes, which no number of digits tells.
+    // The sign of another polynomial at this root. Digits cannot prove that it vanishes.
     const char* const names[] = {"negative", "zero", "positive"};
-    const errbound::polynomial<double> g{-20.846908101482256, 1.0};  // x less about that root
+    const errbound::polynomial<double> g{-20.846908101482256,
+                                         1.0};  // x minus an approximation of the root
     std::printf("x - 20.846908101482256 there: %s\n",
                 names[static_cast<int>(roots.sign_at(g, last))]);
     std::printf("p itself there: %s\n", names[static_cast<int>(roots.sign_at(p, last))]);

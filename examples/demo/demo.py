@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Decides one step of a bundled scene by four methods: a table of reported pairs, and a picture of those of exact.
+"""Decides one step of a bundled scene by four methods. Prints a table of reported pairs and draws those of exact.
 
     python3 examples/demo/demo.py CCD OUT
 
@@ -17,7 +17,7 @@ ROW = "{:<8}{:>10}{:>10}{:>10}{:>10}{:>12}{:>10}{:>12}"
 
 
 def step(ccd, out, method):
-    """The statistics and the reported pairs of one method."""
+    """Returns statistics and reported pairs of one method."""
     pairs, statistics = out / f"{method}.csv", out / f"{method}.json"
     count = ["--explain"] if method == "exact" else []  # exact counts its candidates only on request
     subprocess.run([ccd, "step", *FRAMES, "--method", method, *count, "--pairs", pairs, "--json", statistics],

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Draws the colliding pairs of one step on the mesh, as a PNG.
+"""Draws the colliding pairs of one step on the mesh, as a PNG. Requires matplotlib.
 
     python3 examples/demo/draw_pairs.py FRAME0.ply FRAME1.ply PAIRS.csv OUT.png
 
-PAIRS.csv is what `ccd step --pairs` writes: lines `vf,v,f0,f1,f2` and `ee,a0,a1,b0,b1`. The mesh is
-shown at the end of the step, whole and enlarged where contacts are densest; each pair has a mark
-at the middle of its points, drawn over the mesh even where the mesh would hide it. Needs
-matplotlib.
+PAIRS.csv is written by `ccd step --pairs`: lines `vf,v,f0,f1,f2` and `ee,a0,a1,b0,b1`. The picture shows
+the mesh at the end of the step, whole and enlarged where contacts are densest. A mark at the middle
+of each pair's points is visible through the mesh.
 """
 
 import struct
@@ -27,7 +26,7 @@ LIGHT_DIRECTION = np.array([-0.8, -0.5, 1.2])
 VERTEX_FACE_COLOUR = "#d7301f"
 EDGE_EDGE_COLOUR = "#0050d0"
 PART_COLOURS = ((0.93, 0.87, 0.72), (0.55, 0.68, 0.84), (0.72, 0.82, 0.68))
-ZOOM_RADIUS = 0.14  # half the side of the enlarged square, as a part of the scene's width
+ZOOM_RADIUS = 0.14  # half the side of the enlarged square, as a fraction of the scene's width
 
 PLY_TYPES = {
     "char": "b", "int8": "b", "uchar": "B", "uint8": "B",
@@ -38,11 +37,11 @@ PLY_TYPES = {
 
 
 class BadInput(Exception):
-    """The message is for the user."""
+    """An error with a message for the user."""
 
 
 def ply_header(path, lines):
-    """(byte order, "" for ascii; [(element, count, [(property, type or (count type, item type))])])."""
+    """Returns (byte order, "" for ascii; [(element, count, [(property, type or (count type, item type))])])."""
     order = None
     elements = []
     for line in lines:
@@ -63,7 +62,7 @@ def ply_header(path, lines):
 
 
 def ply_values(order, body):
-    """A function that reads the body's next value, of the type that it gets."""
+    """Returns a function that reads the body's next value of a given type."""
     if order == "":
         words = iter(body.split())
         return lambda kind: (float if kind in "fd" else int)(next(words))
@@ -79,7 +78,7 @@ def ply_values(order, body):
 
 
 def read_ply(path):
-    """(vertices as an n x 3 array, faces as lists of vertex indices) of an ascii or binary PLY."""
+    """Returns vertices, an n x 3 array, and faces, lists of vertex indices, of an ascii or binary PLY file."""
     data = Path(path).read_bytes()
     head, marker, body = data.partition(b"end_header")
     lines = head.decode("ascii", "replace").split("\n")
@@ -105,18 +104,18 @@ def read_ply(path):
 
 
 def read_pairs(path):
-    """The vertex/face and the edge/edge pairs, each a list of four vertex indices."""
+    """Returns vertex/face and edge/edge pairs, each a list of four vertex indices."""
     pairs = {"vf": [], "ee": []}
     for number, line in enumerate(Path(path).read_text().splitlines(), 1):
         kind, *indices = line.split(",")
         if kind not in pairs or len(indices) != 4:
-            raise BadInput(f"{path}, line {number}: expected vf or ee and 4 indices, got: {line}")
+            raise BadInput(f"{path}, line {number} is '{line}'; expected vf or ee and 4 indices")
         pairs[kind].append([int(i) for i in indices])
     return pairs["vf"], pairs["ee"]
 
 
 def parts(vertex_count, faces):
-    """For every vertex the number of its connected part, 0 for the part with most vertices."""
+    """Returns the connected component of each vertex; 0 is the largest one."""
     parent = list(range(vertex_count))
 
     def root(i):
@@ -139,7 +138,7 @@ def unit(v):
 
 
 class Picture:
-    """The mesh projected along VIEW_DIRECTION, its faces shaded and sorted from back to front."""
+    """Projects the mesh along VIEW_DIRECTION, with shaded faces sorted from back to front."""
 
     def __init__(self, vertices, faces):
         eye = unit(VIEW_DIRECTION)
@@ -155,7 +154,7 @@ class Picture:
             normal = np.cross(vertices[f[1]] - vertices[f[0]], vertices[f[2]] - vertices[f[0]])
             length = np.linalg.norm(normal)
             normal = normal / length if length > 0 else eye
-            if normal @ eye < 0:  # cloth is seen from both sides
+            if normal @ eye < 0:  # both sides of cloth are visible
                 normal = -normal
             shade = 0.55 + 0.45 * max(0.0, normal @ light)
             base = PART_COLOURS[min(part[f[0]], len(PART_COLOURS) - 1)]
@@ -170,7 +169,7 @@ class Picture:
                 linewidths=0.5 if large else 0.2,
             )
         )
-        if large:  # near by, the features themselves can be told apart
+        if large:  # features are large enough to draw
             axes.add_collection(
                 PolyCollection(
                     [self.plane[p[1:]] for p in vf],
@@ -202,7 +201,7 @@ class Picture:
 
 
 def densest(middles, radius):
-    """The mark with most marks in the square of that half side around it."""
+    """Returns the mark with the most marks in the square of this half side around it."""
     near = [(np.abs(middles - m).max(axis=1) < radius).sum() for m in middles]
     return middles[int(np.argmax(near))]
 

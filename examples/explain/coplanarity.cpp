@@ -1,8 +1,7 @@
-// The cubic that says when a vertex is in a face's plane, from the library's own forms: what puts
-// the most into its error, arithmetic or that coordinates were rounded to floats before, near the
-// origin and far from it.
+// The error of the cubic whose roots are the times at which a vertex is in a face's plane. Compares
+// the shares of arithmetic and of coordinates rounded to floats, near the origin and far from it.
 //
-// usage: coplanarity [FILE]; FILE is what `errbound explain` reads.
+// usage: coplanarity [FILE]; FILE is written for `errbound explain`.
 #include <ccd/methods/forms.hpp>
 #include <ccd/query.hpp>
 #include <cmath>

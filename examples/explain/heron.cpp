@@ -1,7 +1,7 @@
-// Heron's formula on a needle: not the subtractions are to blame for what it loses, but the sum
-// before them. Kahan's order of operations does without.
+// Heron's formula on a needle: the sum before the subtractions causes the error, not these. Kahan's
+// order of operations avoids it.
 //
-// usage: heron [FILE]; FILE is what `errbound explain` reads.
+// usage: heron [FILE]; FILE is written for `errbound explain`.
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
 #include <exception>
@@ -18,7 +18,8 @@ S heron(const S& a, const S& b, const S& c) {
     return sqrt(half * (half - a) * (half - b) * (half - c));
 }
 
-// For a >= b >= c. Source: Kahan 1986, Miscalculating area and angles of a needle-like triangle.
+// Precondition: a >= b >= c. Source: Kahan 1986, Miscalculating area and angles of a needle-like
+// triangle.
 template <class S>
 S kahan(const S& a, const S& b, const S& c) {
     const errbound::scope s("Kahan");

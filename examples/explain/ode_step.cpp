@@ -1,7 +1,7 @@
-// Steps of an orbit around the sun by the leapfrog method: is it the forces or the positions that
-// lose digits? And the same orbit in coordinates that are centred elsewhere.
+// Errors of forces and positions in an orbit around the sun by the leapfrog method, with two
+// origins of coordinates.
 //
-// usage: ode_step [FILE]; FILE is what `errbound explain` reads.
+// usage: ode_step [FILE]; FILE is written for `errbound explain`.
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
 #include <exception>
@@ -11,7 +11,7 @@ struct body {
     S x, y, vx, vy;
 };
 
-// Half a kick, a drift, half a kick; the sun is at (sun, 0).
+// Half a kick, a drift, half a kick. The sun is at (sun, 0).
 template <class S>
 void step(body<S>& b, const S& h, const S& sun) {
     const errbound::scope s("step");
@@ -36,7 +36,7 @@ void step(body<S>& b, const S& h, const S& sun) {
     kick();
 }
 
-// Relative to the sun.
+// Positions are relative to the sun.
 template <class S>
 S x_after(int steps, double sun) {
     body<S> b{S(1 + sun), S(0), S(0), S(1.1)};

@@ -1,13 +1,13 @@
-// Where the error of a variance comes from, and how it goes: the naive formula, the compensated
-// one, and what is left. docs/how-wrong.md tells it.
+// The sources of the error of a variance, in the naive and the compensated formula
+// (docs/how-wrong.md).
 //
-// usage: variance [FILE]; FILE is what `errbound explain` reads.
+// usage: variance [FILE]; FILE is written for `errbound explain`.
 #include <cstdio>
 #include <errbound/explain/explain.hpp>
 #include <exception>
 #include <vector>
 
-// The mean of squares less the square of the mean.
+// The mean of squares minus the square of the mean.
 template <class S>
 S naive_variance(const std::vector<S>& x) {
     const errbound::scope s("naive");
@@ -25,7 +25,8 @@ S naive_variance(const std::vector<S>& x) {
     return (squares - sum * sum / n) / (n - 1);
 }
 
-// Chan, Golub and LeVeque's: squares of deviations, less what the mean's own error puts into them.
+// The formula of Chan, Golub and LeVeque: squares of deviations, corrected for the error of the
+// mean.
 template <class S>
 S compensated_variance(const std::vector<S>& x) {
     const errbound::scope s("compensated");
@@ -46,7 +47,7 @@ S compensated_variance(const std::vector<S>& x) {
     return (squares - sum * sum / n) / (n - 1);
 }
 
-// Readings of a height in metres that hardly changes, far from zero. Each is exactly a double.
+// Readings of an almost constant height in metres, far from zero. Each is exactly a double.
 template <class S>
 std::vector<S> readings() {
     std::vector<S> x;

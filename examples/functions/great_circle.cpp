@@ -1,17 +1,17 @@
-// The distance of two places on a sphere by two formulas: which digits of it are right.
+// The distance of two places on a sphere by two formulas, with the correct digits of each.
 #include <errbound/decimal.hpp>
 #include <errbound/elementary.hpp>
 #include <errbound/printing.hpp>
 #include <iostream>
 
-/// The assumed error of a C library that promises no more (docs/bound-rules.md).
+/// The assumed error of the C library's functions (docs/bound-rules.md).
 template <>
 inline constexpr double errbound::function_error<errbound::elementary_function::cos, double> = 2;
 
 using number = errbound::tracked<double>;
 using namespace errbound::literals;
 
-/// Degrees of latitude and longitude.
+/// Latitude and longitude in degrees.
 struct place {
     number latitude, longitude;
 };
@@ -26,7 +26,7 @@ number by_cosine(const place& a, const place& b) {
     return acos(sin(p) * sin(q) + cos(p) * cos(q) * cos(radians(b.longitude - a.longitude)));
 }
 
-/// Haversines, half of 1 − cos.
+/// The haversine formula, with (1 − cos)/2.
 number by_haversine(const place& a, const place& b) {
     const number up = sin(radians(b.latitude - a.latitude) / 2);
     const number across = sin(radians(b.longitude - a.longitude) / 2);
@@ -35,11 +35,11 @@ number by_haversine(const place& a, const place& b) {
 }
 
 int main() {
-    const number metres = 6371008.8_tracked;  // of the Earth's mean radius
+    const number metres = 6371008.8_tracked;  // the Earth's mean radius
     const place tower{48.85837_tracked, 2.29448_tracked};
     const place places[] = {{40.6892_tracked, -74.0445_tracked},   // in New York
                             {48.85297_tracked, 2.34993_tracked},   // across the town
-                            {48.85838_tracked, 2.29449_tracked}};  // a step away
+                            {48.85838_tracked, 2.29449_tracked}};  // a few metres away
     for (const place& other : places)
         std::cout << "by cosine " << metres * by_cosine(tower, other) << " m, by haversine "
                   << metres * by_haversine(tower, other) << " m\n";

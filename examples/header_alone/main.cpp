@@ -1,4 +1,4 @@
-// A project that has a copy of include/errbound and nothing else of it. Without CMake:
+// A project with a copy of include/errbound only. Without CMake:
 //
 //   g++ -std=c++20 -O2 -I PATH/TO/errbound/include main.cpp
 #include <algorithm>
@@ -12,8 +12,8 @@
 using errbound::sign_type;
 using point = std::array<double, 2>;
 
-/// Positive inside a simple polygon, zero on its border, negative outside: by the crossings of a
-/// ray to the right.
+/// Positive inside a simple polygon, zero on its border, negative outside. Counts the edges that a
+/// ray to the right crosses.
 sign_type side_of(const std::vector<point>& polygon, const point& p) {
     bool inside = false;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -32,10 +32,10 @@ sign_type side_of(const std::vector<point>& polygon, const point& p) {
 }
 
 int main() {
-    // On the border, and the next double inside and outside of it.
+    // A point on the border, and the adjacent doubles inside and outside.
     const std::vector<point> square{{0.1, 0.1}, {0.7, 0.1}, {0.7, 0.7}, {0.1, 0.7}};
     const std::vector<point> triangle{{0, 0}, {3, 1}, {0, 1}};
-    const double third = 1.0 / 3;  // a little less than that
+    const double third = 1.0 / 3;  // rounded down
     const bool right = side_of(square, {0.3, 0.7}) == sign_type::zero &&
                        side_of(square, {0.3, std::nextafter(0.7, 0)}) == sign_type::positive &&
                        side_of(square, {0.3, std::nextafter(0.7, 1)}) == sign_type::negative &&

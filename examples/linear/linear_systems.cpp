@@ -1,5 +1,5 @@
-// Linear systems whose solutions come with certified errors: plain doubles by certified_solve, and
-// Eigen's own decompositions over tracked numbers, for entries that are known to some error only.
+// Linear systems with certified errors: certified_solve for plain doubles, and Eigen's
+// decompositions with tracked numbers for entries with errors.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cstdio>
@@ -8,16 +8,17 @@
 
 using Eigen::Index;
 
-/// Hilbert's matrix times the least common multiple of 1 to 11: its entries are whole up to n = 6,
-/// and rounded beyond.
+/// Hilbert's matrix times the least common multiple of 1 to 11. Its entries are integers up to n =
+/// 6 and rounded beyond.
 Eigen::MatrixXd hilbert(Index n) {
     return Eigen::MatrixXd::NullaryExpr(
         n, n, [](Index i, Index j) { return 27720.0 / double(i + j + 1); });
 }
 
 int main() {
-    // Plain doubles. Digits are lost in a solution by LU decomposition, nobody knows how many; here
-    // every entry says, until the matrix is too near a singular one to be told from it.
+    // Plain doubles. A solution by LU decomposition loses an unknown number of digits.
+    // certified_solve bounds the error of every entry, unless the matrix is too close to a singular
+    // one.
     for (const Index n : {3, 6, 9, 14}) {
         const Eigen::MatrixXd a = hilbert(n);
         const Eigen::VectorXd b = Eigen::VectorXd::Ones(n), plain = a.partialPivLu().solve(b);
@@ -30,7 +31,7 @@ int main() {
                     plain(0));
     }
 
-    // Tracked numbers: a resistor network of which each conductance is known to one in a thousand.
+    // Tracked numbers: a resistor network with conductances known to one part in a thousand.
     using number = errbound::tracked<double>;
     const auto about = [](double x) { return number::within(x, x / 1000); };
     const number g01 = about(2), g12 = about(3), g02 = about(1), ground = about(0.5);

@@ -1,6 +1,5 @@
-// A step, and a free one, of a mesh that is spread over MPI's ranks, as a simulation with a
-// decomposition of its own has it: layers of cloth, a strip of each on every rank. Run by mpirun -n
-// 4 example_distributed_step.
+// A step and a free step of a mesh that a simulation distributes over MPI ranks: layers of cloth,
+// with a strip of each on every rank. Run: mpirun -n 4 example_distributed_step.
 #include <ccd/mpi.hpp>
 #include <cmath>
 #include <cstddef>
@@ -9,9 +8,9 @@
 
 namespace {
 
-constexpr std::size_t width = 60, layers = 4;  // squares along a strip, and across all of them
+constexpr std::size_t width = 60, layers = 4;  // width: squares along a strip
 
-/// What this rank has of layers that fall onto each other: squares of rows [first, last).
+/// This rank's squares, rows [first, last), of layers that fall onto each other.
 struct strips {
     std::vector<ccd::mpi::vertex_number> numbers;
     std::vector<ccd::point<double>> before, after;
@@ -36,7 +35,7 @@ struct strips {
 
   private:
     void add(std::size_t layer, std::size_t row, std::size_t column) {
-        // A number of the whole mesh, the same on each rank that has the vertex.
+        // The vertex's number in the whole mesh, equal on all ranks that have it.
         numbers.push_back((layer * (width + 1) + row) * (width + 1) + column);
         const double x = static_cast<double>(column), y = static_cast<double>(row),
                      z = 2 * static_cast<double>(layer), bump = 0.4 * std::sin(3 * x + y + z);

@@ -1,5 +1,4 @@
-// One query of exact, with the numbers that its stages look at: docs/collision-detection.md
-// follows it.
+// One query of exact, with the numbers of its stages (docs/collision-detection.md).
 #include <ccd/exact.hpp>
 #include <ccd/explain.hpp>
 #include <ccd/methods/forms.hpp>

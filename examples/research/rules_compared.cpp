@@ -1,5 +1,5 @@
-// How far bounds are above errors, and how often an estimate is too small, as dot products grow: an
-// experiment in single precision, held against double. A rule of one's own among the others.
+// An experiment with dot products in single precision, compared with double: the ratio of bounds to
+// errors, and how often an estimate is too small. It includes a custom rule.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-// Errors as if they were independent and right on average: squares add up, where `sharp` adds
-// sizes (Higham, Mary 2019). Each is at most √3 of its standard deviations. An estimate.
+// An estimate for independent errors of mean zero: it adds squares, where `sharp` adds sizes
+// (Higham, Mary 2019). Each error is at most √3 standard deviations.
 struct probable : errbound::derived_rule<probable, errbound::sharp> {
     static constexpr const char* name = "probable";
     static constexpr errbound::error_meaning error_is = errbound::error_meaning::estimate;
@@ -57,8 +57,8 @@ std::vector<float> drawn(std::size_t n, std::mt19937_64& random) {
     return x;
 }
 
-// The medians of bound / error of dot products of n terms, and how many in a hundred bounds are no
-// less than the error. Returns whether the rule has kept its promise.
+// Prints the median of bound / error for dot products of n terms, and the percentage of bounds that
+// are not less than the error. True if the rule keeps its guarantee.
 template <class Rule>
 bool show(std::size_t n) {
     std::mt19937_64 random(1);

@@ -1,11 +1,10 @@
-"""The paper's tables of simulations, by our own runs: what each method costs a simulation.
+"""Measures the cost of each method in simulations, as in the paper's tables.
 
-Runs `simulate` for every scene, method and seed that is asked for, each in a folder of its own below
---out, and goes on with those that were stopped. Then writes, and prints, report.md:
- * as the paper's Figure 12: looks a frame, seconds a frame in the solver and in detection and
-   response, frames without convergence, pairs that passed through each other, over thirds of a run;
- * as its Figure 11: queries, time and false positives of each method on the steps that the solver
-   proposed, as `ccd step` decides them.
+Runs `simulate` for every chosen scene, method and seed, each in a separate folder in --out, and continues stopped
+runs. Then writes and prints report.md:
+ * as the paper's Figure 12, over thirds of a run: tests per frame, seconds per frame in the solver, in detection and
+   in response, frames without convergence, pairs that passed through each other;
+ * as its Figure 11: queries, time and false positives of each method on the proposed steps, by `ccd step`.
 
 Wang, Tang, Manocha, Tong: TightCCD: Efficient and Robust Continuous Collision Detection using Tight
 Error Bounds, 2015.
@@ -29,23 +28,23 @@ def arguments():
                                      description="The paper's tables of simulations.")
     parser.add_argument("build", type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("--scenes", default="funnel1,funnel2,funnel3", metavar="NAME,...",
-                        help="of the first table (%(default)s)")
+                        help="scenes of the first table (%(default)s)")
     parser.add_argument("--methods", default=",".join(METHODS), metavar="NAME,...")
     parser.add_argument("--streams", default="clothes,twist,funnel1,car-post", metavar="NAME,...",
                         help="scenes of the second table (%(default)s)")
-    parser.add_argument("--seeds", type=int, default=3, metavar="N", help="runs of each (3)")
-    parser.add_argument("--resolution", type=int, metavar="R", help="of all scenes, else their own")
-    parser.add_argument("--frames", type=int, metavar="N", help="at most, else the scenes' own")
+    parser.add_argument("--seeds", type=int, default=3, metavar="N", help="runs of each scene and method (3)")
+    parser.add_argument("--resolution", type=int, metavar="R", help="resolution of all scenes; by default theirs")
+    parser.add_argument("--frames", type=int, metavar="N", help="maximum number of frames; by default the scenes'")
     parser.add_argument("--minutes", type=float, default=10, metavar="M",
-                        help="at most for a run; the table then tells how far it went (10)")
+                        help="time limit of a run; the table then shows its last frame (10)")
     parser.add_argument("--steps", type=int, default=20, metavar="N",
-                        help="of each stream, spread over its run (20)")
+                        help="steps of each stream, spread over its run (20)")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/simulations"))
     return parser.parse_args()
 
 
 def simulated(given, scene, method, seed, proposals=False):
-    """The folder of a run, which is made or gone on with first."""
+    """Starts or continues a run. Returns its folder."""
     folder = given.out / f"{scene}-{method}-{seed}{'-stream' if proposals else ''}"
     command = [given.build / "examples/simulation/simulate", scene, "--method", method,
                "--seed", seed, "--out", folder]
@@ -59,7 +58,7 @@ def simulated(given, scene, method, seed, proposals=False):
     try:
         run.wait(timeout=60 * given.minutes)
     except subprocess.TimeoutExpired:
-        run.send_signal(signal.SIGINT)  # it ends after a frame, and can be gone on with
+        run.send_signal(signal.SIGINT)  # it stops after a frame and can be continued
         run.wait()
     if run.returncode != 0:
         sys.exit(f"run: simulate {scene} ended with status {run.returncode}")
@@ -72,7 +71,7 @@ def frames_of(folder):
 
 
 def spread(values):
-    """Mean, and the largest deviation of a seed from it."""
+    """Returns the mean, and the largest deviation of a seed from it."""
     mean = statistics.mean(values)
     return f"{mean:.2f} ± {max(abs(v - mean) for v in values):.2f}" if len(values) > 1 else f"{mean:.2f}"
 
@@ -82,7 +81,7 @@ def part_of_run(rows, part, whole):
 
 
 def response_row(runs, part, whole):
-    """The cells of one method over a third of the run; runs are of one seed each."""
+    """Returns the cells of one method over a third of the run, with one run per seed."""
     parts = [part_of_run(rows, part, whole) for rows in runs]
     parts = [rows for rows in parts if rows]
     if not parts:
@@ -96,7 +95,7 @@ def response_row(runs, part, whole):
 
 
 def responses(given):
-    """The lines of the first table."""
+    """Returns the lines of the first table."""
     lines = ["| scene, frames | method | looks | solver, ms | detection, ms | response, ms | not converged | passed through |",
              "|---|---|---:|---:|---:|---:|---:|---:|"]
     for scene in given.scenes.split(","):
@@ -106,29 +105,29 @@ def responses(given):
         for part in range(3):
             for method, of_method in runs.items():
                 ended = min((int(rows[-1]["frame"]) if rows else 0) for rows in of_method)
-                told = method if ended >= (part + 1) * whole // 3 else f"{method} (to {ended})"
+                label = method if ended >= (part + 1) * whole // 3 else f"{method} (to {ended})"
                 cells = response_row(of_method, part, whole)
                 where = f"{scene}, {part * whole // 3} to {(part + 1) * whole // 3}"
-                lines.append(f"| {where} | {told} | " + " | ".join(cells) + " |")
+                lines.append(f"| {where} | {label} | " + " | ".join(cells) + " |")
     return lines
 
 
 def decided(given, before, proposed, method):
-    """What `ccd step` tells of a step: candidates, seconds of the narrow phase, pairs."""
+    """Returns candidates, seconds of the narrow phase, and pairs of a step by `ccd step`."""
     with tempfile.TemporaryDirectory() as folder:
-        pairs, told = pathlib.Path(folder) / "pairs", pathlib.Path(folder) / "told.json"
+        pairs, report = pathlib.Path(folder) / "pairs", pathlib.Path(folder) / "report.json"
         command = [given.build / "ccd", "step", before, proposed, "--method", method,
-                   "--threads", "1", "--pairs", pairs, "--json", told, "--explain"]
+                   "--threads", "1", "--pairs", pairs, "--json", report, "--explain"]
         if method != "exact":
             command.remove("--explain")
         subprocess.run(list(map(str, command)), check=True, stdout=subprocess.DEVNULL)
-        result = json.loads(told.read_text())
+        result = json.loads(report.read_text())
         return (sum(n for n in result["candidates"].values()), result["seconds"]["narrow"],
                 set(pairs.read_text().splitlines()))
 
 
 def streams(given):
-    """The lines of the second table."""
+    """Returns the lines of the second table."""
     lines = ["| stream | queries | " + " | ".join(STREAMS) + " |",
              "|---|---:|" + "---:|" * len(STREAMS)]
     for scene in given.streams.split(","):

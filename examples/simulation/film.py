@@ -1,7 +1,7 @@
-"""Pictures of a run of `simulate`, without a display: a contact sheet and a film.
+"""Draws a run of `simulate`, without a display: a contact sheet and a film.
 
-Arguments: the run's folder (frames/*.ply in it), then options as --help says. Leaves sheet.png and
-film.gif in the folder. Triangles are drawn from far to near, one colour a body.
+Arguments: the run's folder (with frames/*.ply) and options (--help). Writes sheet.png and film.gif into the folder.
+Triangles are drawn from far to near, with one colour per body.
 """
 import argparse
 import pathlib
@@ -12,7 +12,7 @@ try:
     import numpy
     from PIL import Image, ImageDraw
 except ImportError as missing:
-    sys.exit(f"film.py: {missing}: this Python wants NumPy and Pillow (pip install numpy pillow, or on Debian "
+    sys.exit(f"film.py: {missing}; expected NumPy and Pillow (pip install numpy pillow, or on Debian "
              "python3-matplotlib and /usr/bin/python3)")
 
 COLOURS = numpy.array([[86, 130, 196], [214, 128, 66], [105, 164, 103], [186, 92, 110],
@@ -21,7 +21,7 @@ BACKGROUND = (250, 250, 248)
 
 
 def read_ply(path):
-    """Positions, triangles and edges of a frame as `simulate` writes it: binary, this byte order."""
+    """Returns positions, triangles and edges of a frame of `simulate`, binary in this byte order."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + len(b"end_header\n")
     head = data[:end].decode()
@@ -35,7 +35,7 @@ def read_ply(path):
 
 
 def bodies_of(faces, vertices):
-    """Of each vertex, the number of its connected part."""
+    """Returns the index of each vertex's connected component."""
     part = numpy.arange(vertices)
     while True:
         least = part[faces].min(axis=1)
@@ -58,7 +58,7 @@ class camera:
         self.size = size
 
     def project(self, points):
-        """Pixels and depths."""
+        """Returns pixels and depths."""
         local = (points - self.eye) @ self.axes.T
         width, height = self.size
         scale = 1.4 * height / numpy.maximum(local[:, 2:], 1e-6)
@@ -88,10 +88,10 @@ def picture(points, faces, edges, body, view):
 def arguments():
     parser = argparse.ArgumentParser(description="A contact sheet and a film of a run.")
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--eye", type=float, nargs=3, help="else as run.txt says")
-    parser.add_argument("--target", type=float, nargs=3, help="else as run.txt says")
+    parser.add_argument("--eye", type=float, nargs=3, help="by default from run.txt")
+    parser.add_argument("--target", type=float, nargs=3, help="by default from run.txt")
     parser.add_argument("--size", type=int, nargs=2, default=(480, 400), metavar=("W", "H"))
-    parser.add_argument("--pictures", type=int, default=60, help="of the film")
+    parser.add_argument("--pictures", type=int, default=60, help="number of pictures of the film")
     return parser.parse_args()
 
 
@@ -99,7 +99,7 @@ def main():
     given = arguments()
     frames = sorted((given.folder / "frames").glob("*.ply"), key=lambda path: int(path.stem))
     if not frames:
-        sys.exit(f"film: found no frames in {given.folder}, expected frames/*.ply")
+        sys.exit(f"film: number of frames in {given.folder} is 0; expected frames/*.ply")
     text = (given.folder / "run.txt").read_text()
     told = {name: [float(x) for x in values.split()]
             for name, values in re.findall(r"^(eye|target) (.*)$", text, re.MULTILINE)}

@@ -1,9 +1,9 @@
-// The program `simulate`: runs a scene, with a method of choice in its collision handling.
+// The program `simulate`: runs a scene with a chosen method for collision handling.
 //
 //   simulate funnel1 --out out/funnel1
 //
-// Ctrl-C ends it after a frame; the same command goes on from there. Exit status 0 done or stopped,
-// 1 bad input, 2 bad usage.
+// Ctrl-C stops it after a frame, and the same command continues. Exit status: 0 done or stopped, 1
+// bad input, 2 bad usage.
 #include <CLI/CLI.hpp>
 #include <ccd/method.hpp>
 #include <csignal>
@@ -50,7 +50,7 @@ scene made(const arguments& given, const scene_maker& maker) {
     return s;
 }
 
-/// What must be the same for a run to be gone on with: not how many frames or threads.
+/// Returns the options that must be equal to continue a run. Frames and threads may differ.
 std::string description(const arguments& given, const scene_maker& maker, const scene& made) {
     const int resolution = given.resolution.value_or(given.full ? maker.full : maker.small);
     std::ostringstream text;
@@ -82,7 +82,7 @@ int simulate(const arguments& given) {
     std::fputs(summary_of(folder.path() / "frames.csv").c_str(), stdout);
     std::printf("frames and table: %s\n", folder.path().string().c_str());
     if (run.state().frame < run.of().frames)
-        std::printf("stopped after frame %d of %d; the same command goes on\n", run.state().frame,
+        std::printf("stopped after frame %d of %d; the same command continues\n", run.state().frame,
                     run.of().frames);
     return 0;
 }
@@ -92,32 +92,35 @@ int run_command_line(int argc, char** argv) {
     CLI::App app{"Simulates cloth and solids that do not pass through each other.", "simulate"};
     std::string names;
     for (const scene_maker& maker : scenes())
-        names += "\n  " + maker.name + ": " + maker.what + " (resolution " +
+        names += "\n  " + maker.name + ": " + maker.description + " (resolution " +
                  std::to_string(maker.small) + ", --full " + std::to_string(maker.full) + ")";
-    app.add_option("SCENE", given.scene, "one of:" + names)->required();
-    app.add_option("--method", given.method, "of collision detection; ccd methods lists them")
+    app.add_option("SCENE", given.scene, "One of:" + names)->required();
+    app.add_option("--method", given.method,
+                   "Method for collision detection (ccd methods lists them)")
         ->capture_default_str();
     const CLI::Range natural(0, std::numeric_limits<int>::max());
-    app.add_option("--frames", given.frames, "else the scene's own")->check(natural);
-    app.add_option("--resolution", given.resolution, "of the scene")->check(CLI::Range(3, 2000));
-    app.add_flag("--full", given.full, "the scene at its full size");
-    app.add_option("--out", given.out, "folder, else out/simulation/SCENE")
+    app.add_option("--frames", given.frames, "Number of frames; by default the scene's")
+        ->check(natural);
+    app.add_option("--resolution", given.resolution, "Resolution of the scene")
+        ->check(CLI::Range(3, 2000));
+    app.add_flag("--full", given.full, "Run the scene at its full size");
+    app.add_option("--out", given.out, "Folder; out/simulation/SCENE by default")
         ->check([](const std::string& path) {
-            return path.empty() ? "found '', expected a folder's name" : std::string();
+            return path.empty() ? "folder is ''; expected a folder's name" : std::string();
         });
     app.add_flag("--proposals", given.proposals,
-                 "stores what the solver proposed, too: the steps that were looked at first");
-    app.add_flag(
-        "--vtp", given.vtp,
-        "writes a series for ParaView, too: frames, and what the proposed steps would meet");
-    app.add_option("--threads", given.threads, "at most; 0: one per core")->check(natural);
-    app.add_option("--seed", given.seed, "moves the start by up to 1e-5 m at random; 0: not")
+                 "Also store the positions that the solver proposed, which are tested first");
+    app.add_flag("--vtp", given.vtp,
+                 "Also write a series for ParaView: frames, with contacts of the proposed steps");
+    app.add_option("--threads", given.threads, "Maximum number of threads; 0: one per core")
+        ->check(natural);
+    app.add_option("--seed", given.seed, "Move the start by up to 1e-5 m at random; 0: do not")
         ->check(natural);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw errbound::support::usage_error(error.what());
-        return app.exit(error);  // prints what --help asks for
+        return app.exit(error);  // prints the text of --help
     }
     return simulate(given);
 }

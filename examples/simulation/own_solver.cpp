@@ -1,5 +1,5 @@
-// The collision part in a simulation of one's own: here particles that fall, with an edge or a face
-// between some of them, by the simplest of all solvers.
+// The collision handler in a custom simulation: falling particles with edges and faces between
+// them, with the simplest possible solver.
 #include <cstddef>
 #include <cstdio>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "examples/simulation/collision/collision_handler.hpp"
 
 int main() {
-    // A coarse ball, which nothing moves, and a square of four particles above it.
+    // A coarse fixed ball, and a square of four particles above it.
     const simulation::surface_shape ball = simulation::sphere(1, 0.5, {0, 0, 0});
     const auto first = static_cast<ccd::vertex_index>(ball.points.rows());
     simulation::rows positions(first + 4, 3);
@@ -17,7 +17,7 @@ int main() {
     std::vector<ccd::face> faces = ball.faces;
     faces.push_back({first, first + 1, first + 2});
     faces.push_back({first, first + 2, first + 3});
-    std::vector<double> masses(first, 0.0);  // 0: not for a response to move
+    std::vector<double> masses(first, 0.0);  // 0: responses do not move it
     masses.insert(masses.end(), 4, 0.1);
     const std::vector<int> bodies = ccd::connected_parts(faces, {}, masses.size());
 

@@ -32,8 +32,8 @@ simulation_run::simulation_run(scene made, std::uint64_t seed)
     const ccd::mesh start = scene_.bodies.surface(state_.positions);
     ccd::step_options options{.threads = scene_.collision.threads};
     if (const std::size_t found = number_of(ccd::step(start, start, options).pairs); found > 0)
-        throw std::invalid_argument("the scene has " + std::to_string(found) +
-                                    " pairs in contact at its start, expected none");
+        throw std::invalid_argument("number of pairs in contact at the start is " +
+                                    std::to_string(found) + "; expected 0");
 }
 
 void simulation_run::restore(run_state state) {

@@ -1,4 +1,4 @@
-// A run: bodies move frame by frame, by a solver, a response to collisions, and driven vertices.
+// A run moves bodies frame by frame, with a solver, collision response and driven vertices.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace simulation {
 
-/// Where a run is: what the next frame is made of, and nothing else.
+/// The state from which the next frame is computed.
 struct run_state {
     int frame = 0;
     rows positions, velocities;
     forces_of_pairs forces;
 };
 
-/// What one frame took and found.
+/// Costs and results of one frame.
 struct frame_record {
     int frame = 0;
     double solver_seconds = 0;
@@ -27,17 +27,17 @@ struct frame_record {
 
 class simulation_run {
   public:
-    /// From the scene's start, where free vertices are moved by up to 1e-5 m at random where `seed`
-    /// is not 0. Throws std::invalid_argument if there are contacts at the start.
+    /// Starts the scene. If `seed` is not 0, moves free vertices by up to 1e-5 m at random. Throws
+    /// std::invalid_argument if there are contacts at the start.
     simulation_run(scene scene, std::uint64_t seed);
 
     frame_record next_frame();
 
     const scene& of() const { return scene_; }
     const run_state& state() const { return state_; }
-    /// Where the solver would have gone in the last frame.
+    /// The positions that the solver proposed in the last frame.
     const rows& proposed() const { return proposed_; }
-    /// Goes on from there: the same scene's state.
+    /// Continues from a state of the same scene.
     void restore(run_state state);
 
   private:

@@ -1,4 +1,4 @@
-// Contact forces, the solver that they go by, and zones, in cases whose results are known.
+// Contact forces, the solver for them, and zones, in cases with known results.
 #include "examples/simulation/collision/contacts.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using simulation::contact;
 using simulation::rows;
 using simulation::vec3;
 
-/// A particle of mass 2 over a driven triangle.
+/// A particle of mass 2 above a driven triangle.
 contact on_triangle(double least) {
     return {{0, 1, 2, 3}, {1, -0.5, -0.25, -0.25}, vec3::UnitZ(), least};
 }
@@ -31,14 +31,14 @@ TEST(Contacts, StopAParticleAndHoldItByFriction) {
     std::vector<contact> contacts{on_triangle(0)};
     const simulation::contact_options options{0.5, 1e-12, 50, 0};
     after = simulation::solve_contacts(contacts, bodies, options, before, after);
-    // By mass/h² = 200 a force of 200 stops the fall, which could hold 0.5 of it aside: enough.
+    // With mass/h² = 200, a force of 200 stops the fall. Its friction, up to 0.5 of it, suffices.
     EXPECT_NEAR(contacts[0].force.z(), 200, 1e-9);
     EXPECT_NEAR(after.row(0).norm(), 0, 1e-12);
 
     after.row(0) << 0.8, 0, -1;
     contacts = {on_triangle(0)};
     after = simulation::solve_contacts(contacts, bodies, options, before, after);
-    EXPECT_NEAR(after(0, 0), 0.3, 1e-9);  // 0.5 of 1 is taken
+    EXPECT_NEAR(after(0, 0), 0.3, 1e-9);  // friction removes 0.5 of 1
     EXPECT_NEAR(after(0, 2), 0, 1e-12);
     EXPECT_TRUE(after.bottomRows(3).isZero(0));  // driven
 }
@@ -98,7 +98,7 @@ TEST(Zones, TurnAsOneBody) {
     EXPECT_EQ(zones.count(), 1U);
     rows before(5, 3), after(5, 3);
     before << 1, 0, 0, -1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 6, 6;
-    // A quarter turn about z and a shift, of the three; the first goes astray a little.
+    // A quarter turn about z and a translation of three vertices; the first deviates slightly.
     after << 0, 1, 2, 0, -1, 2, -1, 0, 2, 5, 5, 5, 6, 6, 6;
     const rows rigid = after;
     zones.move({1, 1, 1, 1, 1}, before, after);
@@ -109,7 +109,7 @@ TEST(Zones, TurnAsOneBody) {
         for (int j = 0; j < 3; ++j)
             EXPECT_NEAR((after.row(i) - after.row(j)).norm(),
                         (before.row(i) - before.row(j)).norm(), 1e-12);
-    // With driven vertices: as these.
+    // Driven vertices determine the motion.
     after = before;
     after.row(0) += vec3(0, 0, 3).transpose();
     zones.move({0, 1, 1, 1, 1}, before, after);

@@ -1,4 +1,4 @@
-// Nearest points against exact answers about distances.
+// Nearest points, compared with exact decisions about distances.
 #include "examples/simulation/collision/nearest.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ points random_points(std::mt19937_64& random) {
     return x;
 }
 
-/// `exact` finds the features within a little more than the distance, and not within less.
+/// Expects that `exact` finds the features within slightly more than the distance, not within less.
 template <class Query>
 void expect_distance(const Query& query, const nearest_points& found, const points& x) {
     vec3 between = vec3::Zero();
@@ -76,7 +76,7 @@ TEST(Nearest, RandomVertexEdge) {
 }
 
 TEST(Approach, StopsBeforeThePairMeets) {
-    // A vertex falls through a face: the normal is the face's, the point where it falls.
+    // A vertex falls through a face: the normal is that of the face, at the vertex.
     const points before{vec3(0.2, 0.3, 1), vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0)};
     points after = before;
     after[0] = vec3(0.4, 0.3, -1);
@@ -85,7 +85,7 @@ TEST(Approach, StopsBeforeThePairMeets) {
     EXPECT_LE(found.distance(), 0.11);
     EXPECT_NEAR(found.between.normalized().z(), 1, 1e-12);
     EXPECT_NEAR(-found.weights[2], 0.3, 0.02);
-    // One that does not move keeps its nearest points.
+    // A pair that does not move keeps its nearest points.
     EXPECT_EQ(simulation::approach(before, before, simulation::nearest_vertex_face).weights,
               simulation::nearest_vertex_face(before).weights);
 }

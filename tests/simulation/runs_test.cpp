@@ -1,5 +1,5 @@
-// Whole runs: every scene at a small size is certified free; rest stays rest; nothing depends on
-// the number of threads.
+// Whole runs: every small scene is certified free, bodies at rest stay at rest, and results do not
+// depend on the number of threads.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ namespace {
 
 using simulation::rows;
 
-/// Runs so many frames; all must be accepted and free.
+/// Runs `frames` frames. All must be accepted and free.
 simulation::rows positions_after(simulation::scene scene, int frames) {
     simulation::simulation_run run(std::move(scene), 0);
     for (int k = 0; k < frames; ++k) {
@@ -63,7 +63,7 @@ TEST(Runs, AStackAtRestStaysAtRest) {
     EXPECT_LT((end - start).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-/// How far a body slides down a plane in half a second, which has so many cells a side.
+/// Returns the distance that a body slides in half a second down a plane of `cells` cells per side.
 double slid(bool solid, double friction, double steepness, int cells) {
     simulation::scene scene;
     scene.solver.damping = 0;
@@ -87,8 +87,8 @@ double slid(bool solid, double friction, double steepness, int cells) {
     return (end - start).colwise().mean().dot(turn.col(0));
 }
 
-// Sheets on a frictionless plane lost up to half of their speed to its inner edges: contacts with
-// the next triangles had normals that leaned.
+// Regression: sheets on a frictionless plane lost up to half of their speed at its inner edges,
+// since contacts with adjacent triangles had oblique normals.
 TEST(Runs, BodiesSlideOverTheEdgesOfAPlaneAsFrictionLetsThem) {
     for (const bool solid : {false, true})
         for (const int cells : {1, 2, 8, 32})
@@ -107,8 +107,8 @@ TEST(Runs, FrictionHoldsABodyOnASlopeBelowItsCoefficient) {
     for (const bool solid : {false, true}) EXPECT_NEAR(slid(solid, 0.5, 0.45, 8), 0, 1e-3);
 }
 
-// A method of projections may raise elastic energy where contacts push, by how much depends on all
-// digits of the start: of six starts like these, up to 4.4 % of what has been lost.
+// Projections may raise elastic energy where contacts push, by up to 4.4 % of the lost energy in
+// six starts like these.
 TEST(Runs, EnergyFallsAsASheetSettles) {
     std::mt19937_64 random(1);
     for (const double speed : {0.0, 1e-7}) {
@@ -132,7 +132,7 @@ TEST(Runs, EnergyFallsAsASheetSettles) {
     }
 }
 
-/// A vertex that meets a face so near to its edge that `float` does not see it.
+/// A vertex that meets a face so close to its edge that `float` misses it.
 ccd::vertex_face<double> lost_by_float() {
     std::mt19937_64 random(1);
     const auto number = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
@@ -175,7 +175,7 @@ TEST(Runs, AMethodThatLosesACollisionIsTold) {
     }
 }
 
-/// A triangle above another, of which the lower one is driven.
+/// A triangle above a driven triangle.
 struct two_triangles {
     std::vector<ccd::face> faces{{0, 1, 2}, {3, 4, 5}};
     std::vector<double> masses{0, 0, 0, 1, 1, 1};
@@ -191,9 +191,8 @@ struct two_triangles {
     }
 };
 
-// Rows that were missing were written behind the end of memory; bodies that were missing were told
-// of only in the first frame without convergence; masses below 0 were driven in one place and not
-// in another.
+// Regression: missing rows were written beyond the end of memory, missing bodies were reported only
+// in the first frame without convergence, and negative masses were driven in some functions only.
 TEST(Runs, AHandlerRefusesWhatMakesNoSense) {
     EXPECT_NO_THROW(two_triangles().resolve());
     const auto refused = [](const std::function<void(two_triangles&)>& change) {
@@ -225,7 +224,7 @@ TEST(Runs, AProposalTooFarForDoublesEnds) {
     }
 }
 
-/// The steps that the solver proposed, from each accepted frame, of a run that folds a sheet.
+/// Returns the steps that the solver proposed from each accepted frame of a run that folds a sheet.
 TEST(Runs, ProposedStepsAreDataForRepeatedSteps) {
     simulation::scene scene = simulation::twist(16);
     scene.collision.thickness = 1e-4;
@@ -246,7 +245,7 @@ TEST(Runs, ProposedStepsAreDataForRepeatedSteps) {
         ASSERT_EQ(again.first_contact, fresh.first_contact);
         ASSERT_EQ(number_of(again.touching_at_start), 0U);
         found += number_of(again.pairs);
-        // As far as is free, and not much less far than the first contact.
+        // The step is free, and not much shorter than the first contact.
         const auto advanced = ccd::advance(repeated, way);
         const auto contact = again.first_contact;
         EXPECT_GE(advanced.fraction, number_of(again.pairs) == 0 ? 1 : 0.99 * contact.low);

@@ -1,4 +1,4 @@
-"""The program `simulate`: output, going on, bad usage; and the pictures of a run.
+"""The program `simulate`: output, continued runs, bad usage; and the pictures of a run.
 
 Arguments: the program, the source folder.
 """
@@ -66,7 +66,7 @@ class Simulate(unittest.TestCase):
         before = self.frames(self.out)
         again = simulate("funnel1", "--resolution", 9, "--frames", 2, "--out", self.out)
         self.assertEqual(again.returncode, 1)
-        self.assertIn("expected the run to go on with", again.stderr)
+        self.assertIn("expected the run to continue", again.stderr)
         self.assertEqual(self.frames(self.out), before)
 
     def test_refuses_another_run_where_one_was_killed_before_its_first_state(self):
@@ -74,19 +74,19 @@ class Simulate(unittest.TestCase):
         self.assertFalse((self.out / "state").exists())
         again = simulate("twist", "--resolution", 8, "--frames", 2, "--out", self.out)
         self.assertEqual(again.returncode, 1)
-        self.assertIn("expected the run to go on with", again.stderr)
+        self.assertIn("expected the run to continue", again.stderr)
 
-    def refused_after(self, name, change, told):
-        """A run of 5 frames, one of whose files is changed, is not gone on with: nothing changes."""
+    def refused_after(self, name, change, message):
+        """Expects that a run of 5 frames is not continued after a change of a file. No file changes."""
         shutil.rmtree(self.out, ignore_errors=True)
         simulate("funnel1", "--resolution", 8, "--frames", 5, "--out", self.out)
         file = self.out / name
         file.write_bytes(change(file.read_bytes()))
         before = {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
         again = simulate("funnel1", "--resolution", 8, "--frames", 7, "--out", self.out)
-        self.assertEqual(again.returncode, 1, told)
+        self.assertEqual(again.returncode, 1, message)
         self.assertIn(f"simulate: {file}: ", again.stderr)
-        self.assertIn(told, again.stderr)
+        self.assertIn(message, again.stderr)
         self.assertEqual(before, {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()})
 
     def test_refuses_a_damaged_state(self):
@@ -99,17 +99,17 @@ class Simulate(unittest.TestCase):
             self.refused_after("state", change, whole)
 
     def test_refuses_a_last_frame_that_is_not_the_states(self):
-        # The next frame would be certified from positions that no stored frame has.
-        self.refused_after("frames/00005.ply", lambda data: data[:-1] + b"\1", "found another frame")
+        # The next frame would be certified from positions that are in no stored frame.
+        self.refused_after("frames/00005.ply", lambda data: data[:-1] + b"\1", "frame differs from that of")
 
     def test_refuses_a_table_that_lacks_rows(self):
-        # "certified free" is told from the table: it was, of a run whose table had been emptied.
+        # Regression: a run with an emptied table was reported as certified free.
         lines = lambda data: data.splitlines(keepends=True)
-        self.refused_after("frames.csv", lambda data: b"", "line 1: found '', expected a heading")
+        self.refused_after("frames.csv", lambda data: b"", "line 1 is ''; expected a heading")
         self.refused_after("frames.csv", lambda data: b"".join(lines(data)[:3]),
-                           "line 4: found '', expected the row of frame 3")
+                           "line 4 is ''; expected the row of frame 3")
         self.refused_after("frames.csv", lambda data: b"".join(lines(data)[:2] + lines(data)[3:]),
-                           "line 3: found '3,")
+                           "line 3 is '3,")
 
     def test_a_number_that_is_none_or_below_all_normal_ones(self):
         def run_with_energy(text):
@@ -119,10 +119,10 @@ class Simulate(unittest.TestCase):
             table.write_text(re.sub(r"[^,]+\n$", text + "\n", table.read_text()))
             return simulate("funnel1", "--resolution", 8, "--frames", 2, "--out", self.out)
         self.assertEqual(run_with_energy("1e-315").returncode, 0)
-        self.assertIn("frames.csv: line 3: found 'none', expected a number", run_with_energy("none").stderr)
+        self.assertIn("frames.csv: line 3: cell is 'none'; expected a number", run_with_energy("none").stderr)
 
     def test_two_runs_do_not_share_a_folder(self):
-        # Each wrote rows into the other's table, and what they mixed was told to be certified free.
+        # Regression: two runs wrote rows into one table, which was reported as certified free.
         run = subprocess.Popen([PROGRAM, "funnel2", "--resolution", "16", "--out", str(self.out)],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         while not (self.out / "state").exists():
@@ -131,8 +131,8 @@ class Simulate(unittest.TestCase):
         run.kill()
         run.communicate()
         self.assertEqual(second.returncode, 1)
-        self.assertIn("found a run that is going on there", second.stderr)
-        # The lock is not left behind by a process that is killed.
+        self.assertIn("another process uses the folder", second.stderr)
+        # A killed process leaves no lock.
         self.assertEqual(simulate("funnel2", "--resolution", 16, "--frames", 1, "--out", self.out).returncode, 0)
 
     def test_killed_at_any_time_it_goes_on_to_the_same_bits(self):
@@ -150,7 +150,7 @@ class Simulate(unittest.TestCase):
         self.assertEqual((whole / "state").read_bytes(), (self.out / "state").read_bytes())
 
     def test_bad_usage(self):
-        for arguments, told in ((["funnel9"], "expected one of funnel1"),
+        for arguments, message in ((["funnel9"], "expected one of funnel1"),
                                 (["funnel1", "--method", "best"], "expected one of float"),
                                 (["funnel1", "--resolution", "2"], "--resolution"),
                                 (["funnel1", "--seed", "-1"], "not in range 0 to 2147483647"),
@@ -161,17 +161,17 @@ class Simulate(unittest.TestCase):
             out = [] if "--out" in arguments else ["--out", self.out]
             ran = simulate(*arguments, "--frames", 1, *out)
             self.assertEqual(ran.returncode, 2, arguments)
-            self.assertIn(told, ran.stderr)
+            self.assertIn(message, ran.stderr)
             self.assertFalse(self.out.exists())
 
-    def test_a_folder_that_cannot_be_is_told_as_one(self):
+    def test_a_folder_that_cannot_be_made(self):
         name = self.out / ("a" * 300)
         ran = simulate("funnel1", "--resolution", 8, "--frames", 1, "--out", name)
         self.assertEqual(ran.returncode, 1)
-        self.assertIn("File name too long, expected a folder that can be written", ran.stderr)
+        self.assertIn("File name too long; expected a writable folder", ran.stderr)
 
     def test_every_scenes_own_resolution_can_be_asked_for(self):
-        # That of `stiff`, 3, was out of range.
+        # Regression: the resolution of `stiff`, 3, was out of range.
         help = simulate("--help").stdout
         own = re.findall(r"^ +([a-z0-9-]+): .*?\(resolution\s+(\d+)", help, re.MULTILINE | re.DOTALL)
         self.assertEqual(len(own), 9)
@@ -188,7 +188,7 @@ class Simulate(unittest.TestCase):
         self.assertEqual(re.findall(r'file="(\d+)\.vtp"', series), [f"{i:05}" for i in range(12)])
 
     def test_a_series_of_a_run_that_is_done(self):
-        # It has no proposals any more to show: the series is empty, which was an error.
+        # Regression: an empty series, of a run without proposals, was an error.
         for again in range(2):
             ran = simulate("funnel1", "--resolution", 8, "--frames", 2, "--out", self.out,
                            *(["--vtp"] if again else []))

@@ -14,7 +14,7 @@ vec3 row(const rows& x, std::size_t v) {
     return x.row(static_cast<Eigen::Index>(v)).transpose();
 }
 
-/// The term of F = (x1 − x0, ...)·rest⁻¹, whose singular values are stretches.
+/// Returns the term of F = (x1 − x0, ...)·rest⁻¹, whose singular values are stretches.
 template <int Columns>
 elastic_term stretch_term(const std::array<vertex_index, 4>& vertex,
                           const Eigen::Matrix<double, Columns, Columns>& rest, double weight,
@@ -30,7 +30,7 @@ elastic_term stretch_term(const std::array<vertex_index, 4>& vertex,
     return term;
 }
 
-/// A triangle's rest shape in its own plane: its two edges as columns.
+/// Returns a triangle's rest shape in its plane: its two edges as columns.
 Eigen::Matrix2d in_plane(const vec3& e1, const vec3& e2) {
     const vec3 x = e1.normalized();
     const vec3 y = (e2 - e2.dot(x) * x).normalized();
@@ -41,7 +41,7 @@ double cotangent(const vec3& a, const vec3& b) {
     return a.dot(b) / a.cross(b).norm();
 }
 
-/// The boundary of tetrahedra, faces outwards.
+/// Returns the boundary of tetrahedra, with outward faces.
 std::vector<ccd::face> boundary(const std::vector<std::array<vertex_index, 4>>& tetrahedra) {
     std::map<ccd::face, std::pair<ccd::face, int>> seen;
     for (const auto& [a, b, c, d] : tetrahedra)
@@ -94,9 +94,9 @@ vertex_index model::add_cloth(const rows& shape, const std::vector<ccd::face>& t
     return first;
 }
 
-/// The length of the discrete mean curvature vector at each inner edge is kept: isometric bending,
-/// after Bergou and others, A Quadratic Bending Model for Inextensible Surfaces, 2006; with the
-/// rest shape's curvature, after Bouaziz and others, Projective Dynamics, 2014.
+/// Keeps the length of the discrete mean curvature vector at each inner edge (isometric bending).
+/// Sources: Bergou and others, A Quadratic Bending Model for Inextensible Surfaces, 2006; for the
+/// rest shape's curvature, Bouaziz and others, Projective Dynamics, 2014.
 void model::add_bending(const std::vector<ccd::face>& triangles, vertex_index first,
                         double stiffness) {
     std::map<ccd::edge, std::vector<vertex_index>> opposite;
@@ -124,7 +124,7 @@ void model::add_bending(const std::vector<ccd::face>& triangles, vertex_index fi
             term.gradients[i][0] = factors[i];
             rest += factors[i] * x[i];
         }
-        // Of a flat rest shape rounding leaves something, which has no direction to be kept.
+        // For a flat rest shape the curvature is a rounding error without a meaningful direction.
         const double scale = (x[1] - x[0]).norm();
         if (rest.norm() > 1e-9 * scale) term.low = term.high = rest.norm();
         terms.push_back(term);
@@ -166,7 +166,7 @@ vertex_index model::add_rod(const rows& points, const rod_material& material) {
                          length,
                          length});
         if (i == 0) continue;
-        // The second difference, whose length is the curvature times the squared length.
+        // The length of the second difference is the curvature times the squared length.
         const double curvature =
             (row(points, i + 1) - 2 * row(points, i) + row(points, i - 1)).norm();
         terms.push_back({elastic_term::target::length,

@@ -1,6 +1,5 @@
-// What is simulated: vertices with masses, the surfaces that collide, and the elastic terms.
-//
-// Units: metres, kilograms, seconds. A vertex of mass 0 is driven: the scene says where it is.
+// A simulated model: vertices with masses, surfaces that collide, and elastic terms.
+// Units: metres, kilograms, seconds. A vertex of mass 0 is driven: the scene moves it.
 #pragma once
 
 #include <array>
@@ -12,38 +11,37 @@
 
 namespace simulation {
 
-/// An elastic term of projective dynamics: weight/2 · |G x − P(G x)|², where G x is `columns`
-/// vectors, each a sum of vertices, and P projects to what the term likes best.
+/// An elastic term of projective dynamics: weight/2 · |G x − P(G x)|². G x is `columns` vectors,
+/// each a combination of vertices, and P projects to the rest set of the term.
 struct elastic_term {
     enum class target {
-        singular_values,  ///< of the 3 by `columns` matrix G x: each clamped to [low, high]
-        length,           ///< of the one vector: clamped to [low, high]
+        singular_values,  ///< P clamps those of the 3 by `columns` matrix G x to [low, high]
+        length,           ///< P clamps the length of the one vector to [low, high]
     };
     target kind;
     int columns;
-    int vertices;                                    ///< how many of `vertex` there are
+    int vertices;                                    ///< the number of items in `vertex`
     std::array<vertex_index, 4> vertex;              ///
-    std::array<std::array<double, 3>, 4> gradients;  ///< G: of each vertex, a factor a column
-    double weight;                                   ///< in newtons a metre, or joules
+    std::array<std::array<double, 3>, 4> gradients;  ///< G: one factor per vertex and column
+    double weight;                                   ///< in newtons per metre, or joules
     double low, high;
 };
 
-/// Of a sheet: stiffnesses of a material without thickness.
+/// The material of a sheet without thickness.
 struct cloth_material {
     double density = 0.2;            ///< kg/m²
     double membrane = 200;           ///< N/m, against stretch and shear
     double bending = 2e-5;           ///< N m
-    double strain_limit = 0.05;      ///< beyond which stretch meets `limit_stiffness`, too
+    double strain_limit = 0.05;      ///< `limit_stiffness` acts beyond this stretch
     double limit_stiffness = 20000;  ///< N/m
 };
 
-/// Of a solid.
 struct solid_material {
     double density = 1000;   ///< kg/m³
     double stiffness = 1e5;  ///< N/m²; co-rotated
 };
 
-/// Of a rod: a chain of edges.
+/// The material of a rod, a chain of edges.
 struct rod_material {
     double density = 0.05;    ///< kg/m
     double stretching = 2e4;  ///< N
@@ -51,17 +49,17 @@ struct rod_material {
 };
 
 struct model {
-    rows start;                       ///< where all begins
+    rows start;                       ///< initial positions
     std::vector<double> mass;         ///< of each vertex; 0: driven
     std::vector<ccd::face> faces;     ///< surfaces
     std::vector<ccd::edge> edges;     ///< rods
     std::vector<elastic_term> terms;  ///< between them
-    std::vector<int> body;            ///< of each vertex, the number of the call that added it
+    std::vector<int> body;            ///< of each vertex: the index of the call that added it
 
     std::size_t vertices() const { return mass.size(); }
     bool driven(std::size_t v) const { return mass[v] == 0; }
 
-    /// Each adds a body at rest in this shape and returns its first vertex.
+    /// These add a body at rest in this shape and return its first vertex.
     vertex_index add_cloth(const rows& shape, const std::vector<ccd::face>& triangles,
                            const cloth_material& material);
     vertex_index add_solid(const rows& shape,

@@ -1,4 +1,4 @@
-// What all parts of the simulation share: positions as one row of x y z a vertex, in doubles.
+// Positions: one row of x y z per vertex, in doubles.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,7 +12,7 @@
 namespace simulation {
 namespace {
 
-using gradient = Eigen::Matrix3d;  ///< as many columns as the term has
+using gradient = Eigen::Matrix3d;  ///< the term's columns come first
 
 gradient gradient_of(const elastic_term& term, const rows& x) {
     gradient g = gradient::Zero();
@@ -22,21 +22,21 @@ gradient gradient_of(const elastic_term& term, const rows& x) {
     return g;
 }
 
-/// Of three columns: the nearest matrix whose singular values are within the limits and whose
-/// determinant is positive.
+/// Three columns: returns the nearest matrix with singular values within the limits and a positive
+/// determinant.
 gradient clamped_solid(const gradient& f, double low, double high) {
     const Eigen::JacobiSVD<gradient> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
     vec3 s = svd.singularValues();
     gradient u = svd.matrixU();
     if ((u * svd.matrixV().transpose()).determinant() < 0) {
-        u.col(2) = -u.col(2);  // the least singular value's
+        u.col(2) = -u.col(2);  // of the least singular value
         s[2] = -s[2];
     }
     for (double& value : s) value = std::clamp(value, low, high);
     return u * s.asDiagonal() * svd.matrixV().transpose();
 }
 
-/// Of two columns, by the eigenvectors of FᵀF, a rotation by an angle.
+/// Two columns: uses the eigenvectors of FᵀF, a rotation by an angle.
 gradient clamped_sheet(const gradient& f, double low, double high) {
     const double a = f.col(0).squaredNorm(), b = f.col(0).dot(f.col(1)), c = f.col(1).squaredNorm();
     const double angle = std::atan2(2 * b, a - c) / 2, cosine = std::cos(angle),
@@ -130,8 +130,8 @@ rows projective_solver::inertial(const rows& x, const rows& v, const rows& drive
     return there;
 }
 
-/// Solves for a change of x, not for x: of stiff terms the forces are small differences, which then
-/// are not lost beside the positions themselves.
+/// Solves for a change of x, not for x. Forces of stiff terms are small differences, which would be
+/// lost next to the positions.
 rows projective_solver::relaxed(const rows& x, const rows&) const {
     const double per_square = 1 / (options_.time_step * options_.time_step);
     Eigen::MatrixX3d right = forces_ * wanted_changes(x);

@@ -1,8 +1,7 @@
-// Implicit Euler by projective dynamics: one constant matrix, factorised once for a whole run.
-//
-// Bouaziz, Martin, Liu, Kavan, Pauly: Projective Dynamics: Fusing Constraint Projections for Fast
-// Simulation, 2014. Stable for every time step and stiffness; the stiffer the terms, the more
-// iterations it takes until they are as stiff as they say.
+// Implicit Euler by projective dynamics, with one constant matrix that is factorised once per run.
+// Source: Bouaziz, Martin, Liu, Kavan, Pauly: Projective Dynamics: Fusing Constraint Projections
+// for Fast Simulation, 2014. Stable for every time step and stiffness. Stiffer terms need more
+// iterations to reach their stiffness.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -16,29 +15,29 @@ namespace simulation {
 
 struct solver_options {
     double time_step = 0.01;  ///< in seconds
-    int iterations = 10;      ///< local and global steps, at most
+    int iterations = 10;      ///< maximum of local and global steps
     double converged = 1e-5;  ///< the last correction over the step's largest displacement
-    double damping = 0.1;     ///< share of velocity that is lost in a second
+    double damping = 0.1;     ///< share of velocity lost per second
     vec3 gravity{0, 0, -9.81};
 };
 
 class projective_solver : public compliance {
   public:
-    /// Keeps a reference to the model. Throws std::invalid_argument if some vertex that is not
-    /// driven is held by nothing and has no mass.
+    /// Keeps a reference to the model. Throws std::invalid_argument if a vertex that is not driven
+    /// has no mass and no elastic term.
     projective_solver(const model& bodies, const solver_options& options);
 
-    /// Where the vertices would go from x with velocities v without contact: free ones by the
-    /// equations of motion, driven ones to their rows of `driven`.
+    /// Returns positions after a step from x with velocities v without contact: free vertices by
+    /// the equations of motion, driven ones at their rows of `driven`.
     rows propose(const rows& x, const rows& v, const rows& driven);
-    /// One more iteration of the last proposal, from x.
+    /// Returns one more iteration of the last proposal, from x.
     rows relaxed(const rows& x, const rows& proposed) const override;
 
-    /// By the same matrix: terms yield as springs in the directions that they have.
+    /// Uses the same matrix: terms yield as springs in their current directions.
     rows displacements(const rows& forces) const override;
     double of(std::size_t v) const override { return per_force_[v]; }
 
-    /// Of all terms, in joules.
+    /// The energy of all terms, in joules.
     double elastic_energy(const rows& x) const;
 
     const solver_options& options() const { return options_; }
@@ -46,7 +45,7 @@ class projective_solver : public compliance {
   private:
     using sparse = Eigen::SparseMatrix<double>;
 
-    /// One row for each column of each term: P(G x) − G x, how it wants to change.
+    /// Returns P(G x) − G x, one row for each column of each term.
     rows wanted_changes(const rows& x) const;
     void assemble();
 
@@ -54,14 +53,12 @@ class projective_solver : public compliance {
 
     const model& bodies_;
     solver_options options_;
-    rows inertial_;  ///< where the last proposal's inertia and gravity alone would lead
-    std::vector<Eigen::Index> unknown_;  ///< of each vertex, its row in the system, or −1
-    std::vector<double>
-        per_force_;  ///< of each vertex, of the matrix's inverse the diagonal; 0 of driven ones
-    std::vector<Eigen::Index> first_row_;  ///< of each term, its first row of projections
+    rows inertial_;  ///< positions by inertia and gravity only, in the last proposal
+    std::vector<Eigen::Index> unknown_;    ///< of each vertex: its row in the system, or −1
+    std::vector<double> per_force_;        ///< of each vertex: diagonal of the inverse; 0 if driven
+    std::vector<Eigen::Index> first_row_;  ///< of each term: its first row of projections
     Eigen::Index unknowns_ = 0, projected_ = 0;
-    Eigen::SparseMatrix<double, Eigen::RowMajor>
-        forces_;  ///< Gᵀ times the weights: of changes, on unknowns
+    Eigen::SparseMatrix<double, Eigen::RowMajor> forces_;  ///< Gᵀ times the weights
     Eigen::SimplicialLDLT<sparse> factor_;
 };
 

@@ -1,4 +1,4 @@
-// The diagonal of a sparse matrix's inverse, from its factors, without the rest of the inverse.
+// The diagonal of a sparse matrix's inverse, computed from its factors.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -6,10 +6,10 @@
 
 namespace simulation {
 
-/// Of the matrix that was factorised, in its own order. Entries of the inverse are computed where
-/// the factor has entries, from the last column on, since those need no others. Source: Takahashi,
-/// Fagan, Chin, Formation of a sparse bus impedance matrix and its application to short circuit
-/// study, 1973. Cost: as the factorisation, up to a logarithm.
+/// Returns the diagonal in the order of the factorised matrix. Entries of the inverse are computed
+/// only where the factor has entries, from the last column on, since these need no others. Source:
+/// Takahashi, Fagan, Chin, Formation of a sparse bus impedance matrix and its application to short
+/// circuit study, 1973. Cost: that of the factorisation, up to a logarithm.
 Eigen::VectorXd diagonal_of_inverse(
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>& factor);
 

@@ -95,8 +95,8 @@ surface_shape capsule(int refinements, double radius, const vec3& from, const ve
 
 namespace {
 
-/// The five tetrahedra of a cell with these corners, by their three bits; of a mirrored cell the
-/// corners are mirrored, too.
+/// Returns the five tetrahedra of a cell. The three bits of a corner's index are its coordinates. A
+/// mirrored cell has mirrored corners.
 void add_cell(const std::array<vertex_index, 8>& c, bool mirrored,
               std::vector<std::array<vertex_index, 4>>& tetrahedra) {
     constexpr std::array<std::array<std::size_t, 4>, 5> parts{

@@ -15,7 +15,7 @@
 namespace simulation {
 namespace {
 
-/// Adds the seconds of its life to a sum.
+/// Adds the seconds of its lifetime to a sum.
 class stopwatch {
   public:
     explicit stopwatch(double& sum) : sum_(sum) {}
@@ -34,7 +34,7 @@ ccd::vertex_rows way(const rows& before, const rows& after) {
     return {before, after};
 }
 
-/// A pair's four vertices; where it has fewer, the first again, which then has no weight there.
+/// Returns four vertices. A pair with fewer repeats the first one, with weight 0.
 template <class Pair>
 std::array<vertex_index, 4> four_vertices(const Pair& pair) {
     const auto some = vertices_of(pair);
@@ -58,8 +58,8 @@ nearest_points nearest_of_kind(const std::array<vec3, 4>& x) {
     return {{1, -1, 0, 0}, x[0] - x[1]};
 }
 
-/// Whether the nearest points are those of the surfaces, too, or nearer ones lie beside them. Of a
-/// vertex above the inside of a face that is not asked: all such that are near are contacts.
+/// True if the nearest points of the features are also those of the surfaces. A vertex above the
+/// inside of a face is always a contact.
 bool nearest_of_surfaces(const std::array<vertex_index, 4>& vertices, const nearest_points& nearest,
                          const rows& positions, const neighbours& neighbours) {
     struct side {
@@ -86,7 +86,7 @@ bool nearest_of_surfaces(const std::array<vertex_index, 4>& vertices, const near
     return above_face || (is_nearest(first, second) && is_nearest(second, first));
 }
 
-/// Of pairs that do not touch: they have a normal.
+/// Precondition: the pair does not touch, so that it has a normal.
 contact contact_of(const std::array<vertex_index, 4>& vertices, const nearest_points& nearest) {
     return {vertices, nearest.weights, nearest.between / nearest.distance(), 0};
 }
@@ -94,7 +94,7 @@ contact contact_of(const std::array<vertex_index, 4>& vertices, const nearest_po
 /// A pair that is near at the start of a step.
 struct near_pair {
     double distance;
-    bool of_surfaces;  ///< its nearest points are those of the surfaces, too
+    bool of_surfaces;  ///< its nearest points are also those of the surfaces
     contact between;
 };
 
@@ -104,42 +104,41 @@ double gap(const contact& c, const rows& positions) {
     return c.normal.dot(sum);
 }
 
-/// What a simulation of one's own may get wrong, told before it is a crash or a response that is
-/// none.
+/// Throws std::invalid_argument for invalid input of a simulation.
 void require_good(const std::vector<double>& masses, const std::vector<int>& bodies,
                   double time_step, const collision_options& options) {
-    const auto require = [](bool good, const std::string& what) {
-        if (!good) throw std::invalid_argument("collision_handler: found " + what);
+    const auto require = [](bool good, const std::string& message) {
+        if (!good) throw std::invalid_argument("collision_handler: " + message);
     };
-    const auto not_negative = [&](const char* name, double x) {
-        require(std::isfinite(x) && x >= 0, std::string(name) + " " + std::to_string(x) +
-                                                ", expected a finite number, not negative");
+    const auto not_negative = [&](const std::string& name, double x) {
+        require(std::isfinite(x) && x >= 0,
+                name + " is " + std::to_string(x) + "; expected a finite number >= 0");
     };
     for (std::size_t v = 0; v < masses.size(); ++v)
-        not_negative(("of vertex " + std::to_string(v) + " the mass").c_str(), masses[v]);
-    require(bodies.size() == masses.size(), "bodies of " + std::to_string(bodies.size()) +
-                                                " vertices, expected of " +
-                                                std::to_string(masses.size()));
+        not_negative("mass of vertex " + std::to_string(v), masses[v]);
+    require(bodies.size() == masses.size(), "number of bodies is " + std::to_string(bodies.size()) +
+                                                "; expected one for each of " +
+                                                std::to_string(masses.size()) + " vertices");
     require(std::isfinite(time_step) && time_step > 0,
-            "the time step " + std::to_string(time_step) + ", expected a positive one");
-    not_negative("the thickness", options.thickness);
-    not_negative("the friction", options.friction);
-    not_negative("the push", options.push);
-    not_negative("the tolerance", options.tolerance);
+            "time step is " + std::to_string(time_step) + "; expected a finite number > 0");
+    not_negative("thickness", options.thickness);
+    not_negative("friction", options.friction);
+    not_negative("push", options.push);
+    not_negative("tolerance", options.tolerance);
 }
 
-void require_positions(const std::string& what, const rows& x, std::size_t vertices) {
+void require_positions(const std::string& name, const rows& x, std::size_t vertices) {
     if (std::size_t(x.rows()) != vertices)
-        throw std::invalid_argument("collision_handler: found " + what + " of " +
-                                    std::to_string(x.rows()) + " vertices, expected of " +
-                                    std::to_string(vertices));
+        throw std::invalid_argument("collision_handler: number of " + name + " is " +
+                                    std::to_string(x.rows()) + "; expected one for each of " +
+                                    std::to_string(vertices) + " vertices");
     for (Eigen::Index v = 0; v < x.rows(); ++v)
         if (!x.row(v).allFinite())
-            throw std::invalid_argument("collision_handler: found " + what + " of vertex " +
-                                        std::to_string(v) + " that are not finite");
+            throw std::invalid_argument("collision_handler: row " + std::to_string(v) + " of " +
+                                        name + " is not finite; expected finite numbers");
 }
 
-/// The method's pairs, and whether it is certain of them.
+/// Counts the pairs that the method cannot decide.
 std::size_t uncertain_among(const ccd::pair_lists& pairs, ccd::method method,
                             const ccd::vertex_rows& positions) {
     std::size_t count = 0;
@@ -177,7 +176,7 @@ ccd::pair_filter collision_handler::filter() const {
 
 std::vector<contact> collision_handler::near_at_start(const rows& before, response_report& report) {
     ccd::step_options options{.threads = options_.threads};
-    const double reach = 2 * options_.thickness;  // what comes nearer within the step
+    const double reach = 2 * options_.thickness;  // for pairs that come nearer in the step
     options.distances.all = reach;
     options.filter = filter();
     std::vector<near_pair> found;
@@ -200,7 +199,7 @@ std::vector<contact> collision_handler::near_at_start(const rows& before, respon
         };
     });
     steps_.for_each_candidate(way(before, before), visitor, options);
-    // Blocks come in any order; a face and a pair of edges may have the same vertices.
+    // Blocks are in any order. A face and a pair of edges may have the same vertices.
     std::ranges::sort(found, {}, [](const near_pair& f) {
         return std::pair(f.between.vertex, f.between.weight);
     });
@@ -240,7 +239,7 @@ ccd::pair_lists collision_handler::detect(const rows& before, const rows& after,
     return std::move(result.pairs);
 }
 
-/// Motion along the normal may use up what there is beyond the thickness.
+/// Motion along the normal may use the distance beyond the thickness.
 void collision_handler::add_contacts(const ccd::pair_lists& pairs, const rows& before,
                                      const rows& after, std::vector<contact>& contacts) const {
     ccd::for_each_kind([&]<ccd::kind K>() {
@@ -282,7 +281,7 @@ void collision_handler::push_apart(std::vector<contact>& contacts, const complia
                         after);
 }
 
-/// Pairs that collide on the way, by `exact`; of its own answers it is not asked again.
+/// Returns the number of pairs that collide, by `exact`, which does not repeat its own test.
 std::optional<std::size_t> collision_handler::passed_through(const rows& before, const rows& after,
                                                              response_report& report) {
     if (!options_.certify) return {};

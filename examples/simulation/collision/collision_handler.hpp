@@ -1,24 +1,14 @@
-// From positions that a solver proposes to positions that can be gone to without a collision, by a
-// method of choice: the part to put into a simulation of one's own.
+// Collision response for your simulation: changes positions that a solver proposes to positions
+// that are reached without collision, by a chosen method.
 //
 //   simulation::collision_handler handler(faces, edges, masses, bodies, time_step, options);
-//   ...
 //   rows next = solver's proposal;
 //   const simulation::response_report report = handler.resolve(positions, next, solver);
 //
-// where the solver says how its bodies yield to forces (compliance), or as particles would.
-//
-// A step is looked at by the method (ccd::mesh_steps). What it reports, uncertain pairs too, is
-// responded to, and the step looked at again, until nothing is reported:
-//  1. for some rounds by impulses with friction that keep all contacts found in this step apart
-//     (collision/contacts.hpp), also those that are nearer than a thickness at its start;
-//  2. then by rigid zones of what is still reported (collision/zones.hpp);
-//  3. in the end, and this is said, by ccd::advance, which goes as far as is free.
-// Where and along which normal a pair meets is told by its nearest points, in plain doubles, the
-// same for all methods. No method but `exact` is helped by exact answers, except in 3.
-//
-// Of the positions that are accepted `exact` tells, if it is asked, which pairs pass through each
-// other on the straight way there.
+// The solver implements compliance; particle_compliance is the simplest one. The method tests the
+// step (ccd::mesh_steps) after each response: impulses with friction (contacts.hpp), then rigid
+// zones of the pairs still reported (zones.hpp), at last ccd::advance, which the report states.
+// Contact points and normals come from nearest points in plain doubles, for all methods.
 #pragma once
 
 #include <ccd/advance.hpp>
@@ -39,57 +29,56 @@ namespace simulation {
 
 struct collision_options {
     ccd::method method = ccd::method::exact;
-    double thickness = 1e-3;  ///< in metres: nearer than that is pushed apart
+    double thickness = 1e-3;  ///< in metres: nearer pairs are pushed apart
     double friction = 0.3;    ///< Coulomb's coefficient
-    double push = 0.1;        ///< share of what lacks to the thickness that is given back a step
+    double push = 0.1;        ///< share of the missing thickness that is restored per step
     int impulse_rounds = 12;
-    int finishing_rounds = 10;   ///< the last of these, with what particles would do, too
-    int finishing_sweeps = 100;  ///< of that
+    int finishing_rounds = 10;   ///< the last of these, with a response of particles
+    int finishing_sweeps = 100;  ///< of this response
     double tolerance = 0.01;     ///< of contacts, in thicknesses
     int iterations = 8;          ///< of contact forces, after each relaxation of the bodies
-    int relaxations = 9;         ///< in the first round, a third of it in others
-    int rounds = 40;             ///< all together; then the response has not converged
-    bool certify = true;         ///< ask `exact` about what is accepted
-    int threads = 0;             ///< at most; 0: one per core
+    int relaxations = 9;         ///< in the first round; a third of it in others
+    int rounds = 40;             ///< in total; then the response has not converged
+    bool certify = true;         ///< test accepted steps by `exact`
+    int threads = 0;             ///< maximum; 0: one per core
 };
 
 struct response_report {
-    int iterations = 0;                     ///< looks at the step by the method
+    int iterations = 0;                     ///< tests of the step by the method
     std::size_t near_at_start = 0;          ///< pairs nearer than the thickness
-    double least_distance = 0;              ///< of these, in metres; meaningless if there are none
-    std::size_t contacts = 0;               ///< pairs reported at the first look
-    std::size_t reported = 0;               ///< pairs reported at all looks
-    std::size_t uncertain = 0;              ///< those of them that the method cannot decide
-    std::optional<std::size_t> candidates;  ///< of all looks, where the method counts them
-    std::size_t zones = 0;                  ///< rigid zones at the last look
-    bool converged = true;                  ///< the method reports nothing any more
-    double fraction = 1;                    ///< of the way, where it has not converged
-    std::optional<std::size_t> passed_through;  ///< pairs that collide on the way, by `exact`
+    double least_distance = 0;              ///< of these, in metres; undefined if there are none
+    std::size_t contacts = 0;               ///< pairs reported by the first test
+    std::size_t reported = 0;               ///< pairs reported by all tests
+    std::size_t uncertain = 0;              ///< of these, pairs that the method cannot decide
+    std::optional<std::size_t> candidates;  ///< of all tests, if the method counts them
+    std::size_t zones = 0;                  ///< rigid zones at the last test
+    bool converged = true;                  ///< the method reports no pair any more
+    double fraction = 1;                    ///< of the step, if it has not converged
+    std::optional<std::size_t> passed_through;  ///< pairs that collide in the step, by `exact`
     double detection_seconds = 0, response_seconds = 0, certification_seconds = 0;
 };
 
-/// Of a pair, by its vertices.
+/// The forces of pairs, by their vertices.
 using forces_of_pairs = std::map<std::array<vertex_index, 4>, vec3>;
 
 class collision_handler {
   public:
-    /// Of a mesh whose vertices have these masses (0: driven, and not moved by any response) and
-    /// bodies (each advances by a fraction of its own, if need be). Throws what ccd::mesh_steps
-    /// throws, and std::invalid_argument if there is not a body and a finite mass of each vertex,
-    /// or the time step or an option makes no sense.
+    /// Vertices have masses (0: driven, not moved by responses) and bodies (if necessary, each body
+    /// advances by a separate fraction). Throws std::invalid_argument unless each vertex has a body
+    /// and a finite mass, and time step and options are valid; also the exceptions of
+    /// ccd::mesh_steps.
     collision_handler(const std::vector<ccd::face>& faces, const std::vector<ccd::edge>& edges,
                       const std::vector<double>& masses, std::vector<int> bodies, double time_step,
                       const collision_options& options);
 
-    /// Moves `after`, rows of driven vertices only where it has not converged. `before` must be
-    /// without contact, and surfaces there must not reach through each other: of what is already
-    /// through, no step tells. Pairs of driven vertices alone are left out, and may pass through
-    /// each other. Throws std::invalid_argument if a coordinate is not finite or there are not as
-    /// many rows as vertices.
+    /// Moves `after`; driven vertices only if it has not converged. Pairs of driven vertices only
+    /// are skipped and may pass through each other. Precondition: `before` has no contact, and
+    /// surfaces do not intersect there, since no step detects that. Throws std::invalid_argument if
+    /// a coordinate is not finite or the number of rows differs from that of vertices.
     response_report resolve(const rows& before, rows& after, const compliance& bodies);
 
-    /// What the last step's contacts took, from which the next one's are looked for: with
-    /// positions and velocities all that a run goes on from.
+    /// The contact forces of the last step, where the next step starts its search. With positions
+    /// and velocities they are the state of a run.
     const forces_of_pairs& last_forces() const { return last_forces_; }
     void restore(forces_of_pairs forces) { last_forces_ = std::move(forces); }
 

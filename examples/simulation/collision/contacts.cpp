@@ -7,7 +7,7 @@
 namespace simulation {
 namespace {
 
-/// One row a contact: a force, or the displacement between its two features.
+/// One row per contact: a force, or the displacement between its two features.
 using by_contact = rows;
 
 by_contact differences(const std::vector<contact>& contacts, const rows& displacements) {
@@ -23,14 +23,14 @@ rows forces_on_vertices(const std::vector<contact>& contacts, const by_contact& 
                         Eigen::Index vertices) {
     rows f = rows::Zero(vertices, 3);
     for (std::size_t c = 0; c < contacts.size(); ++c)
-        if (!forces.row(Eigen::Index(c)).isZero(0))  // most push nothing
+        if (!forces.row(Eigen::Index(c)).isZero(0))  // most are zero
             for (std::size_t i = 0; i < 4; ++i)
                 f.row(contacts[c].vertex[i]) += contacts[c].weight[i] * forces.row(Eigen::Index(c));
     return f;
 }
 
-/// How far the two features part by a force of 1, were the contact alone: at most, as each
-/// feature's points may go together.
+/// Returns an upper bound of the relative displacement of the features by a unit force of this
+/// contact only, since the points of a feature may move together.
 double compliance_at(const contact& c, const compliance& bodies) {
     double first = 0, second = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -38,7 +38,7 @@ double compliance_at(const contact& c, const compliance& bodies) {
             std::abs(c.weight[i]) * std::sqrt(bodies.of(c.vertex[i]));
     return first * first + second * second;
 }
-/// The same, of particles.
+/// Same as compliance_at, for particles.
 double particles_at(const contact& c, const compliance& particles) {
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -46,7 +46,7 @@ double particles_at(const contact& c, const compliance& particles) {
     return sum;
 }
 
-/// Forces push, and hold by friction no more than their share of it.
+/// Projects forces: they push, and friction is at most its share of the normal force.
 void make_admissible(const std::vector<contact>& contacts, double friction, by_contact& forces) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
         const vec3 n = contacts[c].normal, f = forces.row(Eigen::Index(c)).transpose();
@@ -56,13 +56,13 @@ void make_admissible(const std::vector<contact>& contacts, double friction, by_c
             continue;
         }
         vec3 across = f - along * n;
-        const double most = friction * along, size = across.norm();
-        if (size > most) across *= most / size;
+        const double max = friction * along, size = across.norm();
+        if (size > max) across *= max / size;
         forces.row(Eigen::Index(c)) = (along * n + across).transpose();
     }
 }
 
-/// The largest |gap| where a force acts, or missing gap where none does.
+/// Returns the largest |gap| of contacts with a force, or missing gap of contacts without one.
 double violation_of(const std::vector<contact>& contacts, const by_contact& forces,
                     const by_contact& beyond) {
     double most = 0;
@@ -81,9 +81,9 @@ double missing(const contact& c, const rows& before, const rows& after) {
     return c.least - moved;
 }
 
-/// Contacts that push, or whose inequalities do not hold in one of two positions.
-std::vector<std::size_t> that_matter(const std::vector<contact>& contacts, const rows& before,
-                                     const rows& free, const rows& after) {
+/// Returns contacts that push, or whose inequalities are violated in one of two positions.
+std::vector<std::size_t> active_contacts(const std::vector<contact>& contacts, const rows& before,
+                                         const rows& free, const rows& after) {
     std::vector<std::size_t> chosen;
     for (std::size_t c = 0; c < contacts.size(); ++c)
         if (!contacts[c].force.isZero(0) || missing(contacts[c], before, free) > 0 ||
@@ -138,7 +138,7 @@ class projected_gradients {
                            bodies_.displacements(forces_on_vertices(contacts_, forces, vertices_)));
     }
 
-    /// A step down from y, as long as the quadratic allows; `step` is kept for the next.
+    /// Takes the longest descent step from y that the quadratic allows. Keeps `step` for the next.
     std::pair<by_contact, by_contact> descended(const by_contact& y, const by_contact& y_moved,
                                                 double& step) {
         while (true) {
@@ -150,7 +150,7 @@ class projected_gradients {
             double allowed = 0;
             for (Eigen::Index c = 0; c < d.rows(); ++c)
                 if (scale_[c] > 0) allowed += d.row(c).squaredNorm() / scale_[c];
-            // Not `<= allowed`: where numbers overflow, no step is ever short enough.
+            // Not `<= allowed`: if numbers overflow, no step would be short enough.
             if (!(step * curvature > allowed)) return {std::move(next), std::move(moved)};
             step = std::min(step / 2, 0.9 * allowed / curvature);
         }
@@ -183,7 +183,7 @@ rows solve_contacts(std::vector<contact>& contacts, const compliance& bodies,
     if (contacts.empty()) return after;
     for (int k = 0; k <= options.relaxations; ++k) {
         const rows free = k == 0 ? proposed : bodies.relaxed(after, proposed);
-        const std::vector<std::size_t> chosen = that_matter(contacts, before, free, after);
+        const std::vector<std::size_t> chosen = active_contacts(contacts, before, free, after);
         std::vector<contact> active;
         for (const std::size_t c : chosen) active.push_back(contacts[c]);
         projected_gradients gradients(active, bodies, options, before, free);

@@ -13,7 +13,7 @@ nearest_points of_weights(const std::array<vec3, 4>& x, const std::array<double,
     return found;
 }
 
-/// The place on the segment from a to b that is nearest to p, from 0 to 1.
+/// Returns the parameter in [0, 1] of the point of the segment from a to b that is nearest to p.
 double place_on(const vec3& p, const vec3& a, const vec3& b) {
     const double length = (b - a).squaredNorm();
     return length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0;
@@ -36,7 +36,7 @@ nearest_points nearest_vertex_face(const std::array<vec3, 4>& x) {
         const double w = normal.dot((b - a).cross(p - a)) / area;
         if (u >= 0 && v >= 0 && w >= 0) return of_weights(x, {1, -u, -v, -w});
     }
-    // Outside: on one of the edges.
+    // The nearest point is on one of the edges.
     const double ab = place_on(p, a, b), bc = place_on(p, b, c), ca = place_on(p, c, a);
     nearest_points best = of_weights(x, {1, ab - 1, -ab, 0});
     for (const nearest_points& other :
@@ -54,7 +54,7 @@ nearest_points nearest_edges(const std::array<vec3, 4>& x) {
     const auto add = [&](double s, double t) {
         found[count++] = of_weights(x, {1 - s, s, t - 1, -t});
     };
-    // Inside both, unless they are parallel; else at an end of one.
+    // Nearest points are inside both edges, unless these are parallel, or at an end of one.
     if (gram > 1e-14 * aa * bb) {
         const double s = (ab * b.dot(r) - bb * a.dot(r)) / gram;
         const double t = (aa * b.dot(r) - ab * a.dot(r)) / gram;

@@ -1,5 +1,5 @@
-// The nearest points of two features, and how two moving ones approach, in plain doubles: what a
-// response goes by. Whether they collide is for the method to say.
+// The nearest points of two features and of two moving features, in plain doubles, for the
+// response. They do not decide collisions.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace simulation {
 
-/// Weights of the four points of a pair: of both features' points they add up to 1, the second's
-/// negative, so that Σ w x is from the second feature's nearest point to the first's.
+/// Weights of the four points of a pair. For each feature their sizes add up to 1, and the second's
+/// are negative: Σ w x points from the second feature's nearest point to the first's.
 struct nearest_points {
     std::array<double, 4> weights;
     vec3 between;  ///< Σ w x
@@ -18,18 +18,18 @@ struct nearest_points {
 
 /// Points: v, f0, f1, f2. Source: Ericson, Real-Time Collision Detection, 2005, section 5.1.5.
 nearest_points nearest_vertex_face(const std::array<vec3, 4>& points);
-/// Points: a0, a1, b0, b1. Source: the same, section 5.1.9.
+/// Points: a0, a1, b0, b1. Source: Ericson, section 5.1.9.
 nearest_points nearest_edges(const std::array<vec3, 4>& points);
-/// Points: v, e0, e1, and one that does not count.
+/// Points: v, e0, e1, and an unused one.
 nearest_points nearest_vertex_edge(const std::array<vec3, 4>& points);
 
-/// Where a pair that moves straight from `before` to `after` is nearest before it first comes
-/// within a tenth of its distance at the start: by steps that no speed can overtake (additive
-/// conservative advancement; Li and others, Codimensional Incremental Potential Contact, 2021).
+/// Returns the nearest points of a pair in linear motion, until it first comes within a tenth of
+/// its initial distance. Source: additive conservative advancement (Li and others, Codimensional
+/// Incremental Potential Contact, 2021).
 template <class Nearest>
 nearest_points approach(const std::array<vec3, 4>& before, const std::array<vec3, 4>& after,
                         const Nearest& nearest) {
-    constexpr int most_steps = 40;
+    constexpr int max_steps = 40;
     constexpr double near_enough = 0.1;
     const auto at = [&](double t) {
         std::array<vec3, 4> x;
@@ -38,7 +38,7 @@ nearest_points approach(const std::array<vec3, 4>& before, const std::array<vec3
     };
     vec3 mean = vec3::Zero();
     for (std::size_t i = 0; i < 4; ++i) mean += (after[i] - before[i]) / 4;
-    // Two points of two features approach by no more than both features' fastest points do.
+    // The distance of two features decreases at most by the motion of the fastest points of both.
     double fastest = 0;
     for (std::size_t i = 0; i < 4; ++i)
         fastest = std::max(fastest, (after[i] - before[i] - mean).norm());
@@ -46,7 +46,7 @@ nearest_points approach(const std::array<vec3, 4>& before, const std::array<vec3
     nearest_points closest = nearest(before);
     const double enough = near_enough * closest.distance();
     double t = 0, distance = closest.distance();
-    for (int k = 0; k < most_steps && t < 1 && distance > enough && speed > 0; ++k) {
+    for (int k = 0; k < max_steps && t < 1 && distance > enough && speed > 0; ++k) {
         t = std::min(1.0, t + 0.9 * distance / speed);
         const nearest_points now = nearest(at(t));
         distance = now.distance();

@@ -15,8 +15,8 @@ struct rigid_motion {
     vec3 from = vec3::Zero(), to = vec3::Zero();
 };
 
-/// The motion nearest to where `after` has the vertices, by weights. Source: Kabsch, A solution for
-/// the best rotation to relate two sets of vectors, 1976.
+/// Returns the rigid motion nearest to `after` in weighted least squares. Source: Kabsch, A
+/// solution for the best rotation to relate two sets of vectors, 1976.
 template <class Weight>
 rigid_motion nearest_motion(std::span<const vertex_index> vertices, const Weight& weight,
                             const rows& before, const rows& after) {
@@ -35,7 +35,7 @@ rigid_motion nearest_motion(std::span<const vertex_index> vertices, const Weight
                       (before.row(v) - motion.from.transpose());
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                                 Eigen::ComputeFullU | Eigen::ComputeFullV);
-    // Of a point or a line there is no rotation to be told.
+    // A point or a line does not determine a rotation.
     if (svd.singularValues()[1] <= 1e-12 * svd.singularValues()[0]) return motion;
     Eigen::Matrix3d u = svd.matrixU();
     if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);

@@ -1,8 +1,7 @@
-// Rigid impact zones: vertices that pairs in contact join move as one rigid body for a step.
-//
-// Provot, Collision and Self-Collision Handling in Cloth Model Dedicated to Design Garments, 1997;
-// Bridson, Fedkiw, Anderson, Robust Treatment of Collisions, Contact and Friction for Cloth
-// Animation, 2002. Zones only grow during a step.
+// Rigid impact zones: vertices joined by pairs in contact move as one rigid body in a step. Zones
+// only grow during a step. Sources: Provot, Collision and Self-Collision Handling in Cloth Model
+// Dedicated to Design Garments, 1997; Bridson, Fedkiw, Anderson, Robust Treatment of Collisions,
+// Contact and Friction for Cloth Animation, 2002.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +16,14 @@ class impact_zones {
   public:
     explicit impact_zones(std::size_t vertices);
 
-    /// The vertices of a pair are in one zone from now on, and all that were with one of them.
+    /// Joins the zones of the vertices of a pair.
     void join(std::span<const vertex_index> vertices);
 
-    /// Every zone as a rigid body, from `before` to as near as can be, by masses, to where `after`
-    /// has its vertices; or to where its driven vertices (mass 0) go, if it has any.
+    /// Moves every zone as a rigid body from `before` as close to `after` as possible, weighted by
+    /// masses. If a zone has driven vertices (mass 0), only these count.
     void move(const std::vector<double>& masses, const rows& before, rows& after);
 
-    /// Zones of more than one vertex.
+    /// The number of zones with more than one vertex.
     std::size_t count() const;
 
   private:

@@ -29,7 +29,7 @@ void write_vtp(const std::filesystem::path& folder, const scene& scene, int fram
 
 void write_series(const std::filesystem::path& folder, const scene& scene) {
     std::vector<ccd::io::series_entry> series;
-    std::filesystem::create_directories(folder / "paraview");  // of no frames, if none was run
+    std::filesystem::create_directories(folder / "paraview");  // there may be no frame
     for (const auto& file : std::filesystem::directory_iterator(folder / "paraview")) {
         const std::string name = file.path().filename().string();
         int frame = 0, length = 0;

@@ -1,5 +1,4 @@
-// A run as a series for ParaView: each frame with the contacts of the step that the solver proposed
-// from there.
+// A series of frames for ParaView, with the contacts of the step that the solver proposed.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +7,12 @@
 
 namespace simulation {
 
-/// Writes folder/paraview/NNNNN.vtp, the frame `before` and what the way to `proposed` would meet,
+/// Writes folder/paraview/NNNNN.vtp: the frame `before` and the contacts of the step to `proposed`,
 /// by `exact`. Throws file_error.
 void write_vtp(const std::filesystem::path& folder, const scene& scene, int frame,
                const rows& before, const rows& proposed);
 
-/// Writes folder/paraview/series.pvd, of all such files that there are. Throws file_error.
+/// Writes folder/paraview/series.pvd with all these files. Throws file_error.
 void write_series(const std::filesystem::path& folder, const scene& scene);
 
 }  // namespace simulation

@@ -27,12 +27,12 @@ using errbound::support::write_whole;
 
 constexpr char magic[8] = {'s', 'i', 'm', 's', 't', 'a', 't', '3'};
 
-/// What a state ends with: of all bytes before. Only this standard library's own files are read.
+/// The checksum at the end of a state. Only the same standard library can read it.
 std::uint64_t checksum_of(std::string_view bytes) {
     return std::hash<std::string_view>()(bytes);
 }
 
-/// A force as it is stored.
+/// The format of a stored force.
 struct stored_force {
     std::array<vertex_index, 4> pair;
     std::array<double, 3> force;
@@ -59,7 +59,7 @@ std::string bytes_of(const run_state& state) {
     return text;
 }
 
-/// What stands before the checksum. Throws file_error if that is another's.
+/// Returns the bytes before the checksum. Throws file_error if it does not match.
 std::string_view checked(const std::string& text, const std::filesystem::path& path) {
     std::uint64_t checksum = 0;
     const bool whole = text.size() >= sizeof magic + sizeof checksum;
@@ -67,9 +67,8 @@ std::string_view checked(const std::string& text, const std::filesystem::path& p
     if (whole) std::memcpy(&checksum, text.data() + bytes.size(), sizeof checksum);
     if (!whole || std::memcmp(text.data(), magic, sizeof magic) != 0 ||
         checksum != checksum_of(bytes))
-        throw file_error(path.string() + ": found " + std::to_string(text.size()) +
-                         " bytes that are no state or a damaged one, expected one that this " +
-                         "program wrote");
+        throw file_error(path.string() + ": state of " + std::to_string(text.size()) +
+                         " bytes is damaged; expected one written by this program");
     return bytes;
 }
 
@@ -82,8 +81,8 @@ run_state state_of(const std::string& file, const std::filesystem::path& path,
     const std::size_t part = 3 * sizeof(double) * std::size_t(vertices);
     const std::size_t expected = head + 2 * part + sizeof(stored_force) * std::size_t(numbers[2]);
     if (text.size() != expected || numbers[1] != vertices)
-        throw file_error(path.string() + ": found a state of " + std::to_string(numbers[1]) +
-                         " vertices, expected one of " + std::to_string(vertices));
+        throw file_error(path.string() + ": number of vertices is " + std::to_string(numbers[1]) +
+                         "; expected " + std::to_string(vertices));
     run_state state{int(numbers[0]), rows(vertices, 3), rows(vertices, 3), {}};
     std::memcpy(state.positions.data(), text.data() + head, part);
     std::memcpy(state.velocities.data(), text.data() + head + part, part);
@@ -95,7 +94,7 @@ run_state state_of(const std::string& file, const std::filesystem::path& path,
     return state;
 }
 
-/// Rows of frames after the state's are of a run that was stopped between the two.
+/// Drops rows after the state's frame: the run was stopped between writing the two.
 std::string rows_until(int last, const std::filesystem::path& path) {
     std::istringstream table(read_whole(path));
     std::string kept, line;
@@ -104,8 +103,8 @@ std::string rows_until(int last, const std::filesystem::path& path) {
         const bool found = bool(std::getline(table, line));
         if (!found || (frame == 0 ? line + '\n' != csv_heading() : !line.starts_with(begin)))
             throw file_error(
-                path.string() + ": line " + std::to_string(frame + 1) + ": found '" +
-                (found ? line : "") + "', expected " +
+                path.string() + ": line " + std::to_string(frame + 1) + " is '" +
+                (found ? line : "") + "'; expected " +
                 (frame == 0 ? "a heading of frames" : "the row of frame " + std::to_string(frame)));
         kept += line + '\n';
     }
@@ -157,10 +156,10 @@ std::string csv_row(const frame_record& r) {
 
 folder_lock::folder_lock(const std::filesystem::path& folder)
     : descriptor_(system::lock(system::native_name(folder))) {
-    // Where there are no locks, as on some file systems of other machines, it goes without.
+    // Some network file systems have no locks. Then the folder is not locked.
     if (descriptor_ >= 0 || errno != EWOULDBLOCK) return;
     throw file_error(folder.string() +
-                     ": found a run that is going on there, expected a folder of its own");
+                     ": another process uses the folder; expected a separate folder");
 }
 
 folder_lock::~folder_lock() {
@@ -173,14 +172,14 @@ run_folder::run_folder(std::filesystem::path folder, const std::string& descript
     std::filesystem::create_directories(folder_ / "frames", failed);
     if (failed)
         throw file_error(folder_.string() + ": " + failed.message() +
-                         ", expected a folder that can be written");
+                         "; expected a writable folder");
     lock_.emplace(folder_);
     is_new_ = !std::filesystem::exists(folder_ / "state");
     const std::filesystem::path about = folder_ / "run.txt";
     if (!is_new_ || std::filesystem::exists(about))
         if (const std::string found = read_whole(about); found != description)
-            throw file_error(about.string() + ": found '" + found +
-                             "', expected the run to go on with, '" + description + "'");
+            throw file_error(about.string() + ": run is '" + found +
+                             "'; expected the run to continue, '" + description + "'");
     if (!is_new_) return;
     write_whole(about, description);
     write_whole(folder_ / "frames.csv", csv_heading());
@@ -213,8 +212,8 @@ void run_folder::restore(simulation_run& run) const {
     run.restore(state_of(read_whole(path), path, run.state().positions.rows()));
     const std::filesystem::path last = frame_file("frames", run.state().frame);
     if (read_whole(last) != ccd::io::ply_of(run.of().bodies.surface(run.state().positions)))
-        throw file_error(last.string() + ": found another frame than that of '" + path.string() +
-                         "', expected the last one of the run");
+        throw file_error(last.string() + ": frame differs from that of '" + path.string() +
+                         "'; expected the last one of the run");
     const std::filesystem::path table = folder_ / "frames.csv";
     write_whole(table, rows_until(run.state().frame, table));
 }

@@ -1,9 +1,9 @@
-// What a run leaves in a folder: a PLY file a frame, a table of all frames, and where to go on.
+// The output folder of a run:
 //
-//   frames/00000.ply ...   positions, in doubles, bit for bit as `exact` was asked about them
-//   frames.csv             a row a frame: times, contacts, energies
-//   state                  of the last frame, replaced whole, with a checksum
-//   run.txt                the scene, method and options, which must be the same to go on
+//   frames/00000.ply ...   positions, in doubles, bit for bit those that `exact` tested
+//   frames.csv             a row per frame: times, contacts, energies
+//   state                  the last frame, replaced as a whole, with a checksum
+//   run.txt                scene, method and options; a run continues only with equal ones
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@
 
 namespace simulation {
 
-/// While it lives no other process has one of the same folder.
+/// A lock of a folder, held by at most one process.
 class folder_lock {
   public:
-    /// Throws file_error if another process has one.
+    /// Throws file_error if another process holds it.
     explicit folder_lock(const std::filesystem::path& folder);
     folder_lock(const folder_lock&) = delete;
     folder_lock& operator=(const folder_lock&) = delete;
@@ -29,18 +29,18 @@ class folder_lock {
 
 class run_folder {
   public:
-    /// Makes the folder, or goes on with the one that is there. Throws file_error if it holds
-    /// another run (`description` differs), a process runs there, or it cannot be read.
+    /// Makes the folder, or continues the run in it. Throws file_error if it has another run
+    /// (`description` differs), another process uses it, or it cannot be read.
     run_folder(std::filesystem::path folder, const std::string& description);
 
-    /// Takes the run to the last frame that is stored; nothing if there is none. Throws file_error
-    /// if the state is damaged, or that frame or a row of the table is not the run's.
+    /// Restores the last stored frame, if there is one. Throws file_error if the state is damaged,
+    /// or the frame or a row of the table belongs to another run.
     void restore(simulation_run& run) const;
-    /// Stores the frame that the run is at.
+    /// Stores the current frame.
     void store(const simulation_run& run, const frame_record& record);
-    /// Stores what the solver proposed for that frame: proposals/NNNNN.ply.
+    /// Stores the positions that the solver proposed: proposals/NNNNN.ply.
     void store_proposal(const simulation_run& run) const;
-    /// Stores the start.
+    /// Stores the initial frame.
     void store_start(const simulation_run& run);
 
     const std::filesystem::path& path() const { return folder_; }
@@ -55,7 +55,7 @@ class run_folder {
     bool is_new_ = true;
 };
 
-/// The heading of frames.csv, and a row of it.
+/// The heading and a row of frames.csv.
 std::string csv_heading();
 std::string csv_row(const frame_record& record);
 

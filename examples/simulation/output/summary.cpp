@@ -23,31 +23,32 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// NaN where it is empty.
+/// Returns NaN for an empty cell.
 double number_of(const std::string& cell, const std::string& place) {
     if (cell.empty()) return std::nan("");
     const auto read = errbound::support::parse_decimal<double>(cell);
     if (read.status != errbound::support::decimal_status::ok)
-        throw errbound::support::file_error(place + "found '" + cell + "', expected a number");
+        throw errbound::support::file_error(place + "cell is '" + cell + "'; expected a number");
     return read.value;
 }
 
-/// Every column by its name; NaN where a cell is empty.
+/// Returns columns by name, with NaN for empty cells.
 std::map<std::string, std::vector<double>> columns_of(const std::filesystem::path& path) {
     std::istringstream table(errbound::support::read_whole(path));
     std::string line;
     std::getline(table, line);
     if (line + '\n' != csv_heading())
-        throw errbound::support::file_error(path.string() + ": line 1: found '" + line +
-                                            "', expected a table of frames");
+        throw errbound::support::file_error(path.string() + ": line 1 is '" + line +
+                                            "'; expected a table of frames");
     const std::vector<std::string> names = cells_of(line);
     std::map<std::string, std::vector<double>> columns;
     for (int number = 2; std::getline(table, line); ++number) {
         const std::vector<std::string> cells = cells_of(line);
         const std::string place = path.string() + ": line " + std::to_string(number) + ": ";
         if (cells.size() != names.size())
-            throw errbound::support::file_error(place + "found " + std::to_string(cells.size()) +
-                                                " cells, expected " + std::to_string(names.size()));
+            throw errbound::support::file_error(place + "number of cells is " +
+                                                std::to_string(cells.size()) + "; expected " +
+                                                std::to_string(names.size()));
         for (std::size_t i = 0; i < names.size(); ++i)
             columns[names[i]].push_back(number_of(cells[i], place));
     }

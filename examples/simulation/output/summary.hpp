@@ -1,4 +1,4 @@
-// A run told in a few lines, from its table of frames.
+// A short summary of a run, from its table of frames.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace simulation {
 
-/// Of frames.csv. Throws file_error if it is none.
+/// Summarises frames.csv. Throws file_error for other files.
 std::string summary_of(const std::filesystem::path& table);
 
 }  // namespace simulation

@@ -1,6 +1,5 @@
-// An elastic car body, of tetrahedra, at 15 m/s: against a post, or onto a ramp of rods.
-//
-// Resolution: cells along the car, of which a quarter across and high.
+// An elastic car body of tetrahedra at 15 m/s hits a post, or drives onto a ramp of rods.
+// Resolution: cells along the car; a quarter of these across and high.
 #include <algorithm>
 #include <cmath>
 

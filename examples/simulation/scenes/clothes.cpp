@@ -1,5 +1,4 @@
-// A skirt, sewn to the waist of a body of capsules that walks on the spot and turns.
-//
+// A skirt, sewn to the waist of a body of capsules that walks in place and turns.
 // Resolution: columns around the waist.
 #include <Eigen/Geometry>
 #include <cmath>
@@ -13,12 +12,12 @@ namespace {
 
 constexpr double waist = 0.16, hem = 0.36, length = 0.75;
 
-/// A leg's angle to the vertical at a time, in radians.
+/// Returns a leg's angle to the vertical at a time, in radians.
 double swing(double time, double side) {
     return side * 0.45 * std::sin(2 * std::numbers::pi * time);
 }
 
-/// About z, slowly at first.
+/// Returns the rotation about z, which starts slowly.
 Eigen::AngleAxisd turn(double time) {
     return {1.2 * std::sin(0.5 * std::numbers::pi * time) * std::min(1.0, time), vec3::UnitZ()};
 }

@@ -1,7 +1,5 @@
-// Sheets of cloth fall into a funnel, and a ball presses them through its neck. After the funnel of
-// Wang, Tang, Manocha, Tong: TightCCD, 2015.
-//
-// Resolution: cells along a side of a sheet.
+// Sheets of cloth fall into a funnel, and a ball presses them through its neck. Source: the funnel
+// of Wang, Tang, Manocha, Tong: TightCCD, 2015. Resolution: cells along a side of a sheet.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +12,7 @@ namespace {
 constexpr double side = 1.0, rim = 0.55, neck = 0.13, slope_height = 0.45, neck_height = 0.3;
 constexpr double ball = 0.09;
 
-/// From the rim down to the end of the neck, with a rounded edge between.
+/// Returns the profile from the rim to the end of the neck, with a rounded edge between.
 std::vector<std::array<double, 2>> profile(int rings) {
     std::vector<std::array<double, 2>> curve;
     const double slope = std::hypot(rim - neck, slope_height), length = slope + neck_height;
@@ -46,7 +44,7 @@ scene funnel(int layers, int resolution) {
     const surface_shape pusher = sphere(resolution < 60 ? 2 : 3, ball, {0, 0, high});
     const vertex_index first = s.bodies.add_obstacle(pusher.points, pusher.faces);
 
-    // Still for 200 frames, then down through the neck.
+    // The ball rests for 200 frames, then moves down through the neck.
     const double way = high + slope_height + neck_height + 2 * ball;
     s.drive = [=, start = pusher.points](int frame, rows& positions) {
         const double done = std::clamp((frame - 200) / 1100.0, 0.0, 1.0);

@@ -1,7 +1,5 @@
-// Needles, a thousand times as long as they are thick, pressed into a sheet that is held at its
-// border, and drawn sideways through its folds.
-//
-// Resolution: cells along a side of the sheet.
+// Needles, a thousand times as long as thick, are pressed into a sheet that is held at its border,
+// and drawn sideways through its folds. Resolution: cells along a side of the sheet.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

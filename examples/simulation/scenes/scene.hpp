@@ -1,4 +1,4 @@
-// The scenes: each makes its bodies, says how driven vertices move, and how long it takes.
+// The scenes, with bodies, motions of driven vertices, and numbers of frames.
 #pragma once
 
 #include <functional>
@@ -16,17 +16,17 @@ struct scene {
     model bodies;
     solver_options solver = {};
     collision_options collision = {};
-    int frames = 0;                                ///< each one time step
-    rows velocities = {};                          ///< at the start; none: at rest
-    vec3 eye{1.2, -2.4, 1.0}, target{0, 0, -0.3};  ///< where pictures are taken from, and of what
-    /// Sets the rows of driven vertices to where they are at the end of a frame, from 1 on.
+    int frames = 0;                                ///< one time step each
+    rows velocities = {};                          ///< initial; empty: at rest
+    vec3 eye{1.2, -2.4, 1.0}, target{0, 0, -0.3};  ///< of the camera for pictures
+    /// Sets the rows of driven vertices at the end of a frame, from 1 on.
     std::function<void(int frame, rows& positions)> drive = [](int, rows&) {};
 };
 
 struct scene_maker {
-    std::string name, what;
-    int small, full;  ///< resolutions: for minutes, and that of the paper or as large
-    /// Of a resolution: what of, the scene's file says.
+    std::string name, description;
+    int small, full;  ///< resolutions: for minutes of run time, and for the paper's size
+    /// Each scene's file defines its resolution.
     std::function<scene(int resolution)> make;
 };
 

@@ -1,5 +1,4 @@
-// A sheet whose two ends are held and turned against each other, five times around each.
-//
+// The ends of a sheet are held and turned against each other, by five turns each.
 // Resolution: cells along the sheet.
 #include <Eigen/Geometry>
 #include <algorithm>
